@@ -1,0 +1,69 @@
+"""The whole exception tree.
+
+    CfreeError
+      InvalidPolygonError (ValueError)      not simple, too few vertices, no area     carries ring and edges
+      InvalidPoseError    (ValueError)      not finite, not an angle
+      FormatError         (ValueError)      unreadable file                           carries path, line, column
+      UnsupportedError    (NotImplementedError)  a documented limit of the method
+      InvariantError      (RuntimeError)    our bug: please report                    carries the smallest state seen
+
+Messages give the place, the value and the remedy.
+"""
+
+from __future__ import annotations
+
+
+class CfreeError(Exception):
+    """Base of every exception cfree raises on purpose."""
+
+
+class InvalidPolygonError(CfreeError, ValueError):
+    """Rings that do not bound a polygon.
+
+    Parameters
+    ----------
+    message : str
+        Place, value and remedy.
+    ring : int, optional
+        0 is the outer ring, k the k-th hole (counted from 1).
+    edges : tuple of int, optional
+        Edges at fault: edge k of a ring goes from its point k, as given, to the next one kept.
+
+    Examples
+    --------
+    >>> InvalidPolygonError("outer ring: 2 points; give at least 3", ring=0).ring
+    0
+    """
+
+    def __init__(self, message: str, *, ring: int | None = None, edges: tuple[int, ...] = ()) -> None:
+        super().__init__(message)
+        self.ring = ring
+        self.edges = edges
+
+
+class InvalidPoseError(CfreeError, ValueError):
+    """A position or an angle that is not a number of the kind documented in `cfree.pose`."""
+
+
+class FormatError(CfreeError, ValueError):
+    """A file that cannot be read: `path`, `line` and `column` (from 1) say where, if known."""
+
+    def __init__(
+        self, message: str, *, path: str | None = None, line: int | None = None, column: int | None = None
+    ) -> None:
+        super().__init__(message)
+        self.path = path
+        self.line = line
+        self.column = column
+
+
+class UnsupportedError(CfreeError, NotImplementedError):
+    """A documented limit of the method."""
+
+
+class InvariantError(CfreeError, RuntimeError):
+    """A broken promise of our own; `state` is the smallest one seen. Please report it."""
+
+    def __init__(self, message: str, *, state: object = None) -> None:
+        super().__init__(f"{message}; this is a bug in cfree, please report it")
+        self.state = state
