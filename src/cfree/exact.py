@@ -1,0 +1,153 @@
+"""Numbers as the exact rationals they are.
+
+A float is the double it is, a `Decimal` or a string is the decimal it is written as (``"0.1"`` is 1/10), ``"1/3"``,
+integers and fractions are themselves. Everything that follows is decided on these values.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from decimal import Decimal, InvalidOperation
+from fractions import Fraction
+
+import numpy as np
+
+Number = int | float | Fraction | Decimal | str
+ExactPoint = tuple[Fraction, Fraction]
+IntPoint = tuple[int, int]
+
+# longer numbers are refused: no coordinate needs them, and Python itself writes integers of at most 4300 digits
+MAX_DIGITS = 4000
+_QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
+
+
+def to_fraction(value: Number) -> Fraction:
+    """Exact value of a number.
+
+    Parameters
+    ----------
+    value : int, float, Fraction, Decimal or str
+        NumPy scalars count as the Python numbers they hold.
+
+    Returns
+    -------
+    Fraction
+
+    Raises
+    ------
+    ValueError
+        If `value` is no number, is not finite, or has more than `MAX_DIGITS` digits.
+
+    Examples
+    --------
+    >>> to_fraction("0.1"), to_fraction("1/3"), to_fraction(0.5)
+    (Fraction(1, 10), Fraction(1, 3), Fraction(1, 2))
+    >>> to_fraction(0.1) == to_fraction("0.1")
+    False
+    """
+    return value if type(value) is Fraction else Fraction(*to_ratio(value))
+
+
+def to_ratio(value: Number) -> tuple[int, int]:
+    """Numerator and positive denominator of a number in lowest terms: `to_fraction` without the object.
+
+    Examples
+    --------
+    >>> to_ratio(0.75)
+    (3, 4)
+    """
+    if isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{value} is a truth value; give a number")
+    if isinstance(value, (int, np.integer)):
+        return int(value), 1
+    if isinstance(value, (float, np.floating)):
+        if not math.isfinite(value):
+            raise ValueError(f"{value} is not finite; give a finite number")
+        return value.as_integer_ratio()
+    if isinstance(value, Fraction):
+        return value.numerator, value.denominator
+    if isinstance(value, Decimal):
+        return _decimal_ratio(value)
+    if isinstance(value, str):
+        return _string_ratio(value)
+    raise ValueError(f"{_excerpt(value)} is no number; give an int, a float, a Fraction, a Decimal or a string like '1/3'")
+
+
+def common_denominator(fractions: Iterable[Fraction]) -> int:
+    """Least positive integer that makes every fraction whole.
+
+    Examples
+    --------
+    >>> common_denominator([Fraction(1, 4), Fraction(5, 6)])
+    12
+    """
+    return math.lcm(*{fraction.denominator for fraction in fractions})
+
+
+def simplest_between(low: Fraction, high: Fraction) -> Fraction:
+    """Fraction of the least denominator in a closed interval of positive numbers.
+
+    Parameters
+    ----------
+    low, high : Fraction
+        0 < low <= high.
+
+    Notes
+    -----
+    The common beginning of the two continued fractions, then the least number that separates them.
+
+    Examples
+    --------
+    >>> simplest_between(Fraction(33, 100), Fraction(34, 100))
+    Fraction(1, 3)
+    """
+    whole = -(-low.numerator // low.denominator)
+    if whole <= high:
+        return Fraction(whole)
+    floor = whole - 1
+    return floor + 1 / simplest_between(1 / (high - floor), 1 / (low - floor))
+
+
+def angle(x: int, y: int) -> float:
+    """Angle of an integer vector, in (-pi, pi], whatever its size.
+
+    Examples
+    --------
+    >>> angle(10**400, 10**400) == math.pi / 4
+    True
+    """
+    size = max(abs(x), abs(y))
+    return math.atan2(y / size, x / size)
+
+
+def _decimal_ratio(value: Decimal) -> tuple[int, int]:
+    if not value.is_finite():
+        raise ValueError(f"{value} is not finite; give a finite number")
+    _, digits, exponent = value.as_tuple()
+    assert isinstance(exponent, int)  # only NaN and infinity have letters there
+    if len(digits) + abs(exponent) > MAX_DIGITS:
+        raise ValueError(f"{_excerpt(value)} has more than {MAX_DIGITS} digits; give fewer")
+    return value.as_integer_ratio()
+
+
+def _string_ratio(text: str) -> tuple[int, int]:
+    if len(text) > MAX_DIGITS:
+        raise ValueError(f"{_excerpt(text)} has {len(text)} characters; give at most {MAX_DIGITS}")
+    quotient = _QUOTIENT.fullmatch(text)
+    if quotient:
+        numerator, denominator = int(quotient[1]), int(quotient[2])
+        if denominator == 0:
+            raise ValueError(f"{text!r} divides by zero; give a finite number")
+        return Fraction(numerator, denominator).as_integer_ratio()
+    try:
+        return _decimal_ratio(Decimal(text))
+    except InvalidOperation:
+        raise ValueError(f"{_excerpt(text)} is no number; write it like '0.1', '-2e3' or '1/3'") from None
+
+
+def _excerpt(value: object) -> str:
+    """At most 60 characters of a value, for a message."""
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:40]}... ({type(value).__name__})"
