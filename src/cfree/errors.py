@@ -1,11 +1,11 @@
 """The whole exception tree.
 
     CfreeError
-      InvalidPolygonError (ValueError)      not simple, too few vertices, no area     carries ring and edges
-      InvalidPoseError    (ValueError)      not finite, not an angle
-      FormatError         (ValueError)      unreadable file                           carries path, line, column
+      InvalidPolygonError (ValueError)     not simple, too few vertices, no area; carries ring and edges
+      InvalidPoseError    (ValueError)     not finite, not an angle
+      FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
-      InvariantError      (RuntimeError)    our bug: please report                    carries the smallest state seen
+      InvariantError      (RuntimeError)   our bug, please report; carries the smallest state seen
 
 Messages give the place, the value and the remedy.
 """
@@ -25,7 +25,7 @@ class InvalidPolygonError(CfreeError, ValueError):
     message : str
         Place, value and remedy.
     ring : int, optional
-        0 is the outer ring, k the k-th hole (counted from 1).
+        0 is the outer ring, k + 1 is hole k.
     edges : tuple of int, optional
         Edges at fault: edge k of a ring goes from its point k, as given, to the next one kept.
 
