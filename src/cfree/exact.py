@@ -1,7 +1,7 @@
 """Numbers as the exact rationals they are.
 
-A float is the double it is, a `Decimal` or a string is the decimal it is written as (``"0.1"`` is 1/10), ``"1/3"``,
-integers and fractions are themselves. Everything that follows is decided on these values.
+A float is the double it is, a `Decimal` or a string is the decimal it is written as (``"0.1"`` is 1/10),
+``"1/3"``, integers and fractions are themselves. Everything that follows is decided on these values.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ Number = int | float | Fraction | Decimal | str
 ExactPoint = tuple[Fraction, Fraction]
 IntPoint = tuple[int, int]
 
-# longer numbers are refused: no coordinate needs them, and Python itself writes integers of at most 4300 digits
+# longer numbers are refused: no coordinate needs them, and Python writes integers of at most 4300 digits
 MAX_DIGITS = 4000
 _QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
 
@@ -72,7 +72,7 @@ def to_ratio(value: Number) -> tuple[int, int]:
         return _decimal_ratio(value)
     if isinstance(value, str):
         return _string_ratio(value)
-    raise ValueError(f"{_excerpt(value)} is no number; give an int, a float, a Fraction, a Decimal or a string like '1/3'")
+    raise ValueError(f"{_excerpt(value)} is no number; give one, or a string like '1/3'")
 
 
 def common_denominator(fractions: Iterable[Fraction]) -> int:
