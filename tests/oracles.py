@@ -208,7 +208,12 @@ def exact_overlaps(
 ) -> bool:
     """Do the interiors intersect? By separating axes on pairs of triangles; holds at contact too."""
     parts = [exact_place(part, Fraction(x), Fraction(y), tau) for part in exact_triangles(robot)]
-    return any(interiors_meet(part, wall) for wall in exact_triangles(obstacles) for part in parts)
+    x0, y0, x1, y1 = exact_box(point for part in parts for point in part)
+    for wall in exact_triangles(obstacles):
+        u0, v0, u1, v1 = exact_box(wall)
+        if u0 < x1 and x0 < u1 and v0 < y1 and y0 < v1 and any(interiors_meet(part, wall) for part in parts):
+            return True
+    return False
 
 
 def exact_is_forbidden(
@@ -265,6 +270,11 @@ def exact_hull(points: Iterable[ExactPoint]) -> ExactRing:
             chain.append(p)
         chains.append(chain[:-1])
     return tuple(chains[0] + chains[1])
+
+
+def exact_box(points: Iterable[ExactPoint]) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+    xs, ys = zip(*points, strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
 
 
 def interiors_meet(first: ExactRing, second: ExactRing) -> bool:
