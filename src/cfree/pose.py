@@ -1,0 +1,406 @@
+"""Poses q = (r, theta) of the robot, and the only Python that knows how angles are written as rationals.
+
+Paper, section 1.1: a(q) = r + R(theta) a in the geometrical model (eqs. 1, 3), and the same with
+tau = tan(theta / 2) in the rational model (eq. 2). tau has no value at the half turn: there it is `None`.
+
+A *chart* writes every angle by a number in [-1, 1]: theta = 2 atan(tau) + chart * pi. Chart 0 holds
+[-pi/2, pi/2], chart 1 holds [pi/2, 3 pi/2]; they tile the circle with rational end points.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.errors import InvalidPoseError
+from cfree.exact import ExactPoint, Number, simplest_between, to_fraction
+from cfree.predicates import Vector
+
+Floats = NDArray[np.float64]
+# radians; degrees as in "90deg"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}
+Angle = Number | Mapping[str, Number]
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class Pose:
+    """Position of the reference point and rotation of the robot, exact.
+
+    Parameters
+    ----------
+    x, y : int, float, Fraction, Decimal or str
+        Position, in the scene's unit of length.
+    theta : the same in radians, or "90deg", or {"tau": "p/q"}
+        Any value, normalised to [0, 2 pi). Radians within one ulp of a multiple of pi/2 mean that multiple,
+        and multiples of 90 degrees are exact. The half turn is {"tau": "inf"} or {"tau": "1/0"}. Other angles
+        have no rational cosine: they are replaced by the simplest tau within rounding of the tangent of
+        their half.
+
+    Attributes
+    ----------
+    x, y : Fraction
+    tau : Fraction or None
+        tan(theta / 2), in lowest terms; None is the half turn.
+    theta : float, radians
+        The angle as given, normalised to [0, 2 pi).
+    theta_error : float, radians
+        Bound on the distance of the angle given from 2 atan(tau); 0 where `tau` is what was given.
+
+    Notes
+    -----
+    Equality compares x, y and tau, exactly.
+
+    Examples
+    --------
+    >>> q = Pose(1, "1/2", "90deg")
+    >>> q.tau, q.cos, q.sin
+    (Fraction(1, 1), Fraction(0, 1), Fraction(1, 1))
+    >>> q.apply_exact([(2, 0)])
+    ((Fraction(1, 1), Fraction(5, 2)),)
+    >>> Pose(0, 0, math.pi) == Pose(0, 0, {"tau": "inf"})
+    True
+    >>> Pose(0, 0, 2 * math.atan(1 / 3)).tau
+    Fraction(1, 3)
+    """
+
+    x: Fraction
+    y: Fraction
+    tau: Fraction | None
+    theta: float = field(compare=False)
+    theta_error: float = field(compare=False)
+
+    def __init__(self, x: Number, y: Number, theta: Angle = 0) -> None:
+        object.__setattr__(self, "x", _finite("x", x))
+        object.__setattr__(self, "y", _finite("y", y))
+        for name, value in zip(("tau", "theta", "theta_error"), _read_angle(theta), strict=True):
+            object.__setattr__(self, name, value)
+
+    @property
+    def rotation(self) -> tuple[int, int, int]:
+        """Integers (c, s, w) with cos theta = c / w, sin theta = s / w, w = sqrt(c^2 + s^2)."""
+        return half_angle_rotation(self.tau)
+
+    @property
+    def cos(self) -> Fraction:
+        """Exact cosine of the angle 2 atan(tau)."""
+        c, _, w = self.rotation
+        return Fraction(c, w)
+
+    @property
+    def sin(self) -> Fraction:
+        """Exact sine of the angle 2 atan(tau)."""
+        _, s, w = self.rotation
+        return Fraction(s, w)
+
+    @property
+    def chart(self) -> tuple[int, Fraction]:
+        """Chart and exact coordinate in it; an angle on the border belongs to chart 0.
+
+        Examples
+        --------
+        >>> Pose(0, 0, "180deg").chart, Pose(0, 0, {"tau": 2}).chart
+        ((1, Fraction(0, 1)), (1, Fraction(-1, 2)))
+        """
+        if self.tau is None:
+            return 1, Fraction(0)
+        return (0, self.tau) if abs(self.tau) <= 1 else (1, -1 / self.tau)
+
+    def apply(self, points: ArrayLike) -> Floats:
+        """Points of the robot, (..., 2) floats, where this pose puts them.
+
+        Examples
+        --------
+        >>> Pose(1, 0, "90deg").apply([[2, 0], [0, 3]])
+        array([[ 1.,  2.],
+               [-2.,  0.]])
+        """
+        a = np.asarray(points, dtype=np.float64)
+        c, s = float(self.cos), float(self.sin)
+        x, y = c * a[..., 0] - s * a[..., 1], s * a[..., 0] + c * a[..., 1]
+        return np.stack((float(self.x) + x, float(self.y) + y), axis=-1)
+
+    def apply_exact(self, points: Iterable[Vector]) -> tuple[ExactPoint, ...]:
+        """Exact points of the robot where this pose puts them: eq. (3) in the rational model."""
+        c, s, w = self.rotation
+        return tuple(
+            (self.x + Fraction(c * a - s * b, w), self.y + Fraction(s * a + c * b, w)) for a, b in points
+        )
+
+    def __matmul__(self, other: Pose) -> Pose:
+        """Pose that does first `other`, then this one; exact, the errors of the angles add up.
+
+        Examples
+        --------
+        >>> Pose(1, 0, "90deg") @ Pose(1, 0, "90deg") == Pose(1, 1, math.pi)
+        True
+        """
+        ((x, y),) = self.apply_exact([(other.x, other.y)])
+        return _pose(x, y, _sum_of_angles(self.tau, other.tau), self.theta_error + other.theta_error)
+
+    def inverse(self) -> Pose:
+        """Pose that undoes this one.
+
+        Examples
+        --------
+        >>> q = Pose(3, "1/7", {"tau": "2/5"})
+        >>> q @ q.inverse() == Pose(0, 0, 0) == q.inverse() @ q
+        True
+        """
+        tau = None if self.tau is None else -self.tau
+        c, s, w = half_angle_rotation(tau)
+        x, y = Fraction(s * self.y - c * self.x, w), Fraction(-s * self.x - c * self.y, w)
+        return _pose(x, y, tau, self.theta_error)
+
+
+@dataclass(frozen=True, eq=False)
+class Poses:
+    """Many poses in double precision; indexing gives an exact `Pose`, slicing gives `Poses`.
+
+    Parameters
+    ----------
+    xy : (n, 2) float64
+    theta : (n,) float64, radians
+        Any values, normalised to [0, 2 pi); within one ulp of a multiple of pi/2 they mean it.
+
+    Examples
+    --------
+    >>> turns = Poses([[0, 0], [1, 0]], [0, math.pi / 2])
+    >>> turns[1] == Pose(1, 0, "90deg")
+    True
+    >>> turns.apply([[2, 0]])[:, 0]
+    array([[2., 0.],
+           [1., 2.]])
+    """
+
+    xy: Floats
+    theta: Floats
+
+    def __init__(self, xy: ArrayLike, theta: ArrayLike) -> None:
+        positions, angles = np.array(xy, dtype=np.float64), np.array(theta, dtype=np.float64)
+        if angles.ndim != 1 or positions.shape != (len(angles), 2):
+            raise InvalidPoseError(
+                f"shapes {positions.shape} of xy and {angles.shape} of theta; give (n, 2) and (n,)"
+            )
+        bad = np.flatnonzero(~(np.isfinite(positions).all(axis=1) & np.isfinite(angles)))
+        if len(bad):
+            k = int(bad[0])
+            raise InvalidPoseError(
+                f"pose {k}: {positions[k]}, {angles[k]} is not finite; give finite numbers"
+            )
+        object.__setattr__(self, "xy", _read_only(positions))
+        object.__setattr__(self, "theta", _read_only(normalize_angles(angles)))
+
+    @classmethod
+    def from_poses(cls, poses: Iterable[Pose]) -> Poses:
+        """Poses rounded to doubles."""
+        rows = [(float(q.x), float(q.y), q.theta) for q in poses]
+        table = np.array(rows, dtype=np.float64).reshape(-1, 3)
+        return cls(table[:, :2], table[:, 2])
+
+    def __len__(self) -> int:
+        return len(self.theta)
+
+    def __getitem__(self, index: int) -> Pose:
+        return Pose(float(self.xy[index, 0]), float(self.xy[index, 1]), float(self.theta[index]))
+
+    def __iter__(self) -> Iterator[Pose]:
+        return (self[k] for k in range(len(self)))
+
+    def apply(self, points: ArrayLike) -> Floats:
+        """Points (k, 2) of the robot under every pose: (n, k, 2)."""
+        a = np.asarray(points, dtype=np.float64)
+        return self.xy[:, None, :] + _rotate(self.theta[:, None], a)
+
+    def __matmul__(self, other: Poses) -> Poses:
+        """Row by row: first the pose of `other`, then this one."""
+        return Poses(self.xy + _rotate(self.theta, other.xy), self.theta + other.theta)
+
+    def inverse(self) -> Poses:
+        """Poses that undo these."""
+        return Poses(-_rotate(-self.theta, self.xy), -self.theta)
+
+
+def half_angle_rotation(tau: Fraction | None) -> tuple[int, int, int]:
+    """Integers (c, s, w) of the rotation by 2 atan(tau): c / w its cosine, s / w its sine.
+
+    Notes
+    -----
+    The paper's M^tau: c / w = (1 - tau^2) / (1 + tau^2), s / w = 2 tau / (1 + tau^2), and M^inf = R^pi.
+
+    Examples
+    --------
+    >>> half_angle_rotation(Fraction(1, 2)), half_angle_rotation(None)
+    ((3, 4, 5), (-1, 0, 1))
+    """
+    if tau is None:
+        return -1, 0, 1
+    p, q = tau.numerator, tau.denominator
+    return q * q - p * p, 2 * p * q, q * q + p * p
+
+
+def chart_of(theta: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
+    """Chart and coordinate of angles in radians, in doubles; see `Pose.chart` for the exact twin.
+
+    Examples
+    --------
+    >>> chart, tau = chart_of([0.0, math.pi])
+    >>> chart, tau
+    (array([0, 1]), array([0., 0.]))
+    """
+    angles = normalize_angles(theta)
+    chart = ((angles > np.pi / 2) & (angles < 3 * np.pi / 2)).astype(np.int64)
+    local = angles - np.where(angles >= 3 * np.pi / 2, math.tau, np.pi * chart)
+    border = np.abs(np.abs(local) - np.pi / 2) <= np.spacing(angles)
+    return chart, np.where(border, np.sign(local), np.tan(local / 2))
+
+
+def theta_of(chart: ArrayLike, tau: ArrayLike) -> Floats:
+    """Angle in [0, 2 pi) of coordinates in charts, in doubles.
+
+    Examples
+    --------
+    >>> theta_of([0, 1, 0], [1.0, 0.0, -1.0]) / math.pi
+    array([0.5, 1. , 1.5])
+    """
+    return normalize_angles(2 * np.arctan(np.asarray(tau, dtype=np.float64)) + np.asarray(chart) * np.pi)
+
+
+def normalize_angles(theta: ArrayLike) -> Floats:
+    """Angles in radians brought to [0, 2 pi)."""
+    angles = np.mod(np.asarray(theta, dtype=np.float64), math.tau)
+    return np.where(angles < math.tau, angles, 0.0)
+
+
+# reading an angle
+
+
+def _read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
+    """tau, theta in [0, 2 pi) and the bound on their distance."""
+    if isinstance(theta, Mapping):
+        tau = _read_tau(theta)
+        return tau, _angle_of(tau), 0.0
+    if isinstance(theta, str) and theta.strip().endswith("deg"):
+        degrees = _finite("theta", theta.strip().removesuffix("deg"))
+        quarter_turns = round(degrees / 90)
+        rest = (degrees - 90 * quarter_turns) / 180 * _pi(128)
+        return _rationalize(quarter_turns, rest)
+    radians = _finite("theta", theta)
+    try:
+        ulp = math.ulp(float(radians))
+    except OverflowError:
+        raise InvalidPoseError(f"theta: {theta!r} is too large; give an angle in [0, 2 pi)") from None
+    size = int(abs(radians)).bit_length()
+    right_angle = _pi(192 + size - size % 64) / 2
+    quarter_turns = round(radians / right_angle)
+    rest = radians - quarter_turns * right_angle
+    return _rationalize(quarter_turns, rest if abs(rest) > ulp else Fraction(0))
+
+
+def _read_tau(theta: Mapping[str, Number]) -> Fraction | None:
+    if set(theta) != {"tau"}:
+        raise InvalidPoseError(f'theta: {dict(theta)!r:.60} is no angle; give {{"tau": "p/q"}} or radians')
+    value = theta["tau"]
+    if value in ("inf", "-inf", "1/0", math.inf, -math.inf):
+        return None
+    return _finite("tau", value)
+
+
+def _rationalize(quarter_turns: int, rest: Fraction) -> tuple[Fraction | None, float, float]:
+    """tau, theta, error of the angle quarter_turns * pi/2 + rest, |rest| <= pi/4.
+
+    Notes
+    -----
+    Relative errors of tan(rest / 2): 1.6 * 2^-53 from rounding rest, 2^-52 allowed to the library's tangent,
+    2^-53 for the simplest fraction. The angle errs by less than tau, relatively: below 2^-50 |rest| in all.
+    """
+    tangent = Fraction(math.tan(abs(float(rest)) / 2))
+    margin = tangent / 2**53
+    tau: Fraction | None = simplest_between(tangent - margin, tangent + margin) if tangent else Fraction(0)
+    if tau and rest < 0:
+        tau = -tau
+    for _ in range(quarter_turns % 4):
+        tau = _sum_of_angles(tau, Fraction(1))
+    quarters = 4 if rest < 0 and quarter_turns % 4 == 0 else quarter_turns % 4
+    theta = float(quarters * _pi(128) / 2 + rest)
+    return tau, theta if theta < math.tau else 0.0, abs(float(rest)) * 2.0**-50
+
+
+def _sum_of_angles(tau: Fraction | None, other: Fraction | None) -> Fraction | None:
+    """Half-angle tangent of the sum: (tau + other) / (1 - tau other)."""
+    if tau is None and other is None:
+        return Fraction(0)
+    if tau is None or other is None:
+        finite = other if tau is None else tau
+        return -1 / finite if finite else None
+    below = 1 - tau * other
+    return (tau + other) / below if below else None
+
+
+def _angle_of(tau: Fraction | None) -> float:
+    """2 atan(tau) in [0, 2 pi), a double."""
+    if tau is None:
+        return math.pi
+    if abs(tau) <= 1:
+        return float(normalize_angles(2 * math.atan(float(tau))))
+    return math.pi - 2 * math.atan(float(1 / tau))
+
+
+def _pose(x: Fraction, y: Fraction, tau: Fraction | None, theta_error: float) -> Pose:
+    pose = Pose(x, y, {"tau": "inf" if tau is None else tau})
+    object.__setattr__(pose, "theta_error", theta_error)
+    return pose
+
+
+def _finite(name: str, value: Number) -> Fraction:
+    try:
+        return to_fraction(value)
+    except ValueError as error:
+        raise InvalidPoseError(f"{name}: {error}") from None
+
+
+@cache
+def _pi(bits: int) -> Fraction:
+    """Pi with an error below 2^-bits, by Machin's formula pi / 4 = 4 atan(1/5) - atan(1/239)."""
+    unit = 1 << (bits + 32)
+
+    def arctan_of_inverse(n: int) -> int:
+        total, power, k = 0, unit // n, 1
+        while power:
+            total += power // k if k % 4 == 1 else -(power // k)
+            power //= n * n
+            k += 2
+        return total
+
+    return Fraction(4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239)), unit)
+
+
+# doubles
+
+
+def _split(theta: Floats) -> tuple[NDArray[np.int64], Floats]:
+    """Nearest number of quarter turns and the rest, 0 within one ulp."""
+    quarter_turns = np.rint(theta / (np.pi / 2))
+    rest = theta - quarter_turns * (np.pi / 2)
+    rest = np.where(np.abs(rest) <= np.spacing(np.abs(theta)), 0.0, rest)
+    return quarter_turns.astype(np.int64), rest
+
+
+def _rotate(theta: Floats, points: Floats) -> Floats:
+    """Points (..., 2) turned by theta (...), exactly so at multiples of pi/2."""
+    quarter_turns, rest = _split(theta)
+    c0, s0 = np.cos(rest), np.sin(rest)
+    turned = quarter_turns % 4
+    c = np.choose(turned, (c0, -s0, -c0, s0))
+    s = np.choose(turned, (s0, c0, -s0, -c0))
+    x, y = points[..., 0], points[..., 1]
+    return np.stack((c * x - s * y, s * x + c * y), axis=-1)
+
+
+def _read_only(array: Floats) -> Floats:
+    array.setflags(write=False)
+    return array
