@@ -1,7 +1,9 @@
 // A flat list: arrays in, call, arrays out; the lock is released for long calls. Docstrings and checks are in Python.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/shared_ptr.h>
 
+#include "cfree/boundary.hpp"
 #include "cfree/surface.hpp"
 
 namespace nb = nanobind;
@@ -16,7 +18,90 @@ static cfree::Ruled ruled(const In1& s) {
     return {v[0], v[1], v[2], v[3], v[4], v[5], v[6], v[7]};
 }
 
+template <class T>
+using Column = nb::ndarray<const T, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Limbs = nb::ndarray<const std::int64_t, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
+
+template <class T>
+static std::vector<T> vector_of(const Column<T>& column) {
+    return {column.data(), column.data() + column.shape(0)};
+}
+
+// The vector's memory as an array that owns it.
+template <class T>
+static nb::ndarray<nb::numpy, T, nb::ndim<1>> array_of(std::vector<T>&& values) {
+    auto* kept = new std::vector<T>(std::move(values));
+    nb::capsule owner(kept, [](void* p) noexcept { delete static_cast<std::vector<T>*>(p); });
+    return {kept->data(), {kept->size()}, owner};
+}
+
+// Two's complement, least limb first.
+static cfree::Int integer(const std::int64_t* limbs, std::size_t count) {
+    cfree::Int n = limbs[count - 1];
+    for (std::size_t k = count - 1; k-- > 0;) n = (n << 64) + static_cast<std::uint64_t>(limbs[k]);
+    return n;
+}
+
+static void set_coordinates(cfree::Shape& s, const Limbs& xy) {
+    const std::size_t n = xy.shape(0), limbs = xy.shape(2);
+    if (xy.shape(1) != 2 || limbs == 0) throw std::invalid_argument("coordinates must have the shape (n, 2, limbs)");
+    for (std::size_t k = 0; k < n; ++k) {
+        s.X.push_back(integer(xy.data() + 2 * k * limbs, limbs));
+        s.Y.push_back(integer(xy.data() + (2 * k + 1) * limbs, limbs));
+        s.x.push_back(s.X[k].convert_to<double>()), s.y.push_back(s.Y[k].convert_to<double>());
+        for (const auto& [exact, rounded] : {std::pair{&s.X[k], s.x[k]}, std::pair{&s.Y[k], s.y[k]}})
+            s.rounded |= !std::isfinite(rounded) || cfree::Int(rounded) != *exact;
+    }
+}
+
 NB_MODULE(_core, m) {
+    nb::class_<cfree::Shape>(m, "Shape")
+        .def("__init__", [](cfree::Shape* s, Limbs coordinates, Column<int> point, Column<int> v, Column<int> w,
+                            Column<int> line, Column<int> direction, int ring_vertices, Column<int> previous,
+                            Column<char> convex, Column<char> emit, Column<int> layer, Column<int> vertex_rank,
+                            Column<int> edge_rank, Column<int> piece, Column<int> piece_vertex, Column<int> piece_edge,
+                            Column<int> piece_layer) {
+            new (s) cfree::Shape{};
+            set_coordinates(*s, coordinates);
+            s->point = vector_of(point), s->v = vector_of(v), s->w = vector_of(w);
+            s->line = vector_of(line), s->direction = vector_of(direction);
+            s->ring_vertices = ring_vertices, s->previous = vector_of(previous);
+            s->convex = vector_of(convex), s->emit = vector_of(emit), s->layer = vector_of(layer);
+            s->vertex_rank = vector_of(vertex_rank), s->edge_rank = vector_of(edge_rank);
+            s->piece = vector_of(piece), s->piece_vertex = vector_of(piece_vertex);
+            s->piece_edge = vector_of(piece_edge), s->piece_layer = vector_of(piece_layer);
+        }, "coordinates"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a, "ring_vertices"_a, "previous"_a,
+           "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a, "piece_vertex"_a, "piece_edge"_a,
+           "piece_layer"_a);
+    nb::class_<cfree::Job>(m, "Job")
+        .def("__init__", [](cfree::Job* job, const cfree::Shape& robot, const cfree::Shape& obstacles, int threads) {
+            new (job) cfree::Job(std::make_shared<cfree::Scene>(cfree::Scene{robot, obstacles}), threads);
+        }, "robot"_a, "obstacles"_a, "threads"_a)
+        .def("wait", &cfree::Job::wait, "seconds"_a, nb::call_guard<nb::gil_scoped_release>())
+        .def("progress", &cfree::Job::progress)
+        .def("cancel", &cfree::Job::cancel)
+        .def("patches", [](cfree::Job& job) {
+            return nb::make_tuple(array_of(std::move(job.patches.kind)), array_of(std::move(job.patches.robot)),
+                                  array_of(std::move(job.patches.obstacle)));
+        })
+        .def("trapezoids", [](cfree::Job& job) {
+            auto& t = job.trapezoids;
+            return nb::make_tuple(array_of(std::move(t.patch)), array_of(std::move(t.chart)), array_of(std::move(t.lower)),
+                                  array_of(std::move(t.upper)), array_of(std::move(t.from_first)),
+                                  array_of(std::move(t.from_second)), array_of(std::move(t.from_lo)),
+                                  array_of(std::move(t.from_hi)), array_of(std::move(t.to_first)),
+                                  array_of(std::move(t.to_second)), array_of(std::move(t.to_lo)),
+                                  array_of(std::move(t.to_hi)));
+        })
+        .def("tally", [](const cfree::Job& job) {
+            const auto& t = job.tally;
+            nb::dict d;
+            d["pairs"] = t.pairs, d["live_patches"] = t.live_patches;
+            d["decided_by_filter"] = t.decisions.filter, d["decided_exactly"] = t.decisions.exact;
+            d["setup_seconds"] = t.setup_seconds, d["trim_seconds"] = t.trim_seconds;
+            d["collect_seconds"] = t.collect_seconds;
+            return d;
+        });
     m.def("evaluate_points", [](In1 surface, In1 t, In1 phi, Out2 out) {
         if (t.shape(0) != phi.shape(0) || out.shape(0) != t.shape(0) || out.shape(1) != 2)
             throw std::invalid_argument("t, phi and out differ in length");

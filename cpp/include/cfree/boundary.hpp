@@ -1,0 +1,76 @@
+// The trimmed boundary of the forbidden space: all patches, divided among threads.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "cfree/trim.hpp"
+
+namespace cfree {
+
+struct Patches {
+    std::vector<std::uint8_t> kind;
+    std::vector<Index> robot, obstacle;
+};
+
+// Structure of arrays. Features are packed as kind << 61 | robot << 31 | obstacle.
+struct Trapezoids {
+    std::vector<Index> patch;
+    std::vector<std::uint8_t> chart;
+    std::vector<std::uint64_t> lower, upper;
+    std::vector<std::uint64_t> from_first, from_second, to_first, to_second;
+    std::vector<double> from_lo, from_hi, to_lo, to_hi;
+};
+
+struct Tally {
+    std::int64_t pairs = 0;         // pairs of a patch and a pillar near it
+    std::int64_t live_patches = 0;
+    Counters decisions;
+    double setup_seconds = 0, trim_seconds = 0, collect_seconds = 0;
+};
+
+// All pairs of a convex vertex and an edge, patches of the boundary before trimming.
+Patches list_patches(const Scene& scene);
+
+// A computation on threads of its own, to be watched and stopped from outside.
+class Job {
+public:
+    Job(std::shared_ptr<const Scene> scene, int threads);
+    ~Job();
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
+    bool wait(double seconds);  // whether it has ended; rethrows what a thread threw
+    double progress() const;    // patches done, of all
+    void cancel() { stop = true; }
+    // After wait() returned true.
+    Patches patches;
+    Trapezoids trapezoids;
+    Tally tally;
+
+private:
+    void run(int threads);
+    void work();
+    void collect();
+
+    std::shared_ptr<const Scene> scene;
+    class Neighbours;
+    std::unique_ptr<Neighbours> neighbours;
+    std::vector<Index> first_patch;                     // of each obstacle ring vertex and the edge that starts there
+    std::vector<std::vector<Trapezoid>> found;          // by obstacle ring vertex
+    std::atomic<Index> next{0};
+    std::atomic<std::int64_t> done{0};
+    std::atomic<bool> stop{false};
+    mutable std::mutex mutex;
+    std::condition_variable ended_signal;
+    bool ended = false;
+    std::exception_ptr error;
+    std::thread runner;
+};
+
+}  // namespace cfree

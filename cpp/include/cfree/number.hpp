@@ -1,0 +1,41 @@
+// The number types of the decisions: exact integers of any size, and doubles that carry their magnitude.
+#pragma once
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <cstdint>
+
+namespace cfree {
+
+using Index = std::int32_t;
+
+// Exact integers; up to 512 bits without touching the heap.
+using Int = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
+    boost::multiprecision::et_off>;
+
+inline int sign_of(const Int& n) { return n.sign(); }
+
+// A double v and the magnitude m of the terms it was summed from. An expression of d roundings in a row, inputs
+// included, satisfies |v - exact| <= d u m (1 + O(u)), u = 2^-53. Inputs are integers, so nothing underflows;
+// overflow makes m infinite, and then no comparison against a multiple of m succeeds.
+struct Approx {
+    double v, m;
+};
+inline Approx operator+(Approx p, Approx q) { return {p.v + q.v, p.m + q.m}; }
+inline Approx operator-(Approx p, Approx q) { return {p.v - q.v, p.m + q.m}; }
+inline Approx operator-(Approx p) { return {-p.v, p.m}; }
+inline Approx operator*(Approx p, Approx q) { return {p.v * q.v, p.m * q.m}; }
+
+template <class T>
+struct Vec {
+    T x, y;
+};
+template <class T>
+Vec<T> operator-(const Vec<T>& p) { return {-p.x, -p.y}; }
+template <class T>
+T cross(const Vec<T>& p, const Vec<T>& q) { return p.x * q.y - p.y * q.x; }
+template <class T>
+T dot(const Vec<T>& p, const Vec<T>& q) { return p.x * q.x + p.y * q.y; }
+
+}  // namespace cfree

@@ -1,0 +1,147 @@
+// Every sign and every order is decided here, and nowhere else.
+//
+// At an orientation theta a contact surface is a line, a pillar a convex polygon, and what is asked are signs of
+//   f(theta) = a + b cos(theta) + c sin(theta)                  (Trig: offsets, parallels, numerators, denominators)
+// and of N1 D2 - N2 D1 (two curves on a surface). In a chart, tau = tan(theta'/2) in [-1, 1] with theta = theta' or
+// theta' + pi, f times 1 + tau^2 is a quadratic and the order of two curves a quartic in tau.
+//
+// Rungs: doubles with a proven bound; then exact integers of any size. No tolerance decides anything.
+#pragma once
+#include <array>
+#include <stdexcept>
+#include <vector>
+
+#include "cfree/polynomial.hpp"
+#include "cfree/scene.hpp"
+
+namespace cfree {
+
+// What names a curve on a surface, or a critical angle: a pair (robot feature, obstacle feature).
+enum class Kind : std::uint8_t { none, vertex_edge, edge_vertex, vertex_vertex, edge_edge };
+struct Feature {
+    Kind kind = Kind::none;
+    Index robot = 0, obstacle = 0;
+};
+// Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
+using Code = std::uint64_t;
+Code code(const Scene& scene, const Feature& f);
+
+// The contact surface under study, in one chart.
+struct Surface {
+    Feature contact;  // vertex_edge or edge_vertex, of ring features
+    int chart = 0;    // base rotation 0 or pi
+};
+
+// a + b cos + c sin in chart coordinates; every value below is within err of the truth.
+template <class T>
+struct Trig {
+    T a, b, c;
+};
+struct Filtered {
+    double a = 0, b = 0, c = 0, err = 0;
+    // Polar form: f(t, t) is the quadratic's value, f(p, p), f(p, q), f(q, q) its Bernstein coefficients on [p, q].
+    double polar(double p, double q) const { return a * (1 + p * q) + b * (1 - p * q) + c * (p + q); }
+    Filtered operator-() const { return {-a, -b, -c, err}; }
+};
+
+// A critical angle: the only root in [lo, hi] of the polynomial that its features define on the surface:
+//   none: a chart wall (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
+//   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
+struct Event {
+    Feature first, second;
+    double lo, hi;
+};
+
+// A curve t(theta) = N / D on the surface, D > 0 where it is used.
+struct Curve {
+    Feature feature;
+    Code code;
+    bool constant, constant_D;  // by kind: t, or D alone, does not depend on theta
+    bool flipped;               // N and D have been negated
+    Filtered N, D;
+};
+
+// Rational samples are doubles, taken exactly. An order that no double can separate is not decided in this version.
+struct Undecided : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct Counters {
+    std::int64_t filter = 0;  // decisions by doubles with their bound
+    std::int64_t exact = 0;   // decisions by exact integers
+    void operator+=(const Counters& o) { filter += o.filter, exact += o.exact; }
+};
+
+class Predicates {
+public:
+    Predicates(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
+
+    // The quadratics. offset: of vertex b_v - R a_s from the surface's line, positive on its left (forbidden) side.
+    Filtered offset(Index s, Index v) const;
+    // parallel: R(robot edge g) x (obstacle edge f)
+    Filtered parallel(Index g, Index f) const;
+    Curve curve(const Feature& f) const;  // D with the sign it has: see orient_curve
+
+    // Sign on the whole closed interval, 0 if not certain.
+    static int sign_on(const Filtered& f, double lo, double hi);
+    // Sign at the double tau, exact; 0 means zero.
+    int offset_sign(Index s, Index v, const Filtered& f, double tau);
+    int parallel_sign(Index g, Index f, const Filtered& value, double tau);
+    int denominator_sign(const Curve& c, double tau);
+    // Constants: sign of E_g x E_f for two edges of one shape.
+    int cross_sign(const Shape& shape, Index e, Index f);
+
+    // Sign of x - y: 0 if they are one angle.
+    int order(const Event& x, const Event& y);
+    // A double strictly between two angles, with few digits.
+    double between(const Event& x, const Event& y);
+
+    // Roots strictly between two angles, in order. all_zero: the polynomial vanishes identically.
+    struct Roots {
+        int count = 0;
+        bool all_zero = false;
+        Event at[4];
+    };
+    Roots offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to);
+    Roots parallel_roots(Index g, Index f, const Event& from, const Event& to);
+    // Order of two curves between two angles: where it may change, and the sign of p - q before, between and after.
+    struct Order {
+        int count = 0;
+        Event at[4];
+        int sign[5];  // all 0 if the curves are one
+    };
+    Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
+
+    // End of a patch's range in its chart: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max.
+    // Returns the chart too; a half turn apart from the parallels of equal direction.
+    struct RangeEnd {
+        int chart;
+        Event event;
+    };
+    static RangeEnd range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters);
+
+    Counters counters;
+
+private:
+    template <class T>
+    Trig<T> offset_trig(Index s, Index v) const;
+    template <class T>
+    Trig<T> parallel_trig(Index g, Index f) const;
+    template <class T>
+    std::array<Trig<T>, 2> curve_trig(const Feature& f) const;  // N and D
+    Filtered filtered(const Trig<Approx>& f) const;
+    Poly polynomial(const Trig<Int>& f) const;
+    Poly polynomial(const Feature& first, const Feature& second) const;
+    struct Form;
+    Form form(const Curve& p, const Curve& q) const;
+    Form form(const Event& x) const;
+    Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
+    int sign_at(const Filtered& f, const Feature& first, double tau);
+    int order_exactly(const Event& x, const Event& y);
+
+    const Scene& scene;
+    Surface surface;
+    double kappa;
+};
+
+}  // namespace cfree

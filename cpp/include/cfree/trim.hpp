@@ -1,0 +1,87 @@
+// One contact patch: what remains of it when all pillars have been taken away.
+//
+// The patch's domain is (t, theta). A pillar Q = O_k (+) -R A_p covers, at each theta, one open interval of t: its bands on
+// the patch. `live` starts as the whole domain and loses one band after another; it is a list of trapezoids, each
+// bounded by two angles and two curves.
+#pragma once
+#include <vector>
+
+#include "cfree/predicates.hpp"
+
+namespace cfree {
+
+struct Trapezoid {
+    Index patch = 0;
+    int chart = 0;
+    Feature lower, upper;
+    Event from, to;
+};
+
+class Trimmer {
+public:
+    // The part of a patch between two angles of one chart.
+    Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
+
+    // Take away robot piece p against obstacle piece k.
+    void cover(Index p, Index k);
+    // Take away what another patch of the same surface owns: the edge between two vertices on this one's line.
+    void cede(const Feature& first, const Feature& last, const Event& from, const Event& to);
+    bool empty() const { return live.empty(); }
+    // What is left, in order, neighbours with the same curves joined.
+    void finish(Index patch, std::vector<Trapezoid>& out);
+
+    Predicates decide;
+
+private:
+    struct Span {
+        Index from, to;  // events
+    };
+    struct Area {
+        Index from, to, lower, upper;  // two events, two curves
+        double t_min, t_max;           // its t lies between
+    };
+    // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
+    struct PillarEdge {
+        Feature feature;
+        Index s0, v0, s1, v1;  // the vertices b_v - R a_s it leads from and to
+        Index around[2];       // edges of the other shape before and after its supporting vertex, -1 if it is a point
+    };
+    enum class Meets { never_left, never_right, crosses };  // whether the line passes through the open pillar
+    struct State {
+        Meets meets;
+        PillarEdge lower, upper;  // crosses
+        Index s, v;               // else: the pillar's vertex nearest to the line
+        Index robot_around[2], obstacle_around[2];
+    };
+    struct Condition {
+        bool is_offset;
+        Index robot, obstacle;
+        int sign;
+        bool may_vanish;  // an offset that is identically zero will do
+        Filtered value;
+    };
+    enum class Verdict { holds, wrong, resample };
+
+    template <class T>
+    State state_at(Index p, Index k, double tau) const;
+    Verdict lifetime(const State& state, double tau, Span& span);
+    int conditions(const State& state, Condition* out, bool& wrong);
+    bool lies_on_line(Index s, Index v) const;
+    void add_band(const State& state, const Span& span);
+    Index curve_of(const Feature& feature, bool flipped);
+    Feature normal_form(const Feature& feature) const;
+    void bounds(Area& area) const;
+    void subtract(const Area& band);
+    Index intern(const Event& event);
+    bool equal(Index x, Index y) { return x == y || decide.order(events[x], events[y]) == 0; }
+    bool before(Index x, Index y) { return x != y && decide.order(events[x], events[y]) < 0; }
+
+    const Scene& scene;
+    Surface surface;
+    std::vector<Event> events;
+    std::vector<Curve> curves;
+    std::vector<Area> live, next;
+    std::vector<Span> todo;
+};
+
+}  // namespace cfree

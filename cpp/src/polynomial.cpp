@@ -1,0 +1,187 @@
+#include "cfree/polynomial.hpp"
+
+#include <cmath>
+
+namespace cfree {
+
+namespace {
+
+void trim(Poly& p) {
+    while (!p.empty() && p.back().is_zero()) p.pop_back();
+}
+
+// Divide by the content: coefficients stay small along a remainder sequence.
+void make_primitive(Poly& p) {
+    Int g = 0;
+    for (const Int& c : p) g = boost::multiprecision::gcd(g, c);
+    if (g > 1)
+        for (Int& c : p) c /= g;
+}
+
+// A positive multiple of the remainder of p by q.
+Poly remainder(Poly p, const Poly& q) {
+    const Int lead = abs(q.back());
+    while (p.size() >= q.size()) {
+        const Int top = p.back();
+        const std::size_t shift = p.size() - q.size();
+        for (Int& c : p) c *= lead;
+        for (std::size_t i = 0; i < q.size(); ++i) {
+            if (q.back().sign() > 0) p[i + shift] -= top * q[i];
+            else p[i + shift] += top * q[i];
+        }
+        trim(p);
+        make_primitive(p);
+    }
+    return p;
+}
+
+Poly derivative(const Poly& p) {
+    Poly d;
+    for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
+    return d;
+}
+
+// The exact quotient of two polynomials, up to a positive constant.
+Poly quotient(Poly p, const Poly& q) {
+    Poly result(p.size() - q.size() + 1);
+    const Int lead = abs(q.back());
+    for (std::size_t k = result.size(); k-- > 0;) {
+        for (Int& c : p) c *= lead;
+        for (Int& c : result) c *= lead;
+        result[k] = p[k + q.size() - 1] / q.back();
+        for (std::size_t i = 0; i < q.size(); ++i) p[i + k] -= result[k] * q[i];
+    }
+    make_primitive(result);
+    return result;
+}
+
+}  // namespace
+
+Dyadic Dyadic::from(double value) {
+    int exponent;
+    const double mantissa = std::frexp(value, &exponent);
+    auto n = static_cast<std::int64_t>(std::ldexp(mantissa, 53));
+    int k = 53 - exponent;
+    while (n != 0 && k > 0 && n % 2 == 0) n /= 2, --k;
+    if (n == 0) k = 0;
+    Dyadic d{Int(n), static_cast<unsigned>(k > 0 ? k : 0)};
+    if (k < 0) d.n <<= static_cast<unsigned>(-k);
+    return d;
+}
+
+Dyadic Dyadic::middle(const Dyadic& p, const Dyadic& q) {
+    const unsigned k = p.k > q.k ? p.k : q.k;
+    return {(p.n << (k - p.k)) + (q.n << (k - q.k)), k + 1};
+}
+
+double Dyadic::rounded_down() const {
+    // scaled to 53 bits, floor
+    if (n.is_zero()) return 0.0;
+    const int bits = static_cast<int>(boost::multiprecision::msb(abs(n))) + 1;
+    const int shift = bits - 53;
+    Int m = abs(n);
+    bool inexact = false;
+    if (shift > 0) {
+        const Int kept = m >> static_cast<unsigned>(shift);
+        inexact = (kept << static_cast<unsigned>(shift)) != m;
+        m = kept;
+    }
+    if (inexact && n.sign() < 0) m += 1;
+    const double value = std::ldexp(m.convert_to<double>(), (shift > 0 ? shift : 0) - static_cast<int>(k));
+    return n.sign() < 0 ? -value : value;
+}
+double Dyadic::rounded_up() const { return -Dyadic{-n, k}.rounded_down(); }
+
+int compare(const Dyadic& p, const Dyadic& q) {
+    const unsigned k = p.k > q.k ? p.k : q.k;
+    return (p.n << (k - p.k)).compare(q.n << (k - q.k));
+}
+
+Poly product(const Poly& p, const Poly& q) {
+    if (p.empty() || q.empty()) return {};
+    Poly r(p.size() + q.size() - 1);
+    for (std::size_t i = 0; i < p.size(); ++i)
+        for (std::size_t j = 0; j < q.size(); ++j) r[i + j] += p[i] * q[j];
+    trim(r);
+    return r;
+}
+
+Poly difference(const Poly& p, const Poly& q) {
+    Poly r = p;
+    if (r.size() < q.size()) r.resize(q.size());
+    for (std::size_t i = 0; i < q.size(); ++i) r[i] -= q[i];
+    trim(r);
+    return r;
+}
+
+int sign_at(const Poly& p, const Dyadic& tau) {
+    if (p.empty()) return 0;
+    Int r = p.back();
+    for (std::size_t i = p.size() - 1; i-- > 0;) {
+        r *= tau.n;
+        r += p[i] << (tau.k * static_cast<unsigned>(p.size() - 1 - i));
+    }
+    return r.sign();
+}
+
+Poly greatest_common_divisor(Poly p, Poly q) {
+    while (!q.empty()) {
+        Poly r = p.size() >= q.size() ? remainder(p, q) : p;
+        p = std::move(q);
+        q = std::move(r);
+    }
+    make_primitive(p);
+    return p;
+}
+
+Poly squarefree(const Poly& p) {
+    Poly q = p;
+    make_primitive(q);
+    if (q.size() <= 2) return q;
+    const Poly g = greatest_common_divisor(q, derivative(q));
+    return g.size() > 1 ? quotient(q, g) : q;
+}
+
+Sturm::Sturm(const Poly& p) {
+    chain.push_back(p);
+    if (p.size() < 2) return;
+    chain.push_back(derivative(p));
+    while (chain.back().size() > 1) {
+        Poly r = remainder(chain[chain.size() - 2], chain.back());
+        if (r.empty()) break;
+        for (Int& c : r) c = -c;
+        chain.push_back(std::move(r));
+    }
+}
+
+int Sturm::variations(const Dyadic& tau) const {
+    int count = 0, last = 0;
+    for (const Poly& p : chain) {
+        const int s = sign_at(p, tau);
+        if (s != 0 && last != 0 && s != last) ++count;
+        if (s != 0) last = s;
+    }
+    return count;
+}
+
+int Sturm::roots_in(const Dyadic& lo, const Dyadic& hi) const { return variations(lo) - variations(hi); }
+
+std::vector<std::array<Dyadic, 2>> isolate(const Sturm& sturm, const Dyadic& lo, const Dyadic& hi, unsigned bits) {
+    std::vector<std::array<Dyadic, 2>> found;
+    const int count = sturm.roots_in(lo, hi);
+    if (count == 0) return found;
+    const unsigned k = lo.k > hi.k ? lo.k : hi.k;
+    const Int width = (hi.n << (k - hi.k)) - (lo.n << (k - lo.k));  // over 2^k
+    const bool narrow = k >= bits ? width <= (Int(1) << (k - bits)) : false;
+    if (count == 1 && narrow) {
+        found.push_back({lo, hi});
+        return found;
+    }
+    const Dyadic mid = Dyadic::middle(lo, hi);
+    found = isolate(sturm, lo, mid, bits);
+    const auto right = isolate(sturm, mid, hi, bits);
+    found.insert(found.end(), right.begin(), right.end());
+    return found;
+}
+
+}  // namespace cfree

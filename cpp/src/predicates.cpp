@@ -1,0 +1,481 @@
+#include "cfree/predicates.hpp"
+
+#include <algorithm>
+
+namespace cfree {
+
+namespace {
+
+constexpr double u = 0x1p-53;
+// Coefficients are one cross or dot product of differences: at most 6 roundings in a row. The polar form adds 5 and at
+// most doubles the magnitude: 22 u would do.
+constexpr double coefficient_error = 32 * u;
+constexpr double product_error = 8 * u;
+
+const Event wall_event(int side) { return {{}, {}, double(side), double(side)}; }
+
+// k f - l g for constants k, l that are themselves within ek, el of the truth
+Filtered combination(double k, double ek, const Filtered& f, double l, double el, const Filtered& g) {
+    const double mf = 2 * (std::abs(f.a) + std::abs(f.b) + std::abs(f.c));
+    const double mg = 2 * (std::abs(g.a) + std::abs(g.b) + std::abs(g.c));
+    const double err = (std::abs(k) + ek) * f.err + (std::abs(l) + el) * g.err + mf * (ek + product_error * std::abs(k)) +
+                       mg * (el + product_error * std::abs(l));
+    return {k * f.a - l * g.a, k * f.b - l * g.b, k * f.c - l * g.c, err * (1 + 8 * u)};
+}
+
+bool same_feature(const Scene& s, const Feature& x, const Feature& y) { return code(s, x) == code(s, y); }
+
+}  // namespace
+
+Code code(const Scene& scene, const Feature& f) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    Index i = 0, j = 0;
+    switch (f.kind) {
+        case Kind::none: return 0;
+        case Kind::vertex_edge: i = A.point[f.robot], j = O.line[f.obstacle]; break;
+        case Kind::edge_vertex: i = A.line[f.robot], j = O.point[f.obstacle]; break;
+        case Kind::vertex_vertex: i = A.point[f.robot], j = O.point[f.obstacle]; break;
+        case Kind::edge_edge: i = A.direction[f.robot], j = O.direction[f.obstacle]; break;
+    }
+    return static_cast<Code>(f.kind) << 61 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
+}
+
+// --- the quadratics, one formula for every number type ---------------------------------------------------------------
+
+template <class T>
+Trig<T> Predicates::offset_trig(Index s, Index v) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    if (surface.contact.kind == Kind::vertex_edge) {  // E_j x (b_v - b_j - R (a_s - a_i))
+        const auto E = edge<T>(O, j), w = difference<T>(O, v, O.v[j]), d = difference<T>(A, s, i);
+        return {cross(E, w), -cross(E, d), -dot(E, d)};
+    }
+    // -R E_i x (b_v - b_j - R (a_s - a_i))
+    const auto E = edge<T>(A, i), w = difference<T>(O, v, j), d = difference<T>(A, s, A.v[i]);
+    return {cross(E, d), -cross(E, w), dot(E, w)};
+}
+
+template <class T>
+Trig<T> Predicates::parallel_trig(Index g, Index f) const {
+    const auto G = edge<T>(scene.robot, g), F = edge<T>(scene.obstacles, f);
+    return {T{}, cross(G, F), -dot(G, F)};
+}
+
+// The half-plane of a pillar's edge e cuts the surface's line P + t U, P = b_j - R a_i, where e's direction V and point Q give
+// V x (P - Q) + t (V x U) = 0, so t = N / D with N = -V x (P - Q), D = V x U.
+template <class T>
+std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
+    const auto E = on_edge ? edge<T>(O, j) : edge<T>(A, i);
+    if (f.kind == Kind::vertex_vertex) {  // t is where the vertex lies on the edge
+        const auto w = on_edge ? difference<T>(O, f.obstacle, b0) : difference<T>(A, f.robot, a0);
+        return {Trig<T>{dot(w, E), T{}, T{}}, Trig<T>{dot(E, E), T{}, T{}}};
+    }
+    if (f.kind == Kind::vertex_edge) {  // V = F, Q = b_f - R a_s
+        const auto F = edge<T>(O, f.obstacle), w = difference<T>(O, O.v[f.obstacle], b0), d = difference<T>(A, a0, f.robot);
+        const Trig<T> N{cross(F, w), cross(F, d), dot(F, d)};
+        if (on_edge) return {N, Trig<T>{cross(F, E), T{}, T{}}};
+        return {N, Trig<T>{T{}, -cross(F, E), -dot(F, E)}};
+    }
+    // V = -R G, Q = b_v - R a_g
+    const auto G = edge<T>(A, f.robot), w = difference<T>(O, b0, f.obstacle), d = difference<T>(A, A.v[f.robot], a0);
+    const Trig<T> N{cross(G, d), cross(G, w), -dot(G, w)};
+    if (on_edge) return {N, Trig<T>{T{}, -cross(G, E), dot(G, E)}};
+    return {N, Trig<T>{cross(G, E), T{}, T{}}};
+}
+
+Filtered Predicates::filtered(const Trig<Approx>& f) const {
+    return {f.a.v, kappa * f.b.v, kappa * f.c.v, coefficient_error * (f.a.m + f.b.m + f.c.m)};
+}
+Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
+Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
+Curve Predicates::curve(const Feature& f) const {
+    const auto [N, D] = curve_trig<Approx>(f);
+    const bool constant = f.kind == Kind::vertex_vertex;
+    return {f, code(scene, f), constant, constant || f.kind == surface.contact.kind, false, filtered(N), filtered(D)};
+}
+
+// --- signs -----------------------------------------------------------------------------------------------------------
+
+int Predicates::sign_on(const Filtered& f, double lo, double hi) {
+    const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
+    if (p > f.err && q > f.err && r > f.err) return 1;
+    if (p < -f.err && q < -f.err && r < -f.err) return -1;
+    return 0;
+}
+
+Poly Predicates::polynomial(const Trig<Int>& f) const {
+    Poly p = kappa > 0 ? Poly{f.a + f.b, 2 * f.c, f.a - f.b} : Poly{f.a - f.b, -2 * f.c, f.a + f.b};
+    while (!p.empty() && p.back().is_zero()) p.pop_back();
+    return p;
+}
+
+// What an event's features define; see Event. Two curves: N1 D2 - N2 D1.
+Poly Predicates::polynomial(const Feature& first, const Feature& second) const {
+    if (second.kind == Kind::none) {
+        if (first.kind == Kind::edge_edge) return polynomial(parallel_trig<Int>(first.robot, first.obstacle));
+        return polynomial(offset_trig<Int>(first.robot, first.obstacle));
+    }
+    const auto [N1, D1] = curve_trig<Int>(first);
+    const auto [N2, D2] = curve_trig<Int>(second);
+    return difference(product(polynomial(N1), polynomial(D2)), product(polynomial(N2), polynomial(D1)));
+}
+
+int Predicates::sign_at(const Filtered& f, const Feature& feature, double tau) {
+    const double value = f.polar(tau, tau);
+    if (std::abs(value) > f.err) return ++counters.filter, value > 0 ? 1 : -1;
+    ++counters.exact;
+    return cfree::sign_at(polynomial(feature, {}), Dyadic::from(tau));
+}
+int Predicates::offset_sign(Index s, Index v, const Filtered& f, double tau) {
+    return sign_at(f, {Kind::vertex_vertex, s, v}, tau);
+}
+int Predicates::parallel_sign(Index g, Index f, const Filtered& value, double tau) {
+    return sign_at(value, {Kind::edge_edge, g, f}, tau);
+}
+
+int Predicates::denominator_sign(const Curve& c, double tau) {
+    const double value = c.D.polar(tau, tau);
+    if (std::abs(value) > c.D.err) return ++counters.filter, value > 0 ? 1 : -1;
+    ++counters.exact;
+    return cfree::sign_at(polynomial(curve_trig<Int>(c.feature)[1]), Dyadic::from(tau)) * (c.flipped ? -1 : 1);
+}
+
+int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
+    const Approx value = cross(edge<Approx>(shape, e), edge<Approx>(shape, f));
+    if (std::abs(value.v) > coefficient_error * value.m) return ++counters.filter, value.v > 0 ? 1 : -1;
+    if (value.m == 0) return ++counters.filter, 0;
+    ++counters.exact;
+    return cross(edge<Int>(shape, e), edge<Int>(shape, f)).sign();
+}
+
+// --- roots -----------------------------------------------------------------------------------------------------------
+
+// A quadratic p, or the quartic p q - r s.
+struct Predicates::Form {
+    int degree;
+    Filtered p, q, r, s;
+    double scale = 0;  // of the quartic's error
+
+    struct Value {
+        double v, err;
+    };
+    Value at(double t) const {
+        const double x = p.polar(t, t);
+        if (degree == 2) return {x, p.err};
+        const double y = q.polar(t, t), z = r.polar(t, t), w = s.polar(t, t);
+        return {x * y - z * w, std::abs(x) * q.err + std::abs(y) * p.err + std::abs(z) * s.err + std::abs(w) * r.err +
+                                   p.err * q.err + r.err * s.err + product_error * (std::abs(x * y) + std::abs(z * w))};
+    }
+    // Bernstein coefficients on [lo, hi], all within the error returned
+    double bernstein(double lo, double hi, double* c) const {
+        const double p0 = p.polar(lo, lo), p1 = p.polar(lo, hi), p2 = p.polar(hi, hi);
+        if (degree == 2) {
+            c[0] = p0, c[1] = p1, c[2] = p2;
+            return p.err;
+        }
+        const double q0 = q.polar(lo, lo), q1 = q.polar(lo, hi), q2 = q.polar(hi, hi);
+        const double r0 = r.polar(lo, lo), r1 = r.polar(lo, hi), r2 = r.polar(hi, hi);
+        const double s0 = s.polar(lo, lo), s1 = s.polar(lo, hi), s2 = s.polar(hi, hi);
+        c[0] = p0 * q0 - r0 * s0;
+        c[1] = 0.5 * ((p0 * q1 + p1 * q0) - (r0 * s1 + r1 * s0));
+        c[2] = ((p0 * q2 + 4 * (p1 * q1) + p2 * q0) - (r0 * s2 + 4 * (r1 * s1) + r2 * s0)) / 6;
+        c[3] = 0.5 * ((p1 * q2 + p2 * q1) - (r1 * s2 + r2 * s1));
+        c[4] = p2 * q2 - r2 * s2;
+        const auto largest = [](double x, double y, double z) { return std::max({std::abs(x), std::abs(y), std::abs(z)}); };
+        const double P = largest(p0, p1, p2), Q = largest(q0, q1, q2), R = largest(r0, r1, r2), S = largest(s0, s1, s2);
+        return P * q.err + Q * p.err + R * s.err + S * r.err + p.err * q.err + r.err * s.err +
+               2 * product_error * (P * Q + R * S);
+    }
+};
+
+namespace {
+
+enum class Found { none, one, unclear };
+
+// How many roots inside: by the variations of certain signs, uncertain ones allowed only where they cannot add any.
+Found roots_inside(const double* c, int degree, double err) {
+    int changes = 0, last = 0, gap = 0;
+    for (int i = 0; i <= degree; ++i) {
+        const int s = c[i] > err ? 1 : c[i] < -err ? -1 : 0;
+        if (s == 0) {
+            if (i == 0 || i == degree) return Found::unclear;
+            gap = 1;
+            continue;
+        }
+        if (last != 0) {
+            if (s != last) ++changes;
+            else if (gap) return Found::unclear;
+        }
+        last = s, gap = 0;
+    }
+    return changes == 0 ? Found::none : changes == 1 ? Found::one : Found::unclear;
+}
+
+// Shrink an interval with certain, opposite signs at its ends and one root inside.
+template <class Form>
+std::array<double, 2> refine(const Form& form, double lo, double hi) {
+    const double flo = form.at(lo).v, fhi = form.at(hi).v;
+    double a = lo, b = hi, fa = flo, fb = fhi, t = lo, err = 0;
+    int stayed = 0;  // Illinois: halve the value of an end that stays twice
+    for (int k = 0; k < 60 && b - a > 4e-16; ++k) {
+        t = (a * fb - b * fa) / (fb - fa);
+        if (!(t > a && t < b)) t = 0.5 * (a + b);
+        const auto value = form.at(t);
+        err = value.err;
+        if (std::abs(value.v) <= err) break;
+        if ((value.v > 0) == (fb > 0)) {
+            b = t, fb = value.v;
+            if (stayed == 1) fa *= 0.5;
+            stayed = 1;
+        } else {
+            a = t, fa = value.v;
+            if (stayed == 2) fb *= 0.5;
+            stayed = 2;
+        }
+    }
+    // certain signs on both sides: start at the error over the slope and widen
+    const double l = std::max(lo, t - 1e-9), r = std::min(hi, t + 1e-9);
+    double delta = 2 * err * (r - l) / std::abs(form.at(r).v - form.at(l).v) + 2.3e-16;
+    if (!(delta < hi - lo)) delta = hi - lo;
+    for (int k = 0; k < 64; ++k, delta *= 2) {
+        const double x = std::max(lo, t - delta), y = std::min(hi, t + delta);
+        const auto vx = form.at(x), vy = form.at(y);
+        const bool left = x == lo || (std::abs(vx.v) > vx.err && (vx.v > 0) == (flo > 0));
+        const bool right = y == hi || (std::abs(vy.v) > vy.err && (vy.v > 0) == (fhi > 0));
+        if (left && right) return {x, y};
+    }
+    return {lo, hi};
+}
+
+constexpr int enough = 8;
+
+template <class Form>
+bool isolate_by_filter(const Form& form, double lo, double hi, double (*found)[2], int& count) {
+    struct Span {
+        double lo, hi;
+    };
+    Span stack[64];
+    int top = 0;
+    stack[top++] = {lo, hi};
+    int budget = 200;
+    while (top > 0) {
+        const Span s = stack[--top];
+        double c[5];
+        const double err = form.bernstein(s.lo, s.hi, c);
+        const Found inside = roots_inside(c, form.degree, err);
+        if (inside == Found::none) continue;
+        if (inside == Found::one) {
+            const auto bracket = refine(form, s.lo, s.hi);
+            found[count][0] = bracket[0], found[count][1] = bracket[1];
+            if (++count == enough) return false;
+            continue;
+        }
+        if (--budget == 0 || s.hi - s.lo < 1e-14 || top > 60) return false;
+        double mid = 0.5 * (s.lo + s.hi);
+        const auto value = form.at(mid);
+        if (std::abs(value.v) <= value.err) mid = s.lo + 0.4375 * (s.hi - s.lo);
+        stack[top++] = {mid, s.hi};
+        stack[top++] = {s.lo, mid};
+    }
+    return true;
+}
+
+}  // namespace
+
+Predicates::Form Predicates::form(const Curve& p, const Curve& q) const {
+    if (p.constant_D && q.constant_D)
+        return {2, combination(q.D.a, q.D.err, p.N, p.D.a, p.D.err, q.N), {}, {}, {}};
+    if (p.constant)
+        return {2, combination(p.N.a, p.N.err, q.D, p.D.a, p.D.err, q.N), {}, {}, {}};
+    if (q.constant)
+        return {2, combination(q.D.a, q.D.err, p.N, q.N.a, q.N.err, p.D), {}, {}, {}};
+    return {4, p.N, q.D, q.N, p.D};
+}
+
+Predicates::Form Predicates::form(const Event& x) const {
+    if (x.second.kind != Kind::none) return form(curve(x.first), curve(x.second));
+    if (x.first.kind == Kind::edge_edge) return {2, parallel(x.first.robot, x.first.obstacle), {}, {}, {}};
+    return {2, offset(x.first.robot, x.first.obstacle), {}, {}, {}};
+}
+
+Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const Feature& second, const Event& from,
+                                    const Event& to) {
+    Roots result;
+    // A root may be one of the two ends: look a little beyond them, then compare.
+    double found[enough][2];
+    int count = 0;
+    bool decided = false;
+    for (double margin = 1e-12; margin < 1e-10 && !decided; margin *= 7)
+        count = 0, decided = isolate_by_filter(f, from.lo - margin, to.hi + margin, found, count);
+    if (decided) {
+        ++counters.filter;
+    } else {
+        ++counters.exact;
+        count = 0;
+        const Poly p = polynomial(first, second);
+        if (p.empty()) {
+            result.all_zero = true;
+            return result;
+        }
+        const Sturm sturm(squarefree(p));
+        const Dyadic step{1, 60};
+        for (const auto& [lo, hi] : isolate(sturm, Dyadic::middle(Dyadic::from(from.lo), Dyadic::from(from.lo - 1e-15)),
+                                            Dyadic::from(to.hi + 1e-15), 56)) {
+            // doubles around it, with no root at their ends nor a second one between them
+            double l = lo.rounded_down(), h = hi.rounded_up();
+            while (cfree::sign_at(sturm.polynomial(), Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
+            while (cfree::sign_at(sturm.polynomial(), Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
+            if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1)
+                throw Undecided("two critical angles closer than doubles can tell apart");
+            found[count][0] = l, found[count][1] = h, ++count;
+        }
+    }
+    for (int k = 0; k < count; ++k) {
+        const Event x{first, second, found[k][0], found[k][1]};
+        if (order(from, x) < 0 && order(x, to) < 0) {
+            if (result.count == 4) throw std::logic_error("more roots than the degree");
+            result.at[result.count++] = x;
+        }
+    }
+    return result;
+}
+
+Predicates::Roots Predicates::offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to) {
+    return roots(Form{2, f, {}, {}, {}}, {Kind::vertex_vertex, s, v}, {}, from, to);
+}
+
+Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from, const Event& to) {
+    // tan(theta) = G x F / G.F has one root in the chart, and two at its walls if G.F = 0
+    Roots result;
+    const auto G = edge<Approx>(scene.robot, g), F = edge<Approx>(scene.obstacles, f);
+    Approx c = dot(G, F), n = cross(G, F);
+    if (std::abs(c.v) <= coefficient_error * c.m) {
+        ++counters.exact;
+        if (dot(edge<Int>(scene.robot, g), edge<Int>(scene.obstacles, f)).is_zero()) return result;
+    }
+    if (c.v < 0) n = -n, c = -c;
+    const double length = std::hypot(c.v, n.v), tau = n.v / (length + c.v);
+    const double half = 8 * u * (c.m + n.m) / length + 4 * u;
+    const Event x{{Kind::edge_edge, g, f}, {}, tau - half, tau + half};
+    if (order(from, x) < 0 && order(x, to) < 0) result.at[result.count++] = x;
+    return result;
+}
+
+Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Event& from, const Event& to) {
+    Order result;
+    const auto constant = [&](int s) {
+        result.sign[0] = s;
+        return result;
+    };
+    if (p.code == q.code) return constant(0);
+    const Form f = form(p, q);
+    double c[5];
+    const double err = f.bernstein(from.lo, to.hi, c);
+    int positive = 0, negative = 0;
+    for (int i = 0; i <= f.degree; ++i) positive += c[i] > err, negative += c[i] < -err;
+    if (positive == f.degree + 1) return ++counters.filter, constant(1);
+    if (negative == f.degree + 1) return ++counters.filter, constant(-1);
+    const Roots r = roots(f, p.feature, q.feature, from, to);
+    if (r.all_zero) return constant(0);
+    const int flip = p.flipped != q.flipped ? -1 : 1;
+    result.count = r.count;
+    for (int k = 0; k <= r.count; ++k) {
+        if (k < r.count) result.at[k] = r.at[k];
+        const double tau = between(k == 0 ? from : r.at[k - 1], k == r.count ? to : r.at[k]);
+        const auto value = f.at(tau);
+        if (std::abs(value.v) > value.err) {
+            ++counters.filter;
+            result.sign[k] = value.v > 0 ? 1 : -1;
+        } else {
+            ++counters.exact;
+            result.sign[k] = flip * cfree::sign_at(polynomial(p.feature, q.feature), Dyadic::from(tau));
+        }
+    }
+    return result;
+}
+
+// --- angles ----------------------------------------------------------------------------------------------------------
+
+int Predicates::order(const Event& x, const Event& y) {
+    if (x.hi < y.lo) return -1;
+    if (x.lo > y.hi) return 1;
+    if (x.first.kind == Kind::none && y.first.kind == Kind::none) return 0;  // one wall
+    return order_exactly(x, y);
+}
+
+int Predicates::order_exactly(const Event& x, const Event& y) {
+    const auto same = [&](const Event& p, const Event& q) {
+        return same_feature(scene, p.first, q.first) && same_feature(scene, p.second, q.second);
+    };
+    const Event swapped{y.second, y.first, y.lo, y.hi};
+    if (x.first.kind != Kind::none && (same(x, y) || (y.second.kind != Kind::none && same(x, swapped)))) {
+        // one polynomial, one root in each of two overlapping intervals: opposite signs around both mean one root in all
+        const Form f = form(x);
+        const double lo = std::min(x.lo, y.lo), hi = std::max(x.hi, y.hi);
+        const auto l = f.at(lo), h = f.at(hi);
+        if (std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0)) return ++counters.filter, 0;
+    }
+    ++counters.exact;
+    const auto defining = [&](const Event& e) {
+        if (e.first.kind == Kind::none) return Poly{Int(-e.lo), Int(1)};
+        return squarefree(polynomial(e.first, e.second));
+    };
+    const Poly p = defining(x), q = defining(y);
+    Dyadic xl = Dyadic::from(x.lo), xh = Dyadic::from(x.hi), yl = Dyadic::from(y.lo), yh = Dyadic::from(y.hi);
+    const Dyadic lo = cfree::compare(xl, yl) < 0 ? yl : xl, hi = cfree::compare(xh, yh) < 0 ? xh : yh;
+    const Poly g = greatest_common_divisor(p, q);
+    if (g.size() > 1 && (cfree::sign_at(g, lo) == 0 || Sturm(squarefree(g)).roots_in(lo, hi) > 0)) return 0;
+    // different roots: halve both intervals until they part
+    const auto halve = [](const Poly& f, Dyadic& l, Dyadic& h) {
+        if (cfree::sign_at(f, l) == 0) h = l;
+        if (cfree::sign_at(f, h) == 0) l = h;
+        if (cfree::compare(l, h) == 0) return;
+        const Dyadic mid = Dyadic::middle(l, h);
+        const int s = cfree::sign_at(f, mid);
+        if (s == 0) l = h = mid;
+        else if (s == cfree::sign_at(f, l)) l = mid;
+        else h = mid;
+    };
+    while (true) {
+        if (cfree::compare(xh, yl) < 0) return -1;
+        if (cfree::compare(yh, xl) < 0) return 1;
+        halve(p, xl, xh);
+        halve(q, yl, yh);
+    }
+}
+
+double Predicates::between(const Event& x, const Event& y) {
+    const double lo = x.hi, hi = y.lo, mid = 0.5 * (lo + hi);
+    if (!(lo < mid && mid < hi)) throw Undecided("no double lies between two critical angles");
+    int exponent;
+    std::frexp(hi - lo, &exponent);
+    const double scale = std::ldexp(1.0, 3 - exponent), few = std::nearbyint(mid * scale) / scale;
+    return lo < few && few < hi ? few : mid;
+}
+
+Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters) {
+    const auto G = edge<Approx>(scene.robot, g), F = edge<Approx>(scene.obstacles, f);
+    Approx c = -dot(G, F), n = -cross(G, F);
+    int sign = c.v > 0 ? 1 : -1;
+    if (std::abs(c.v) <= coefficient_error * c.m) {
+        ++counters.exact;
+        sign = -dot(edge<Int>(scene.robot, g), edge<Int>(scene.obstacles, f)).sign();
+    } else {
+        ++counters.filter;
+    }
+    if (sign == 0) {
+        const bool quarter = n.v > 0;  // theta = pi/2, else -pi/2
+        if (is_start) return {quarter ? 1 : 0, wall_event(-1)};
+        return {quarter ? 0 : 1, wall_event(1)};
+    }
+    if (sign < 0) c = -c, n = -n;
+    const double length = std::hypot(c.v, n.v), tau = n.v / (length + c.v);
+    const double half = 8 * u * (c.m + n.m) / length + 4 * u;
+    return {sign > 0 ? 0 : 1, {{Kind::edge_edge, g, f}, {}, tau - half, tau + half}};
+}
+
+}  // namespace cfree

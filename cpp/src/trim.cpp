@@ -1,0 +1,458 @@
+#include "cfree/trim.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace cfree {
+
+Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
+    : decide(s, on), scene(s), surface(on) {
+    events = {from, to};
+    const bool on_edge = on.contact.kind == Kind::vertex_edge;
+    const Index i = on.contact.robot, j = on.contact.obstacle;
+    const Feature first{Kind::vertex_vertex, on_edge ? i : s.robot.v[i], on_edge ? s.obstacles.v[j] : j};
+    const Feature last{Kind::vertex_vertex, on_edge ? i : s.robot.w[i], on_edge ? s.obstacles.w[j] : j};
+    const Index t0 = curve_of(first, false), t1 = curve_of(last, false);
+    live.push_back({0, 1, t0, t1, 0, 1});
+}
+
+Index Trimmer::intern(const Event& event) {
+    events.push_back(event);
+    return static_cast<Index>(events.size()) - 1;
+}
+
+// --- bands of a pillar -----------------------------------------------------------------------------------------------
+
+void Trimmer::cover(Index p, Index k) {
+    // The pillar's state at a sample (which edges the line enters and leaves by, or on which side it passes) holds between
+    // two angles around it. Settle it at a sample, find how long it lives, go on with what is left on both sides.
+    todo.assign(1, {0, 1});
+    while (!todo.empty() && !live.empty()) {
+        const Span whole = todo.back();
+        todo.pop_back();
+        double tau = decide.between(events[whole.from], events[whole.to]);
+        Span span = whole;
+        State state = state_at<double>(p, k, tau);
+        Verdict verdict = lifetime(state, tau, span);
+        for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
+            if (attempt == 20) throw Undecided("no sample decides a pillar's state");
+            if (verdict == Verdict::resample) {  // the sample is itself a critical angle, or too near one
+                const double lo = events[whole.from].hi, hi = events[whole.to].lo;
+                tau = lo + (hi - lo) * (attempt + 1) / 23;
+                if (!(lo < tau && tau < hi)) throw Undecided("no double lies between two critical angles");
+            }
+            span = whole;
+            state = state_at<Int>(p, k, tau);
+            verdict = lifetime(state, tau, span);
+            if (verdict == Verdict::wrong) throw std::logic_error("an exact state contradicts its own conditions");
+        }
+        if (state.meets == Meets::crosses) add_band(state, span);
+        if (span.to != whole.to) todo.push_back({span.to, whole.to});
+        if (span.from != whole.from) todo.push_back({whole.from, span.from});
+    }
+}
+
+namespace {
+
+template <class T>
+struct Rotation {
+    T c, s, w;  // cosine and sine times w
+};
+Rotation<double> rotation(double tau, double kappa, double) {
+    const double w = 1 + tau * tau;
+    return {kappa * (1 - tau * tau) / w, kappa * 2 * tau / w, 1};
+}
+Rotation<Int> rotation(double tau, double kappa, const Int&) {
+    const Dyadic t = Dyadic::from(tau);
+    const Int q = Int(1) << t.k, c = q * q - t.n * t.n, s = 2 * t.n * q;
+    return {kappa > 0 ? c : Int(-c), kappa > 0 ? s : Int(-s), q * q + t.n * t.n};
+}
+template <class T>
+Vec<T> between_vertices(const Shape& s, Index p, Index q);
+template <>
+Vec<double> between_vertices(const Shape& s, Index p, Index q) {
+    return {s.x[p] - s.x[q], s.y[p] - s.y[q]};
+}
+template <>
+Vec<Int> between_vertices(const Shape& s, Index p, Index q) {
+    return difference<Int>(s, p, q);
+}
+
+}  // namespace
+
+// The pillar is a convex polygon whose edges are those of both pieces, merged by direction. Offsets from the surface's line
+// rise and fall once along it.
+template <class T>
+Trimmer::State Trimmer::state_at(Index p, Index k, double tau) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Rotation<T> R = rotation(tau, surface.chart ? -1 : 1, T{});
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
+    // the line's direction in the workspace (U) and in the robot's frame (V), both times w
+    Vec<T> U, V;
+    if (on_edge) {
+        const auto E = between_vertices<T>(O, O.w[j], O.v[j]);
+        U = {R.w * E.x, R.w * E.y};
+        V = {R.c * E.x + R.s * E.y, R.c * E.y - R.s * E.x};
+    } else {
+        const auto E = between_vertices<T>(A, A.w[i], A.v[i]);
+        U = {R.s * E.y - R.c * E.x, -(R.s * E.x) - R.c * E.y};
+        V = {-(R.w * E.x), -(R.w * E.y)};
+    }
+    const Index* a = &A.piece_vertex[A.piece[p]];
+    const Index* b = &O.piece_vertex[O.piece[k]];
+    const Index n = A.piece[p + 1] - A.piece[p], m = O.piece[k + 1] - O.piece[k];
+    static thread_local std::vector<T> robot, obstacle;  // offsets are obstacle[y] - robot[x]
+    robot.resize(n), obstacle.resize(m);
+    for (Index x = 0; x < n; ++x) robot[x] = cross(V, between_vertices<T>(A, a[x], a0));
+    for (Index y = 0; y < m; ++y) obstacle[y] = cross(U, between_vertices<T>(O, b[y], b0));
+    const auto after = [](Index x, Index size) { return x + 1 == size ? 0 : x + 1; };
+    const auto prior = [](Index x, Index size) { return x == 0 ? size - 1 : x - 1; };
+
+    // highest and lowest vertices; of several the last in counter-clockwise order
+    Index x_high = 0, x_low = 0, y_high = 0, y_low = 0;  // high: robot offset least
+    for (Index x = 1; x < n; ++x) {
+        if (robot[x] < robot[x_high]) x_high = x;
+        if (robot[x] > robot[x_low]) x_low = x;
+    }
+    for (Index y = 1; y < m; ++y) {
+        if (obstacle[y] > obstacle[y_high]) y_high = y;
+        if (obstacle[y] < obstacle[y_low]) y_low = y;
+    }
+    const auto last = [&](Index x, const std::vector<T>& h, Index size) {
+        for (Index c = 0; c < size && h[after(x, size)] == h[x]; ++c) x = after(x, size);
+        return x;
+    };
+    State state;
+    const auto miss = [&](Meets meets, Index x, Index y) {
+        state.meets = meets, state.s = a[x], state.v = b[y];
+        const Index *ga = &A.piece_edge[A.piece[p]], *fb = &O.piece_edge[O.piece[k]];
+        state.robot_around[0] = n > 1 ? ga[prior(x, n)] : -1, state.robot_around[1] = n > 1 ? ga[x] : -1;
+        state.obstacle_around[0] = m > 1 ? fb[prior(y, m)] : -1, state.obstacle_around[1] = m > 1 ? fb[y] : -1;
+        return state;
+    };
+    if (!(obstacle[y_high] > robot[x_high])) return miss(Meets::never_left, x_high, y_high);
+    if (!(obstacle[y_low] < robot[x_low])) return miss(Meets::never_right, x_low, y_low);
+
+    state.meets = Meets::crosses;
+    // walk counter-clockwise from one extreme vertex towards the other until the line is passed
+    const auto walk = [&](Index x, Index y, int direction) {
+        const Index *ga = &A.piece_edge[A.piece[p]], *fb = &O.piece_edge[O.piece[k]];
+        PillarEdge e{};
+        for (Index steps = 0; steps <= n + m; ++steps) {
+            const Index x1 = after(x, n), y1 = after(y, m);
+            const bool by_obstacle = direction < 0 ? obstacle[y1] < obstacle[y] : obstacle[y1] > obstacle[y];
+            const bool by_robot = direction < 0 ? robot[x1] > robot[x] : robot[x1] < robot[x];
+            bool obstacle_first = by_obstacle || n == 1;
+            if (by_obstacle && by_robot) {
+                const auto F = between_vertices<T>(O, b[y1], b[y]), G = between_vertices<T>(A, a[x1], a[x]);
+                const Vec<T> RG{R.c * G.x - R.s * G.y, R.s * G.x + R.c * G.y};
+                obstacle_first = cross(F, RG) < 0;
+            }
+            e.s0 = a[x], e.v0 = b[y];
+            if (obstacle_first) {
+                e.feature = {Kind::vertex_edge, a[x], fb[y]};
+                e.around[0] = n > 1 ? ga[prior(x, n)] : -1, e.around[1] = n > 1 ? ga[x] : -1;
+                y = y1;
+            } else {
+                e.feature = {Kind::edge_vertex, ga[x], b[y]};
+                e.around[0] = m > 1 ? fb[prior(y, m)] : -1, e.around[1] = m > 1 ? fb[y] : -1;
+                x = x1;
+            }
+            e.s1 = a[x], e.v1 = b[y];
+            if (direction < 0 ? obstacle[y] < robot[x] : obstacle[y] > robot[x]) break;
+        }
+        return e;
+    };
+    state.lower = walk(last(x_high, robot, n), last(y_high, obstacle, m), -1);
+    state.upper = walk(last(x_low, robot, n), last(y_low, obstacle, m), 1);
+    return state;
+}
+
+// Whether the helix (s, v) lies in the surface for a reason of identity.
+bool Trimmer::lies_on_line(Index s, Index v) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    if (surface.contact.kind == Kind::vertex_edge)
+        return A.point[s] == A.point[i] && (O.point[v] == O.point[O.v[j]] || O.point[v] == O.point[O.w[j]]);
+    return O.point[v] == O.point[j] && (A.point[s] == A.point[A.v[i]] || A.point[s] == A.point[A.w[i]]);
+}
+
+// The signs that make a state what it is. Of a convex polygon a vertex is extreme, and an edge is there, if its neighbours
+// say so.
+int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
+    int count = 0;
+    const auto offset = [&](Index s, Index v, int sign, bool may_vanish) {
+        if (lies_on_line(s, v)) {
+            if (!may_vanish) wrong = true;
+        } else {
+            out[count++] = {true, s, v, sign, may_vanish, decide.offset(s, v)};
+        }
+    };
+    const auto parallel = [&](Index g, Index f, int sign) {
+        out[count++] = {false, g, f, sign, false, decide.parallel(g, f)};
+    };
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    if (state.meets == Meets::crosses) {
+        for (const PillarEdge* e : {&state.lower, &state.upper}) {
+            const int down = e == &state.lower ? 1 : -1;
+            offset(e->s0, e->v0, down, true);
+            offset(e->s1, e->v1, -down, false);
+            if (e->around[0] < 0) continue;
+            if (e->feature.kind == Kind::vertex_edge) {  // R G_{s-1} x F <= 0 <= R G_s x F
+                parallel(e->around[0], e->feature.obstacle, -1);
+                parallel(e->around[1], e->feature.obstacle, 1);
+            } else {  // R G x F_v <= 0 <= R G x F_{v-1}
+                parallel(e->feature.robot, e->around[0], 1);
+                parallel(e->feature.robot, e->around[1], -1);
+            }
+        }
+        return count;
+    }
+    // side 1: the pillar's highest vertex is not left of the line
+    const int side = state.meets == Meets::never_left ? 1 : -1;
+    offset(state.s, state.v, -side, true);
+    if (on_edge) {  // U = E_j: b_v is fixed, a_s turns
+        if (state.obstacle_around[0] >= 0) {
+            wrong |= decide.cross_sign(scene.obstacles, j, state.obstacle_around[1]) * side > 0;
+            wrong |= decide.cross_sign(scene.obstacles, j, state.obstacle_around[0]) * side < 0;
+        }
+        if (state.robot_around[0] >= 0) {
+            parallel(state.robot_around[1], j, -side);
+            parallel(state.robot_around[0], j, side);
+        }
+    } else {  // U = -R E_i: a_s is fixed, b_v turns
+        if (state.robot_around[0] >= 0) {
+            wrong |= decide.cross_sign(scene.robot, i, state.robot_around[1]) * side > 0;
+            wrong |= decide.cross_sign(scene.robot, i, state.robot_around[0]) * side < 0;
+        }
+        if (state.obstacle_around[0] >= 0) {
+            parallel(i, state.obstacle_around[1], side);
+            parallel(i, state.obstacle_around[0], -side);
+        }
+    }
+    return count;
+}
+
+// Check a state at tau and narrow the span to where it holds.
+Trimmer::Verdict Trimmer::lifetime(const State& state, double tau, Span& span) {
+    Condition all[8];
+    bool wrong = false;
+    const int count = conditions(state, all, wrong);
+    if (wrong) return Verdict::wrong;
+    for (int c = 0; c < count; ++c) {
+        const Condition& x = all[c];
+        const int certain = Predicates::sign_on(x.value, events[span.from].lo, events[span.to].hi);
+        if (certain == x.sign) {
+            ++decide.counters.filter;
+            continue;
+        }
+        const int at = x.is_offset ? decide.offset_sign(x.robot, x.obstacle, x.value, tau)
+                                   : decide.parallel_sign(x.robot, x.obstacle, x.value, tau);
+        if (at == -x.sign) return Verdict::wrong;
+        const auto roots = x.is_offset
+                               ? decide.offset_roots(x.robot, x.obstacle, x.value, events[span.from], events[span.to])
+                               : decide.parallel_roots(x.robot, x.obstacle, events[span.from], events[span.to]);
+        if (roots.all_zero) {
+            if (!x.may_vanish) return Verdict::wrong;
+            continue;
+        }
+        if (at == 0) return Verdict::resample;
+        for (int r = 0; r < roots.count; ++r) {
+            if (roots.at[r].hi < tau) {
+                span.from = intern(roots.at[r]);
+            } else if (roots.at[r].lo > tau) {
+                span.to = intern(roots.at[r]);
+                break;
+            } else {
+                return Verdict::resample;
+            }
+        }
+    }
+    return Verdict::holds;
+}
+
+// --- curves ----------------------------------------------------------------------------------------------------------
+
+// A curve that is an end of the surface, t = 0 or t = 1, by identity of features, is named as that helix.
+Feature Trimmer::normal_form(const Feature& f) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    const auto touches = [](const Shape& s, Index e, Index v) {
+        return s.point[s.v[e]] == s.point[v] || s.point[s.w[e]] == s.point[v];
+    };
+    for (const int end : {0, 1}) {
+        const Index a = on_edge ? i : end ? A.w[i] : A.v[i], b = on_edge ? (end ? O.w[j] : O.v[j]) : j;
+        const bool through = f.kind == Kind::vertex_edge ? A.point[f.robot] == A.point[a] && touches(O, f.obstacle, b)
+                                                         : O.point[f.obstacle] == O.point[b] && touches(A, f.robot, a);
+        if (through) return {Kind::vertex_vertex, a, b};
+    }
+    return f;
+}
+
+Index Trimmer::curve_of(const Feature& f, bool flipped) {
+    const Code c = code(scene, f);
+    for (std::size_t k = 0; k < curves.size(); ++k)
+        if (curves[k].code == c && curves[k].flipped == flipped) return static_cast<Index>(k);
+    Curve curve = decide.curve(f);
+    if (flipped) curve.N = -curve.N, curve.D = -curve.D, curve.flipped = true;
+    curves.push_back(curve);
+    return static_cast<Index>(curves.size()) - 1;
+}
+
+// Bounds on t between two angles: of N / D, a rational Bezier function, by its control values.
+void Trimmer::bounds(Area& area) const {
+    const double lo = events[area.from].lo, hi = events[area.to].hi;
+    const auto extreme = [&](const Curve& c, bool want_max) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        double best = want_max ? -infinity : infinity;
+        const double knots[3][2] = {{lo, lo}, {lo, hi}, {hi, hi}};
+        for (const auto& k : knots) {
+            const double n = c.N.polar(k[0], k[1]), d = c.D.polar(k[0], k[1]);
+            if (!(d > c.D.err)) return want_max ? infinity : -infinity;
+            if (want_max) best = std::max(best, n + c.N.err > 0 ? (n + c.N.err) / (d - c.D.err) : (n + c.N.err) / (d + c.D.err));
+            else best = std::min(best, n - c.N.err > 0 ? (n - c.N.err) / (d + c.D.err) : (n - c.N.err) / (d - c.D.err));
+        }
+        return best;
+    };
+    // two ulps outwards for the division and the sums
+    area.t_min = extreme(curves[area.lower], false), area.t_max = extreme(curves[area.upper], true);
+    area.t_min -= std::abs(area.t_min) * 0x1p-50, area.t_max += std::abs(area.t_max) * 0x1p-50;
+}
+
+void Trimmer::add_band(const State& state, const Span& span) {
+    // along the line, t grows: it enters by an edge with D > 0 and leaves by one with D < 0
+    Feature l = normal_form(state.lower.feature), u = normal_form(state.upper.feature);
+    Area band{span.from, span.to, curve_of(l, false), curve_of(u, u.kind != Kind::vertex_vertex), 0, 1};
+    bounds(band);
+    if (band.t_max < 0 || band.t_min > 1) return;
+    subtract(band);
+}
+
+void Trimmer::cede(const Feature& first, const Feature& last, const Event& from, const Event& to) {
+    const auto tighter = [&](Index own, const Event& other, int later) {
+        return decide.order(other, events[own]) * later > 0 ? intern(other) : own;
+    };
+    Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
+    if (!before(band.from, band.to)) return;
+    bounds(band);
+    subtract(band);
+}
+
+// --- live region -----------------------------------------------------------------------------------------------------
+
+void Trimmer::subtract(const Area& band) {
+    next.clear();
+    for (const Area& area : live) {
+        if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi ||
+            band.t_max < area.t_min || band.t_min > area.t_max) {
+            next.push_back(area);
+            continue;
+        }
+        const Index from = before(area.from, band.from) ? band.from : area.from;
+        const Index to = before(band.to, area.to) ? band.to : area.to;
+        if (!before(from, to)) {
+            next.push_back(area);
+            continue;
+        }
+        // where the band lies against the area: four orders, their changes in one list
+        const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[from], events[to]); };
+        Predicates::Order orders[4];
+        orders[0] = order(band.lower, area.upper);
+        if (orders[0].count == 0 && orders[0].sign[0] >= 0) {
+            next.push_back(area);
+            continue;
+        }
+        orders[1] = order(band.upper, area.lower);
+        if (orders[1].count == 0 && orders[1].sign[0] <= 0) {
+            next.push_back(area);
+            continue;
+        }
+        orders[2] = order(band.lower, area.lower);
+        orders[3] = order(band.upper, area.upper);
+
+        struct Cut {
+            Index event;
+            int which;
+        };
+        Cut cuts[16];
+        int count = 0;
+        for (int w = 0; w < 4; ++w) {
+            for (int r = 0; r < orders[w].count; ++r) {
+                Cut cut{intern(orders[w].at[r]), w};
+                int k = count++;
+                for (; k > 0 && before(cut.event, cuts[k - 1].event); --k) cuts[k] = cuts[k - 1];
+                cuts[k] = cut;
+            }
+        }
+        // between cuts the order is constant: keep the area, or what is below and above the band
+        int position[4] = {0, 0, 0, 0};
+        Area open[2];
+        int open_count = 0;
+        const auto emit = [&](Index at, std::initializer_list<std::array<Index, 2>> parts) {
+            // go on with those that stay, close the rest
+            Area fresh[2];
+            int fresh_count = 0;
+            bool stays[2] = {false, false};
+            for (const auto& part : parts) {
+                Area piece{at, at, part[0], part[1], 0, 1};
+                for (int k = 0; k < open_count; ++k)
+                    if (open[k].lower == part[0] && open[k].upper == part[1]) piece.from = open[k].from, stays[k] = true;
+                fresh[fresh_count++] = piece;
+            }
+            for (int k = 0; k < open_count; ++k) {
+                if (stays[k]) continue;
+                open[k].to = at;
+                bounds(open[k]);
+                next.push_back(open[k]);
+            }
+            open_count = fresh_count;
+            for (int k = 0; k < fresh_count; ++k) open[k] = fresh[k];
+        };
+        if (from != area.from) emit(area.from, {{area.lower, area.upper}});
+        for (int k = 0;;) {
+            const Index start = k == 0 ? from : cuts[k - 1].event;
+            const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
+            if (sign(0) >= 0 || sign(1) <= 0) emit(start, {{area.lower, area.upper}});
+            else if (sign(2) > 0 && sign(3) < 0) emit(start, {{area.lower, band.lower}, {band.upper, area.upper}});
+            else if (sign(2) > 0) emit(start, {{area.lower, band.lower}});
+            else if (sign(3) < 0) emit(start, {{band.upper, area.upper}});
+            else emit(start, {});
+            if (k == count) break;
+            do ++position[cuts[k].which], ++k;
+            while (k < count && equal(cuts[k].event, cuts[k - 1].event));
+        }
+        if (to != area.to) emit(to, {{area.lower, area.upper}});
+        emit(area.to, {});
+    }
+    live.swap(next);
+}
+
+void Trimmer::finish(Index patch, std::vector<Trapezoid>& out) {
+    // join neighbours along theta that have the same curves
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        for (std::size_t l = 0; l < live.size();) {
+            const bool same = l != k && live[l].lower == live[k].lower && live[l].upper == live[k].upper;
+            if (same && equal(live[k].to, live[l].from)) {
+                live[k].to = live[l].to;
+                live.erase(live.begin() + static_cast<std::ptrdiff_t>(l));
+                if (l < k) --k;
+                l = 0;
+            } else {
+                ++l;
+            }
+        }
+    }
+    // by angle, then upwards
+    std::sort(live.begin(), live.end(), [&](const Area& x, const Area& y) {
+        if (events[x.from].lo != events[y.from].lo) return events[x.from].lo < events[y.from].lo;
+        return x.t_min < y.t_min;
+    });
+    for (const Area& x : live)
+        out.push_back({patch, surface.chart, curves[x.lower].feature, curves[x.upper].feature, events[x.from], events[x.to]});
+}
+
+}  // namespace cfree
