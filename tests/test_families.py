@@ -1,0 +1,37 @@
+"""The benchmarks' scene families: valid, repeatable, of the size they say."""
+
+from __future__ import annotations
+
+import importlib
+from types import ModuleType
+
+import numpy as np
+import pytest
+import shapely
+
+
+@pytest.fixture
+def families(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> ModuleType:
+    monkeypatch.syspath_prepend(str(request.config.rootpath / "benchmarks"))
+    return importlib.import_module("families")
+
+
+@pytest.mark.parametrize("name", ["convex", "stars", "combs", "flats", "warehouse", "grid"])
+def test_a_family_is_valid_and_the_same_each_time(families: ModuleType, name: str) -> None:
+    size = families.SIZES[name][0]
+    scene, again = families.FAMILIES[name](size), families.FAMILIES[name](size)
+    assert np.array_equal(scene.vertices, again.vertices)
+    for ring in [scene.robot, *scene.rings()]:
+        polygon = shapely.Polygon(ring)
+        assert polygon.is_valid
+        assert polygon.exterior.is_ccw
+
+
+def test_convex_obstacles_have_4_vertices_and_a_third_and_keep_their_density(families: ModuleType) -> None:
+    for count in families.SIZES["convex"][:3]:
+        scene = families.convex(count)
+        assert len(scene.offsets) == count + 1
+        assert abs(len(scene.vertices) / count - 4.3) < 0.1
+        assert abs(np.prod(np.ptp(scene.vertices, axis=0)) / count - 9) < 2
+        polygons = [shapely.Polygon(ring) for ring in scene.rings()[:99]]
+        assert np.allclose(shapely.area(shapely.convex_hull(polygons)), shapely.area(polygons))
