@@ -407,6 +407,33 @@ int Predicates::order(const Event& x, const Event& y) {
     return order_exactly(x, y);
 }
 
+Poly Predicates::defining(const Event& x) const {
+    if (x.first.kind == Kind::none) return {Int(-x.lo), Int(1)};
+    return squarefree(polynomial(x.first, x.second));
+}
+
+namespace {
+
+// The only root of a squarefree polynomial in [lo, hi].
+struct Root {
+    Poly p;
+    Dyadic lo, hi;
+    Root(Poly polynomial, const Event& x) : p(std::move(polynomial)), lo(Dyadic::from(x.lo)), hi(Dyadic::from(x.hi)) {
+        if (sign_at(p, lo) == 0) hi = lo;
+        if (sign_at(p, hi) == 0) lo = hi;
+    }
+    void halve() {
+        if (compare(lo, hi) == 0) return;
+        const Dyadic mid = Dyadic::middle(lo, hi);
+        const int s = sign_at(p, mid);
+        if (s == 0) lo = hi = mid;
+        else if (s == sign_at(p, lo)) lo = mid;
+        else hi = mid;
+    }
+};
+
+}  // namespace
+
 int Predicates::order_exactly(const Event& x, const Event& y) {
     const auto same = [&](const Event& p, const Event& q) {
         return same_feature(scene, p.first, q.first) && same_feature(scene, p.second, q.second);
@@ -420,40 +447,44 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
         if (std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0)) return ++counters.filter, 0;
     }
     ++counters.exact;
-    const auto defining = [&](const Event& e) {
-        if (e.first.kind == Kind::none) return Poly{Int(-e.lo), Int(1)};
-        return squarefree(polynomial(e.first, e.second));
-    };
-    const Poly p = defining(x), q = defining(y);
-    Dyadic xl = Dyadic::from(x.lo), xh = Dyadic::from(x.hi), yl = Dyadic::from(y.lo), yh = Dyadic::from(y.hi);
-    const Dyadic lo = cfree::compare(xl, yl) < 0 ? yl : xl, hi = cfree::compare(xh, yh) < 0 ? xh : yh;
-    const Poly g = greatest_common_divisor(p, q);
+    Root p(defining(x), x), q(defining(y), y);
+    const Dyadic lo = cfree::compare(p.lo, q.lo) < 0 ? q.lo : p.lo, hi = cfree::compare(p.hi, q.hi) < 0 ? p.hi : q.hi;
+    const Poly g = greatest_common_divisor(p.p, q.p);
     if (g.size() > 1 && (cfree::sign_at(g, lo) == 0 || Sturm(squarefree(g)).roots_in(lo, hi) > 0)) return 0;
-    // different roots: halve both intervals until they part
-    const auto halve = [](const Poly& f, Dyadic& l, Dyadic& h) {
-        if (cfree::sign_at(f, l) == 0) h = l;
-        if (cfree::sign_at(f, h) == 0) l = h;
-        if (cfree::compare(l, h) == 0) return;
-        const Dyadic mid = Dyadic::middle(l, h);
-        const int s = cfree::sign_at(f, mid);
-        if (s == 0) l = h = mid;
-        else if (s == cfree::sign_at(f, l)) l = mid;
-        else h = mid;
-    };
-    while (true) {
-        if (cfree::compare(xh, yl) < 0) return -1;
-        if (cfree::compare(yh, xl) < 0) return 1;
-        halve(p, xl, xh);
-        halve(q, yl, yh);
+    while (true) {  // different roots: halve both intervals until they part
+        if (cfree::compare(p.hi, q.lo) < 0) return -1;
+        if (cfree::compare(q.hi, p.lo) < 0) return 1;
+        p.halve(), q.halve();
     }
 }
 
-double Predicates::between(const Event& x, const Event& y) {
-    const double lo = x.hi, hi = y.lo, mid = 0.5 * (lo + hi);
+int Predicates::order(const Event& x, double tau) {
+    if (x.hi < tau) return -1;
+    if (x.lo > tau) return 1;
+    ++counters.exact;
+    const Root root(defining(x), x);
+    const Dyadic t = Dyadic::from(tau);
+    const int at = cfree::sign_at(root.p, t);
+    if (at == 0) return 0;
+    return at == cfree::sign_at(root.p, root.lo) ? 1 : -1;
+}
+
+double Predicates::between(const Event& x, const Event& y, double part) {
+    double lo = x.hi, hi = y.lo;
+    if (!(lo < hi)) {
+        // intervals that overlap: halve them until doubles lie between, down to where doubles end
+        ++counters.exact;
+        Root p(defining(x), x), q(defining(y), y);
+        for (int k = 0; k < 80 && !(lo < hi); ++k) {
+            p.halve(), q.halve();
+            lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
+        }
+    }
+    const double mid = lo + part * (hi - lo);
     if (!(lo < mid && mid < hi)) throw Undecided("no double lies between two critical angles");
     int exponent;
     std::frexp(hi - lo, &exponent);
-    const double scale = std::ldexp(1.0, 3 - exponent), few = std::nearbyint(mid * scale) / scale;
+    const double scale = std::ldexp(1.0, 5 - exponent), few = std::nearbyint(mid * scale) / scale;
     return lo < few && few < hi ? few : mid;
 }
 

@@ -36,11 +36,8 @@ void Trimmer::cover(Index p, Index k) {
         Verdict verdict = lifetime(state, tau, span);
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
             if (attempt == 20) throw Undecided("no sample decides a pillar's state");
-            if (verdict == Verdict::resample) {  // the sample is itself a critical angle, or too near one
-                const double lo = events[whole.from].hi, hi = events[whole.to].lo;
-                tau = lo + (hi - lo) * (attempt + 1) / 23;
-                if (!(lo < tau && tau < hi)) throw Undecided("no double lies between two critical angles");
-            }
+            if (verdict == Verdict::resample)  // the sample is itself a critical angle
+                tau = decide.between(events[whole.from], events[whole.to], (attempt + 1) / 23.0);
             span = whole;
             state = state_at<Int>(p, k, tau);
             verdict = lifetime(state, tau, span);
@@ -261,13 +258,11 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, double tau, Span& span) {
         }
         if (at == 0) return Verdict::resample;
         for (int r = 0; r < roots.count; ++r) {
-            if (roots.at[r].hi < tau) {
+            if (decide.order(roots.at[r], tau) < 0) {
                 span.from = intern(roots.at[r]);
-            } else if (roots.at[r].lo > tau) {
+            } else {
                 span.to = intern(roots.at[r]);
                 break;
-            } else {
-                return Verdict::resample;
             }
         }
     }

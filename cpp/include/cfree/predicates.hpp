@@ -93,8 +93,9 @@ public:
 
     // Sign of x - y: 0 if they are one angle.
     int order(const Event& x, const Event& y);
-    // A double strictly between two angles, with few digits.
-    double between(const Event& x, const Event& y);
+    int order(const Event& x, double tau);
+    // A double strictly between two angles, with few digits, after about that part of the way.
+    double between(const Event& x, const Event& y, double part = 0.5);
 
     // Roots strictly between two angles, in order. all_zero: the polynomial vanishes identically.
     struct Roots {
@@ -137,6 +138,7 @@ private:
     Form form(const Event& x) const;
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     int sign_at(const Filtered& f, const Feature& first, double tau);
+    Poly defining(const Event& x) const;
     int order_exactly(const Event& x, const Event& y);
 
     const Scene& scene;
