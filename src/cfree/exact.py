@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+import reprlib
 from collections.abc import Iterable
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
@@ -148,6 +149,5 @@ def _string_ratio(text: str) -> tuple[int, int]:
 
 
 def _excerpt(value: object) -> str:
-    """At most 60 characters of a value, for a message."""
-    text = repr(value)
-    return text if len(text) <= 60 else f"{text[:40]}... ({type(value).__name__})"
+    """The beginning of a value, for a message."""
+    return reprlib.repr(value)
