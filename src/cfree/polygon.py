@@ -1,0 +1,247 @@
+"""Polygons: an outer ring and holes, with exact coordinates and the interior on the left of every edge.
+
+Vertices are numbered over all rings, the outer ring first. Edge i goes from vertex i to the next of its
+ring (the paper's a_i, E_i and b_j, E_j, from 0 instead of 1). Rings are checked once, exactly, when a
+polygon is made: every `Polygon` is simple, its outer ring runs counter-clockwise and its holes clockwise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.errors import InvalidPolygonError
+from cfree.exact import ExactPoint, IntPoint, angle
+from cfree.predicates import Orientation, orient
+from cfree.rings import Points, Removed, doubled_area, read_rings
+
+if TYPE_CHECKING:
+    from shapely import Polygon as ShapelyPolygon
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+T = TypeVar("T", bound=np.generic)
+
+
+@dataclass(frozen=True, init=False, eq=False, repr=False)
+class Polygon:
+    """A simple polygon, with or without holes.
+
+    Parameters
+    ----------
+    outer : (n, 2) array or sequence of pairs of numbers
+        In either direction; a last point equal to the first is dropped. Numbers as in `cfree.exact`.
+    holes : sequence of the same
+        Inside the outer ring, apart from it and from each other.
+
+    Attributes
+    ----------
+    numerators : tuple of pairs of int
+        Vertices of all rings; their exact coordinates are numerators / denominator.
+    denominator : int
+    ring_offsets : tuple of int
+        Ring r holds the vertices ring_offsets[r] to ring_offsets[r + 1] - 1.
+    removed : tuple of Removed
+        Repeated and collinear points of the input, exactly so.
+
+    Raises
+    ------
+    InvalidPolygonError
+        With the place, the value and the remedy.
+
+    Notes
+    -----
+    Equality compares the rings exactly, point by point. O(n log n) time, O(n) if convex.
+
+    Examples
+    --------
+    >>> corner = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    >>> corner.exact_area, corner.convex.tolist()
+    (Fraction(3, 1), [True, True, True, False, True, True])
+    >>> corner.edge(0)
+    array([2., 0.])
+    >>> Polygon([(0, 0), (2, 2), (2, 0), (0, 3)])  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+        ...
+    cfree.errors.InvalidPolygonError: outer ring: edges 0 and 2 cross at (6/5, 6/5); split it into simple ...
+    """
+
+    numerators: tuple[IntPoint, ...]
+    denominator: int
+    ring_offsets: tuple[int, ...]
+    removed: tuple[Removed, ...]
+
+    def __init__(self, outer: Points, holes: Sequence[Points] = ()) -> None:
+        rings = read_rings(outer, holes)
+        values = {
+            "numerators": rings.numerators,
+            "denominator": rings.denominator,
+            "ring_offsets": rings.offsets,
+            "removed": rings.removed,
+        }
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+
+    def __len__(self) -> int:
+        return len(self.numerators)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Polygon):
+            return NotImplemented
+        return self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __repr__(self) -> str:
+        holes = len(self.ring_offsets) - 2
+        return f"<Polygon of {len(self)} vertices, {holes} holes>"
+
+    @property
+    def _key(self) -> tuple[object, ...]:
+        return self.ring_offsets, self.denominator, self.numerators
+
+    # vertices and edges
+
+    @cached_property
+    def vertices(self) -> Floats:
+        """Vertices rounded to the nearest doubles, (n, 2)."""
+        return _read_only(_rounded(self.numerators, self.denominator))
+
+    @cached_property
+    def exact_vertices(self) -> tuple[ExactPoint, ...]:
+        """Vertices as they are."""
+        d = self.denominator
+        return tuple((Fraction(x, d), Fraction(y, d)) for x, y in self.numerators)
+
+    @cached_property
+    def next(self) -> Ints:
+        """Index of the vertex after each vertex, in its ring."""
+        index = np.arange(1, len(self) + 1, dtype=np.int64)
+        index[np.array(self.ring_offsets[1:]) - 1] = self.ring_offsets[:-1]
+        return _read_only(index)
+
+    @cached_property
+    def previous(self) -> Ints:
+        """Index of the vertex before each vertex, in its ring."""
+        index = np.empty(len(self), dtype=np.int64)
+        index[self.next] = np.arange(len(self))
+        return _read_only(index)
+
+    @cached_property
+    def edge_numerators(self) -> tuple[IntPoint, ...]:
+        """Exact edge vectors times the denominator."""
+        v = self.numerators
+        return tuple((v[k][0] - x, v[k][1] - y) for (x, y), k in zip(v, self.next.tolist(), strict=True))
+
+    @cached_property
+    def edges(self) -> Floats:
+        """Edge vectors E_i = a_{i+1} - a_i, rounded once, (n, 2)."""
+        return _read_only(_rounded(self.edge_numerators, self.denominator))
+
+    def edge(self, i: int) -> Floats:
+        """Edge vector E_i."""
+        vector: Floats = self.edges[i]
+        return vector
+
+    # angles and measures
+
+    @cached_property
+    def convex(self) -> NDArray[np.bool_]:
+        """Is the interior angle below pi? Exact, (n,); False is a reflex vertex."""
+        v = self.numerators
+        around = zip(self.previous.tolist(), range(len(v)), self.next.tolist(), strict=True)
+        return _read_only(np.array([orient(v[h], v[i], v[k]) is Orientation.LEFT for h, i, k in around]))
+
+    @property
+    def is_convex(self) -> bool:
+        """No hole and no reflex vertex."""
+        return len(self.ring_offsets) == 2 and bool(self.convex.all())
+
+    @cached_property
+    def interior_angles(self) -> Floats:
+        """Interior angles in radians, in (0, 2 pi): the paper's rho and omega, (n,)."""
+        edges = self.edge_numerators
+        angles = []
+        for (ux, uy), (vx, vy) in zip((edges[k] for k in self.previous.tolist()), edges, strict=True):
+            # from the edge that leaves to the one that came, so that small angles keep their digits
+            rho = angle(-(ux * vx + uy * vy), ux * vy - uy * vx)
+            angles.append(rho if rho > 0 else rho + 2 * math.pi)
+        return _read_only(np.array(angles))
+
+    @cached_property
+    def exact_area(self) -> Fraction:
+        """Area, holes taken out."""
+        rings = (self.numerators[first:end] for first, end in pairwise(self.ring_offsets))
+        return Fraction(sum(map(doubled_area, rings)), 2 * self.denominator**2)
+
+    @property
+    def area(self) -> float:
+        """Area rounded to the nearest double."""
+        return float(self.exact_area)
+
+    @cached_property
+    def perimeter(self) -> float:
+        """Length of all rings."""
+        return math.fsum(math.hypot(x, y) for x, y in self.edges.tolist())
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Least x, least y, greatest x, greatest y."""
+        low, high = self.vertices.min(axis=0), self.vertices.max(axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    @cached_property
+    def pieces(self) -> tuple[tuple[int, ...], ...]:
+        """Convex pieces that cover the polygon, counter-clockwise, as indices of vertices."""
+        from cfree.decompose import convex_pieces
+
+        return convex_pieces(self)
+
+    # other libraries
+
+    def to_shapely(self) -> ShapelyPolygon:
+        """The same polygon, rounded to doubles."""
+        import shapely
+
+        outer, *holes = (self.vertices[first:end] for first, end in pairwise(self.ring_offsets))
+        return shapely.Polygon(outer, holes)
+
+    @classmethod
+    def from_shapely(cls, geometry: ShapelyPolygon) -> Polygon:
+        """Polygon of a shapely polygon, whose coordinates are the doubles they are; heights are ignored.
+
+        Examples
+        --------
+        >>> from shapely import box
+        >>> Polygon.from_shapely(box(0, 0, 2, 1)).exact_area
+        Fraction(2, 1)
+        """
+        import shapely
+
+        if geometry.geom_type != "Polygon" or geometry.is_empty:
+            raise InvalidPolygonError(
+                f"{geometry.wkt:.60} is no polygon; give the parts of a collection one by one"
+            )
+        return cls(
+            shapely.get_coordinates(geometry.exterior),
+            [shapely.get_coordinates(ring) for ring in geometry.interiors],
+        )
+
+
+def _rounded(numerators: Sequence[IntPoint], denominator: int) -> Floats:
+    """Nearest doubles: Python's division of integers rounds once."""
+    return np.array([(x / denominator, y / denominator) for x, y in numerators])
+
+
+def _read_only(array: NDArray[T]) -> NDArray[T]:
+    array.setflags(write=False)
+    return array
