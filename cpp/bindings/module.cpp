@@ -4,11 +4,13 @@
 #include <nanobind/stl/shared_ptr.h>
 
 #include "cfree/boundary.hpp"
+#include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
 using In1 = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using Out1 = nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Out2 = nb::ndarray<double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Out3 = nb::ndarray<double, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
 
@@ -102,6 +104,33 @@ NB_MODULE(_core, m) {
             d["collect_seconds"] = t.collect_seconds;
             return d;
         });
+    nb::exception<cfree::Undecided>(m, "Undecided", PyExc_RuntimeError);
+    nb::class_<cfree::Slicer>(m, "Slicer")
+        .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,
+                            In1 obstacle_xy, Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle,
+                            Column<int> patch, Column<std::uint8_t> chart, Column<std::uint64_t> lower,
+                            Column<std::uint64_t> upper, In1 tau_from, In1 tau_to) {
+            new (s) cfree::Slicer(std::make_shared<cfree::Scene>(cfree::Scene{robot, obstacles}), vector_of(robot_xy),
+                                  vector_of(obstacle_xy),
+                                  cfree::Patches{vector_of(kind), vector_of(patch_robot), vector_of(patch_obstacle)},
+                                  vector_of(patch), vector_of(chart), vector_of(lower), vector_of(upper),
+                                  vector_of(tau_from), vector_of(tau_to));
+        }, "robot"_a, "obstacles"_a, "robot_xy"_a, "obstacle_xy"_a, "patch_kind"_a, "patch_robot"_a, "patch_obstacle"_a,
+           "patch"_a, "chart"_a, "lower"_a, "upper"_a, "tau_from"_a, "tau_to"_a)
+        .def("segments", [](const cfree::Slicer& s, int chart, double tau) {
+            auto r = s.segments(chart, tau);
+            return nb::make_tuple(array_of(std::move(r.xy)), array_of(std::move(r.trapezoid)));
+        }, "chart"_a, "tau"_a)
+        .def("rings", [](const cfree::Slicer& s, int chart, double tau) {
+            auto r = s.rings(chart, tau);
+            return nb::make_tuple(array_of(std::move(r.xy)), array_of(std::move(r.start)), array_of(std::move(r.shell)));
+        }, "chart"_a, "tau"_a)
+        .def("limits", [](const cfree::Slicer& s, Column<int> trapezoid, Column<int> chart, In1 tau, Out1 lower, Out1 upper) {
+            const std::size_t n = trapezoid.shape(0);
+            if (chart.shape(0) != n || tau.shape(0) != n || lower.shape(0) != n || upper.shape(0) != n)
+                throw std::invalid_argument("trapezoid, chart, tau, lower and upper differ in length");
+            s.limits(trapezoid.data(), chart.data(), tau.data(), n, lower.data(), upper.data());
+        }, "trapezoid"_a, "chart"_a, "tau"_a, "lower"_a, "upper"_a);
     m.def("evaluate_points", [](In1 surface, In1 t, In1 phi, Out2 out) {
         if (t.shape(0) != phi.shape(0) || out.shape(0) != t.shape(0) || out.shape(1) != 2)
             throw std::invalid_argument("t, phi and out differ in length");

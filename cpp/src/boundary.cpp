@@ -73,11 +73,6 @@ private:
 
 bool has_extent(const Shape& s, Index edge) { return s.v[edge] != s.w[edge]; }
 
-std::uint64_t packed(const Feature& f) {
-    return static_cast<std::uint64_t>(f.kind) << 61 | static_cast<std::uint64_t>(f.robot) << 31 |
-           static_cast<std::uint64_t>(f.obstacle);
-}
-
 // Ring features that share a class: the candidates for coincident surfaces.
 struct Groups {
     std::vector<Index> start, member;

@@ -1,18 +1,21 @@
 """The scene as the core takes it: integer coordinates, and an identity for every feature.
 
-Coordinates are multiplied by one common denominator. Coincident vertices get one *point*, directed edges on one line with
-one direction one *line*, parallel edges one *direction*: equality of features is settled here, exactly, once. The core then
-names curves and critical angles by these, and most ties need no arithmetic.
+Coordinates are multiplied by one common denominator. Coincident vertices get one *point*, directed edges on one line
+with one direction one *line*, parallel edges one *direction*: equality of features is settled here, exactly, once. The
+core then names curves and critical angles by these, and most ties need no arithmetic.
 
-Two layers meet only themselves: the robot's polygons with the obstacles (and the complement of `workspace`), and the robot's
-reference point, as a shape of its own, with the complement of `bounds`.
+Two layers meet only themselves: the robot's polygons with the obstacles (and the complement of `workspace`), and the
+robot's reference point, as a shape of its own, with the complement of `bounds`.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,92 +28,182 @@ if TYPE_CHECKING:
 
 Point = tuple[int, int]
 BODY, REFERENCE = 0, 1  # layers
+OWNER_COLUMNS = ("owner_polygon", "owner_ring", "owner_vertex")
+RING_COLUMNS = ("previous", "convex", "emit", "layer", *OWNER_COLUMNS)
 
 
-@dataclass(frozen=True, slots=True)
-class Owner:
-    """Where a ring vertex comes from: polygon and vertex of the user's robot or obstacle."""
-
-    polygon: int  # index into robot or obstacles; -1 reference point or bounds, -2 workspace
-    vertex: int
+BOUNDS, WORKSPACE = -1, -2  # owners that are not polygons of the user's robot or obstacles
 
 
-BOUNDS, WORKSPACE = -1, -2
-
-
-@dataclass(slots=True)
 class ShapeFeatures:
-    """Flat arrays of the robot or of the obstacles; see ``cpp/include/cfree/scene.hpp``."""
+    """Flat arrays of the robot or of the obstacles; see ``cpp/include/cfree/scene.hpp`` for those the core takes.
 
-    vertices: list[Point] = field(default_factory=list)
-    edges: list[tuple[int, int]] = field(default_factory=list)
-    previous: list[int] = field(default_factory=list)
-    convex: list[bool] = field(default_factory=list)
-    emit: list[bool] = field(default_factory=list)
-    layer: list[int] = field(default_factory=list)
-    owners: list[Owner] = field(default_factory=list)
-    pieces: list[list[int]] = field(default_factory=list)  # vertices
-    piece_layer: list[int] = field(default_factory=list)
+    Attributes
+    ----------
+    xy : (n, 2) float64
+        Vertices in the user's units, correctly rounded.
+    v, w : (e,) int32
+        Ends of the directed edges: edge k of a ring starts at vertex k; the pieces' diagonals come last.
+    previous : (r,) int32
+        The vertex before, for the vertices of rings, which come first.
+    owner_polygon, owner_ring, owner_vertex : (r,) int32
+        Whose they are; polygon is `BOUNDS` or `WORKSPACE` for those of no user's polygon.
+    turning : (r,) float64
+        pi minus the interior angle, radians.
+    """
 
-    def add_ring(
-        self, ring: Sequence[Point], convex: Sequence[bool], layer: int, owners: Iterable[Owner], emit: bool
-    ) -> None:
+    def __init__(self, scale: int) -> None:
+        self.scale = scale
+        self.vertices: list[Point] = []
+        self.edges: list[tuple[int, int]] = []
+        self.pieces: list[list[int]] = []  # of vertices
+        self.piece_layer: list[int] = []
+        self.rings: dict[str, list[Any]] = {name: [] for name in RING_COLUMNS}
+
+    def add_ring(self, ring: Sequence[Point], **columns: Sequence[Any]) -> None:
         first, n = len(self.vertices), len(ring)
         self.vertices.extend(ring)
         self.edges.extend((first + k, first + (k + 1) % n) for k in range(n))
-        self.previous.extend(first + (k - 1) % n for k in range(n))
-        self.convex.extend(convex)
-        self.emit.extend([emit] * n)
-        self.layer.extend([layer] * n)
-        self.owners.extend(owners)
+        self.rings["previous"].extend(first + (k - 1) % n for k in range(n))
+        for name, values in columns.items():
+            self.rings[name].extend(values)
 
-    def add_polygon(self, polygon: Polygon, scale: int, layer: int, index: int, emit_outer: bool = True) -> None:
-        factor, first = scale // polygon.denominator, len(self.vertices)
+    def add_polygon(self, polygon: Polygon, layer: int, index: int, *, emit_outer: bool = True) -> None:
+        factor, first = self.scale // polygon.denominator, len(self.vertices)
         points = [(x * factor, y * factor) for x, y in polygon.numerators]
-        convex = polygon.convex.tolist()
-        offsets = polygon.ring_offsets
-        for ring, (i, j) in enumerate(zip(offsets, offsets[1:], strict=False)):
-            owners = (Owner(index, v) for v in range(i, j))
-            self.add_ring(points[i:j], convex[i:j], layer, owners, emit_outer or ring > 0)
+        convex, offsets = polygon.convex.tolist(), polygon.ring_offsets
+        for ring, (i, j) in enumerate(pairwise(offsets)):
+            n = j - i
+            self.add_ring(
+                points[i:j],
+                convex=convex[i:j],
+                emit=[emit_outer or ring > 0] * n,
+                layer=[layer] * n,
+                owner_polygon=[index] * n,
+                owner_ring=[ring] * n,
+                owner_vertex=range(i, j),
+            )
         for piece in polygon.pieces:
-            self.pieces.append([first + v for v in piece])
-            self.piece_layer.append(layer)
+            self.add_piece([first + v for v in piece], layer)
+
+    def add_piece(self, vertices: list[int], layer: int) -> None:
+        self.pieces.append(vertices)
+        self.piece_layer.append(layer)
+
+    @cached_property
+    def xy(self) -> NDArray[np.float64]:
+        return np.array([(x / self.scale, y / self.scale) for x, y in self.vertices]).reshape(-1, 2)
+
+    @cached_property
+    def core(self) -> dict[str, Any]:
+        """Arguments of ``_core.Shape``: the arrays, with an identity for every feature."""
+        return core_arrays(self)
+
+    def core_shape(self) -> Any:
+        from cfree import _core
+
+        return _core.Shape(**self.core)
+
+    def __getattr__(self, name: str) -> NDArray[Any]:
+        if name in ("v", "w", "previous"):
+            return self.core[name]  # type: ignore[no-any-return]
+        if name in OWNER_COLUMNS:
+            return np.array(self.rings[name], np.int32)
+        raise AttributeError(name)
+
+    @cached_property
+    def turning(self) -> NDArray[np.float64]:
+        edges = self.xy[self.w] - self.xy[self.v]
+        before, after = edges[self.previous], edges[: len(self.previous)]
+        cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+        return np.arctan2(cross, (before * after).sum(axis=1))
+
+    @cached_property
+    def names(self) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
+        """One vertex of each point, by vertex, and one edge of each line, by edge: of a ring, and of lowest rank."""
+        core = self.core
+        return _representatives(core["point"], core["vertex_rank"]), _representatives(core["line"], core["edge_rank"])
 
 
-def scene_features(scene: Scene) -> tuple[ShapeFeatures, ShapeFeatures, int]:
-    """Features of the robot and of the obstacles, and the denominator of their coordinates."""
+@dataclass(frozen=True)
+class SceneFeatures:
+    """Features of the robot and of the obstacles.
+
+    Attributes
+    ----------
+    scale : int
+        Common denominator of all coordinates.
+    rim : (xmin, ymin, xmax, ymax) or None
+        If bounds or a workspace are given: a rectangle around all patches.
+    """
+
+    robot: ShapeFeatures
+    obstacles: ShapeFeatures
+    scale: int
+    rim: tuple[float, float, float, float] | None
+
+    def use_names(self, codes: NDArray[np.uint64]) -> None:
+        """Replace features in packed pairs by the ones that name their point or line, in place."""
+        kind = codes >> np.uint64(61)
+        i = codes >> np.uint64(31) & np.uint64(0x3FFFFFFF)
+        j = codes & np.uint64(0x7FFFFFFF)
+        vertex, edge = self.robot.names
+        i[:] = np.where((kind == 1) | (kind == 3), _take(vertex, i), _take(edge, i))
+        vertex, edge = self.obstacles.names
+        j[:] = np.where((kind == 2) | (kind == 3), _take(vertex, j), _take(edge, j))
+        codes[kind > 0] = (kind << np.uint64(61) | i << np.uint64(31) | j)[kind > 0]
+
+
+def _take(table: NDArray[np.uint64], index: NDArray[np.uint64]) -> NDArray[np.uint64]:
+    return table[np.minimum(index, len(table) - 1)] if len(table) else index
+
+
+def _representatives(group: NDArray[np.int32], rank: NDArray[np.int32]) -> NDArray[np.uint64]:
+    keys = np.full(len(group), np.iinfo(np.int64).max)
+    keys[: len(rank)] = rank
+    order = np.lexsort((np.arange(len(group)), keys, group))
+    groups, first = np.unique(group[order], return_index=True)
+    table = np.empty(groups.max(initial=-1) + 1, np.uint64)
+    table[groups] = order[first]
+    return table[group]
+
+
+def scene_features(scene: Scene) -> SceneFeatures:
+    """Number everything the core needs to know of a scene."""
     polygons = [*scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])]
     numbers = [p.denominator for p in polygons] + [b.denominator for b in scene.bounds or ()]
     scale = math.lcm(*numbers)
-    robot, obstacles = ShapeFeatures(), ShapeFeatures()
+    robot, obstacles = ShapeFeatures(scale), ShapeFeatures(scale)
     for k, polygon in enumerate(scene.robot):
-        robot.add_polygon(polygon, scale, BODY, k)
+        robot.add_polygon(polygon, BODY, k)
     for k, polygon in enumerate(scene.obstacles):
-        obstacles.add_polygon(polygon, scale, BODY, k)
+        obstacles.add_polygon(polygon, BODY, k)
     if scene.workspace is not None:
-        for polygon in complement(scene.workspace, robot.vertices, obstacles.vertices, scale):
-            obstacles.add_polygon(polygon, scale, BODY, WORKSPACE, emit_outer=not polygon_is_frame(polygon))
-    if scene.bounds is not None:
-        robot.add_ring([(0, 0)], [True], REFERENCE, [Owner(BOUNDS, 0)], True)
-        robot.pieces.append([len(robot.vertices) - 1])
-        robot.piece_layer.append(REFERENCE)
-        add_bounds(obstacles, robot, tuple(int(b * scale) for b in scene.bounds))
-    return robot, obstacles, scale
-
-
-def polygon_is_frame(polygon: Polygon) -> bool:
-    return len(polygon.ring_offsets) > 2
+        frame, *islands = complement(scene.workspace, robot.vertices, obstacles.vertices, scale)
+        obstacles.add_polygon(frame, BODY, WORKSPACE, emit_outer=False)
+        for island in islands:
+            obstacles.add_polygon(island, BODY, WORKSPACE)
+    rim = None
+    if scene.bounds is not None or scene.workspace is not None:
+        reach = 1 + sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
+        bounds = [int(b * scale) for b in scene.bounds or ()]
+        x0, y0, x1, y1 = box([*obstacles.vertices, *zip(bounds[::2], bounds[1::2], strict=True)])
+        outer = x0 - reach, y0 - reach, x1 + reach, y1 + reach
+        rim = (outer[0] / scale, outer[1] / scale, outer[2] / scale, outer[3] / scale)
+        if bounds:
+            add_bounds(robot, obstacles, bounds, outer)
+    return SceneFeatures(robot, obstacles, scale, rim)
 
 
 def complement(workspace: Polygon, robot: list[Point], obstacles: list[Point], scale: int) -> list[Polygon]:
-    """What the robot must stay out of: a frame around the workspace, thicker than the robot, and the workspace's holes."""
+    """What the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes."""
     factor = scale // workspace.denominator
     points = [(x * factor, y * factor) for x, y in workspace.numerators]
     offsets = workspace.ring_offsets
-    rings = [points[i:j] for i, j in zip(offsets, offsets[1:], strict=False)]
+    rings = [points[i:j] for i, j in pairwise(offsets)]
     thickness = 1 + 2 * sum(max(abs(c) for c in axis) for axis in zip(*robot, strict=True))
-    frame = rectangle(*(side * thickness + at for side, at in zip((-1, -1, 1, 1), box(points + obstacles), strict=True)))
-    from fractions import Fraction
+    x0, y0, x1, y1 = box(points + obstacles)
+    frame = rectangle(x0 - thickness, y0 - thickness, x1 + thickness, y1 + thickness)
 
     def exact(ring: list[Point]) -> list[tuple[Fraction, Fraction]]:
         return [(Fraction(x, scale), Fraction(y, scale)) for x, y in ring]
@@ -127,19 +220,19 @@ def rectangle(x0: int, y0: int, x1: int, y1: int) -> list[Point]:
     return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
 
 
-def add_bounds(obstacles: ShapeFeatures, robot: ShapeFeatures, bounds: tuple[int, ...]) -> None:
-    """The complement of the bounds: four overlapping rectangles, wide enough to hold every pillar that leaves the bounds."""
-    x0, y0, x1, y1 = bounds
-    reach = 1 + sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
-    points = [*rectangle(x0, y0, x1, y1), *obstacles.vertices]
-    X0, Y0, X1, Y1 = (at + side * reach for side, at in zip((-1, -1, 1, 1), box(points), strict=True))
+def add_bounds(robot: ShapeFeatures, obstacles: ShapeFeatures, bounds: Sequence[int], outer: Sequence[int]) -> None:
+    """The reference point against the complement of the bounds: overlapping rectangles that reach past every pillar."""
+    common = {"layer": [REFERENCE], "emit": [True], "owner_polygon": [BOUNDS], "owner_ring": [0]}
+    robot.add_ring([(0, 0)], convex=[True], owner_vertex=[0], **common)
+    robot.add_piece([len(robot.vertices) - 1], REFERENCE)
+    (x0, y0, x1, y1), (X0, Y0, X1, Y1) = bounds, outer
     inner = [(x0, y0), (x0, y1), (x1, y1), (x1, y0)]  # a hole: clockwise
-    obstacles.add_ring(inner, [False] * 4, REFERENCE, (Owner(BOUNDS, k) for k in range(4)), True)
+    columns = {name: values * 4 for name, values in common.items()}
+    obstacles.add_ring(inner, convex=[False] * 4, owner_vertex=range(4), **columns)
     for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1)):
         first = len(obstacles.vertices)
         obstacles.vertices.extend(rectangle(*side))
-        obstacles.pieces.append(list(range(first, first + 4)))
-        obstacles.piece_layer.append(REFERENCE)
+        obstacles.add_piece(list(range(first, first + 4)), REFERENCE)
 
 
 def classes(keys: Iterable[Any]) -> list[int]:
@@ -181,7 +274,7 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
                 numbers[edge] = len(edges)
                 edges.append(edge)
             piece_edges.append(numbers[edge])
-    vertices, ring_vertices = shape.vertices, len(shape.previous)
+    vertices, previous = shape.vertices, shape.rings["previous"]
     lines, directions = [], []
     for v, w in edges:
         (x, y), (x2, y2) = vertices[v], vertices[w]
@@ -191,18 +284,17 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
         lines.append((dx, dy, dx * y - dy * x) if dx or dy else (v,))
         directions.append((dx, dy) if (dx, dy) > (0, 0) else (-dx, -dy))
     point, line = classes(vertices), classes(lines)
-    around = [
-        (vertices[edges[v][1]], vertices[shape.previous[v]]) for v in range(ring_vertices)
-    ]  # geometry, not numbering, decides who owns what coincides
-    ends = [(vertices[v], vertices[w]) for v, w in edges[:ring_vertices]]
+    # geometry, not numbering, decides who owns what coincides
+    ends = [(vertices[v], vertices[w]) for v, w in edges[: len(previous)]]
+    around = [(w, vertices[p]) for (_, w), p in zip(ends, previous, strict=True)]
     ints = {
         "point": point,
         "v": [v for v, _ in edges],
         "w": [w for _, w in edges],
         "line": line,
         "direction": classes(directions),
-        "previous": shape.previous,
-        "layer": shape.layer,
+        "previous": previous,
+        "layer": shape.rings["layer"],
         "vertex_rank": ranks(point, around),
         "edge_rank": ranks(line, ends),
         "piece": np.cumsum([0, *map(len, shape.pieces)]),
@@ -211,5 +303,5 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
         "piece_layer": shape.piece_layer,
     }
     arrays: dict[str, Any] = {name: np.array(column, np.int32) for name, column in ints.items()}
-    arrays |= {name: np.array(getattr(shape, name), np.int8) for name in ("convex", "emit")}
-    return arrays | {"coordinates": limbs(vertices), "ring_vertices": ring_vertices}
+    arrays |= {name: np.array(shape.rings[name], np.int8) for name in ("convex", "emit")}
+    return arrays | {"coordinates": limbs(vertices), "ring_vertices": len(previous)}

@@ -259,6 +259,25 @@ def chart_of(theta: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
     return chart, np.where(border, np.sign(local), np.tan(local / 2))
 
 
+def place_of(theta: Angle) -> tuple[float, int, float]:
+    """Angle in [0, 2 pi), chart and coordinate as doubles, of any one angle; quick for a float.
+
+    Examples
+    --------
+    >>> place_of("90deg")[1:], place_of(7.0)[1:]
+    ((0, 1.0), (0, 0.37491522604664306))
+    """
+    if not isinstance(theta, float) or not math.isfinite(theta):
+        pose = Pose(0, 0, theta)
+        return pose.theta, pose.chart[0], float(pose.chart[1])
+    angle = theta % math.tau
+    local = math.remainder(angle, math.tau)
+    chart = abs(local) > math.pi / 2
+    if chart:
+        local -= math.copysign(math.pi, local)
+    return angle, int(chart), math.tan(local / 2)
+
+
 def theta_of(chart: ArrayLike, tau: ArrayLike) -> Floats:
     """Angle in [0, 2 pi) of coordinates in charts, in doubles.
 

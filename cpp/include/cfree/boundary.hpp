@@ -18,7 +18,12 @@ struct Patches {
     std::vector<Index> robot, obstacle;
 };
 
-// Structure of arrays. Features are packed as kind << 61 | robot << 31 | obstacle.
+inline std::uint64_t packed(const Feature& f) {
+    return static_cast<std::uint64_t>(f.kind) << 61 | static_cast<std::uint64_t>(f.robot) << 31 |
+           static_cast<std::uint64_t>(f.obstacle);
+}
+
+// Structure of arrays; features packed.
 struct Trapezoids {
     std::vector<Index> patch;
     std::vector<std::uint8_t> chart;

@@ -1,0 +1,61 @@
+// A built boundary at one orientation: a look-up, then the contact segments; chained, the outline of the forbidden region.
+// Doubles throughout: what is where was decided before.
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "cfree/boundary.hpp"
+
+namespace cfree {
+
+class Slicer {
+public:
+    // Coordinates in the user's units; tau limits are the middles of the isolating intervals.
+    Slicer(std::shared_ptr<const Scene> scene, std::vector<double> robot_xy, std::vector<double> obstacle_xy,
+           Patches patches, std::vector<Index> patch, std::vector<std::uint8_t> chart, std::vector<std::uint64_t> lower,
+           std::vector<std::uint64_t> upper, std::vector<double> tau_from, std::vector<double> tau_to);
+
+    struct Segments {
+        std::vector<double> xy;         // x0, y0, x1, y1: forbidden on the left
+        std::vector<Index> trapezoid;
+    };
+    Segments segments(int chart, double tau) const;
+
+    // Closed outlines, forbidden on the left: counter-clockwise around a part, clockwise around a hole in it.
+    struct Rings {
+        std::vector<double> xy;
+        std::vector<Index> start;  // of each ring in points, and the end
+        std::vector<Index> shell;  // a hole's ring around it, -1 if none; a part's own number
+    };
+    Rings rings(int chart, double tau) const;
+
+    // Limits of t for trapezoids at orientations, one each.
+    void limits(const Index* trapezoid, const int* chart, const double* tau, std::size_t count, double* lower,
+                double* upper) const;
+
+private:
+    struct Turn {
+        double c, s;
+    };
+    struct Line {
+        double px, py, ux, uy;
+    };
+    static Turn turn(int chart, double tau);
+    Line line(Index patch, Turn r) const;
+    double meets(Index patch, const Line& l, std::uint64_t curve, Turn r) const;
+    std::uint64_t name(std::uint64_t packed_feature) const;
+
+    std::shared_ptr<const Scene> scene;
+    std::vector<double> a, b;
+    Patches patches;
+    std::vector<Index> patch;
+    std::vector<std::uint8_t> chart;
+    std::vector<std::uint64_t> lower, upper;
+    std::vector<double> tau_from, tau_to;
+    // trapezoids by chart and part of [-1, 1]
+    Index parts = 1;
+    std::vector<Index> part_start, part_member;
+    Index part_of(int chart, double tau) const;
+};
+
+}  // namespace cfree

@@ -1,0 +1,233 @@
+#include "cfree/slice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace cfree {
+
+namespace {
+Feature unpacked(std::uint64_t code) {
+    return {static_cast<Kind>(code >> 61), static_cast<Index>(code >> 31 & 0x3fffffff),
+            static_cast<Index>(code & 0x7fffffff)};
+}
+}  // namespace
+
+Slicer::Slicer(std::shared_ptr<const Scene> s, std::vector<double> robot_xy, std::vector<double> obstacle_xy, Patches p,
+               std::vector<Index> patch_, std::vector<std::uint8_t> chart_, std::vector<std::uint64_t> lower_,
+               std::vector<std::uint64_t> upper_, std::vector<double> tau_from_, std::vector<double> tau_to_)
+    : scene(std::move(s)), a(std::move(robot_xy)), b(std::move(obstacle_xy)), patches(std::move(p)),
+      patch(std::move(patch_)), chart(std::move(chart_)), lower(std::move(lower_)), upper(std::move(upper_)),
+      tau_from(std::move(tau_from_)), tau_to(std::move(tau_to_)) {
+    parts = std::clamp<Index>(static_cast<Index>(patch.size() / 8), 1, 4096);
+    part_start.assign(static_cast<std::size_t>(2 * parts) + 1, 0);
+    for (int pass = 0; pass < 2; ++pass) {  // count, then place
+        for (std::size_t k = 0; k < patch.size(); ++k)
+            for (Index q = part_of(chart[k], tau_from[k]); q <= part_of(chart[k], tau_to[k]); ++q) {
+                if (pass == 0) ++part_start[q + 1];
+                else part_member[part_start[q]++] = static_cast<Index>(k);
+            }
+        if (pass == 0) {
+            for (std::size_t q = 1; q < part_start.size(); ++q) part_start[q] += part_start[q - 1];
+            part_member.resize(part_start.back());
+        } else {
+            for (std::size_t q = part_start.size() - 1; q > 0; --q) part_start[q] = part_start[q - 1];
+            part_start[0] = 0;
+        }
+    }
+}
+
+Index Slicer::part_of(int c, double tau) const {
+    return c * parts + std::clamp<Index>(static_cast<Index>(0.5 * (tau + 1) * parts), 0, parts - 1);
+}
+
+Slicer::Turn Slicer::turn(int c, double tau) {
+    const double w = (c ? -1 : 1) / (1 + tau * tau);
+    return {(1 - tau * tau) * w, 2 * tau * w};
+}
+
+// The contact surface at one orientation: the line p + t u.
+Slicer::Line Slicer::line(Index id, Turn r) const {
+    const Shape &A = scene->robot, &O = scene->obstacles;
+    const bool on_edge = static_cast<Kind>(patches.kind[id]) == Kind::vertex_edge;
+    const Index i = on_edge ? patches.robot[id] : A.v[patches.robot[id]];
+    const Index j = on_edge ? O.v[patches.obstacle[id]] : patches.obstacle[id];
+    Line l{b[2 * j] - (r.c * a[2 * i] - r.s * a[2 * i + 1]), b[2 * j + 1] - (r.s * a[2 * i] + r.c * a[2 * i + 1]), 0, 0};
+    if (on_edge) {
+        const Index w = O.w[patches.obstacle[id]];
+        l.ux = b[2 * w] - b[2 * j], l.uy = b[2 * w + 1] - b[2 * j + 1];
+    } else {
+        const Index w = A.w[patches.robot[id]];
+        const double gx = a[2 * w] - a[2 * i], gy = a[2 * w + 1] - a[2 * i + 1];
+        l.ux = -(r.c * gx - r.s * gy), l.uy = -(r.s * gx + r.c * gy);
+    }
+    return l;
+}
+
+double Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn r) const {
+    const Shape &A = scene->robot, &O = scene->obstacles;
+    const Feature f = unpacked(curve);
+    if (f.kind == Kind::vertex_vertex) {  // where the vertex lies along the edge; 0 and 1 for the edge's own ends
+        const bool on_edge = static_cast<Kind>(patches.kind[id]) == Kind::vertex_edge;
+        const Shape& shape = on_edge ? O : A;
+        const std::vector<double>& xy = on_edge ? b : a;
+        const Index e = on_edge ? patches.obstacle[id] : patches.robot[id], x = on_edge ? f.obstacle : f.robot;
+        const Index v = shape.v[e], w = shape.w[e];
+        if (shape.point[x] == shape.point[v]) return 0;
+        if (shape.point[x] == shape.point[w]) return 1;
+        const double ex = xy[2 * w] - xy[2 * v], ey = xy[2 * w + 1] - xy[2 * v + 1];
+        return ((xy[2 * x] - xy[2 * v]) * ex + (xy[2 * x + 1] - xy[2 * v + 1]) * ey) / (ex * ex + ey * ey);
+    }
+    double vx, vy, qx, qy;
+    if (f.kind == Kind::vertex_edge) {
+        const Index v = O.v[f.obstacle], w = O.w[f.obstacle], s = f.robot;
+        vx = b[2 * w] - b[2 * v], vy = b[2 * w + 1] - b[2 * v + 1];
+        qx = b[2 * v] - (r.c * a[2 * s] - r.s * a[2 * s + 1]), qy = b[2 * v + 1] - (r.s * a[2 * s] + r.c * a[2 * s + 1]);
+    } else {
+        const Index g = A.v[f.robot], h = A.w[f.robot], v = f.obstacle;
+        const double gx = a[2 * h] - a[2 * g], gy = a[2 * h + 1] - a[2 * g + 1];
+        vx = -(r.c * gx - r.s * gy), vy = -(r.s * gx + r.c * gy);
+        qx = b[2 * v] - (r.c * a[2 * g] - r.s * a[2 * g + 1]), qy = b[2 * v + 1] - (r.s * a[2 * g] + r.c * a[2 * g + 1]);
+    }
+    return -(vx * (l.py - qy) - vy * (l.px - qx)) / (vx * l.uy - vy * l.ux);
+}
+
+void Slicer::limits(const Index* trapezoid, const int* charts, const double* tau, std::size_t count, double* low,
+                    double* high) const {
+    for (std::size_t k = 0; k < count; ++k) {
+        const Turn r = turn(charts[k], tau[k]);
+        const Index id = patch[trapezoid[k]];
+        const Line l = line(id, r);
+        low[k] = meets(id, l, lower[trapezoid[k]], r), high[k] = meets(id, l, upper[trapezoid[k]], r);
+    }
+}
+
+Slicer::Segments Slicer::segments(int c, double tau) const {
+    Segments result;
+    const Turn r = turn(c, tau);
+    const Index q = part_of(c, tau);
+    for (Index k = part_start[q]; k < part_start[q + 1]; ++k) {
+        const Index x = part_member[k];
+        if (!(tau_from[x] <= tau && tau < tau_to[x])) continue;
+        const Line l = line(patch[x], r);
+        const double t0 = meets(patch[x], l, lower[x], r), t1 = meets(patch[x], l, upper[x], r);
+        result.xy.insert(result.xy.end(), {l.px + t0 * l.ux, l.py + t0 * l.uy, l.px + t1 * l.ux, l.py + t1 * l.uy});
+        result.trapezoid.push_back(x);
+    }
+    return result;
+}
+
+std::uint64_t Slicer::name(std::uint64_t feature) const { return code(*scene, unpacked(feature)); }
+
+Slicer::Rings Slicer::rings(int c, double tau) const {
+    const Segments s = segments(c, tau);
+    const auto n = static_cast<Index>(s.trapezoid.size());
+    // A point of the outline has a name: the helix, or the two surfaces, that meet there. Heads find tails by name.
+    struct Name {
+        std::uint64_t first, second;
+        bool operator==(const Name& o) const { return first == o.first && second == o.second; }
+    };
+    struct Hash {
+        std::size_t operator()(const Name& x) const {
+            return (x.first * 0x9e3779b97f4a7c15u) ^ ((x.second + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu);
+        }
+    };
+    const auto end_name = [&](Index x, std::uint64_t curve) -> Name {
+        const std::uint64_t own = name(packed({static_cast<Kind>(patches.kind[patch[x]]), patches.robot[patch[x]],
+                                               patches.obstacle[patch[x]]}));
+        const std::uint64_t other = name(curve);
+        if (other >> 61 == static_cast<std::uint64_t>(Kind::vertex_vertex)) return {other, 0};
+        return {std::min(own, other), std::max(own, other)};
+    };
+    std::unordered_multimap<Name, Index, Hash> tails;
+    tails.reserve(static_cast<std::size_t>(2 * n));
+    for (Index k = 0; k < n; ++k) tails.emplace(end_name(s.trapezoid[k], lower[s.trapezoid[k]]), k);
+    std::vector<Index> next(n, -1);
+    std::vector<Index> loose;
+    const auto gap = [&](Index head, Index tail) {
+        return std::hypot(s.xy[4 * head + 2] - s.xy[4 * tail], s.xy[4 * head + 3] - s.xy[4 * tail + 1]);
+    };
+    for (Index k = 0; k < n; ++k) {
+        const auto [begin, end] = tails.equal_range(end_name(s.trapezoid[k], upper[s.trapezoid[k]]));
+        auto best = end;
+        for (auto it = begin; it != end; ++it)
+            if (best == end || gap(k, it->second) < gap(k, best->second)) best = it;
+        if (best == end) {
+            loose.push_back(k);
+        } else {
+            next[k] = best->second;
+            tails.erase(best);
+        }
+    }
+    for (const Index k : loose) {  // several curves through one point carry several names: the nearest tail left
+        auto best = tails.end();
+        for (auto it = tails.begin(); it != tails.end(); ++it)
+            if (best == tails.end() || gap(k, it->second) < gap(k, best->second)) best = it;
+        if (best == tails.end()) break;
+        next[k] = best->second;
+        tails.erase(best);
+    }
+
+    Rings result;
+    result.start.push_back(0);
+    std::vector<char> used(n, 0);
+    std::vector<double> area;
+    for (Index k = 0; k < n; ++k) {
+        if (used[k]) continue;
+        const std::size_t first = result.xy.size();
+        Index x = k;
+        for (; x >= 0 && !used[x]; x = next[x]) {
+            used[x] = 1;
+            result.xy.insert(result.xy.end(), {s.xy[4 * x], s.xy[4 * x + 1]});
+        }
+        const std::size_t count = (result.xy.size() - first) / 2;
+        if (count < 3) {
+            result.xy.resize(first);
+            continue;
+        }
+        double twice = 0;
+        const double* p = &result.xy[first];
+        for (std::size_t m = 0; m < count; ++m) {
+            const std::size_t q = m + 1 == count ? 0 : m + 1;
+            twice += (p[2 * m] - p[0]) * (p[2 * q + 1] - p[1]) - (p[2 * q] - p[0]) * (p[2 * m + 1] - p[1]);
+        }
+        area.push_back(twice);
+        result.start.push_back(static_cast<Index>(result.xy.size() / 2));
+    }
+    // a hole belongs to the smallest part around it
+    const auto rings = static_cast<Index>(area.size());
+    struct Extent {
+        double x0, y0, x1, y1;
+    };
+    std::vector<Extent> extent(rings);
+    for (Index k = 0; k < rings; ++k) {
+        Extent e{1e308, 1e308, -1e308, -1e308};
+        for (Index m = result.start[k]; m < result.start[k + 1]; ++m) {
+            const double x = result.xy[2 * m], y = result.xy[2 * m + 1];
+            e = {std::min(e.x0, x), std::min(e.y0, y), std::max(e.x1, x), std::max(e.y1, y)};
+        }
+        extent[k] = e;
+    }
+    const auto inside = [&](double x, double y, Index ring) {
+        bool odd = false;
+        for (Index m = result.start[ring], q = result.start[ring + 1] - 1; m < result.start[ring + 1]; q = m++) {
+            const double x0 = result.xy[2 * q], y0 = result.xy[2 * q + 1], x1 = result.xy[2 * m], y1 = result.xy[2 * m + 1];
+            if ((y0 > y) != (y1 > y) && x < x0 + (y - y0) / (y1 - y0) * (x1 - x0)) odd = !odd;
+        }
+        return odd;
+    };
+    for (Index k = 0; k < rings; ++k) {
+        Index shell = area[k] > 0 ? k : -1;
+        for (Index m = 0; area[k] <= 0 && m < rings; ++m) {
+            if (area[m] <= 0 || (shell >= 0 && area[m] >= area[shell])) continue;
+            const Extent &h = extent[k], &e = extent[m];
+            if (h.x0 < e.x0 || h.y0 < e.y0 || h.x1 > e.x1 || h.y1 > e.y1) continue;
+            if (inside(result.xy[2 * result.start[k]], result.xy[2 * result.start[k] + 1], m)) shell = m;
+        }
+        result.shell.push_back(shell);
+    }
+    return result;
+}
+
+}  // namespace cfree

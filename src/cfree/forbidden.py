@@ -1,0 +1,355 @@
+"""The boundary of the forbidden space: every contact patch, trimmed by all obstacles.
+
+`boundary` is the driver: features of the scene, patches and pillars in the core, trapezoids out. C_forb is open:
+touching is allowed, and the boundary itself is free.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.errors import UnsupportedError
+from cfree.features import BOUNDS, SceneFeatures, scene_features
+from cfree.patch import Patches, Trapezoid
+from cfree.pose import Angle
+from cfree.scene import Scene
+
+if TYPE_CHECKING:
+    from cfree.slice import Slice
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int32]
+Codes = NDArray[np.uint64]
+VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
+
+
+@dataclass(frozen=True, slots=True)
+class Stats:
+    """What was computed: counts, who decided, seconds per phase.
+
+    Attributes
+    ----------
+    patches, live_patches : int
+        Contact patches before trimming, and those of which something is left.
+    trapezoids : int
+    pairs : int
+        Pairs of a patch and a pillar near it.
+    decided_by_filter, decided_exactly : int
+        Signs and orders decided by doubles with an error bound, and by exact integers.
+    seconds : dict of str to float
+        By phase; empty for a boundary read from a file.
+    """
+
+    patches: int
+    live_patches: int
+    trapezoids: int
+    pairs: int
+    decided_by_filter: int
+    decided_exactly: int
+    seconds: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Trapezoids:
+    """What is left of the patches, as columns of equal length T.
+
+    In its patch's domain (t, theta) a trapezoid lies between two critical angles and two curves. Curves and angles are
+    named by the features that define them, packed as ``kind << 61 | robot feature << 31 | obstacle feature``; see
+    `Boundary.trapezoid` for readable objects and ``docs/boundary-format.md`` for the meaning of every column.
+
+    Attributes
+    ----------
+    patch : (T,) int32
+    chart : (T,) uint8, 0 or 1
+    lower, upper : (T,) uint64, curves
+    from_first, from_second, to_first, to_second : (T,) uint64, what defines the two angles
+    from_lo, from_hi, to_lo, to_hi : (T,) float64, isolating intervals of tau in the chart
+    """
+
+    patch: Ints
+    chart: NDArray[np.uint8]
+    lower: Codes
+    upper: Codes
+    from_first: Codes
+    from_second: Codes
+    from_lo: Floats
+    from_hi: Floats
+    to_first: Codes
+    to_second: Codes
+    to_lo: Floats
+    to_hi: Floats
+
+    def __len__(self) -> int:
+        return len(self.patch)
+
+    @property
+    def tau_from(self) -> Floats:
+        return 0.5 * (self.from_lo + self.from_hi)
+
+    @property
+    def tau_to(self) -> Floats:
+        return 0.5 * (self.to_lo + self.to_hi)
+
+    @property
+    def theta_from(self) -> Floats:
+        """Radians, in [-pi/2, 3 pi/2]."""
+        return 2 * np.arctan(self.tau_from) + np.pi * self.chart
+
+    @property
+    def theta_to(self) -> Floats:
+        """Radians, in [-pi/2, 3 pi/2]; more than `theta_from`."""
+        return 2 * np.arctan(self.tau_to) + np.pi * self.chart
+
+    @property
+    def lower_kind(self) -> NDArray[np.uint8]:
+        """1: a v-e surface bounds it below, 2: an e-v surface, 3: a v-v helix."""
+        return (self.lower >> np.uint64(61)).astype(np.uint8)
+
+    @property
+    def upper_kind(self) -> NDArray[np.uint8]:
+        return (self.upper >> np.uint64(61)).astype(np.uint8)
+
+
+COLUMNS = tuple(f.name for f in fields(Trapezoids))
+
+
+def boundary(
+    scene: Scene, *, threads: int | None = None, progress: Callable[[float], object] | None = None
+) -> Boundary:
+    """Trim every contact patch of a scene.
+
+    Parameters
+    ----------
+    scene : Scene
+    threads : int, optional
+        All cores by default. The result has the same bytes for any number.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1, a few times a second.
+
+    Returns
+    -------
+    Boundary
+
+    Raises
+    ------
+    UnsupportedError
+        If two critical angles lie closer together than doubles can tell apart.
+    KeyboardInterrupt
+        Within a second of Ctrl-C.
+
+    Notes
+    -----
+    Time is about linear in the number of pairs of a patch and a pillar near it; memory about 90 bytes a trapezoid.
+
+    Examples
+    --------
+    >>> triangles = Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
+    >>> result = boundary(triangles)
+    >>> result.stats.patches, result.stats.live_patches
+    (18, 18)
+    """
+    from cfree import _core
+
+    start = time.perf_counter()
+    features = scene_features(scene)
+    shapes = features.robot.core_shape(), features.obstacles.core_shape()
+    prepared = time.perf_counter()
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; give at least 1")
+    job = _core.Job(*shapes, threads=threads or os.cpu_count() or 1)
+    try:
+        while not job.wait(0.1):
+            if progress is not None:
+                progress(job.progress())
+    except _core.Undecided as error:
+        raise UnsupportedError(f"{error}; a documented limit of this version, see docs/theory.md") from None
+    except BaseException:
+        job.cancel()
+        raise
+    if progress is not None:
+        progress(1.0)
+    tally = job.tally()
+    kind, robot, obstacle = job.patches()
+    trapezoids = Trapezoids(*job.trapezoids())
+    for name in ("lower", "upper", "from_first", "from_second", "to_first", "to_second"):
+        features.use_names(getattr(trapezoids, name))
+    phases = {key.removesuffix("_seconds"): tally[key] for key in tally if key.endswith("_seconds")}
+    seconds = {"features": prepared - start, **phases, "total": time.perf_counter() - start}
+    counts = {key: tally[key] for key in tally if not key.endswith("_seconds")}
+    stats = Stats(patches=len(kind), trapezoids=len(trapezoids), seconds=seconds, **counts)
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, stats)
+
+
+class Boundary:
+    """Boundary of the forbidden space of a scene; see `boundary` and `load_boundary`.
+
+    Attributes
+    ----------
+    scene : Scene
+    trapezoids : Trapezoids
+        The trimmed patches, as arrays.
+    stats : Stats
+    patch_kind : (P,) uint8
+        1 v-e, 2 e-v, 3 the wall of the bounds.
+    ruled : (P, 8) float64
+        Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        features: SceneFeatures,
+        kind: NDArray[np.uint8],
+        robot: Ints,
+        obstacle: Ints,
+        trapezoids: Trapezoids,
+        stats: Stats,
+    ) -> None:
+        self.scene = scene
+        self.features = features
+        self.contact_kind = kind
+        self.contact_robot = robot
+        self.contact_obstacle = obstacle
+        self.trapezoids = trapezoids
+        self.stats = stats
+        for array in (kind, robot, obstacle, *(getattr(trapezoids, name) for name in COLUMNS)):
+            array.flags.writeable = False
+
+    def __repr__(self) -> str:
+        s = self.stats
+        return f"Boundary({s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids)"
+
+    @cached_property
+    def patch_kind(self) -> NDArray[np.uint8]:
+        polygon = self.features.obstacles.owner_polygon
+        return np.where(polygon[self.contact_obstacle] == BOUNDS, 3, self.contact_kind).astype(np.uint8)
+
+    @cached_property
+    def patches(self) -> Patches:
+        """All patches, live or not, as a sequence of `Patch`."""
+        return Patches(self)
+
+    @cached_property
+    def patch_start(self) -> NDArray[np.int64]:
+        """Trapezoids of patch k are ``patch_start[k]`` up to ``patch_start[k + 1]``."""
+        return np.searchsorted(self.trapezoids.patch, np.arange(len(self.contact_kind) + 1))
+
+    def trapezoid(self, k: int) -> Trapezoid:
+        """Trapezoid k with its curves and angles named."""
+        return Trapezoid.of(self, range(len(self.trapezoids))[k])
+
+    @cached_property
+    def ruled(self) -> Floats:
+        a, b = self.features.robot, self.features.obstacles
+        on_edge = self.contact_kind == VERTEX_EDGE
+        i, j = self.contact_robot, self.contact_obstacle
+        ruled = np.zeros((len(i), 8))
+        ruled[:, 0:2], ruled[:, 4:6] = b.xy[j], a.xy[i]
+        ruled[on_edge, 2:4] = (b.xy[b.w] - b.xy[b.v])[j[on_edge]]
+        ruled[~on_edge, 6:8] = (a.xy[a.w] - a.xy[a.v])[i[~on_edge]]
+        ruled.flags.writeable = False
+        return ruled
+
+    @cached_property
+    def phi_min(self) -> Floats:
+        """(P,) radians in [0, 2 pi): where each patch begins (paper, 3.1.1 and 3.2.1)."""
+        a, b = self.features.robot, self.features.obstacles
+        on_edge = self.contact_kind == VERTEX_EDGE
+        f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
+        g, f = (a.xy[a.w] - a.xy[a.v])[self.contact_robot], (b.xy[b.w] - b.xy[b.v])[f]
+        cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
+        angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
+        return np.where(self.patch_kind == 3, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
+
+    @cached_property
+    def phi_range(self) -> Floats:
+        """(P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
+        at_robot = self.features.robot.turning[self.contact_robot]
+        at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
+        turning = np.where(self.contact_kind == VERTEX_EDGE, at_robot, at_obstacle)
+        return np.where(self.patch_kind == 3, 2 * np.pi, turning)
+
+    def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
+        """Reference point S(t, theta) on patches, eqs. (5) and (8).
+
+        Parameters
+        ----------
+        patch : (k,) int
+        t : (k,) float, along the edge
+        theta : (k,) float, radians
+
+        Returns
+        -------
+        (k, 2) float64
+        """
+        s, t, theta = self.ruled[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
+        ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
+        c, n = np.cos(theta), np.sin(theta)
+        x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
+        return np.stack([x, y], axis=-1)
+
+    def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:
+        """Limits of t of trapezoids at orientations within them.
+
+        Parameters
+        ----------
+        trapezoid : (k,) int
+        theta : (k,) float, radians
+
+        Returns
+        -------
+        lower, upper : (k,) float64
+        """
+        chosen = np.ascontiguousarray(trapezoid, np.int32)
+        chart = self.trapezoids.chart[chosen]
+        tau = np.tan((np.asarray(theta, float) - np.pi * chart) / 2)
+        lower, upper = np.empty(len(chosen)), np.empty(len(chosen))
+        self.slicer.limits(chosen, chart.astype(np.int32), np.ascontiguousarray(tau), lower, upper)
+        return lower, upper
+
+    def slice(self, theta: Angle) -> Slice:
+        """The contact segments at one orientation.
+
+        Parameters
+        ----------
+        theta : float in radians, "30deg" or {"tau": "p/q"}
+            At a critical angle the slice is that of the orientations just after it.
+
+        Returns
+        -------
+        Slice
+
+        Notes
+        -----
+        Time is proportional to the output, after a look-up; nothing is trimmed again.
+        """
+        from cfree.slice import Slice
+
+        return Slice(self, theta)
+
+    @cached_property
+    def slicer(self) -> Any:
+        from cfree import _core
+
+        a, b, t = self.features.robot, self.features.obstacles, self.trapezoids
+        return _core.Slicer(
+            a.core_shape(), b.core_shape(), a.xy.ravel(), b.xy.ravel(),
+            self.contact_kind, self.contact_robot, self.contact_obstacle,
+            t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to,
+        )  # fmt: skip
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write scene and boundary to one file, all of it or nothing; `load_boundary` reads it."""
+        from cfree.storage import save_boundary
+
+        save_boundary(self, path)
+
+

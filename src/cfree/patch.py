@@ -1,0 +1,211 @@
+"""Readable objects over the arrays of a boundary: patches, trapezoids, and the names of their curves and angles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.features import BOUNDS, WORKSPACE
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+KINDS = {1: "v-e", 2: "e-v", 3: "v-v", 4: "e-e"}
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A vertex, or the edge that starts there, in the user's own counting.
+
+    Attributes
+    ----------
+    polygon : int
+        Index into ``scene.robot`` or ``scene.obstacles``; -1 for the bounds (or the reference point), -2 for the
+        workspace.
+    name : str
+        The obstacle's name.
+    ring : int
+        0 the outer ring, k + 1 the hole k.
+    index : int
+        Vertex of the `Polygon`, counted over all its rings.
+    """
+
+    polygon: int
+    name: str
+    ring: int
+    index: int
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """A contact type with its two features, the robot's first: "v-e", "e-v", "v-v" or "e-e"."""
+
+    kind: str
+    robot: Place
+    obstacle: Place
+
+
+@dataclass(frozen=True, slots=True)
+class CriticalAngle:
+    """An orientation named by what defines it.
+
+    Attributes
+    ----------
+    kind : str
+        "wall": an end of a chart; "parallel": two edges become parallel; "helix": a v-v helix meets the patch's
+        surface; "crossing": two curves on the patch meet.
+    features : tuple of Contact
+        None, one or two of them.
+    interval : (float, float)
+        It is the only root in this interval of tau, in the chart.
+    theta : float, radians
+    """
+
+    kind: str
+    features: tuple[Contact, ...]
+    interval: tuple[float, float]
+    theta: float
+
+
+@dataclass(frozen=True, slots=True)
+class Trapezoid:
+    """A part of a patch between two critical angles and two curves."""
+
+    index: int
+    patch: int
+    chart: int
+    lower: Contact
+    upper: Contact
+    start: CriticalAngle
+    stop: CriticalAngle
+
+    @classmethod
+    def of(cls, boundary: Boundary, k: int) -> Trapezoid:
+        t = boundary.trapezoids
+        chart = int(t.chart[k])
+
+        def angle(first: int, second: int, lo: float, hi: float) -> CriticalAngle:
+            features = tuple(contact(boundary, code) for code in (first, second) if code)
+            if not features:
+                kind = "wall"
+            elif len(features) == 2:
+                kind = "crossing"
+            else:
+                kind = "parallel" if features[0].kind == "e-e" else "helix"
+            return CriticalAngle(kind, features, (lo, hi), 2 * math.atan(0.5 * (lo + hi)) + math.pi * chart)
+
+        return cls(
+            index=k,
+            patch=int(t.patch[k]),
+            chart=chart,
+            lower=contact(boundary, int(t.lower[k])),
+            upper=contact(boundary, int(t.upper[k])),
+            start=angle(int(t.from_first[k]), int(t.from_second[k]), float(t.from_lo[k]), float(t.from_hi[k])),
+            stop=angle(int(t.to_first[k]), int(t.to_second[k]), float(t.to_lo[k]), float(t.to_hi[k])),
+        )
+
+
+def contact(boundary: Boundary, code: int) -> Contact:
+    """The contact that a packed pair of features names."""
+    kind, i, j = code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
+    return Contact(KINDS[kind], robot_place(boundary, i), obstacle_place(boundary, j))
+
+
+def robot_place(boundary: Boundary, i: int) -> Place:
+    shape = boundary.features.robot
+    polygon, index = int(shape.owner_polygon[i]), int(shape.owner_vertex[i])
+    if polygon == BOUNDS:
+        return Place(polygon, "reference point", 0, 0)
+    return Place(polygon, "robot", _ring(boundary.scene.robot[polygon].ring_offsets, index), index)
+
+
+def obstacle_place(boundary: Boundary, j: int) -> Place:
+    shape, scene = boundary.features.obstacles, boundary.scene
+    polygon, index = int(shape.owner_polygon[j]), int(shape.owner_vertex[j])
+    if polygon == BOUNDS:
+        return Place(polygon, "bounds", 0, index)
+    if polygon == WORKSPACE:
+        return Place(polygon, "workspace", int(shape.owner_ring[j]), index)
+    offsets = scene.obstacles[polygon].ring_offsets
+    return Place(polygon, scene.obstacle_names[polygon], _ring(offsets, index), index)
+
+
+def _ring(offsets: Sequence[int], vertex: int) -> int:
+    return int(np.searchsorted(offsets, vertex, side="right")) - 1
+
+
+@dataclass(frozen=True, slots=True)
+class Patch:
+    """A contact patch: one robot feature against one obstacle feature, trimmed or not.
+
+    Attributes
+    ----------
+    index : int
+    kind : str
+        "v-e", "e-v" or "bound".
+    robot, obstacle : Place
+    phi_min, phi_range : float, radians
+        Orientations of the contact before trimming: phi_min to phi_min + phi_range (paper, eq. 6).
+    trapezoids : range
+        What is left of it.
+    """
+
+    index: int
+    kind: str
+    robot: Place
+    obstacle: Place
+    phi_min: float
+    phi_range: float
+    trapezoids: range
+    _ruled: NDArray[np.float64] = field(repr=False, compare=False)
+
+    @property
+    def is_live(self) -> bool:
+        """Whether anything of it is on the boundary of the forbidden space."""
+        return len(self.trapezoids) > 0
+
+    def surface(self, t: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
+        """Points S(t, phi) = (x, y, phi) of the whole contact surface, eqs. (5) and (8); arguments broadcast."""
+        from cfree import _core
+
+        ts, phis = np.broadcast_arrays(np.asarray(t, float), np.asarray(phi, float))
+        points = np.empty((ts.size, 2))
+        _core.evaluate_points(self._ruled, np.ascontiguousarray(ts.ravel()), np.ascontiguousarray(phis.ravel()), points)
+        return np.concatenate([points.reshape(*ts.shape, 2), phis[..., None]], axis=-1)
+
+
+class Patches(Sequence[Patch]):
+    """Patches of a boundary, made when asked for."""
+
+    def __init__(self, boundary: Boundary) -> None:
+        self._boundary = boundary
+
+    def __len__(self) -> int:
+        return len(self._boundary.contact_kind)
+
+    @overload
+    def __getitem__(self, index: int) -> Patch: ...
+    @overload
+    def __getitem__(self, index: slice) -> list[Patch]: ...
+    def __getitem__(self, index: int | slice) -> Patch | list[Patch]:
+        if isinstance(index, slice):
+            return [self[k] for k in range(*index.indices(len(self)))]
+        k, b = range(len(self))[index], self._boundary
+        return Patch(
+            index=k,
+            kind={1: "v-e", 2: "e-v", 3: "bound"}[int(b.patch_kind[k])],
+            robot=robot_place(b, int(b.contact_robot[k])),
+            obstacle=obstacle_place(b, int(b.contact_obstacle[k])),
+            phi_min=float(b.phi_min[k]),
+            phi_range=float(b.phi_range[k]),
+            trapezoids=range(int(b.patch_start[k]), int(b.patch_start[k + 1])),
+            _ruled=b.ruled[k],
+        )
+
+    def __iter__(self) -> Iterator[Patch]:
+        return (self[k] for k in range(len(self)))

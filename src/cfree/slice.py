@@ -1,0 +1,76 @@
+"""The forbidden region of the reference point at one orientation, looked up in a built boundary."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.pose import Angle, place_of
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+    from cfree.forbidden import Boundary
+
+
+class Slice:
+    """Contact segments at one orientation.
+
+    Attributes
+    ----------
+    theta : float, radians
+    segments : (k, 2, 2) float64
+        Where the reference point touches, from one end to the other, forbidden on the left.
+    patches, trapezoids : (k,) int32
+        Whose segments they are.
+    """
+
+    def __init__(self, boundary: Boundary, theta: Angle) -> None:
+        self.theta, *place = place_of(theta)
+        self._boundary = boundary
+        self._place = tuple(place)
+        xy, self.trapezoids = boundary.slicer.segments(*self._place)
+        self.segments: NDArray[np.float64] = xy.reshape(-1, 2, 2)
+
+    @property
+    def patches(self) -> NDArray[np.int32]:
+        return self._boundary.trapezoids.patch[self.trapezoids]
+
+    def __repr__(self) -> str:
+        return f"Slice(theta={self.theta:.6g}, {len(self.segments)} segments)"
+
+    @cached_property
+    def forbidden(self) -> BaseGeometry:
+        """Forbidden positions of the reference point as a valid shapely polygon or multipolygon.
+
+        With `bounds` or `workspace` the forbidden region has no end: it is given up to ``features.rim``, a rectangle
+        around everything.
+
+        Notes
+        -----
+        The segments are chained by the names of their end points; coordinates are doubles. Thin parts of the free
+        region (a slot as wide as the robot) are not seen.
+        """
+        import shapely
+
+        xy, start, shell = self._boundary.slicer.rings(*self._place)
+        points = xy.reshape(-1, 2)
+        rings = [points[i:j] for i, j in pairwise(start)]
+        rim = self._boundary.features.rim
+        parts: dict[int, list[NDArray[np.float64]]] = {}
+        for k, around in enumerate(shell.tolist()):
+            if around < 0 and rim is None:
+                continue  # nothing around it: a sliver of rounding
+            holes = parts.setdefault(around, [])
+            if around != k:
+                holes.append(rings[k])
+        if rim is not None:
+            parts.setdefault(-1, [])
+        frame = None if rim is None else shapely.box(*rim).exterior.coords
+        polygons = [shapely.Polygon(frame if k < 0 else rings[k], holes) for k, holes in parts.items()]
+        region = polygons[0] if len(polygons) == 1 else shapely.MultiPolygon(polygons)
+        return region if shapely.is_valid(region) else shapely.buffer(shapely.make_valid(region), 0)
