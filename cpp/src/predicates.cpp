@@ -145,9 +145,9 @@ int Predicates::denominator_sign(const Curve& c, double tau) {
 }
 
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
+    if (shape.direction[e] == shape.direction[f]) return 0;
     const Approx value = cross(edge<Approx>(shape, e), edge<Approx>(shape, f));
     if (std::abs(value.v) > coefficient_error * value.m) return ++counters.filter, value.v > 0 ? 1 : -1;
-    if (value.m == 0) return ++counters.filter, 0;
     ++counters.exact;
     return cross(edge<Int>(shape, e), edge<Int>(shape, f)).sign();
 }
@@ -365,6 +365,40 @@ Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from
     return result;
 }
 
+// Surfaces that share a helix cross where the helix meets the line, and where their own lines are parallel.
+Predicates::Roots Predicates::crossings(const Form& f, const Feature& p, const Feature& q, const Event& from,
+                                        const Event& to) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (p.kind == Kind::vertex_vertex || q.kind == Kind::vertex_vertex) return roots(f, p, q, from, to);
+    if (p.kind == Kind::edge_vertex && q.kind == Kind::vertex_edge) return crossings(f, q, p, from, to);
+    const auto end_of = [](const Shape& s, Index vertex, Index e) {
+        return s.point[vertex] == s.point[s.v[e]] || s.point[vertex] == s.point[s.w[e]];
+    };
+    const auto shared_end = [&](const Shape& s, Index e, Index g) {
+        return end_of(s, s.v[e], g) ? s.v[e] : end_of(s, s.w[e], g) ? s.w[e] : -1;
+    };
+    Index a = -1, b = -1;
+    if (p.kind != q.kind) {  // v-e and e-v
+        if (end_of(A, p.robot, q.robot) && end_of(O, q.obstacle, p.obstacle)) a = p.robot, b = q.obstacle;
+    } else if (p.kind == Kind::vertex_edge) {
+        if (A.point[p.robot] == A.point[q.robot]) a = p.robot, b = shared_end(O, p.obstacle, q.obstacle);
+    } else if (O.point[p.obstacle] == O.point[q.obstacle]) {
+        a = shared_end(A, p.robot, q.robot), b = p.obstacle;
+    }
+    if (a < 0 || b < 0) return roots(f, p, q, from, to);
+    Roots result = offset_roots(a, b, offset(a, b), from, to);
+    if (result.all_zero || p.kind == q.kind) return result;
+    const Roots parallel = parallel_roots(q.robot, p.obstacle, from, to);
+    for (int k = 0; k < parallel.count; ++k) {
+        int at = result.count;
+        while (at > 0 && order(parallel.at[k], result.at[at - 1]) < 0) --at;
+        if (at > 0 && order(parallel.at[k], result.at[at - 1]) == 0) continue;
+        for (int m = result.count++; m > at; --m) result.at[m] = result.at[m - 1];
+        result.at[at] = parallel.at[k];
+    }
+    return result;
+}
+
 Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Event& from, const Event& to) {
     Order result;
     const auto constant = [&](int s) {
@@ -379,7 +413,7 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     for (int i = 0; i <= f.degree; ++i) positive += c[i] > err, negative += c[i] < -err;
     if (positive == f.degree + 1) return ++counters.filter, constant(1);
     if (negative == f.degree + 1) return ++counters.filter, constant(-1);
-    const Roots r = roots(f, p.feature, q.feature, from, to);
+    const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
     const int flip = p.flipped != q.flipped ? -1 : 1;
     result.count = r.count;
@@ -404,6 +438,8 @@ int Predicates::order(const Event& x, const Event& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
     if (x.first.kind == Kind::none && y.first.kind == Kind::none) return 0;  // one wall
+    const bool parallels = x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge;
+    if (parallels && same_feature(scene, x.first, y.first)) return 0;  // a chart holds one such angle
     return order_exactly(x, y);
 }
 

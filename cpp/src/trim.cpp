@@ -179,24 +179,36 @@ bool Trimmer::lies_on_line(Index s, Index v) const {
 // The signs that make a state what it is. Of a convex polygon a vertex is extreme, and an edge is there, if its neighbours
 // say so.
 int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
     int count = 0;
-    const auto offset = [&](Index s, Index v, int sign, bool may_vanish) {
-        if (lies_on_line(s, v)) {
-            if (!may_vanish) wrong = true;
-        } else {
-            out[count++] = {true, s, v, sign, may_vanish, decide.offset(s, v)};
-        }
-    };
     const auto parallel = [&](Index g, Index f, int sign) {
         out[count++] = {false, g, f, sign, false, decide.parallel(g, f)};
     };
-    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
-    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    // An offset from the line of a vertex that an edge joins to the contact vertex: that edge against the line.
+    const auto offset = [&](Index s, Index v, int sign, bool may_vanish) {
+        const auto is = [](const Shape& shape, Index x, Index y) { return shape.point[x] == shape.point[y]; };
+        if (on_edge && (is(O, v, O.v[j]) || is(O, v, O.w[j]))) {
+            v = O.v[j];
+            if (is(A, s, A.w[i])) return parallel(i, j, sign);
+            if (is(A, s, A.previous[i])) return parallel(A.previous[i], j, -sign);
+        } else if (!on_edge && (is(A, s, A.v[i]) || is(A, s, A.w[i]))) {
+            s = A.v[i];
+            if (is(O, v, O.w[j])) return parallel(i, j, -sign);
+            if (is(O, v, O.previous[j])) return parallel(i, O.previous[j], sign);
+        }
+        out[count++] = {true, s, v, sign, may_vanish, decide.offset(s, v)};
+    };
+    const auto vertex = [&](Index s, Index v, int sign, bool may_vanish) {
+        if (!lies_on_line(s, v)) offset(s, v, sign, may_vanish);
+        else if (!may_vanish) wrong = true;
+    };
     if (state.meets == Meets::crosses) {
         for (const PillarEdge* e : {&state.lower, &state.upper}) {
             const int down = e == &state.lower ? 1 : -1;
-            offset(e->s0, e->v0, down, true);
-            offset(e->s1, e->v1, -down, false);
+            vertex(e->s0, e->v0, down, true);
+            vertex(e->s1, e->v1, -down, false);
             if (e->around[0] < 0) continue;
             if (e->feature.kind == Kind::vertex_edge) {  // R G_{s-1} x F <= 0 <= R G_s x F
                 parallel(e->around[0], e->feature.obstacle, -1);
@@ -210,7 +222,7 @@ int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
     }
     // side 1: the pillar's highest vertex is not left of the line
     const int side = state.meets == Meets::never_left ? 1 : -1;
-    offset(state.s, state.v, -side, true);
+    vertex(state.s, state.v, -side, true);
     if (on_edge) {  // U = E_j: b_v is fixed, a_s turns
         if (state.obstacle_around[0] >= 0) {
             wrong |= decide.cross_sign(scene.obstacles, j, state.obstacle_around[1]) * side > 0;

@@ -137,6 +137,7 @@ private:
     Form form(const Curve& p, const Curve& q) const;
     Form form(const Event& x) const;
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
+    Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
     int sign_at(const Filtered& f, const Feature& first, double tau);
     Poly defining(const Event& x) const;
     int order_exactly(const Event& x, const Event& y);
