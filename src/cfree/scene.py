@@ -1,0 +1,253 @@
+"""Scene: a robot, the obstacles it may not overlap, and where it may be.
+
+The robot's polygons stand in the robot's own frame, whose origin is the reference point; everything else
+stands in the world. Shapes are closures of their interiors: a segment or a point forbids nothing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from os import PathLike
+from typing import Any
+
+import numpy as np
+
+from cfree.errors import InvalidPolygonError
+from cfree.exact import Number, to_fraction
+from cfree.polygon import Polygon
+from cfree.pose import Pose
+
+Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
+
+
+@dataclass(frozen=True, slots=True, init=False, repr=False)
+class Scene:
+    """A robot among obstacles.
+
+    Parameters
+    ----------
+    robot : shape or sequence of shapes
+        One or more polygons that move together, in a frame whose origin is the reference point. A shape is a
+        `Polygon`, an (n, 2) array, a list of points, or a shapely polygon or multipolygon.
+    obstacles : shape or sequence of shapes
+        They may touch and overlap. None at all is a scene, too.
+    obstacle_names : sequence of (str or None), optional
+        One for each shape given; each polygon of a multipolygon has its name. Unnamed ones are called
+        ``"obstacle 0"`` and so on, by their index.
+    bounds : four numbers, optional
+        (xmin, ymin, xmax, ymax): the rectangle the reference point stays in.
+    workspace : shape, optional
+        The whole robot stays in this one polygon.
+    start, goal : Pose or (x, y, theta), optional
+        Configurations, theta as `Pose` takes it.
+    units, name, note : str, optional
+        Unit of length, title and remarks.
+    source : mapping of str to str, optional
+        Where the data come from, and their licence.
+    check : mapping, optional
+        Facts about the scene that somebody has checked, as JSON.
+    version : int, optional
+        Version of the scene format.
+
+    Raises
+    ------
+    InvalidPolygonError
+        If a shape is not a polygon, or the robot is empty.
+    ValueError
+        If the bounds are empty, or names and obstacles differ in number.
+
+    Examples
+    --------
+    >>> scene = Scene(robot=[(0, 0), (1, 0), (0, 1)], obstacles=[[(3, 0), (4, 0), ("10/3", "1/3")]])
+    >>> scene
+    Scene(robot: 3 vertices; 1 obstacle: 3 vertices)
+    >>> scene.obstacle_names
+    ('obstacle 0',)
+    """
+
+    robot: tuple[Polygon, ...]
+    obstacles: tuple[Polygon, ...]
+    obstacle_names: tuple[str, ...]
+    bounds: Bounds | None
+    workspace: Polygon | None
+    start: Pose | None
+    goal: Pose | None
+    units: str
+    name: str
+    note: str
+    source: Mapping[str, str] = field(hash=False)
+    check: Mapping[str, object] = field(hash=False)
+    version: int
+
+    def __init__(
+        self,
+        robot: Any,
+        obstacles: Any = (),
+        *,
+        obstacle_names: Sequence[str | None] | None = None,
+        bounds: Sequence[Number] | None = None,
+        workspace: Any = None,
+        start: Pose | Sequence[Any] | None = None,
+        goal: Pose | Sequence[Any] | None = None,
+        units: str = "",
+        name: str = "",
+        note: str = "",
+        source: Mapping[str, str] | None = None,
+        check: Mapping[str, object] | None = None,
+        version: int = 1,
+    ) -> None:
+        robot_parts = [
+            polygon for k, item in enumerate(_items(robot)) for polygon in _polygons(item, f"robot[{k}]")
+        ]
+        if not robot_parts:
+            raise InvalidPolygonError("the robot is empty; give at least one polygon")
+        items = _items(obstacles)
+        names: Sequence[str | None] = [None] * len(items) if obstacle_names is None else obstacle_names
+        if len(names) != len(items):
+            raise ValueError(f"{len(names)} names for {len(items)} obstacles; give one for each, or None")
+        shapes = [
+            (name, polygon)
+            for k, (item, name) in enumerate(zip(items, names, strict=True))
+            for polygon in _polygons(item, f"obstacle {k}" + (f" ({name})" if name else ""))
+        ]
+        values = {
+            "robot": tuple(robot_parts),
+            "obstacles": tuple(polygon for _, polygon in shapes),
+            "obstacle_names": tuple(name or default_name(k) for k, (name, _) in enumerate(shapes)),
+            "bounds": None if bounds is None else _rectangle(bounds),
+            "workspace": None if workspace is None else _one(workspace),
+            "start": _pose(start),
+            "goal": _pose(goal),
+            "units": units,
+            "name": name,
+            "note": note,
+            "source": dict(source or {}),
+            "check": dict(check or {}),
+            "version": version,
+        }
+        for key, value in values.items():
+            object.__setattr__(self, key, value)
+
+    def __repr__(self) -> str:
+        title = f"{self.name!r}, " if self.name else ""
+        n, m = (sum(len(shape.vertices) for shape in shapes) for shapes in (self.robot, self.obstacles))
+        robot = f"{len(self.robot)} polygons, " if len(self.robot) > 1 else ""
+        count = len(self.obstacles)
+        obstacles = f"{count} obstacle{'' if count == 1 else 's'}{f': {m} vertices' if count else ''}"
+        return f"Scene({title}robot: {robot}{n} vertices; {obstacles})"
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the scene to a JSON file: all of it or nothing, and exactly.
+
+        Parameters
+        ----------
+        path : path
+            A file there is replaced once the new one is complete.
+
+        See Also
+        --------
+        cfree.load_scene : the inverse.
+        """
+        from cfree.io import save_scene
+
+        save_scene(self, path)
+
+
+def default_name(index: int) -> str:
+    """What an obstacle without a name is called.
+
+    Examples
+    --------
+    >>> default_name(3)
+    'obstacle 3'
+    """
+    return f"obstacle {index}"
+
+
+def _items(value: Any) -> list[Any]:
+    """The shapes in an argument that is one shape or many."""
+    if isinstance(value, Polygon) or hasattr(value, "geom_type") or _is_ring(value):
+        return [value]
+    if not isinstance(value, Iterable) or isinstance(value, (str, bytes, Mapping)):
+        kind = type(value).__name__
+        raise InvalidPolygonError(f"{kind} is no shape; give points, a Polygon, or a shapely geometry")
+    return list(value)
+
+
+def _is_ring(value: Any) -> bool:
+    """Points, rather than rings of points?"""
+    if isinstance(value, np.ndarray):
+        return value.ndim == 2
+    return (
+        isinstance(value, Sequence)
+        and len(value) > 0
+        and isinstance(value[0], (Sequence, np.ndarray))
+        and not isinstance(value[0], str)
+        and all(np.ndim(coordinate) == 0 for coordinate in value[0])
+        and len(value[0]) > 0
+    )
+
+
+def _polygons(item: Any, place: str) -> list[Polygon]:
+    """The polygons of one shape; `place` begins the message if it is none."""
+    if isinstance(item, Polygon):
+        return [item]
+    try:
+        if hasattr(item, "geom_type"):
+            return _from_geometry(item)
+        return [Polygon(item)]
+    except InvalidPolygonError as error:
+        message = f"{place}: {explained(error)}"
+        raise InvalidPolygonError(message, ring=error.ring, edges=error.edges) from None
+
+
+def _from_geometry(geometry: Any) -> list[Polygon]:
+    if hasattr(geometry, "geoms"):
+        return [polygon for part in geometry.geoms for polygon in _from_geometry(part)]
+    if geometry.geom_type != "Polygon":
+        raise InvalidPolygonError(flat_shape(geometry.geom_type))
+    return [Polygon.from_shapely(geometry)]
+
+
+NO_INTERIOR = "shapes are closures of their interiors: a segment or a point forbids nothing"
+
+
+def flat_shape(kind: str) -> str:
+    """Why a kind of geometry is refused.
+
+    Examples
+    --------
+    >>> flat_shape("Point")
+    'Point: shapes are closures of their interiors: a segment or a point forbids nothing; give it width'
+    """
+    return f"{kind}: {NO_INTERIOR}; give it width"
+
+
+def explained(error: InvalidPolygonError) -> str:
+    """Message of an error, with the reason if the points given are those of a segment or a point."""
+    message = str(error)
+    few = "at least 3" in message and not message.startswith("outer ring: 0")
+    return f"{message}: {NO_INTERIOR}" if error.ring == 0 and (few or "on one line" in message) else message
+
+
+def _one(value: Any) -> Polygon:
+    polygons = [polygon for item in _items(value) for polygon in _polygons(item, "workspace")]
+    if len(polygons) != 1:
+        raise InvalidPolygonError(f"workspace: {len(polygons)} polygons; give one, whose holes are forbidden")
+    return polygons[0]
+
+
+def _rectangle(bounds: Sequence[Number]) -> Bounds:
+    xmin, ymin, xmax, ymax = (to_fraction(value) for value in bounds)
+    if xmin >= xmax or ymin >= ymax:
+        raise ValueError(f"bounds {tuple(bounds)} are empty; give xmin < xmax and ymin < ymax")
+    return xmin, ymin, xmax, ymax
+
+
+def _pose(value: Pose | Sequence[Any] | None) -> Pose | None:
+    if value is None or isinstance(value, Pose):
+        return value
+    x, y, theta = value
+    return Pose(x, y, theta)
