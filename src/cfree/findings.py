@@ -1,0 +1,130 @@
+"""Everything that is wrong with a file, said at once: where, what is written there, what to do.
+
+A reader collects `Problem`s while it goes on reading, and raises one `InvalidFileError` at its end.
+"""
+
+from __future__ import annotations
+
+import re
+from bisect import bisect_right
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path as FilePath
+
+from cfree.errors import FormatError
+from cfree.json_positions import Path, Place, dotted, places, shortened
+
+SHOWN = 50
+"""Problems written out in the message; `InvalidFileError.problems` has them all."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Problem:
+    """One fault: line and column from 1, place inside the file, value and remedy."""
+
+    line: int
+    column: int
+    place: str
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.line}:{self.column} {self.place}{self.place and ': '}{self.message}"
+
+
+class InvalidFileError(FormatError):
+    """A file that cannot be read, with all its problems in the order of the file.
+
+    Examples
+    --------
+    >>> print(InvalidFileError("a.json", [Problem(3, 21, "bounds[0]", "expected a number, got true")]))
+    a.json:3:21 bounds[0]: expected a number, got true
+    """
+
+    def __init__(self, file: str, problems: Sequence[Problem]) -> None:
+        self.problems = tuple(sorted(problems))
+        first = self.problems[0]
+        lines = [f"{file}:{problem}" for problem in self.problems[:SHOWN]]
+        if len(self.problems) > SHOWN:
+            lines.append(f"{file}: and {len(self.problems) - SHOWN} more problems")
+        super().__init__("\n".join(lines), path=file, line=first.line, column=first.column)
+
+    def __reduce__(self) -> tuple[type[InvalidFileError], tuple[str | None, tuple[Problem, ...]]]:
+        return InvalidFileError, (self.path, self.problems)
+
+
+class Findings:
+    """Problems of one text, collected."""
+
+    def __init__(self, file: str, text: str) -> None:
+        self.file = file
+        self.text = text
+        self._problems: list[Problem] = []
+        self._pending: dict[Path, list[tuple[str, bool]]] = {}
+        self._said: set[Path] = set()
+
+    @cached_property
+    def _line_starts(self) -> list[int]:
+        return [0, *(match.end() for match in re.finditer("\n", self.text))]
+
+    def __len__(self) -> int:
+        return len(self._problems) + len(self._pending)
+
+    def at(self, offset: int, place: str, message: str) -> None:
+        """Note a problem of the character at `offset`."""
+        line = bisect_right(self._line_starts, offset)
+        self._problems.append(Problem(line, offset - self._line_starts[line - 1] + 1, place, message))
+
+    def under(self, path: Path, message: str, *, key: bool = False) -> None:
+        """Note a problem of a JSON value, or of its key; ``{got}`` becomes what is written there."""
+        if path not in self._said:
+            self._pending.setdefault(path, []).append((message, key))
+
+    def irregular_json(self) -> None:
+        """Note what the decoder lets pass: NaN, infinities, repeated keys."""
+        for path, place in places(self.text):
+            if place.repeated:
+                key = shortened(str(path[-1]))
+                self._note(path, place, f'key "{key}" is there twice; keep one', True)
+            if self.text[place.start : place.end].strip("-") in ("NaN", "Infinity"):
+                self._said.add(path)
+                self._note(path, place, "{got} is not finite; give a finite number", False)
+
+    def fail_if_any(self) -> None:
+        """Raise all problems, if there are any."""
+        if self._pending:
+            for path, place in places(self.text):
+                for message, key in self._pending.pop(path, ()):
+                    self._note(path, place, message, key)
+            for path, messages in self._pending.items():
+                for message, _ in messages:
+                    self.at(0, dotted(path), message)
+        if self._problems:
+            raise InvalidFileError(self.file, self._problems)
+
+    def _note(self, path: Path, place: Place, message: str, key: bool) -> None:
+        got = shortened(self.text[place.start : place.end])
+        self.at(place.key if key else place.start, dotted(path), message.replace("{got}", got))
+
+
+def read_text(file: FilePath) -> str:
+    """Text of a file in UTF-8, with or without a byte order mark.
+
+    Raises
+    ------
+    InvalidFileError
+        If there is no such file, or it is not text.
+    """
+    try:
+        raw = file.read_bytes()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        fault = f"{reason}; give the path of a file that can be read"
+        raise InvalidFileError(str(file), [Problem(1, 1, "", fault)]) from None
+    try:
+        return raw.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        readable = raw[: error.start].decode("utf-8", errors="replace")
+        message = f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8 text"
+        line, column = readable.count("\n") + 1, len(readable) - readable.rfind("\n")
+        raise InvalidFileError(str(file), [Problem(line, column, "", message)]) from None

@@ -1,0 +1,92 @@
+"""JSON text to Python values with exact numbers, and what to say when it is not JSON."""
+
+from __future__ import annotations
+
+import json
+import re
+from decimal import Decimal, InvalidOperation
+
+from cfree.exact import MAX_DIGITS
+from cfree.findings import Findings
+from cfree.json_positions import shortened
+
+
+def read_json(findings: Findings) -> object:
+    """JSON with exact numbers; what breaks the syntax is raised, what the decoder would let pass is noted."""
+    irregular = False
+
+    def decimal(literal: str) -> Decimal | str:
+        # a number no coordinate may be: left as text for the validator to refuse
+        try:
+            return Decimal(literal) if len(literal) <= MAX_DIGITS else literal
+        except InvalidOperation:
+            return literal
+
+    def integer(literal: str) -> int | str:
+        return int(literal) if len(literal) <= MAX_DIGITS else literal
+
+    def constant(literal: str) -> Decimal:
+        nonlocal irregular
+        irregular = True
+        return Decimal(literal)
+
+    def unique(pairs: list[tuple[str, object]]) -> dict[str, object]:
+        nonlocal irregular
+        members = dict(pairs)
+        irregular = irregular or len(members) < len(pairs)
+        return members
+
+    data: object = None
+    try:
+        data = json.loads(
+            findings.text,
+            parse_float=decimal,
+            parse_int=integer,
+            parse_constant=constant,
+            object_pairs_hook=unique,
+        )
+    except json.JSONDecodeError as error:
+        findings.at(error.pos, "", _syntax_fault(findings.text, error))
+    except RecursionError:
+        findings.at(_deepest(findings.text), "", "brackets are nested too deeply; a scene needs six levels")
+    if data is None:
+        findings.fail_if_any()
+    if irregular:
+        findings.irregular_json()
+    return data
+
+
+def _syntax_fault(text: str, error: json.JSONDecodeError) -> str:
+    if not text.strip():
+        return "the file is empty; give a scene in JSON"
+    rest = text[error.pos :].lstrip()
+    if not rest or error.msg.startswith("Unterminated string"):
+        return "the file ends in the middle of a value; is it complete?"
+    if error.msg == "Extra data":
+        return f"expected the end of the file, got {shortened(rest)}"
+    if error.msg.startswith("Invalid"):
+        return f"{error.msg.removesuffix(' at').lower()} in a string; escape it as JSON does"
+    found = shortened(re.split(r"[\s,\]}]", rest, maxsplit=1)[0] or rest[0])
+    expected = error.msg.removeprefix("Expecting ").replace("value", "a value")
+    expected = expected.replace("property name enclosed in double quotes", 'a "key"')
+    remedy = _REMEDIES.get(rest[0], "")
+    if rest[0] in "]}" and text[: error.pos].rstrip().endswith(","):
+        remedy = "; remove the comma before it"
+    return f"expected {expected}, got {found}{remedy}"
+
+
+_REMEDIES = {
+    ".": "; write a digit before the point",
+    "'": '; use double quotes "',
+    "/": "; JSON has no comments, use the note",
+}
+
+
+def _deepest(text: str) -> int:
+    """Where brackets are 100 deep for the first time."""
+    depth = 0
+    for match in re.finditer(r'"(?:[^"\\]++|\\.)*+"|[\[{]|[\]}]', text, re.DOTALL):
+        depth += {"[": 1, "{": 1, "]": -1, "}": -1}.get(match[0], 0)
+        if depth == 100:
+            return match.start()
+    return 0

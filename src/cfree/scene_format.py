@@ -1,0 +1,266 @@
+"""The JSON scene, version 1, as pydantic models; `docs/scene-format.md` describes it.
+
+Numbers become exact fractions, rings become `Polygon`s and configurations become `Pose`s while a file is
+validated, so that whatever is wrong with any of them is found in the same pass. Pydantic takes a while to
+import: import this module inside functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from decimal import Decimal
+from difflib import get_close_matches
+from fractions import Fraction
+from math import isfinite
+from typing import Annotated, Any
+
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainValidator,
+    PrivateAttr,
+    ValidationError,
+    WithJsonSchema,
+    model_validator,
+)
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from cfree.errors import InvalidPolygonError, InvalidPoseError
+from cfree.exact import to_fraction
+from cfree.findings import Findings
+from cfree.json_positions import Path, shortened
+from cfree.polygon import Polygon
+from cfree.pose import Pose
+from cfree.scene import Scene, explained
+
+VERSION = 1
+MAX_NESTING = 32
+
+
+def fault(message: str, **context: object) -> PydanticCustomError:
+    """A problem for `report`; ``{got}`` in the message becomes the value as written in the file."""
+    return PydanticCustomError("cfree", "{message}", {"message": message, **context})
+
+
+def _coordinate(value: object) -> Fraction:
+    if isinstance(value, (int, Decimal, str)) and not isinstance(value, bool):
+        try:
+            return to_fraction(value)
+        except ValueError as error:
+            if "is no number" not in str(error):
+                raise fault(str(error).replace(repr(value), "{got}")) from None
+    raise fault('expected a number or "p/q", got {got}')
+
+
+def _list_of(length: int, form: str) -> Callable[[object], object]:
+    def check(value: object) -> object:
+        if isinstance(value, list) and len(value) == length:
+            return value
+        raise fault(f"expected {form}, got {{got}}")
+
+    return check
+
+
+def _angle(value: Any) -> Any:
+    """What `Pose` takes as an angle; checked alone, so that a fault in it is found where it stands."""
+    if isinstance(value, (int, Decimal, str, dict)) and not isinstance(value, bool):
+        try:
+            Pose(0, 0, value)
+            return value
+        except InvalidPoseError as error:
+            if "is no " not in str(error):
+                raise fault(str(error).replace(repr(value), "{got}")) from None
+    raise fault('expected radians, "90deg" or {"tau": "p/q"}, got {got}')
+
+
+def _pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
+    return Pose(*value)
+
+
+def _not_empty(value: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+    xmin, ymin, xmax, ymax = value
+    if xmin >= xmax or ymin >= ymax:
+        raise fault("{got} is empty; give [xmin, ymin, xmax, ymax] with xmin < xmax and ymin < ymax")
+    return value
+
+
+def _robot_parts(value: object) -> list[object]:
+    if isinstance(value, dict):
+        return [value]
+    if isinstance(value, list) and value:
+        return value
+    raise fault(f"expected {_POLYGON} or a list of them, at least one, got {{got}}")
+
+
+def _or_one(schema: dict[str, Any]) -> None:
+    parts = {"type": schema.pop("type"), "items": schema.pop("items"), "minItems": 1}
+    schema["anyOf"] = [parts["items"], parts]
+
+
+def _known_version(value: object) -> int:
+    if type(value) is not int or value != VERSION:
+        raise fault(f"expected version {VERSION}, the only one this cfree reads, got {{got}}")
+    return value
+
+
+def is_encodable(text: str) -> bool:
+    """No half of a surrogate pair?"""
+    return not any("\ud800" <= character <= "\udfff" for character in text)
+
+
+def _plain(value: Any, depth: int = MAX_NESTING) -> Any:
+    """Free-form JSON with floats, shallow and encodable, so that it can be saved again."""
+    if depth == 0:
+        raise fault(f"nested more than {MAX_NESTING} deep; flatten it")
+    if isinstance(value, dict):
+        return {_plain(key): _plain(part, depth - 1) for key, part in value.items()}
+    if isinstance(value, list):
+        return [_plain(part, depth - 1) for part in value]
+    if isinstance(value, str) and not is_encodable(value):
+        raise fault("there is half a surrogate pair in {got}; give whole characters")
+    if isinstance(value, Decimal) and value.is_finite():  # others have been noted while decoding
+        value = float(value)
+        if not isfinite(value):
+            raise fault("a number in {got} is too large for a double; give smaller ones")
+    return value
+
+
+_POLYGON = 'a polygon {"outer": [[x, y], ...], "holes": []}'
+_EXPECTED = {
+    "list_type": "a list",
+    "dict_type": "an object {...}",
+    "model_type": _POLYGON,
+    "string_type": "text in quotes",
+    "string_unicode": "text without halves of surrogate pairs",
+}
+_NUMBER_SCHEMA = {"type": ["number", "string"], "examples": [0.1, "1/3"]}
+_ANGLE_SCHEMA = {
+    "anyOf": [
+        {"type": "number", "title": "radians"},
+        {"type": "string", "examples": ["90deg"]},
+        {
+            "type": "object",
+            "properties": {"tau": _NUMBER_SCHEMA},
+            "required": ["tau"],
+            "additionalProperties": False,
+        },
+    ]
+}
+Coordinate = Annotated[Fraction, PlainValidator(_coordinate), WithJsonSchema(_NUMBER_SCHEMA)]
+Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_list_of(2, "a point [x, y]"))]
+Bounds = Annotated[
+    tuple[Coordinate, Coordinate, Coordinate, Coordinate],
+    BeforeValidator(_list_of(4, "[xmin, ymin, xmax, ymax]")),
+    AfterValidator(_not_empty),
+]
+Angle = Annotated[Any, PlainValidator(_angle), WithJsonSchema(_ANGLE_SCHEMA)]
+Configuration = Annotated[
+    tuple[Coordinate, Coordinate, Angle],
+    BeforeValidator(_list_of(3, "[x, y, theta]")),
+    AfterValidator(_pose),
+]
+Text = Annotated[str, Field(max_length=100_000)]
+Plain = Annotated[dict[str, Any], AfterValidator(_plain)]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class PolygonModel(_Strict):
+    """A polygon: an outer ring and the holes in it, in any orientation, closing point optional."""
+
+    outer: list[Point]
+    holes: list[list[Point]] = []
+    _polygon: Polygon = PrivateAttr()
+
+    @model_validator(mode="after")
+    def _build(self) -> PolygonModel:
+        try:
+            self._polygon = Polygon(self.outer, self.holes)
+        except InvalidPolygonError as error:
+            raise fault(explained(error), ring=error.ring) from None
+        return self
+
+    @property
+    def polygon(self) -> Polygon:
+        return self._polygon
+
+
+class ObstacleModel(PolygonModel):
+    """An obstacle: a polygon, and a name for messages and pictures."""
+
+    name: Annotated[str, Field(max_length=1000)] | None = None
+
+
+class SceneModel(_Strict):
+    """A robot, what it may not overlap, and where it may be."""
+
+    version: Annotated[int, PlainValidator(_known_version), WithJsonSchema({"const": VERSION})] = VERSION
+    name: Text = ""
+    note: Text = ""
+    units: Text = ""
+    source: Annotated[dict[str, Text], AfterValidator(_plain)] = {}
+    robot: Annotated[list[PolygonModel], BeforeValidator(_robot_parts), Field(json_schema_extra=_or_one)]
+    obstacles: list[ObstacleModel] = []
+    workspace: PolygonModel | None = None
+    bounds: Bounds | None = None
+    start: Configuration | None = None
+    goal: Configuration | None = None
+    check: Plain = {}
+
+
+def scene_from_json(findings: Findings, data: object) -> Scene:
+    """Scene of a decoded JSON value; raises every problem there is through `findings`."""
+    try:
+        model = SceneModel.model_validate(data)
+    except ValidationError as error:
+        single_robot = isinstance(data, dict) and isinstance(data.get("robot"), dict)
+        for item in error.errors(include_url=False, include_input=False):
+            path = item["loc"]
+            if single_robot and path[:1] == ("robot",):
+                path = ("robot", *path[2:])
+            report(findings, path, item)
+    findings.fail_if_any()
+    return Scene(
+        robot=[part.polygon for part in model.robot],
+        obstacles=[part.polygon for part in model.obstacles],
+        obstacle_names=[part.name for part in model.obstacles],
+        workspace=model.workspace and model.workspace.polygon,
+        **{key: getattr(model, key) for key in _PLAIN_FIELDS},
+    )
+
+
+def report(findings: Findings, path: Path, item: ErrorDetails) -> None:
+    """Say a fault of the validator in our own words: place, value, remedy."""
+    kind, context = item["type"], item.get("ctx", {})
+    if kind == "missing":
+        findings.under(path[:-1], f'key "{path[-1]}" is missing; add it')
+    elif kind == "extra_forbidden":
+        key, known = str(path[-1]), _keys_at(path[:-1])
+        guess = get_close_matches(key, known, 1)
+        remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(known)}"
+        findings.under(path, f'unknown key "{shortened(key)}"; {remedy}', key=True)
+    elif kind == "cfree":
+        ring = context.get("ring")
+        within: Path = () if ring is None else ("outer",) if ring == 0 else ("holes", ring - 1)
+        findings.under((*path, *within), context["message"])
+    elif kind == "string_too_long":
+        findings.under(path, f"{{got}} has more than {context['max_length']} characters; shorten it")
+    else:
+        expected = _EXPECTED.get(kind, item["msg"])
+        if kind == "model_type" and not path:
+            expected = 'a scene {"robot": ..., "obstacles": [...]}'
+        findings.under(path, f"expected {expected}, got {{got}}")
+
+
+_PLAIN_FIELDS = ("bounds", "start", "goal", "units", "version", "name", "note", "source", "check")
+
+
+def _keys_at(path: Path) -> list[str]:
+    keys = [step for step in path if isinstance(step, str)]
+    models: dict[tuple[str, ...], type[BaseModel]] = {(): SceneModel, ("obstacles",): ObstacleModel}
+    return list(models.get(tuple(keys), PolygonModel).model_fields)

@@ -1,0 +1,484 @@
+"""Files: what they mean, what is wrong with them and where, and that saving loses nothing."""
+
+import json
+import math
+import os
+import random
+import time
+from decimal import Decimal
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from cfree.errors import FormatError, UnsupportedError
+from cfree.findings import InvalidFileError
+from cfree.io import load_polygons, load_scene, number_text, save_scene, scene_text
+from cfree.json_positions import places
+from cfree.polygon import Polygon
+from cfree.pose import Pose
+from cfree.scene import Scene
+
+ROOT = Path(__file__).parent.parent
+SCENES = sorted((ROOT / "examples" / "scenes").glob("*.json"))
+TRIANGLE = '{"outer": [[0, 0], [1, 0], [0, 1]]}'
+
+
+def read(directory: Path, text: str | bytes, name: str = "scene.json") -> Scene:
+    file = directory / name
+    file.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return load_scene(file)
+
+
+def faults(directory: Path, text: str | bytes, name: str = "scene.json") -> list[str]:
+    """Lines of the message, without the directory."""
+    start = time.perf_counter()
+    with pytest.raises(FormatError) as caught:
+        read(directory, text, name)
+    assert time.perf_counter() - start < 5
+    assert caught.value.path == str(directory / name)
+    return str(caught.value).replace(f"{directory}{os.sep}", "").split("\n")
+
+
+# what files mean
+
+
+@pytest.mark.parametrize("file", SCENES, ids=lambda file: file.stem)
+def test_shipped_scenes_load_and_survive_saving(file: Path, tmp_path: Path) -> None:
+    scene = load_scene(file)
+    assert scene.name == file.stem
+    assert scene.start is not None
+    assert scene.goal is not None
+    save_scene(scene, tmp_path / "again.json")
+    assert load_scene(tmp_path / "again.json") == scene
+    if "repo_path" not in scene.source:
+        assert file.read_text() == scene_text(scene), "scenes of our own are in the form that saving gives"
+
+
+def test_counts_of_the_scenes_from_elsewhere() -> None:
+    scenes = [scene for file in SCENES if (scene := load_scene(file)).source]
+    points = [sum(len(shape) + len(shape.removed) for shape in scene.obstacles) for scene in scenes]
+    assert {s.name: (len(s.robot[0]), len(s.obstacles), n) for s, n in zip(scenes, points, strict=True)} == {
+        "benchmr_parking1": (20, 13, 225),
+        "benchmr_warehouse": (20, 88, 1776),
+        "nest_shirts": (4, 99, 603),
+        "nest_swim": (10, 48, 958),
+        "street_Berlin": (4, 40, 1382),
+    }
+
+
+def test_numbers_are_what_is_written(tmp_path: Path) -> None:
+    scene = read(
+        tmp_path,
+        '{"robot": {"outer": [[0.1, 0], ["1/3", -2e-1], [12345678901234567890.5, " 1.50 "]]},'
+        ' "start": [1e2, 0.1, {"tau": "2/7"}], "goal": [0, 0, 3.141592653589793], "bounds": [0, 0, "1/3", 1]}',
+    )
+    assert scene.robot[0].exact_vertices == (
+        (Fraction(1, 10), 0),
+        (Fraction(1, 3), Fraction(-1, 5)),
+        (Fraction("12345678901234567890.5"), Fraction(3, 2)),
+    )
+    assert scene.start == Pose(100, "0.1", {"tau": "2/7"})
+    assert scene.goal == Pose(0, 0, "180deg")
+    assert scene.bounds == (0, 0, Fraction(1, 3), 1)
+
+
+def test_a_robot_is_one_object_or_a_list(tmp_path: Path) -> None:
+    one = read(tmp_path, f'{{"robot": {TRIANGLE}}}')
+    many = read(tmp_path, f'{{"robot": [{TRIANGLE}, {TRIANGLE}]}}')
+    assert one.robot == (Polygon([(0, 0), (1, 0), (0, 1)]),)
+    assert many.robot == one.robot * 2
+
+
+def test_a_byte_order_mark_is_skipped(tmp_path: Path) -> None:
+    assert read(tmp_path, b"\xef\xbb\xbf" + f'{{"robot": {TRIANGLE}}}'.encode()).robot
+
+
+def test_unnamed_obstacles_are_numbered_and_others_keep_their_names(tmp_path: Path) -> None:
+    named = TRIANGLE.replace("{", '{"name": "K\u00fcche", ')
+    scene = read(tmp_path, f'{{"robot": {TRIANGLE}, "obstacles": [{TRIANGLE}, {named}, {TRIANGLE}]}}')
+    assert scene.obstacle_names == ("obstacle 0", "K\u00fcche", "obstacle 2")
+    assert '"name": "K\u00fcche"' in scene_text(scene)
+    assert "obstacle 0" not in scene_text(scene)
+
+
+# what is wrong with them
+
+
+def test_all_problems_are_told_at_once_with_their_places(tmp_path: Path) -> None:
+    text = """{
+  "version": 2, "bunds": [0, 0, 1, 1], "name": 12,
+  "robot": {"outer": [[0, 0], [9, 0], [0, 9]], "holes": [[[1, 1], [2, 1], [1, 2]], [[8, 8], [9, 8], [8, 9]]]},
+  "obstacles": [
+    {"outer": [[0, 0], [1, "x/2"], ["1/0", true], [NaN, 1e999999999]]},
+    {"outer": [[0, 0], [2, 2], [2, 0], [0, 3]]},
+    {"outer": [[0, 0], [1, 0]]},
+    {"outer": [[0, 0], [1, 0], [2, 0, 3]], "hole": []},
+    {"outer": [[0, 0], [1, 0], [0, 1]], "name": "a", "name": "b"},
+    [[0, 0], [1, 0], [0, 1]], {"holes": 5}
+  ],
+  "bounds": [0, 0, 0, 5],
+  "start": [0, 0, "abc"], "goal": [0, 1], "workspace": {"outer": []},
+  "check": {"a": -Infinity, "b": 1},
+  "source": {"licence": 5}
+}"""
+    found = faults(tmp_path, text)
+    assert found == [
+        "scene.json:2:14 version: expected version 1, the only one this cfree reads, got 2",
+        'scene.json:2:17 bunds: unknown key "bunds"; did you mean "bounds"?',
+        "scene.json:2:48 name: expected text in quotes, got 12",
+        "scene.json:3:84 robot.holes[1]: hole 1: it lies outside the outer ring; move it, or leave it out",
+        'scene.json:5:28 obstacles[0].outer[1][1]: expected a number or "p/q", got "x/2"',
+        'scene.json:5:37 obstacles[0].outer[2][0]: "1/0" divides by zero; give a finite number',
+        'scene.json:5:44 obstacles[0].outer[2][1]: expected a number or "p/q", got true',
+        "scene.json:5:52 obstacles[0].outer[3][0]: NaN is not finite; give a finite number",
+        "scene.json:5:57 obstacles[0].outer[3][1]: 1e999999999 has more than 4000 digits; give fewer",
+        "scene.json:6:15 obstacles[1].outer: outer ring: edges 0 and 2 cross at (6/5, 6/5); "
+        "split it into simple polygons",
+        "scene.json:7:15 obstacles[2].outer: outer ring: 2 points; give at least 3: "
+        "shapes are closures of their interiors: a segment or a point forbids nothing",
+        "scene.json:8:32 obstacles[3].outer[2]: expected a point [x, y], got [2, 0, 3]",
+        'scene.json:8:44 obstacles[3].hole: unknown key "hole"; did you mean "holes"?',
+        'scene.json:9:54 obstacles[4].name: key "name" is there twice; keep one',
+        'scene.json:10:5 obstacles[5]: expected a polygon {"outer": [[x, y], ...], "holes": []}, '
+        "got [[0, 0], [1, 0], [0, 1]]",
+        'scene.json:10:31 obstacles[6]: key "outer" is missing; add it',
+        "scene.json:10:41 obstacles[6].holes: expected a list, got 5",
+        "scene.json:12:13 bounds: [0, 0, 0, 5] is empty; "
+        "give [xmin, ymin, xmax, ymax] with xmin < xmax and ymin < ymax",
+        'scene.json:13:19 start[2]: expected radians, "90deg" or {"tau": "p/q"}, got "abc"',
+        "scene.json:13:35 goal: expected [x, y, theta], got [0, 1]",
+        "scene.json:13:66 workspace.outer: outer ring: 0 points; give at least 3",
+        "scene.json:14:18 check.a: -Infinity is not finite; give a finite number",
+        "scene.json:15:25 source.licence: expected text in quotes, got 5",
+    ]
+    lines = text.split("\n")
+    for place in found:
+        line, column = map(int, place.split(" ")[0].split(":")[1:])
+        assert lines[line - 1][column - 1] not in " ,:", place
+
+
+def test_the_error_carries_its_problems(tmp_path: Path) -> None:
+    with pytest.raises(InvalidFileError) as caught:
+        read(tmp_path, '{"robot":\n [], "note": 7}')
+    error = caught.value
+    assert (error.path, error.line, error.column) == (str(tmp_path / "scene.json"), 2, 2)
+    assert [(problem.line, problem.column, problem.place) for problem in error.problems] == [
+        (2, 2, "robot"),
+        (2, 14, "note"),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("", "1:1 the file is empty; give a scene in JSON"),
+        ("\n \n", "the file is empty; give a scene in JSON"),
+        ('{"robot": {"outer": [[0, 0],', "1:29 the file ends in the middle of a value; is it complete?"),
+        ('{"robot": {"outer": [[0, 0], "1/', "1:30 the file ends in the middle of a value; is it complete?"),
+        (f'{{"robot": {TRIANGLE},}}', '1:47 expected a "key", got }; remove the comma before it'),
+        ('{"robot": {"outer": [[0, .5]]}}', "1:26 expected a value, got .5; write a digit before the point"),
+        ("{'robot': 1}", "expected a \"key\", got 'robot':; use double quotes \""),
+        ("// scene\n{}", "1:1 expected a value, got //; JSON has no comments, use the note"),
+        ('{"robot" 1}', "1:10 expected ':' delimiter, got 1"),
+        (f'{{"robot": {TRIANGLE}}} x', "1:48 expected the end of the file, got x"),
+        ('{"name": "a\tb"}', "1:12 invalid control character in a string; escape it as JSON does"),
+        ('{"name": "\\x"}', "1:11 invalid \\escape in a string; escape it as JSON does"),
+        ("null", '1:1 expected a scene {"robot": ..., "obstacles": [...]}, got null'),
+        ("[]", '1:1 expected a scene {"robot": ..., "obstacles": [...]}, got []'),
+        ("{}", '1:1 key "robot" is missing; add it'),
+        (b"\x89PNG\r\n\x1a\n", "1:1 byte 0x89 is not UTF-8; save the file as UTF-8 text"),
+        (b"{}\n \xff", "2:2 byte 0xff is not UTF-8; save the file as UTF-8 text"),
+        ('{"robot": "\\ud800"}', '"\\ud800"'),
+        (f'{{"robot": {TRIANGLE}, "name": "\\ud800"}}', "name: expected text without halves of surrogate pairs"),
+        (f'{{"robot": {TRIANGLE}, "check": {{"\\ud800": 1}}}}', "there is half a surrogate pair"),
+        (f'{{"robot": {TRIANGLE}, "check": {{"a": 1e400}}}}', "too large for a double"),
+        (f'{{"robot": {TRIANGLE}, "check": {{"a": {"[" * 50}{"]" * 50}}}}}', "nested more than 32 deep"),
+        (f'{{"robot": {TRIANGLE}, "start": [0, 0, 1e999]}}', "start[2]: theta: "),
+        (f'{{"robot": {TRIANGLE}, "start": [0, 0, {{"tau": true}}]}}', "start[2]: "),
+        (f'{{"robot": {TRIANGLE}, "start": [0, 0, {{"sin": 1}}]}}', "start[2]: expected radians"),
+        ('{"robot": {"outer": [[0, 1e99999999999999999999], [1, 0], [0, 1]]}}', "robot.outer[0][1]: "),
+    ],
+)
+def test_broken_files_get_one_clear_message(text: str | bytes, expected: str, tmp_path: Path) -> None:
+    (found,) = faults(tmp_path, text)
+    assert expected in found
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "[" * 1_000_000,
+        '{"robot": ' + "[" * 1_000_000 + "]" * 1_000_000 + "}",
+        '{"robot": ' + '{"a":' * 300 + "1" + "}" * 300 + "}",
+        '{"robot": "' + "a" * 10_000_000 + '"}',
+        '{"robot": "' + "a" * 10_000_000,
+        '{"' + "a" * 10_000_000 + '": 1, "robot": {"outer": []}}',
+        '{"robot": {"outer": [[0, 0], [' + "1" * 10_000_000 + ', 0], [0, "' + "1" * 10_000_000 + '"]]}}',
+        '{"robot": {"outer": [' + ", ".join(["[true, null]"] * 50_000) + "]}}",
+    ],
+    ids=["open", "deep", "objects", "long", "unterminated", "key", "number", "many"],
+)
+def test_monstrous_files_are_refused_quickly_and_briefly(text: str, tmp_path: Path) -> None:
+    found = faults(tmp_path, text)
+    assert len(found) <= 51
+    assert all(len(line) < 400 for line in found)
+
+
+def test_missing_files_and_directories_are_refused(tmp_path: Path) -> None:
+    for path, words in ((tmp_path, "directory"), (tmp_path / "none.json", "No such file"), ("a\0b", "null")):
+        with pytest.raises(FormatError, match=words):
+            load_scene(path)
+
+
+def test_mutated_files_raise_format_errors_only(tmp_path: Path) -> None:
+    rng = random.Random(5)
+    seeds = {
+        "a.json": (ROOT / "examples/scenes/degenerate_two_part_robot.json").read_bytes(),
+        "b.json": (ROOT / "examples/scenes/degenerate_workspace.json").read_bytes(),
+        "c.geojson": GEOJSON.encode(),
+        "d.wkt": WKT.encode(),
+    }
+    pieces = (*(bytes([c]) for c in b'[]{},:"-()#/\xff'), b"NaN", b"1e9", b"null", b"\\u", b"Z", b"\n")
+    refused = 0
+    for name, seed in seeds.items():
+        for _ in range(500):
+            mutant = bytearray(seed)
+            for _ in range(rng.randint(1, 4)):
+                at, end = sorted(rng.randrange(len(mutant) + 1) for _ in range(2))
+                end = min(end, at + rng.choice((0, 1, 10, 100)))
+                mutant[at:end] = rng.choice((*pieces, b"", mutant[at:end] * 2, seed[at:end][::-1]))
+            try:
+                read(tmp_path, bytes(mutant), name)
+            except FormatError as error:
+                refused += 1
+                assert str(error).startswith(f"{tmp_path / name}:")
+                str(error).encode()
+    assert refused > 1000
+
+
+@given(
+    st.recursive(
+        st.none() | st.booleans() | st.integers() | st.text(max_size=5),
+        lambda part: st.lists(part, max_size=4) | st.dictionaries(st.text(max_size=5), part, max_size=4),
+        max_leaves=20,
+    ),
+    st.sampled_from([None, 1, "\t"]),
+)
+@settings(max_examples=200, deadline=None)
+def test_places_agree_with_the_decoder(value: object, indent: int | str | None) -> None:
+    text = json.dumps(value, indent=indent, ensure_ascii=False)
+    for path, place in places(text):
+        part = value
+        for step in path:
+            part = part[step]  # type: ignore[index]
+        assert json.loads(text[place.start : place.end]) == part
+        assert not place.repeated
+        if path and isinstance(path[-1], str):
+            assert json.loads(text[place.key : place.start].rstrip(": \t\n")) == path[-1]
+
+
+# saving
+
+
+@given(st.fractions() | st.floats(allow_nan=False, allow_infinity=False).map(Fraction))
+def test_numbers_are_written_exactly(value: Fraction) -> None:
+    written = json.loads(number_text(value), parse_float=Decimal)
+    assert Fraction(written) == value
+
+
+@given(
+    st.floats(-1e6, 1e6) | st.sampled_from([k * math.pi / 2 for k in range(-4, 5)]),
+    st.fractions(max_denominator=1000),
+)
+@settings(deadline=None, max_examples=50)
+def test_poses_survive_saving(tmp_path_factory: pytest.TempPathFactory, theta: float, tau: Fraction) -> None:
+    path = tmp_path_factory.mktemp("poses") / "scene.json"
+    scene = Scene(robot=[(0, 0), (1, 0), (0, 1)], start=(0.1, 0, theta), goal=(0, 0, {"tau": tau}))
+    scene.save(path)
+    again = load_scene(path)
+    assert again == scene
+    assert again.start is not None
+    assert scene.start is not None
+    assert again.start.theta == pytest.approx(scene.start.theta, abs=1e-15)
+
+
+def test_saving_keeps_everything(tmp_path: Path) -> None:
+    scene = Scene(
+        robot=[[(0, 0), (1, 0), (0, 1)], [("1/3", 0), (0.1, 5e-324), (0, 10**300)]],
+        obstacles=[Polygon([(0, 0), (9, 0), (0, 9)], [[(1, 1), (1, 2), (2, 1)], [(3, 3), (3, 4), (4, 3)]])],
+        obstacle_names=['quoted "wall" \u2603'],
+        workspace=[(-9, -9), (9, -9), (0, 9)],
+        bounds=("-1/3", 0, 0.1, 1),
+        start=(0, 0, "45deg"),
+        goal=("1/7", 0, {"tau": "inf"}),
+        units="m",
+        name="all",
+        note="two\nlines",
+        source={"licence": "MIT"},
+        check={"free": True, "clearance": 0.25, "list": [1, None, {"a": "b"}]},
+    )
+    scene.save(tmp_path / "scene.json")
+    assert load_scene(tmp_path / "scene.json") == scene
+
+
+def test_saving_is_all_or_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "scene.json"
+    Scene(robot=[(0, 0), (1, 0), (0, 1)]).save(path)
+    before = path.read_text()
+    with pytest.raises(UnicodeEncodeError):
+        Scene(robot=[(0, 0), (1, 0), (0, 1)], name="\ud800").save(path)
+    assert path.read_text() == before
+    assert os.listdir(tmp_path) == ["scene.json"]
+
+
+def test_saving_follows_links_and_keeps_permissions(tmp_path: Path) -> None:
+    target, link = tmp_path / "scene.json", tmp_path / "link.json"
+    target.write_text("old")
+    target.chmod(0o640)
+    link.symlink_to(target)
+    Scene(robot=[(0, 0), (1, 0), (0, 1)]).save(link)
+    assert link.is_symlink()
+    assert target.stat().st_mode & 0o777 == 0o640
+    assert load_scene(target) == load_scene(link)
+
+
+@pytest.mark.parametrize("name", ["scene.wkt", "scene.GeoJSON"])
+def test_scenes_are_written_as_json_only(name: str, tmp_path: Path) -> None:
+    with pytest.raises(UnsupportedError, match=r"name the file \.json"):
+        Scene(robot=[(0, 0), (1, 0), (0, 1)]).save(tmp_path / name)
+
+
+# GeoJSON and WKT
+
+GEOJSON = """{"type": "FeatureCollection", "name": "map", "features": [
+  {"type": "Feature", "properties": {"role": "robot", "colour": 3}, "id": 1,
+   "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 0.1], [0, 0]]]}},
+  {"type": "Feature", "properties": {"name": "lakes"},
+   "geometry": {"type": "MultiPolygon", "coordinates": [
+     [[[5, 5, 80], [9, 5], [5, 9], [5, 5]], [[6, 6], [6, 7], [7, 6]]], [[[1, 5], [2, 5], [1, 6]]]]}},
+  {"type": "Feature", "properties": {"role": "workspace"},
+   "geometry": {"type": "Polygon", "coordinates": [[[-9, -9], [20, -9], [20, 20], [-9, 20]]]}},
+  {"type": "Feature", "properties": null, "geometry": {"type": "GeometryCollection", "geometries": [
+     {"type": "Polygon", "coordinates": [[[11, 5], [12, 5], [11, 6]]]}]}}
+]}"""
+WKT = """# a map
+robot: POLYGON ((0 0, 1 0, 0 0.1, 0 0))
+
+lakes: MULTIPOLYGON (((5 5, 9 5, 5 9, 5 5), (6 6, 6 7, 7 6)), ((1 5,2 5,1 6)))
+workspace: Polygon((-9 -9, 20 -9, 20 20, -9 20))
+POLYGON ((11 5, 12 5, 1.1e1 6))
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [(GEOJSON, "map.geojson"), (GEOJSON, "map.json"), (WKT, "map.wkt"), (WKT, "map.txt")],
+)
+def test_geojson_and_wkt_hold_the_same_scene(text: str, name: str, tmp_path: Path) -> None:
+    scene = read(tmp_path, text, name)
+    assert scene == Scene(
+        robot=[(0, 0), (1, 0), (0, "0.1")],
+        obstacles=[
+            Polygon([(5, 5), (9, 5), (5, 9)], [[(6, 6), (6, 7), (7, 6)]]),
+            [(1, 5), (2, 5), (1, 6)],
+            [(11, 5), (12, 5), (11, 6)],
+        ],
+        obstacle_names=["lakes", "lakes", None],
+        workspace=[(-9, -9), (20, -9), (20, 20), (-9, 20)],
+    )
+    assert len(load_polygons(tmp_path / name)) == 5
+
+
+def test_one_geometry_is_geojson_too(tmp_path: Path) -> None:
+    file = tmp_path / "a.json"
+    file.write_text('{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 0.1]]]}')
+    assert load_polygons(file) == (Polygon([(0, 0), (1, 0), (0, "0.1")]),)
+    with pytest.raises(FormatError, match='there is no robot; give its feature the property "role": "robot"'):
+        load_scene(file)
+
+
+def test_faults_of_geojson_are_placed(tmp_path: Path) -> None:
+    text = """{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"role": "robto", "name": 5},
+  "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], ["a", 1]]]}},
+ {"type": "Feature", "properties": null, "geometry": {"type": "LineString", "coordinates": [[0, 0], [1, 0]]}},
+ {"type": "Feature", "properties": null, "geometry": null},
+ {"type": "MultiPolygon",
+  "coordinates": [[[[0, 0], [4, 0], [0, 4]], [[5, 5], [6, 5], [5, 6]]], [[[0, 0], [1, 0]]]]},
+ {"type": "Polygon"}, {"type": ["a"]}, 7, {"type": "FeatureCollection"}, {"type": "Feature"}
+]}"""
+    assert faults(tmp_path, text, "map.geojson") == [
+        "map.geojson:2:45 features[0].properties.role: "
+        'expected one of robot, obstacle, workspace, got "robto"',
+        "map.geojson:2:62 features[0].properties.name: expected text in quotes, got 5",
+        "map.geojson:3:69 features[0].geometry.coordinates[0][2][0]: "
+        'expected a number or "p/q", got "a"',
+        "map.geojson:4:54 features[1].geometry: LineString: shapes are closures of their interiors: "
+        "a segment or a point forbids nothing; give it width",
+        "map.geojson:5:54 features[2].geometry: "
+        "expected a GeoJSON feature or geometry with polygons, got null",
+        "map.geojson:7:46 features[3].coordinates[0][1]: "
+        "hole 0: it lies outside the outer ring; move it, or leave it out",
+        "map.geojson:7:74 features[3].coordinates[1][0]: outer ring: 2 points; give at least 3: "
+        "shapes are closures of their interiors: a segment or a point forbids nothing",
+        'map.geojson:8:2 features[4]: a Polygon needs "coordinates"',
+        "map.geojson:8:23 features[5]: "
+        'expected a GeoJSON feature or geometry with polygons, got {"type": ["a"]}',
+        "map.geojson:8:40 features[6]: expected a GeoJSON feature or geometry with polygons, got 7",
+        'map.geojson:8:43 features[7]: a FeatureCollection needs a list "features"',
+        "map.geojson:8:74 features[8]: "
+        'expected a GeoJSON feature or geometry with polygons, got {"type": "Feature"}',
+    ]
+
+
+def test_faults_of_wkt_are_placed(tmp_path: Path) -> None:
+    text = """lake: POLYGON ((0 0, 1 0, x/3 nan))
+POLYGON ((0 0, 1 0, 0 1)
+POLYGON Z ((0 0 0, 1 0 1, 0 1 1))
+POLYGON EMPTY
+LINESTRING (0 0, 1 1)
+POLYGON ((0 0, 4 0, 0 4), (5 5, 6 5, 5 6))
+POLYGON ((0 0, 4 0, 0 4)) foo
+POLYGON ((0 0, 4, 0 4))
+hello
+MULTIPOLYGON (((0 0, 1 0, 0 1)), ((0 0, 1 0)))
+"""
+    reason = "shapes are closures of their interiors: a segment or a point forbids nothing"
+    assert faults(tmp_path, text, "a.wkt") == [
+        "a.wkt:1:27 lake: 'x/3' is no number; write it like '0.1', '-2e3' or '1/3'",
+        "a.wkt:1:31 lake: NaN is not finite; give a finite number",
+        'a.wkt:2:25 expected "," or ")", got the end of the line',
+        'a.wkt:3:9 expected "(", got Z',
+        'a.wkt:4:9 expected "(", got EMPTY',
+        f"a.wkt:5:1 LINESTRING: {reason}; give it width",
+        "a.wkt:6:27 hole 0: it lies outside the outer ring; move it, or leave it out",
+        "a.wkt:7:27 expected the end of the line, got foo",
+        "a.wkt:8:17 expected two numbers x y, got ,",
+        "a.wkt:9:1 expected POLYGON (...) or MULTIPOLYGON (...), got hello",
+        f"a.wkt:10:35 outer ring: 2 points; give at least 3: {reason}",
+    ]
+
+
+# documents
+
+
+def test_the_schema_names_the_keys_of_the_models() -> None:
+    from cfree.scene_format import SceneModel
+
+    written = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
+    meant = SceneModel.model_json_schema()
+    assert written["properties"].keys() == meant["properties"].keys()
+    assert written["required"] == meant["required"]
+    for name, part in meant["$defs"].items():
+        assert written["$defs"][name]["properties"].keys() == part["properties"].keys()
+
+
+def test_examples_in_the_format_document_load(tmp_path: Path) -> None:
+    document = (ROOT / "docs" / "scene-format.md").read_text()
+    blocks = [block.split("```")[0] for block in document.split("```json\n")[1:]]
+    assert [len(read(tmp_path, block).obstacles) for block in blocks] == [2, 1]
+    wkt = document.split("```\nrobot:")[1].split("```")[0]
+    assert len(read(tmp_path, f"robot:{wkt}", "map.wkt").obstacles) == 3
