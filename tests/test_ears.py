@@ -42,3 +42,13 @@ def test_touching_holes_are_cut_around() -> None:
         [[(6, 0), (8, 6), (6, 12), (4, 6)], [(0, 6), (4, 6), (2, 7)], [(12, 6), (10, 7), (8, 6)]],
     ):
         assert clips(Polygon(square, holes))
+
+
+def test_holes_that_touch_the_outer_ring_at_one_point_are_told_apart() -> None:
+    square = [(0, 0), (6, 0), (6, 6), (0, 6)]
+    for holes in (
+        [[(5, 3), (4, 3), (6, 4)], [(5, 4), (2, 5), (5, 6), (6, 4)]],
+        [[(4, 4), (0, 3), (3, 3)], [(3, 0), (0, 3), (6, 2)]],
+        [[(5, 5), (4, 2), (1, 5)], [(4, 1), (2, 0), (1, 5), (3, 1)]],
+    ):
+        assert clips(Polygon(square, holes))

@@ -1,13 +1,13 @@
 """Exact triangulation by ear clipping: slow, O(n^2) as a rule, but independent of any rounding.
 
-Holes are first joined to the outer ring by diagonals run there and back, or where they touch it:
+Holes are first joined to the outer ring by diagonals run there and back:
 
     outer 0 1 2 3, hole 4 5 6, diagonal 3-4:   0 1 2 3 4 5 6 4 3
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from cfree.errors import InvariantError
 from cfree.exact import IntPoint
@@ -30,7 +30,7 @@ def clip_ears(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[tup
     [(3, 0, 1), (3, 1, 2)]
     """
     triangles: list[tuple[int, int, int]] = []
-    for ring in _separate(v, _join(v, rings)):
+    for ring in _join(v, rings):
         k = failed = 0
         while len(ring) > 2:
             a, b, c = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
@@ -60,51 +60,44 @@ def _is_ear(v: Sequence[IntPoint], a: int, b: int, c: int, ring: Sequence[int]) 
     )
 
 
-def _join(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[int]:
-    """One ring through all vertices.
+def _join(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[list[int]]:
+    """Rings without holes, one for each connected part of the region.
 
     Holes are joined from left to right: then a diagonal from the first point of a hole to a point before it
     cannot meet holes that are not joined yet.
     """
-    ring = list(rings[0])
-    for hole in sorted(rings[1:], key=lambda them: min(v[k] for k in them)):
-        shared = [m for m, k in enumerate(hole) if k in ring]
-        m = shared[0] if shared else min(range(len(hole)), key=lambda m: v[hole[m]])
-        loop = [*hole[m:], *hole[:m]]
-        if shared:
-            place = next(p for p, k in enumerate(ring) if k == loop[0] and _opens(v, ring, p, loop[1]))
-            ring[place : place + 1] = [*loop, loop[0]]
-        else:
-            place = _visible_place(v, ring, loop[0])
-            ring[place : place + 1] = [ring[place], *loop, loop[0], ring[place]]
-    return ring
-
-
-def _separate(v: Sequence[IntPoint], ring: list[int]) -> list[list[int]]:
-    """Parts of the region that rings touching more than once cut from each other.
-
-    At a joint, one part of the ring runs round a hole, clockwise; where the region is cut, neither does.
-    """
-    whole, parts = [ring], []
-    while whole:
-        ring = whole.pop()
-        for m, n in _repetitions(ring):
-            halves = ring[m:n], ring[n:] + ring[:m]
-            if all(doubled_area([v[k] for k in half]) > 0 for half in halves):
-                whole += halves
-                break
-        else:
-            parts.append(ring)
+    cycles = _cycles(v, rings)
+    areas = [doubled_area([v[k] for k in cycle]) for cycle in cycles]
+    parts = [cycle for cycle, area in zip(cycles, areas, strict=True) if area > 0]
+    holes = [cycle for cycle, area in zip(cycles, areas, strict=True) if area < 0]
+    for hole in sorted(holes, key=lambda them: min(v[k] for k in them)):
+        h = min(hole, key=v.__getitem__)
+        part, place = _visible_place(v, parts, h)
+        m = next(m for m, k in enumerate(hole) if k == h and _opens(v, hole, m, part[place]))
+        part[place : place + 1] = [part[place], *hole[m:], *hole[:m], h, part[place]]
     return parts
 
 
-def _repetitions(ring: Sequence[int]) -> Iterator[tuple[int, int]]:
-    """Pairs of places where the same vertex stands."""
-    places: dict[int, list[int]] = {}
-    for n, k in enumerate(ring):
-        earlier = places.setdefault(k, [])
-        yield from ((m, n) for m in earlier)
-        earlier.append(n)
+def _cycles(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[list[int]]:
+    """Rings linked anew, so that each goes round one part of the region or one group of touching holes.
+
+    Where rings touch, the interior's corner left of an arriving edge ends at the first leaving edge clockwise.
+    """
+    leaving: dict[int, list[int]] = {}
+    for ring in rings:
+        for k, after in zip(ring, (*ring[1:], ring[0]), strict=True):
+            leaving.setdefault(k, []).append(after)
+    unused = {(k, after): None for k, heads in leaving.items() for after in heads}
+    cycles = []
+    while unused:
+        (k, after), cycle = next(iter(unused)), []
+        while (k, after) in unused:
+            del unused[k, after]
+            cycle.append(k)
+            before, k = k, after
+            after = next(q for q in leaving[k] if not any(_opens(v, (before, k, q), 1, other) for other in leaving[k]))
+        cycles.append(cycle)
+    return cycles
 
 
 def _opens(v: Sequence[IntPoint], ring: Sequence[int], place: int, towards: int) -> bool:
@@ -114,21 +107,24 @@ def _opens(v: Sequence[IntPoint], ring: Sequence[int], place: int, towards: int)
     return locate_in_sector(d, start, end) is Location.INSIDE
 
 
-def _visible_place(v: Sequence[IntPoint], ring: Sequence[int], h: int) -> int:
-    """Where in the ring the nearest vertex stands that sees h from before it."""
+def _visible_place(v: Sequence[IntPoint], parts: Sequence[list[int]], h: int) -> tuple[list[int], int]:
+    """Part and place in it of the nearest vertex that sees h from before it."""
+    edges = [edge for part in parts for edge in zip(part, (*part[1:], part[0]), strict=True)]
 
-    def distance(place: int) -> int:
-        (x, y), (hx, hy) = v[ring[place]], v[h]
+    def distance(found: tuple[list[int], int]) -> int:
+        part, place = found
+        (x, y), (hx, hy) = v[part[place]], v[h]
         return (x - hx) ** 2 + (y - hy) ** 2
 
     def is_clear(k: int) -> bool:
-        for p, q in zip(ring, (*ring[1:], ring[0]), strict=True):
-            met = meet(v[k], v[h], v[p], v[q])
-            if met is not Meeting.APART and not (met is Meeting.TOUCH and k in (p, q)):
-                return False
-        return True
+        return all(
+            met is Meeting.APART or (met is Meeting.TOUCH and k in (p, q))
+            for p, q in edges
+            for met in [meet(v[k], v[h], v[p], v[q])]
+        )
 
-    for place in sorted((p for p, k in enumerate(ring) if v[k] < v[h]), key=distance):
-        if _opens(v, ring, place, h) and is_clear(ring[place]):
-            return place
-    raise InvariantError("a hole that sees no vertex before it", state=(v, ring, h))
+    before = [(part, place) for part in parts for place, k in enumerate(part) if v[k] < v[h]]
+    for part, place in sorted(before, key=distance):
+        if _opens(v, part, place, h) and is_clear(part[place]):
+            return part, place
+    raise InvariantError("a hole that sees no vertex before it", state=(v, parts, h))
