@@ -1,19 +1,20 @@
 #include "cfree/polynomial.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cfree {
 
 namespace {
 
-void trim(Poly& p) {
-    while (!p.empty() && p.back().is_zero()) p.pop_back();
-}
-
-// Divide by the content: coefficients stay small along a remainder sequence.
-void make_primitive(Poly& p) {
+// Divide by the content where coefficients have grown out of their 512 bits.
+void keep_small(Poly& p) {
+    const auto bits = [](const Int& c) { return c.is_zero() ? 0u : static_cast<unsigned>(msb(abs(c))); };
+    unsigned most = 0;
+    for (const Int& c : p) most = std::max(most, bits(c));
+    if (most < 200) return;
     Int g = 0;
-    for (const Int& c : p) g = boost::multiprecision::gcd(g, c);
+    for (const Int& c : p) g = gcd(g, c);
     if (g > 1)
         for (Int& c : p) c /= g;
 }
@@ -22,36 +23,34 @@ void make_primitive(Poly& p) {
 Poly remainder(Poly p, const Poly& q) {
     const Int lead = abs(q.back());
     while (p.size() >= q.size()) {
-        const Int top = p.back();
-        const std::size_t shift = p.size() - q.size();
+        const Int top = q.back().sign() > 0 ? p.back() : Int(-p.back());
+        const int shift = p.size() - q.size();
         for (Int& c : p) c *= lead;
-        for (std::size_t i = 0; i < q.size(); ++i) {
-            if (q.back().sign() > 0) p[i + shift] -= top * q[i];
-            else p[i + shift] += top * q[i];
-        }
-        trim(p);
-        make_primitive(p);
+        for (int i = 0; i < q.size(); ++i) p[i + shift] -= top * q[i];
+        p.trim();
+        keep_small(p);
     }
     return p;
 }
 
 Poly derivative(const Poly& p) {
     Poly d;
-    for (std::size_t i = 1; i < p.size(); ++i) d.push_back(p[i] * static_cast<int>(i));
+    for (int i = 1; i < p.size(); ++i) d.push_back(p[i] * i);
     return d;
 }
 
 // The exact quotient of two polynomials, up to a positive constant.
 Poly quotient(Poly p, const Poly& q) {
-    Poly result(p.size() - q.size() + 1);
+    Poly result;
+    result.resize(p.size() - q.size() + 1);
     const Int lead = abs(q.back());
-    for (std::size_t k = result.size(); k-- > 0;) {
+    for (int k = result.size(); k-- > 0;) {
         for (Int& c : p) c *= lead;
         for (Int& c : result) c *= lead;
         result[k] = p[k + q.size() - 1] / q.back();
-        for (std::size_t i = 0; i < q.size(); ++i) p[i + k] -= result[k] * q[i];
+        for (int i = 0; i < q.size(); ++i) p[i + k] -= result[k] * q[i];
     }
-    make_primitive(result);
+    keep_small(result);
     return result;
 }
 
@@ -99,25 +98,26 @@ int compare(const Dyadic& p, const Dyadic& q) {
 
 Poly product(const Poly& p, const Poly& q) {
     if (p.empty() || q.empty()) return {};
-    Poly r(p.size() + q.size() - 1);
-    for (std::size_t i = 0; i < p.size(); ++i)
-        for (std::size_t j = 0; j < q.size(); ++j) r[i + j] += p[i] * q[j];
-    trim(r);
+    Poly r;
+    r.resize(p.size() + q.size() - 1);
+    for (int i = 0; i < p.size(); ++i)
+        for (int j = 0; j < q.size(); ++j) r[i + j] += p[i] * q[j];
+    r.trim();
     return r;
 }
 
 Poly difference(const Poly& p, const Poly& q) {
     Poly r = p;
     if (r.size() < q.size()) r.resize(q.size());
-    for (std::size_t i = 0; i < q.size(); ++i) r[i] -= q[i];
-    trim(r);
+    for (int i = 0; i < q.size(); ++i) r[i] -= q[i];
+    r.trim();
     return r;
 }
 
 int sign_at(const Poly& p, const Dyadic& tau) {
     if (p.empty()) return 0;
     Int r = p.back();
-    for (std::size_t i = p.size() - 1; i-- > 0;) {
+    for (int i = p.size() - 1; i-- > 0;) {
         r *= tau.n;
         r += p[i] << (tau.k * static_cast<unsigned>(p.size() - 1 - i));
     }
@@ -127,19 +127,16 @@ int sign_at(const Poly& p, const Dyadic& tau) {
 Poly greatest_common_divisor(Poly p, Poly q) {
     while (!q.empty()) {
         Poly r = p.size() >= q.size() ? remainder(p, q) : p;
-        p = std::move(q);
-        q = std::move(r);
+        p = q;
+        q = r;
     }
-    make_primitive(p);
     return p;
 }
 
 Poly squarefree(const Poly& p) {
-    Poly q = p;
-    make_primitive(q);
-    if (q.size() <= 2) return q;
-    const Poly g = greatest_common_divisor(q, derivative(q));
-    return g.size() > 1 ? quotient(q, g) : q;
+    if (p.size() <= 2) return p;
+    const Poly g = greatest_common_divisor(p, derivative(p));
+    return g.size() > 1 ? quotient(p, g) : p;
 }
 
 Sturm::Sturm(const Poly& p) {
@@ -150,7 +147,7 @@ Sturm::Sturm(const Poly& p) {
         Poly r = remainder(chain[chain.size() - 2], chain.back());
         if (r.empty()) break;
         for (Int& c : r) c = -c;
-        chain.push_back(std::move(r));
+        chain.push_back(r);
     }
 }
 

@@ -108,9 +108,8 @@ int Predicates::sign_on(const Filtered& f, double lo, double hi) {
 }
 
 Poly Predicates::polynomial(const Trig<Int>& f) const {
-    Poly p = kappa > 0 ? Poly{f.a + f.b, 2 * f.c, f.a - f.b} : Poly{f.a - f.b, -2 * f.c, f.a + f.b};
-    while (!p.empty() && p.back().is_zero()) p.pop_back();
-    return p;
+    if (kappa > 0) return {f.a + f.b, 2 * f.c, f.a - f.b};
+    return {f.a - f.b, -2 * f.c, f.a + f.b};
 }
 
 // What an event's features define; see Event. Two curves: N1 D2 - N2 D1.
@@ -194,24 +193,27 @@ struct Predicates::Form {
 
 namespace {
 
-enum class Found { none, one, unclear };
+enum class Found { none, one, unclear, hopeless };
 
 // How many roots inside: by the variations of certain signs, uncertain ones allowed only where they cannot add any.
 Found roots_inside(const double* c, int degree, double err) {
     int changes = 0, last = 0, gap = 0;
+    bool ends = true;
     for (int i = 0; i <= degree; ++i) {
         const int s = c[i] > err ? 1 : c[i] < -err ? -1 : 0;
         if (s == 0) {
-            if (i == 0 || i == degree) return Found::unclear;
+            if (i == 0 || i == degree) ends = false;
             gap = 1;
             continue;
         }
         if (last != 0) {
             if (s != last) ++changes;
-            else if (gap) return Found::unclear;
+            else if (gap) ends = false;
         }
         last = s, gap = 0;
     }
+    if (last == 0) return Found::hopeless;
+    if (!ends) return Found::unclear;
     return changes == 0 ? Found::none : changes == 1 ? Found::one : Found::unclear;
 }
 
@@ -261,13 +263,14 @@ bool isolate_by_filter(const Form& form, double lo, double hi, double (*found)[2
     Span stack[64];
     int top = 0;
     stack[top++] = {lo, hi};
-    int budget = 200;
+    int budget = 60;
     while (top > 0) {
         const Span s = stack[--top];
         double c[5];
         const double err = form.bernstein(s.lo, s.hi, c);
         const Found inside = roots_inside(c, form.degree, err);
         if (inside == Found::none) continue;
+        if (inside == Found::hopeless) return false;
         if (inside == Found::one) {
             const auto bracket = refine(form, s.lo, s.hi);
             found[count][0] = bracket[0], found[count][1] = bracket[1];
@@ -321,16 +324,18 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
             result.all_zero = true;
             return result;
         }
+        if (p.size() == 3 && p[1] * p[1] <= 4 * p[0] * p[2]) return result;  // no sign changes
         const Sturm sturm(squarefree(p));
-        const Dyadic step{1, 60};
-        for (const auto& [lo, hi] : isolate(sturm, Dyadic::middle(Dyadic::from(from.lo), Dyadic::from(from.lo - 1e-15)),
-                                            Dyadic::from(to.hi + 1e-15), 56)) {
+        const Dyadic lo = Dyadic::from(std::nextafter(from.lo, -2)), hi = Dyadic::from(std::nextafter(to.hi, 2));
+        for (const auto& [below, above] : isolate(sturm, lo, hi, 56)) {
             // doubles around it, with no root at their ends nor a second one between them
-            double l = lo.rounded_down(), h = hi.rounded_up();
+            double l = below.rounded_down(), h = above.rounded_up();
             while (cfree::sign_at(sturm.polynomial(), Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
             while (cfree::sign_at(sturm.polynomial(), Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
             if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1)
                 throw Undecided("two critical angles closer than doubles can tell apart");
+            // a touch changes no sign
+            if (cfree::sign_at(p, Dyadic::from(l)) == cfree::sign_at(p, Dyadic::from(h))) continue;
             found[count][0] = l, found[count][1] = h, ++count;
         }
     }
@@ -445,7 +450,9 @@ int Predicates::order(const Event& x, const Event& y) {
 
 Poly Predicates::defining(const Event& x) const {
     if (x.first.kind == Kind::none) return {Int(-x.lo), Int(1)};
-    return squarefree(polynomial(x.first, x.second));
+    const Poly p = polynomial(x.first, x.second);
+    const int l = cfree::sign_at(p, Dyadic::from(x.lo)), h = cfree::sign_at(p, Dyadic::from(x.hi));
+    return l * h < 0 ? p : squarefree(p);  // one root and a change of sign are enough to halve the interval
 }
 
 namespace {
@@ -483,10 +490,22 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
         if (std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0)) return ++counters.filter, 0;
     }
     ++counters.exact;
+    if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge) {
+        // directions (G.F, G x F), turned to the right half-plane, by their cross product
+        const auto direction = [&](const Feature& f) {
+            const auto G = edge<Int>(scene.robot, f.robot), F = edge<Int>(scene.obstacles, f.obstacle);
+            const Vec<Int> d{dot(G, F), cross(G, F)};
+            return d.x.sign() < 0 ? -d : d;
+        };
+        return cross(direction(y.first), direction(x.first)).sign();
+    }
     Root p(defining(x), x), q(defining(y), y);
     const Dyadic lo = cfree::compare(p.lo, q.lo) < 0 ? q.lo : p.lo, hi = cfree::compare(p.hi, q.hi) < 0 ? p.hi : q.hi;
     const Poly g = greatest_common_divisor(p.p, q.p);
-    if (g.size() > 1 && (cfree::sign_at(g, lo) == 0 || Sturm(squarefree(g)).roots_in(lo, hi) > 0)) return 0;
+    if (g.size() > 1) {
+        const int l = cfree::sign_at(g, lo), h = cfree::sign_at(g, hi);
+        if (l == 0 || h == 0 || l != h || (g.size() > 2 && Sturm(squarefree(g)).roots_in(lo, hi) > 0)) return 0;
+    }
     while (true) {  // different roots: halve both intervals until they part
         if (cfree::compare(p.hi, q.lo) < 0) return -1;
         if (cfree::compare(q.hi, p.lo) < 0) return 1;

@@ -18,7 +18,36 @@ struct Dyadic {
 };
 int compare(const Dyadic& p, const Dyadic& q);
 
-using Poly = std::vector<Int>;  // coefficients from the constant up; no leading zeros; empty is zero
+// Coefficients from the constant up; no leading zeros; degree at most 4; empty is zero.
+class Poly {
+public:
+    Poly() = default;
+    Poly(std::initializer_list<Int> c) {
+        for (const Int& x : c) push_back(x);
+        trim();
+    }
+    int size() const { return count; }
+    bool empty() const { return count == 0; }
+    Int& operator[](int i) { return c[i]; }
+    const Int& operator[](int i) const { return c[i]; }
+    const Int& back() const { return c[count - 1]; }
+    void push_back(const Int& x) { c[count++] = x; }
+    void resize(int n) {
+        for (; count < n; ++count) c[count] = 0;
+        count = n;
+    }
+    void trim() {
+        while (count > 0 && c[count - 1].is_zero()) --count;
+    }
+    Int* begin() { return c; }
+    Int* end() { return c + count; }
+    const Int* begin() const { return c; }
+    const Int* end() const { return c + count; }
+
+private:
+    Int c[5];
+    int count = 0;
+};
 
 Poly product(const Poly& p, const Poly& q);
 Poly difference(const Poly& p, const Poly& q);

@@ -97,7 +97,8 @@ public:
     // A double strictly between two angles, with few digits, after about that part of the way.
     double between(const Event& x, const Event& y, double part = 0.5);
 
-    // Roots strictly between two angles, in order. all_zero: the polynomial vanishes identically.
+    // Roots strictly between two angles, in order; a touch without a change of sign is none.
+    // all_zero: the polynomial vanishes identically.
     struct Roots {
         int count = 0;
         bool all_zero = false;
