@@ -10,6 +10,7 @@ from cfree.predicates import (
     Orientation,
     Vector,
     compare_directions,
+    compare_lengths,
     crossing_point,
     is_opposed,
     locate,
@@ -101,6 +102,11 @@ def test_collinear_segments_are_told_apart() -> None:
     assert meet((0, 0), (2, 0), (3, 0), (4, 0)) is Meeting.APART
     assert meet((0, 0), (0, 2), (0, 5), (0, 1)) is Meeting.OVERLAP
     assert meet((0, 0), (2, 0), (0, 1), (2, 1)) is Meeting.APART
+
+
+def test_lengths_are_compared_without_roots() -> None:
+    assert compare_lengths((10**30, 1), (10**30, 0)) is Order.AFTER
+    assert compare_lengths((1, 0), (Fraction(3, 5), Fraction(4, 5))) is Order.SAME
 
 
 def test_points_are_located_in_a_square_with_a_hole() -> None:

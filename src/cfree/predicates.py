@@ -104,6 +104,18 @@ def compare_directions(u: Vector, v: Vector) -> Order:
     return Order.BEFORE if side is Orientation.LEFT else Order.AFTER
 
 
+def compare_lengths(u: Vector, v: Vector) -> Order:
+    """Order of two vectors by length.
+
+    Examples
+    --------
+    >>> compare_lengths((3, 4), (0, 5))
+    <Order.SAME: 'same'>
+    """
+    d = u[0] * u[0] + u[1] * u[1] - v[0] * v[0] - v[1] * v[1]
+    return Order.SAME if d == 0 else Order.BEFORE if d < 0 else Order.AFTER
+
+
 def is_upper(u: Vector) -> bool:
     """Is the angle of a direction in [0, pi)?
 
@@ -161,6 +173,17 @@ def meet(p: Vector, q: Vector, r: Vector, s: Vector) -> Meeting:
         return Meeting.APART
     ends = (p_side, q_side, r_side, s_side)
     return Meeting.TOUCH if Orientation.COLLINEAR in ends else Meeting.CROSS
+
+
+def is_inside_segment(point: Vector, p: Vector, q: Vector) -> bool:
+    """Does a point lie on the segment pq, and not at an end?
+
+    Examples
+    --------
+    >>> is_inside_segment((1, 1), (0, 0), (3, 3)), is_inside_segment((3, 3), (0, 0), (3, 3))
+    (True, False)
+    """
+    return min(p, q) < point < max(p, q) and orient(p, q, point) is Orientation.COLLINEAR
 
 
 def crossing_point(p: Vector, q: Vector, r: Vector, s: Vector) -> ExactPoint:
