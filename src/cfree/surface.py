@@ -1,0 +1,236 @@
+"""The whole contact surfaces of one pair, as the paper parametrizes them; patches restrict t and phi.
+
+Paper, sections 2 and 3. Both kinds of ruled surface are one formula,
+
+    S(t, phi) = (p + t q - R(phi) (a + t g), phi)
+
+    v-e, eq. (5):  p = b_j, q = E_j, a = a_i, g = 0       cylindrical: its helices are congruent
+    e-v, eq. (8):  p = b_j, q = 0,   a = a_i, g = E_i     a saddle: their radii differ
+
+and every curve phi -> S(t, phi) is the helix of Lemma 1, a rotation about p + t q of the robot's point a + t g.
+Results are arrays (..., 3) of x, y and phi in double precision; `pose` gives the exact twin of a point.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
+from cfree.exact import ExactPoint, Number, to_fraction
+from cfree.polygon import Polygon
+from cfree.pose import Angle, Pose
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """Contact surface S(t, phi) of a v-e or e-v contact.
+
+    Attributes
+    ----------
+    contact : VertexEdge or EdgeVertex
+    p, q, a, g : pair of Fraction
+        The vectors of the formula at the top of this file.
+
+    Examples
+    --------
+    >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> S = contact_surface(square, square, VertexEdge(0, 2))
+    >>> S([0, 0.5, 1], 0)
+    array([[2., 2., 0.],
+           [1., 2., 0.],
+           [0., 2., 0.]])
+    >>> S.pose("1/3", 0).x
+    Fraction(4, 3)
+    """
+
+    contact: VertexEdge | EdgeVertex
+    p: ExactPoint
+    q: ExactPoint
+    a: ExactPoint
+    g: ExactPoint
+
+    def __call__(self, t: ArrayLike, phi: ArrayLike) -> Floats:
+        """Points (x, y, phi) at t and phi in radians, broadcast against each other: (..., 3)."""
+        from cfree import _core
+
+        t, phi = np.broadcast_arrays(np.asarray(t, dtype=np.float64), np.asarray(phi, dtype=np.float64))
+        xy = np.empty((t.size, 2))
+        _core.evaluate_points(self._coefficients(), np.ravel(t), np.ravel(phi), xy)
+        return np.concatenate((xy.reshape(*t.shape, 2), phi[..., None]), axis=-1)
+
+    def grid(self, t: ArrayLike, phi: ArrayLike) -> Floats:
+        """Positions at all pairs of t and phi: (len(phi), len(t), 2). Faster than a call: a row is a line.
+
+        Examples
+        --------
+        >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+        >>> contact_surface(square, square, EdgeVertex(0, 2)).grid([0, 1], [0])
+        array([[[2., 2.],
+                [0., 2.]]])
+        """
+        from cfree import _core
+
+        t, phi = np.ascontiguousarray(t, dtype=np.float64), np.ascontiguousarray(phi, dtype=np.float64)
+        xy = np.empty((len(phi), len(t), 2))
+        _core.evaluate_grid(self._coefficients(), t, phi, xy)
+        return xy
+
+    def helix(self, t: Number) -> Helix:
+        """The curve phi -> S(t, phi), along which a point of the robot is fixed."""
+        s = to_fraction(t)
+        (px, py), (qx, qy), (ax, ay), (gx, gy) = self.p, self.q, self.a, self.g
+        return Helix((px + s * qx, py + s * qy), (ax + s * gx, ay + s * gy))
+
+    def pose(self, t: Number, theta: Angle) -> Pose:
+        """The exact pose at t and theta."""
+        return self.helix(t).pose(theta)
+
+    def _coefficients(self) -> Floats:
+        return np.array([float(c) for point in (self.p, self.q, self.a, self.g) for c in point])
+
+
+@dataclass(frozen=True, slots=True)
+class Helix:
+    """All poses in which a point of the robot is at a point of the plane: Lemma 1, eq. (4).
+
+    Attributes
+    ----------
+    centre : pair of Fraction
+        P in the plane.
+    fixed : pair of Fraction
+        a in the robot's own coordinates; the radius of the helix is |a|.
+
+    Examples
+    --------
+    >>> helix = rotation_about((3, 0), (1, 0))
+    >>> helix(0)
+    array([2., 0., 0.])
+    >>> helix.pose("180deg").x
+    Fraction(4, 1)
+    """
+
+    centre: ExactPoint
+    fixed: ExactPoint
+
+    def __call__(self, phi: ArrayLike) -> Floats:
+        """Points (P - R(phi) a, phi), phi in radians: (..., 3)."""
+        phi = np.asarray(phi, dtype=np.float64)
+        (px, py), (ax, ay) = (tuple(map(float, point)) for point in (self.centre, self.fixed))
+        c, s = np.cos(phi), np.sin(phi)
+        return np.stack((px - (c * ax - s * ay), py - (s * ax + c * ay), phi), axis=-1)
+
+    def pose(self, theta: Angle) -> Pose:
+        """The exact pose at theta."""
+        turn = Pose(0, 0, theta)
+        ((x, y),) = turn.apply_exact([self.fixed])
+        return Pose(self.centre[0] - x, self.centre[1] - y) @ turn
+
+
+@dataclass(frozen=True, slots=True)
+class EdgeEdgeSegment:
+    """Straight curve C(t) = S(t, phi_min) of an e-e contact, section 3.3.2.
+
+    Attributes
+    ----------
+    contact : EdgeEdge
+    surface : Surface
+        S of the v-e contact of the edge's first vertex.
+    phi : float, radians
+    t_range : (float, float)
+        Closed range of t where it is a contact, see `edge_edge_range`.
+    """
+
+    contact: EdgeEdge
+    surface: Surface
+    phi: float
+    t_range: tuple[float, float]
+
+    def __call__(self, t: ArrayLike) -> Floats:
+        """Points (x, y, phi): (..., 3)."""
+        return self.surface(t, self.phi)
+
+
+def contact_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> Surface:
+    """Contact surface of a v-e contact, eq. (5), or of an e-v contact, eq. (8)."""
+    i, j, zero = contact.i, contact.j, (Fraction(0), Fraction(0))
+    p, a = obstacle.exact_vertices[j], robot.exact_vertices[i]
+    if isinstance(contact, VertexEdge):
+        return Surface(contact, p, obstacle.exact_edge(j), a, zero)
+    return Surface(contact, p, zero, a, robot.exact_edge(i))
+
+
+def contact_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> Helix:
+    """Helix of a v-v contact, section 3.3.1: a_i stays at b_j.
+
+    Examples
+    --------
+    >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> contact_helix(square, square, VertexVertex(1, 2))(0)
+    array([0., 2., 0.])
+    """
+    return Helix(obstacle.exact_vertices[contact.j], robot.exact_vertices[contact.i])
+
+
+def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> EdgeEdgeSegment:
+    """Segment of an e-e contact.
+
+    Raises
+    ------
+    ValueError
+        If the edges never touch along a length, because of reflex vertices.
+
+    Examples
+    --------
+    >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> top = contact_segment(square, square, EdgeEdge(0, 2))
+    >>> top(top.t_range)
+    array([[ 2.,  2.,  0.],
+           [-2.,  2.,  0.]])
+    """
+    t_range = edge_edge_range(robot, obstacle, contact)
+    if t_range is None:
+        raise ValueError(f"{contact} has no segment: reflex vertices keep the edges apart; see contact_curves()")
+    phi = angle_range(robot, obstacle, contact).phi_min
+    return EdgeEdgeSegment(contact, contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j)), phi, t_range)
+
+
+def rotation_about(centre: Sequence[Number], fixed: Sequence[Number]) -> Helix:
+    """All rotations that keep a point of the robot, given in its own coordinates, at a centre: Lemma 1."""
+    (px, py), (ax, ay) = centre, fixed
+    return Helix((to_fraction(px), to_fraction(py)), (to_fraction(ax), to_fraction(ay)))
+
+
+def rotation_of_combination(
+    centre: Sequence[Number], points: Iterable[Sequence[Number]], weights: Iterable[Number]
+) -> Helix:
+    """All poses in which a linear combination of points of the robot is at a centre: Remark 2.
+
+    Raises
+    ------
+    ValueError
+        If the weights add up to zero: the combination is then a vector that turns but never moves, the condition
+        leaves the position free, and no helix results.
+
+    Notes
+    -----
+    With a = sum lambda_k a_k and sigma = sum lambda_k, the combination of the moved points is sigma r + R(theta) a;
+    it is at P on the helix of the point a / sigma about P / sigma.
+
+    Examples
+    --------
+    >>> rotation_of_combination((2, 2), [(0, 0), (4, 0)], [1, 1])
+    Helix(centre=(Fraction(1, 1), Fraction(1, 1)), fixed=(Fraction(2, 1), Fraction(0, 1)))
+    """
+    rows = [(to_fraction(w), to_fraction(x), to_fraction(y)) for w, (x, y) in zip(weights, points, strict=True)]
+    sigma = sum((w for w, _, _ in rows), Fraction(0))
+    if sigma == 0:
+        raise ValueError("the weights add up to 0, which fixes no point; give weights with another sum")
+    px, py = (to_fraction(c) / sigma for c in centre)
+    return Helix((px, py), (sum(w * x for w, x, _ in rows) / sigma, sum(w * y for w, _, y in rows) / sigma))

@@ -1,0 +1,267 @@
+from __future__ import annotations
+
+import math
+import time
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import strategies
+from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
+from cfree.polygon import Polygon
+from cfree.pose import Angle, Pose
+from cfree.surface import (
+    contact_helix,
+    contact_segment,
+    contact_surface,
+    rotation_about,
+    rotation_of_combination,
+)
+from cfree.touch import contact_features, is_contact, is_forbidden
+from shapes import Shape
+
+SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+L_SHAPE = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+TRIANGLE = Polygon([(-1, -1), (3, -1), (0, 2)])
+numbers = strategies.fractions()
+points = st.tuples(numbers, numbers)
+angles = strategies.half_tangents().map(lambda tau: {"tau": "inf" if tau is None else tau})
+inner = st.fractions(Fraction(1, 9), Fraction(8, 9), max_denominator=9)
+pairs = st.tuples(strategies.polygons(), strategies.polygons())
+
+
+def polygons(shapes: tuple[Shape, Shape]) -> tuple[Polygon, Polygon]:
+    return Polygon(*shapes[0]), Polygon(*shapes[1])
+
+
+def pseudo_contacts(A: Polygon, O: Polygon) -> list[VertexEdge | EdgeVertex]:
+    """All v-e and e-v pairs, at reflex vertices too."""
+    return [kind(i, j) for kind in (VertexEdge, EdgeVertex) for i in range(len(A)) for j in range(len(O))]
+
+
+# examples
+
+
+def test_a_corner_slides_along_an_edge_while_the_robot_turns() -> None:
+    S = contact_surface(TRIANGLE, SQUARE, VertexEdge(0, 2))
+    np.testing.assert_allclose(S(0.5, 0), [2, 3, 0])
+    np.testing.assert_allclose(S(0.5, math.pi / 2), [0, 3, math.pi / 2], atol=1e-15)
+    assert S.pose("1/2", "90deg") == Pose(0, 3, "90deg")
+
+
+def test_an_edge_slides_along_a_corner() -> None:
+    S = contact_surface(TRIANGLE, SQUARE, EdgeVertex(0, 2))
+    np.testing.assert_allclose(S([0, 0.25, 1], 0), [[3, 3, 0], [2, 3, 0], [-1, 3, 0]])
+
+
+# section 2
+
+
+@given(points, points, angles)
+def test_lemma_1_a_point_stays_where_it_is_fixed(
+    P: tuple[Fraction, Fraction], a: tuple[Fraction, Fraction], theta: Angle
+) -> None:
+    q = rotation_about(P, a).pose(theta)
+    assert q.apply_exact([a]) == (P,)
+    np.testing.assert_allclose(rotation_about(P, a)(q.theta), [float(q.x), float(q.y), q.theta], atol=1e-13)
+
+
+@given(strategies.poses(), points)
+def test_lemma_1_every_pose_that_fixes_a_point_is_on_its_helix(
+    pose: tuple[Fraction, Fraction, Fraction | None], a: tuple[Fraction, Fraction]
+) -> None:
+    x, y, tau = pose
+    theta: Angle = {"tau": "inf" if tau is None else tau}
+    q = Pose(x, y, theta)
+    (P,) = q.apply_exact([a])
+    assert rotation_about(P, a).pose(theta) == q
+
+
+@given(points, st.lists(st.tuples(numbers, points), min_size=1, max_size=5), angles)
+def test_remark_2_a_combination_of_vertices_stays_where_it_is_fixed(
+    P: tuple[Fraction, Fraction], terms: list[tuple[Fraction, tuple[Fraction, Fraction]]], theta: Angle
+) -> None:
+    weights, vertices = zip(*terms, strict=True)
+    if sum(weights) == 0:
+        with pytest.raises(ValueError, match="weights add up to 0"):
+            rotation_of_combination(P, vertices, weights)
+        return
+    moved = rotation_of_combination(P, vertices, weights).pose(theta).apply_exact(vertices)
+    assert tuple(sum(w * v[k] for w, v in zip(weights, moved, strict=True)) for k in (0, 1)) == P
+
+
+def test_remark_2_weights_that_add_up_to_zero_leave_the_position_free() -> None:
+    # sum lambda_k a_k(q) = R a whatever r is: erratum of the remark
+    a, b = (0, 0), (1, 0)
+    for r in (0, 5):
+        (ax, ay), (bx, by) = Pose(r, r, "90deg").apply_exact([a, b])
+        assert (bx - ax, by - ay) == (0, 1)
+    with pytest.raises(ValueError, match="give weights with another sum"):
+        rotation_of_combination((0, 1), [b, a], [1, -1])
+
+
+# section 3
+
+
+@given(pairs, angles, inner, st.data())
+def test_points_of_a_surface_are_pseudo_contacts_exactly(
+    shapes: tuple[Shape, Shape], theta: Angle, t: Fraction, data: st.DataObject
+) -> None:
+    A, O = polygons(shapes)
+    contact = data.draw(st.sampled_from(pseudo_contacts(A, O)))
+    S = contact_surface(A, O, contact)
+    q = S.pose(t, theta)
+    assert contact in contact_features(A, O, q)
+    np.testing.assert_allclose(S(float(t), q.theta), [float(q.x), float(q.y), q.theta], atol=1e-12)
+
+
+@given(pairs, angles, st.data())
+def test_ends_of_rulings_lie_on_helices(shapes: tuple[Shape, Shape], theta: Angle, data: st.DataObject) -> None:
+    A, O = polygons(shapes)
+    i, j = data.draw(st.integers(0, len(A) - 1)), data.draw(st.integers(0, len(O) - 1))
+    here = contact_helix(A, O, VertexVertex(i, j))
+    slid = contact_surface(A, O, VertexEdge(i, j)), contact_helix(A, O, VertexVertex(i, int(O.next[j])))
+    passed = contact_surface(A, O, EdgeVertex(i, j)), contact_helix(A, O, VertexVertex(int(A.next[i]), j))
+    for S, there in (slid, passed):
+        assert S.pose(0, theta) == here.pose(theta)
+        assert S.pose(1, theta) == there.pose(theta)
+
+
+@given(pairs, st.tuples(inner, inner))
+def test_remark_3_helices_of_one_vertex_are_congruent(
+    shapes: tuple[Shape, Shape], t: tuple[Fraction, Fraction]
+) -> None:
+    A, O = polygons(shapes)
+    for i in range(len(A)):
+        fixed = {contact_surface(A, O, VertexEdge(i, j)).helix(s).fixed for j in range(len(O)) for s in t}
+        assert len(fixed) == 1  # they differ by a translation of the centre only
+
+
+def test_remark_5_helices_of_an_edge_vertex_surface_are_not_congruent() -> None:
+    S = contact_surface(TRIANGLE, SQUARE, EdgeVertex(0, 0))
+    radii = {sum(c * c for c in S.helix(Fraction(k, 4)).fixed) for k in range(5)}
+    assert len(radii) > 2
+
+
+def test_remark_3_regular_polygons_need_their_reference_point_in_the_middle() -> None:
+    # erratum: with the reference point elsewhere, helices of different vertices have different radii
+    def radii(robot: Polygon) -> set[Fraction]:
+        return {sum(c * c for c in contact_surface(robot, SQUARE, VertexEdge(i, 0)).helix(0).fixed) for i in range(4)}
+
+    assert len(radii(Polygon([(-1, -1), (1, -1), (1, 1), (-1, 1)]))) == 1
+    assert len(radii(SQUARE)) == 3
+
+
+@settings(max_examples=60)
+@given(strategies.convex_polygons(), strategies.convex_polygons(), angles, inner, st.data())
+def test_a_contact_surface_lies_in_the_closure_of_the_forbidden_space(
+    one: Shape, other: Shape, theta: Angle, t: Fraction, data: st.DataObject
+) -> None:
+    # erratum of definition 1: contacts are free, but a push across the edge, however small, is not
+    A, O = Polygon(*one), Polygon(*other)
+    contact = data.draw(st.sampled_from(contacts(A, O)))
+    q = contact_surface(A, O, contact).pose(t, theta)
+    if is_contact(A, O, q):
+        ends = (A.exact_edge(contact.i), O.exact_edge(contact.j))
+        (ux, uy), (vx, vy) = Pose(0, 0, theta).apply_exact([ends[0]])[0], ends[1]
+        push = (-vy, vx) if isinstance(contact, VertexEdge) else (uy, -ux)
+        tiny = Fraction(1, 10**40)
+        assert is_forbidden(A, O, Pose(q.x + push[0] * tiny, q.y + push[1] * tiny, theta))
+        assert not is_forbidden(A, O, Pose(q.x - push[0] * tiny, q.y - push[1] * tiny, theta))
+
+
+def test_segments_join_the_four_vertex_contacts_of_two_edges() -> None:
+    A = Polygon([(0, 0), (3, 4), (-4, 3)])  # |E_0| = 5, |E_2 of the square| = 2
+    C = contact_segment(A, SQUARE, EdgeEdge(0, 2))
+    assert C.t_range == (0.0, 3.5)
+    i, j, k, m = 0, 2, 1, 3
+    for t, pair in ((0, (i, j)), (1, (i, m)), (2.5, (k, j)), (3.5, (k, m))):
+        np.testing.assert_allclose(C(t), contact_helix(A, SQUARE, VertexVertex(*pair))(C.phi), atol=1e-14)
+
+
+RIGHT_ANGLES = {(1, 0): "0deg", (0, 1): "90deg", (-1, 0): "180deg", (0, -1): "270deg"}
+
+
+@pytest.mark.parametrize(("A", "O"), [(SQUARE, SQUARE), (SQUARE, L_SHAPE), (L_SHAPE, SQUARE), (L_SHAPE, L_SHAPE)])
+def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon) -> None:
+    found = {curve for curve in contact_curves(A, O) if isinstance(curve, EdgeEdge)}
+    for contact in (EdgeEdge(i, j) for i in range(len(A)) for j in range(len(O))):
+        u, v = A.exact_edge(contact.i), O.exact_edge(contact.j)
+        c, s = -(u[0] * v[0] + u[1] * v[1]), -(u[0] * v[1] - u[1] * v[0])
+        theta = RIGHT_ANGLES[(int(math.copysign(1, c)) if c else 0, int(math.copysign(1, s)) if s else 0)]
+        S = contact_surface(A, O, VertexEdge(contact.i, contact.j))
+        low, high = contact_segment(A, O, contact).t_range if contact in found else (1.0, 0.0)
+        for t in (Fraction(k, 8) for k in range(-4, 30)):
+            q = S.pose(t, theta)
+            touching = is_contact(A, O, q)
+            if touching and contact in contact_features(A, O, q):
+                assert low <= t <= high
+            elif t in (low, high):
+                assert touching or is_forbidden(A, O, q)  # elsewhere, with an L
+            if O is A is SQUARE and low <= t <= high:
+                assert touching
+    if A is L_SHAPE is O:
+        with pytest.raises(ValueError, match="has no segment: reflex vertices"):
+            contact_segment(A, O, EdgeEdge(2, 3))
+
+
+@given(strategies.convex_polygons(), strategies.convex_polygons(), inner)
+def test_a_patch_ends_where_an_edge_lies_on_an_edge(one: Shape, other: Shape, t: Fraction) -> None:
+    A, O = Polygon(*one), Polygon(*other)
+    for contact in contacts(A, O):
+        S, r = contact_surface(A, O, contact), angle_range(A, O, contact)
+        for phi, i, j in (
+            (r.phi_min, contact.i, contact.j if isinstance(contact, VertexEdge) else int(O.previous[contact.j])),
+            (r.phi_max, int(A.previous[contact.i]) if isinstance(contact, VertexEdge) else contact.i, contact.j),
+        ):
+            C = contact_segment(A, O, EdgeEdge(i, j))
+            assert math.isclose(math.cos(C.phi - phi), 1)
+            ends, point = C(C.t_range)[:, :2], S(float(t), phi)[:2]
+            d, e = ends[1] - ends[0], point - ends[0]
+            assert math.isclose(d[0] * e[1] - d[1] * e[0], 0, abs_tol=1e-9)
+            assert -1e-9 <= d @ e <= d @ d + 1e-9
+
+
+# evaluation
+
+
+def test_calls_broadcast_and_agree_with_the_grid() -> None:
+    rng = np.random.default_rng(5)
+    t, phi = rng.uniform(size=7), rng.uniform(0, 7, size=5)
+    for contact in (VertexEdge(1, 2), EdgeVertex(1, 2)):
+        S = contact_surface(TRIANGLE, L_SHAPE, contact)
+        table = S(t, phi[:, None])
+        assert table.shape == (5, 7, 3)
+        np.testing.assert_allclose(table[..., :2], S.grid(t, phi), atol=1e-14)
+        np.testing.assert_array_equal(table[..., 2], np.broadcast_to(phi[:, None], (5, 7)))
+        np.testing.assert_array_equal(S(t[3], phi[2]), table[2, 3])
+        for k in range(5):
+            moved = Pose(*(float(c) for c in table[k, 0])).apply(TRIANGLE.vertices)
+            a, b = TRIANGLE.vertices, L_SHAPE.vertices
+            on_robot = moved[1] if contact == VertexEdge(1, 2) else moved[1] + t[0] * (moved[2] - moved[1])
+            on_obstacle = b[2] + t[0] * (b[3] - b[2]) if contact == VertexEdge(1, 2) else b[2]
+            np.testing.assert_allclose(on_robot, on_obstacle, atol=1e-13)
+            assert a.shape == (3, 2)
+
+
+def test_no_points_are_no_error() -> None:
+    S = contact_surface(TRIANGLE, SQUARE, VertexEdge(0, 0))
+    assert S([], []).shape == (0, 3)
+    assert S.grid([], [0, 1]).shape == (2, 0, 2)
+
+
+def test_millions_of_points_take_a_second() -> None:
+    S = contact_surface(TRIANGLE, SQUARE, EdgeVertex(0, 0))
+    started = time.perf_counter()
+    assert S.grid(np.linspace(0, 1, 2000), np.linspace(0, 6, 1000)).shape == (1000, 2000, 2)
+    assert time.perf_counter() - started < 2
+
+
+def test_huge_coordinates_do_not_matter() -> None:
+    big = Polygon([(x * 10**100, y * 10**100) for x, y in SQUARE.numerators])
+    S = contact_surface(big, big, VertexEdge(0, 2))
+    np.testing.assert_allclose(S(0.5, 0.0), [1e100, 2e100, 0])
+    assert is_contact(big, big, S.pose("1/3", "45deg"))
