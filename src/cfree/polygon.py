@@ -152,6 +152,11 @@ class Polygon:
         vector: Floats = self.edges[i]
         return vector
 
+    def exact_edge(self, i: int) -> ExactPoint:
+        """Edge vector E_i as it is."""
+        x, y = self.edge_numerators[i]
+        return Fraction(x, self.denominator), Fraction(y, self.denominator)
+
     # angles and measures
 
     @cached_property
