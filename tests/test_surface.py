@@ -199,9 +199,7 @@ def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon
             touching = is_contact(A, O, q)
             if touching and contact in contact_features(A, O, q):
                 assert low <= t <= high
-            elif t in (low, high):
-                assert touching or is_forbidden(A, O, q)  # elsewhere, with an L
-            if O is A is SQUARE and low <= t <= high:
+            if low <= t <= high and SQUARE in (A, O):  # two Ls may overlap elsewhere
                 assert touching
     if A is L_SHAPE is O:
         with pytest.raises(ValueError, match="has no segment: reflex vertices"):
@@ -238,13 +236,6 @@ def test_calls_broadcast_and_agree_with_the_grid() -> None:
         np.testing.assert_allclose(table[..., :2], S.grid(t, phi), atol=1e-14)
         np.testing.assert_array_equal(table[..., 2], np.broadcast_to(phi[:, None], (5, 7)))
         np.testing.assert_array_equal(S(t[3], phi[2]), table[2, 3])
-        for k in range(5):
-            moved = Pose(*(float(c) for c in table[k, 0])).apply(TRIANGLE.vertices)
-            a, b = TRIANGLE.vertices, L_SHAPE.vertices
-            on_robot = moved[1] if contact == VertexEdge(1, 2) else moved[1] + t[0] * (moved[2] - moved[1])
-            on_obstacle = b[2] + t[0] * (b[3] - b[2]) if contact == VertexEdge(1, 2) else b[2]
-            np.testing.assert_allclose(on_robot, on_obstacle, atol=1e-13)
-            assert a.shape == (3, 2)
 
 
 def test_no_points_are_no_error() -> None:
