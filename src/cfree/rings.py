@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import InvalidPolygonError
-from cfree.exact import ExactPoint, IntPoint, Number, to_ratio
+from cfree.exact import MAX_DIGITS, ExactPoint, IntPoint, Number, to_ratio
 from cfree.predicates import (
     Meeting,
     Orientation,
@@ -73,6 +73,10 @@ def read_rings(outer: Points, holes: Sequence[Points]) -> Rings:
     """
     read = [_read_points(r, points) for r, points in enumerate((outer, *holes))]
     denominator = math.lcm(*{d for ring in read for x, y in ring for d in (x[1], y[1])})
+    if denominator.bit_length() > 4 * MAX_DIGITS:
+        raise InvalidPolygonError(
+            "the common denominator of the coordinates is too long; give decimals or fractions of fewer denominators"
+        )
     rings = [
         _clean(r, [(x * (denominator // p), y * (denominator // q)) for (x, p), (y, q) in ring])
         for r, ring in enumerate(read)
@@ -199,8 +203,7 @@ def _meeting(
 ) -> InvalidPolygonError:
     """The fault of two edges, each (ring, position in the ring), that meet."""
     (p, q), (r, s) = (
-        (rings[ring].points[k], rings[ring].points[(k + 1) % len(rings[ring].points)])
-        for ring, k in (first, second)
+        (rings[ring].points[k], rings[ring].points[(k + 1) % len(rings[ring].points)]) for ring, k in (first, second)
     )
     kind = meet(p, q, r, s)
     common: Vector = max(min(p, q), min(r, s))  # where they are collinear, or end in one point
