@@ -325,6 +325,17 @@ def test_arrays_cannot_be_changed() -> None:
         polygon.denominator = 2  # type: ignore[misc]
 
 
+def test_an_area_beyond_all_doubles_is_infinite() -> None:
+    polygon = Polygon([(0, 0), (1e200, 0), (0, 1e200)])
+    assert polygon.area == math.inf
+    assert polygon.exact_area == Fraction(1e200) ** 2 / 2
+
+
+def test_coordinates_without_a_manageable_common_denominator_are_refused() -> None:
+    with pytest.raises(InvalidPolygonError, match="common denominator of the coordinates is too long"):
+        Polygon([(Fraction(k, 10**9 + k), k * k) for k in range(1000)])
+
+
 def test_many_vertices_take_seconds() -> None:
     started = time.perf_counter()
     polygon = Polygon(star(20_000))

@@ -190,8 +190,11 @@ class Polygon:
 
     @property
     def area(self) -> float:
-        """Area rounded to the nearest double."""
-        return float(self.exact_area)
+        """Area rounded to the nearest double, inf beyond the greatest."""
+        try:
+            return float(self.exact_area)
+        except OverflowError:
+            return math.inf
 
     @cached_property
     def perimeter(self) -> float:
@@ -233,9 +236,7 @@ class Polygon:
         import shapely
 
         if geometry.geom_type != "Polygon" or geometry.is_empty:
-            raise InvalidPolygonError(
-                f"{geometry.wkt:.60} is no polygon; give the parts of a collection one by one"
-            )
+            raise InvalidPolygonError(f"{geometry.wkt:.60} is no polygon; give the parts of a collection one by one")
         return cls(
             shapely.get_coordinates(geometry.exterior),
             [shapely.get_coordinates(ring) for ring in geometry.interiors],
