@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cfree.errors import InvalidPoseError
-from cfree.pose import Pose, Poses, chart_of, normalize_angles, theta_of
+from cfree.pose import Pose, Poses, chart_of, normalize_angles, place_of, theta_of
 
 numbers = st.fractions(-9, 9, max_denominator=12)
 taus = st.none() | st.fractions(-5, 5, max_denominator=9)
@@ -152,6 +152,18 @@ def test_charts_tile_the_circle(q: Pose) -> None:
         float_chart, float_tau = chart_of(q.theta)
         assert float_chart == chart
         assert math.isclose(float_tau, tau, abs_tol=1e-14)
+
+
+@given(radians)
+def test_the_place_of_an_angle_is_that_of_its_pose(theta: float) -> None:
+    q = Pose(0, 0, theta)
+    angle, chart, tau = place_of(theta)
+    assert angle == q.theta
+    if abs(q.chart[1]) < 1 - 1e-15:  # two names of one angle
+        assert chart == q.chart[0]
+        assert math.isclose(tau, q.chart[1], abs_tol=1e-15)
+    else:
+        assert math.isclose(abs(tau), 1)
 
 
 @given(st.lists(st.floats(0, 6.283), min_size=1, max_size=9))

@@ -127,9 +127,7 @@ class Pose:
     def apply_exact(self, points: Iterable[Vector]) -> tuple[ExactPoint, ...]:
         """Exact points of the robot where this pose puts them: eq. (3) in the rational model."""
         c, s, w = self.rotation
-        return tuple(
-            (self.x + Fraction(c * a - s * b, w), self.y + Fraction(s * a + c * b, w)) for a, b in points
-        )
+        return tuple((self.x + Fraction(c * a - s * b, w), self.y + Fraction(s * a + c * b, w)) for a, b in points)
 
     def __matmul__(self, other: Pose) -> Pose:
         """Pose that does first `other`, then this one; exact, the errors of the angles add up.
@@ -159,7 +157,7 @@ class Pose:
 
 @dataclass(frozen=True, eq=False)
 class Poses:
-    """Many poses in double precision; indexing gives an exact `Pose`, slicing gives `Poses`.
+    """Many poses in double precision; indexing gives an exact `Pose`.
 
     Parameters
     ----------
@@ -183,15 +181,11 @@ class Poses:
     def __init__(self, xy: ArrayLike, theta: ArrayLike) -> None:
         positions, angles = np.array(xy, dtype=np.float64), np.array(theta, dtype=np.float64)
         if angles.ndim != 1 or positions.shape != (len(angles), 2):
-            raise InvalidPoseError(
-                f"shapes {positions.shape} of xy and {angles.shape} of theta; give (n, 2) and (n,)"
-            )
+            raise InvalidPoseError(f"shapes {positions.shape} of xy and {angles.shape} of theta; give (n, 2) and (n,)")
         bad = np.flatnonzero(~(np.isfinite(positions).all(axis=1) & np.isfinite(angles)))
         if len(bad):
             k = int(bad[0])
-            raise InvalidPoseError(
-                f"pose {k}: {positions[k]}, {angles[k]} is not finite; give finite numbers"
-            )
+            raise InvalidPoseError(f"pose {k}: {positions[k]}, {angles[k]} is not finite; give finite numbers")
         object.__setattr__(self, "xy", _read_only(positions))
         object.__setattr__(self, "theta", _read_only(normalize_angles(angles)))
 
@@ -264,18 +258,16 @@ def place_of(theta: Angle) -> tuple[float, int, float]:
 
     Examples
     --------
-    >>> place_of("90deg")[1:], place_of(7.0)[1:]
-    ((0, 1.0), (0, 0.37491522604664306))
+    >>> place_of("90deg"), place_of(3.0)
+    ((1.5707963267948966, 0, 1.0), (3.0, 1, -0.0709148443026524))
     """
-    if not isinstance(theta, float) or not math.isfinite(theta):
-        pose = Pose(0, 0, theta)
-        return pose.theta, pose.chart[0], float(pose.chart[1])
-    angle = theta % math.tau
-    local = math.remainder(angle, math.tau)
-    chart = abs(local) > math.pi / 2
-    if chart:
-        local -= math.copysign(math.pi, local)
-    return angle, int(chart), math.tan(local / 2)
+    # the quick way is for plain cases only: other turns and right angles need the true pi
+    if isinstance(theta, float) and 0 <= theta < math.tau and abs(math.remainder(theta, math.pi / 2)) > 1e-9:
+        chart = math.pi / 2 < theta < 3 * math.pi / 2
+        local = theta - math.pi if chart else math.remainder(theta, math.tau)
+        return theta, int(chart), math.tan(local / 2)
+    pose = Pose(0, 0, theta)
+    return pose.theta, pose.chart[0], float(pose.chart[1])
 
 
 def theta_of(chart: ArrayLike, tau: ArrayLike) -> Floats:
