@@ -123,24 +123,17 @@ Poly Predicates::polynomial(const Feature& first, const Feature& second) const {
     return difference(product(polynomial(N1), polynomial(D2)), product(polynomial(N2), polynomial(D1)));
 }
 
-int Predicates::sign_at(const Filtered& f, const Feature& feature, double tau) {
-    const double value = f.polar(tau, tau);
-    if (std::abs(value) > f.err) return ++counters.filter, value > 0 ? 1 : -1;
+int Predicates::sign_at(const Filtered& f, const Feature& feature, const Sample& at) {
+    const double value = f.polar(at.tau, at.tau);
+    if (!at.fine && std::abs(value) > f.err) return ++counters.filter, value > 0 ? 1 : -1;
     ++counters.exact;
-    return cfree::sign_at(polynomial(feature, {}), Dyadic::from(tau));
+    return cfree::sign_at(polynomial(feature, {}), at.exact());
 }
-int Predicates::offset_sign(Index s, Index v, const Filtered& f, double tau) {
-    return sign_at(f, {Kind::vertex_vertex, s, v}, tau);
+int Predicates::offset_sign(Index s, Index v, const Filtered& f, const Sample& at) {
+    return sign_at(f, {Kind::vertex_vertex, s, v}, at);
 }
-int Predicates::parallel_sign(Index g, Index f, const Filtered& value, double tau) {
-    return sign_at(value, {Kind::edge_edge, g, f}, tau);
-}
-
-int Predicates::denominator_sign(const Curve& c, double tau) {
-    const double value = c.D.polar(tau, tau);
-    if (std::abs(value) > c.D.err) return ++counters.filter, value > 0 ? 1 : -1;
-    ++counters.exact;
-    return cfree::sign_at(polynomial(curve_trig<Int>(c.feature)[1]), Dyadic::from(tau)) * (c.flipped ? -1 : 1);
+int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sample& at) {
+    return sign_at(value, {Kind::edge_edge, g, f}, at);
 }
 
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
@@ -358,11 +351,13 @@ Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from
     Roots result;
     const auto G = edge<Approx>(scene.robot, g), F = edge<Approx>(scene.obstacles, f);
     Approx c = dot(G, F), n = cross(G, F);
+    int side = c.v > 0 ? 1 : -1;
     if (std::abs(c.v) <= coefficient_error * c.m) {
         ++counters.exact;
-        if (dot(edge<Int>(scene.robot, g), edge<Int>(scene.obstacles, f)).is_zero()) return result;
+        side = dot(edge<Int>(scene.robot, g), edge<Int>(scene.obstacles, f)).sign();
+        if (side == 0) return result;
     }
-    if (c.v < 0) n = -n, c = -c;
+    if (side < 0) n = -n, c = -c;
     const double length = std::hypot(c.v, n.v), tau = n.v / (length + c.v);
     const double half = 8 * u * (c.m + n.m) / length + 4 * u;
     const Event x{{Kind::edge_edge, g, f}, {}, tau - half, tau + half};
@@ -424,14 +419,14 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     result.count = r.count;
     for (int k = 0; k <= r.count; ++k) {
         if (k < r.count) result.at[k] = r.at[k];
-        const double tau = between(k == 0 ? from : r.at[k - 1], k == r.count ? to : r.at[k]);
-        const auto value = f.at(tau);
-        if (std::abs(value.v) > value.err) {
+        const Sample at = between(k == 0 ? from : r.at[k - 1], k == r.count ? to : r.at[k]);
+        const auto value = f.at(at.tau);
+        if (!at.fine && std::abs(value.v) > value.err) {
             ++counters.filter;
             result.sign[k] = value.v > 0 ? 1 : -1;
         } else {
             ++counters.exact;
-            result.sign[k] = flip * cfree::sign_at(polynomial(p.feature, q.feature), Dyadic::from(tau));
+            result.sign[k] = flip * cfree::sign_at(polynomial(p.feature, q.feature), at.exact());
         }
     }
     return result;
@@ -463,7 +458,7 @@ struct Root {
     Dyadic lo, hi;
     Root(Poly polynomial, const Event& x) : p(std::move(polynomial)), lo(Dyadic::from(x.lo)), hi(Dyadic::from(x.hi)) {
         if (sign_at(p, lo) == 0) hi = lo;
-        if (sign_at(p, hi) == 0) lo = hi;
+        else if (sign_at(p, hi) == 0) lo = hi;
     }
     void halve() {
         if (compare(lo, hi) == 0) return;
@@ -513,34 +508,41 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
     }
 }
 
-int Predicates::order(const Event& x, double tau) {
-    if (x.hi < tau) return -1;
-    if (x.lo > tau) return 1;
+int Predicates::order(const Event& x, const Sample& at) {
+    if (!at.fine && x.hi < at.tau) return -1;
+    if (!at.fine && x.lo > at.tau) return 1;
     ++counters.exact;
     const Root root(defining(x), x);
-    const Dyadic t = Dyadic::from(tau);
-    const int at = cfree::sign_at(root.p, t);
-    if (at == 0) return 0;
-    return at == cfree::sign_at(root.p, root.lo) ? 1 : -1;
+    const Dyadic t = at.exact();
+    if (cfree::compare(t, root.lo) < 0) return 1;
+    if (cfree::compare(root.hi, t) < 0) return -1;
+    const int sign = cfree::sign_at(root.p, t);
+    if (sign == 0) return 0;
+    return sign == cfree::sign_at(root.p, root.lo) ? 1 : -1;
 }
 
-double Predicates::between(const Event& x, const Event& y, double part) {
+Sample Predicates::between(const Event& x, const Event& y, double part) {
     double lo = x.hi, hi = y.lo;
-    if (!(lo < hi)) {
-        // intervals that overlap: halve them until doubles lie between, down to where doubles end
+    if (!(lo < hi)) {  // intervals that overlap: halve them until they part
         ++counters.exact;
         Root p(defining(x), x), q(defining(y), y);
-        for (int k = 0; k < 80 && !(lo < hi); ++k) {
-            p.halve(), q.halve();
-            lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
+        while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+        lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
+        if (!(std::nextafter(lo, hi) < hi)) {
+            Dyadic below = p.hi, at = Dyadic::middle(p.hi, q.lo);
+            for (int steps = 0; steps < static_cast<int>(8 * (1 - part)); ++steps) at = Dyadic::middle(below, at);
+            return {at.rounded_down(), at};
         }
     }
     const double mid = lo + part * (hi - lo);
-    if (!(lo < mid && mid < hi)) throw Undecided("no double lies between two critical angles");
+    if (!(lo < mid && mid < hi)) {  // neighbouring doubles
+        const Dyadic at = Dyadic::middle(Dyadic::from(lo), Dyadic::from(hi));
+        return {lo, at};
+    }
     int exponent;
     std::frexp(hi - lo, &exponent);
     const double scale = std::ldexp(1.0, 5 - exponent), few = std::nearbyint(mid * scale) / scale;
-    return lo < few && few < hi ? few : mid;
+    return {lo < few && few < hi ? few : mid, {}};
 }
 
 Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters) {

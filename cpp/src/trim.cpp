@@ -30,17 +30,17 @@ void Trimmer::cover(Index p, Index k) {
     while (!todo.empty() && !live.empty()) {
         const Span whole = todo.back();
         todo.pop_back();
-        double tau = decide.between(events[whole.from], events[whole.to]);
+        Sample at = decide.between(events[whole.from], events[whole.to]);
         Span span = whole;
-        State state = state_at<double>(p, k, tau);
-        Verdict verdict = lifetime(state, tau, span);
+        State state = at.fine ? state_at<Int>(p, k, at) : state_at<double>(p, k, at);
+        Verdict verdict = lifetime(state, at, span);
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
             if (attempt == 20) throw Undecided("no sample decides a pillar's state");
             if (verdict == Verdict::resample)  // the sample is itself a critical angle
-                tau = decide.between(events[whole.from], events[whole.to], (attempt + 1) / 23.0);
+                at = decide.between(events[whole.from], events[whole.to], (attempt + 1) / 23.0);
             span = whole;
-            state = state_at<Int>(p, k, tau);
-            verdict = lifetime(state, tau, span);
+            state = state_at<Int>(p, k, at);
+            verdict = lifetime(state, at, span);
             if (verdict == Verdict::wrong) throw std::logic_error("an exact state contradicts its own conditions");
         }
         if (state.meets == Meets::crosses) add_band(state, span);
@@ -55,12 +55,13 @@ template <class T>
 struct Rotation {
     T c, s, w;  // cosine and sine times w
 };
-Rotation<double> rotation(double tau, double kappa, double) {
+Rotation<double> rotation(const Sample& at, double kappa, double) {
+    const double tau = at.tau;
     const double w = 1 + tau * tau;
     return {kappa * (1 - tau * tau) / w, kappa * 2 * tau / w, 1};
 }
-Rotation<Int> rotation(double tau, double kappa, const Int&) {
-    const Dyadic t = Dyadic::from(tau);
+Rotation<Int> rotation(const Sample& at, double kappa, const Int&) {
+    const Dyadic t = at.exact();
     const Int q = Int(1) << t.k, c = q * q - t.n * t.n, s = 2 * t.n * q;
     return {kappa > 0 ? c : Int(-c), kappa > 0 ? s : Int(-s), q * q + t.n * t.n};
 }
@@ -80,9 +81,9 @@ Vec<Int> between_vertices(const Shape& s, Index p, Index q) {
 // The pillar is a convex polygon whose edges are those of both pieces, merged by direction. Offsets from the surface's line
 // rise and fall once along it.
 template <class T>
-Trimmer::State Trimmer::state_at(Index p, Index k, double tau) const {
+Trimmer::State Trimmer::state_at(Index p, Index k, const Sample& at) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const Rotation<T> R = rotation(tau, surface.chart ? -1 : 1, T{});
+    const Rotation<T> R = rotation(at, surface.chart ? -1 : 1, T{});
     const bool on_edge = surface.contact.kind == Kind::vertex_edge;
     const Index i = surface.contact.robot, j = surface.contact.obstacle;
     const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
@@ -245,8 +246,8 @@ int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
     return count;
 }
 
-// Check a state at tau and narrow the span to where it holds.
-Trimmer::Verdict Trimmer::lifetime(const State& state, double tau, Span& span) {
+// Check a state at a sample and narrow the span to where it holds.
+Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Span& span) {
     Condition all[8];
     bool wrong = false;
     const int count = conditions(state, all, wrong);
@@ -258,8 +259,8 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, double tau, Span& span) {
             ++decide.counters.filter;
             continue;
         }
-        const int at = x.is_offset ? decide.offset_sign(x.robot, x.obstacle, x.value, tau)
-                                   : decide.parallel_sign(x.robot, x.obstacle, x.value, tau);
+        const int at = x.is_offset ? decide.offset_sign(x.robot, x.obstacle, x.value, sample)
+                                   : decide.parallel_sign(x.robot, x.obstacle, x.value, sample);
         if (at == -x.sign) return Verdict::wrong;
         const auto roots = x.is_offset
                                ? decide.offset_roots(x.robot, x.obstacle, x.value, events[span.from], events[span.to])
@@ -270,7 +271,7 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, double tau, Span& span) {
         }
         if (at == 0) return Verdict::resample;
         for (int r = 0; r < roots.count; ++r) {
-            if (decide.order(roots.at[r], tau) < 0) {
+            if (decide.order(roots.at[r], sample) < 0) {
                 span.from = intern(roots.at[r]);
             } else {
                 span.to = intern(roots.at[r]);

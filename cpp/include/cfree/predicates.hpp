@@ -8,6 +8,7 @@
 // Rungs: doubles with a proven bound; then exact integers of any size. No tolerance decides anything.
 #pragma once
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -61,7 +62,14 @@ struct Curve {
     Filtered N, D;
 };
 
-// Rational samples are doubles, taken exactly. An order that no double can separate is not decided in this version.
+// A rational sample: a double, taken exactly, or a finer dyadic where no double lies between two angles.
+struct Sample {
+    double tau;
+    std::optional<Dyadic> fine;
+    Dyadic exact() const { return fine ? *fine : Dyadic::from(tau); }
+};
+
+// Two roots of one polynomial that no double separates are not told apart in this version.
 struct Undecided : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -84,18 +92,17 @@ public:
 
     // Sign on the whole closed interval, 0 if not certain.
     static int sign_on(const Filtered& f, double lo, double hi);
-    // Sign at the double tau, exact; 0 means zero.
-    int offset_sign(Index s, Index v, const Filtered& f, double tau);
-    int parallel_sign(Index g, Index f, const Filtered& value, double tau);
-    int denominator_sign(const Curve& c, double tau);
+    // Sign at a sample, exact; 0 means zero.
+    int offset_sign(Index s, Index v, const Filtered& f, const Sample& at);
+    int parallel_sign(Index g, Index f, const Filtered& value, const Sample& at);
     // Constants: sign of E_g x E_f for two edges of one shape.
     int cross_sign(const Shape& shape, Index e, Index f);
 
     // Sign of x - y: 0 if they are one angle.
     int order(const Event& x, const Event& y);
-    int order(const Event& x, double tau);
-    // A double strictly between two angles, with few digits, after about that part of the way.
-    double between(const Event& x, const Event& y, double part = 0.5);
+    int order(const Event& x, const Sample& at);
+    // A sample strictly between two angles, with few digits, after about that part of the way.
+    Sample between(const Event& x, const Event& y, double part = 0.5);
 
     // Roots strictly between two angles, in order; a touch without a change of sign is none.
     // all_zero: the polynomial vanishes identically.
@@ -139,7 +146,7 @@ private:
     Form form(const Event& x) const;
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
-    int sign_at(const Filtered& f, const Feature& first, double tau);
+    int sign_at(const Filtered& f, const Feature& first, const Sample& at);
     Poly defining(const Event& x) const;
     int order_exactly(const Event& x, const Event& y);
 

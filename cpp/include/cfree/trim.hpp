@@ -63,8 +63,8 @@ private:
     enum class Verdict { holds, wrong, resample };
 
     template <class T>
-    State state_at(Index p, Index k, double tau) const;
-    Verdict lifetime(const State& state, double tau, Span& span);
+    State state_at(Index p, Index k, const Sample& at) const;
+    Verdict lifetime(const State& state, const Sample& at, Span& span);
     int conditions(const State& state, Condition* out, bool& wrong);
     bool lies_on_line(Index s, Index v) const;
     void add_band(const State& state, const Span& span);
