@@ -224,6 +224,18 @@ def test_equation_7_needs_its_vectors_as_columns() -> None:
     assert not math.isclose(math.atan2(y, x) % (2 * math.pi), r.phi_min)
 
 
+def test_its_twin_in_section_3_2_1_does_too() -> None:
+    A, O, t = Polygon([(0, 0), (2, 1), (0, 2)]), Polygon([(0, 0), (-1, 3), (-2, 0)]), 0.25
+    r = angle_range(A, O, EdgeVertex(0, 1))
+    rest, arriving = (1 - t) * A.edge(0), O.edge(0)
+    M = np.column_stack((rest, [-rest[1], rest[0]]))
+    target = (t - 1) * np.linalg.norm(A.edge(0)) * arriving / np.linalg.norm(arriving)
+    x, y = np.linalg.solve(M, target)
+    assert math.isclose(math.atan2(y, x) % (2 * math.pi), r.phi_min)
+    x, y = np.linalg.solve(M.T, target)
+    assert not math.isclose(math.atan2(y, x) % (2 * math.pi), r.phi_min)
+
+
 def test_cosine_and_sine_of_phi_min_need_one_square_root_only() -> None:
     # remark 4 of the paper says they cannot be computed exactly: the direction is rational
     r = angle_range(TRIANGLE, TRIANGLE, VertexEdge(0, 1))
