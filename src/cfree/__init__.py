@@ -4,52 +4,82 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary as Boundary
-    from cfree.forbidden import boundary as boundary
+    from cfree.contact import AngleRange as AngleRange
+    from cfree.contact import EdgeEdge as EdgeEdge
+    from cfree.contact import EdgeVertex as EdgeVertex
+    from cfree.contact import VertexEdge as VertexEdge
+    from cfree.contact import VertexVertex as VertexVertex
+    from cfree.contact import angle_range as angle_range
+    from cfree.contact import contact_curves as contact_curves
+    from cfree.contact import contacts as contacts
+    from cfree.contact import edge_edge_range as edge_edge_range
     from cfree.errors import CfreeError as CfreeError
     from cfree.errors import FormatError as FormatError
     from cfree.errors import InvalidPolygonError as InvalidPolygonError
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UnsupportedError as UnsupportedError
+    from cfree.forbidden import Boundary as Boundary
+    from cfree.forbidden import boundary as boundary
+    from cfree.io import load_polygons as load_polygons
     from cfree.io import load_scene as load_scene
+    from cfree.mesh import Mesh as Mesh
+    from cfree.mesh import boundary_mesh as boundary_mesh
+    from cfree.mesh import save_mesh as save_mesh
+    from cfree.plot import plot_boundary as plot_boundary
+    from cfree.plot import plot_overview as plot_overview
+    from cfree.plot import plot_slice as plot_slice
+    from cfree.plot import plot_workspace as plot_workspace
     from cfree.polygon import Polygon as Polygon
     from cfree.pose import Pose as Pose
     from cfree.pose import Poses as Poses
     from cfree.scene import Scene as Scene
     from cfree.slice import Slice as Slice
     from cfree.storage import load_boundary as load_boundary
+    from cfree.surface import EdgeEdgeSegment as EdgeEdgeSegment
+    from cfree.surface import Helix as Helix
+    from cfree.surface import Surface as Surface
+    from cfree.surface import contact_helix as contact_helix
+    from cfree.surface import contact_segment as contact_segment
+    from cfree.surface import contact_surface as contact_surface
+    from cfree.surface import rotation_about as rotation_about
+    from cfree.surface import rotation_of_combination as rotation_of_combination
+    from cfree.touch import contact_features as contact_features
+    from cfree.touch import is_contact as is_contact
+    from cfree.touch import is_forbidden as is_forbidden
+    from cfree.touch import is_pseudo_contact as is_pseudo_contact
 
 __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
-    "Boundary": "forbidden",
-    "CfreeError": "errors",
-    "FormatError": "errors",
-    "InvalidPolygonError": "errors",
-    "InvalidPoseError": "errors",
-    "InvariantError": "errors",
-    "Polygon": "polygon",
-    "Pose": "pose",
-    "Poses": "pose",
-    "Scene": "scene",
-    "Slice": "slice",
-    "UnsupportedError": "errors",
-    "boundary": "forbidden",
-    "load_boundary": "storage",
-    "load_scene": "io",
+    "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
+    "edge_edge_range",
+    "errors": "CfreeError FormatError InvalidPolygonError InvalidPoseError InvariantError UnsupportedError",
+    "forbidden": "Boundary boundary",
+    "io": "load_polygons load_scene",
+    "mesh": "Mesh boundary_mesh save_mesh",
+    "plot": "plot_boundary plot_overview plot_slice plot_workspace",
+    "polygon": "Polygon",
+    "pose": "Pose Poses",
+    "scene": "Scene",
+    "slice": "Slice",
+    "storage": "load_boundary",
+    "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface rotation_about "
+    "rotation_of_combination",
+    "touch": "contact_features is_contact is_forbidden is_pseudo_contact",
 }
-__all__ = ["__version__", *_HOMES]
+_MODULE = {name: module for module, names in _HOMES.items() for name in names.split()}
+__all__ = ["__version__", *_MODULE]
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
+    if name not in _MODULE:
         raise AttributeError(f"module 'cfree' has no attribute {name!r}")
-    value = getattr(import_module(f"cfree.{_HOMES[name]}"), name)
+    value = getattr(import_module(f"cfree.{_MODULE[name]}"), name)
     globals()[name] = value
     return value
 
 
 def __dir__() -> list[str]:
-    return sorted([*globals(), *_HOMES])
+    return sorted({*globals(), *_MODULE})

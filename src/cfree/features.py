@@ -116,7 +116,8 @@ class ShapeFeatures:
         edges = self.xy[self.w] - self.xy[self.v]
         before, after = edges[self.previous], edges[: len(self.previous)]
         cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
-        return np.arctan2(cross, (before * after).sum(axis=1))
+        turning: NDArray[np.float64] = np.arctan2(cross, (before * after).sum(axis=1))
+        return turning
 
     @cached_property
     def names(self) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
@@ -222,13 +223,13 @@ def rectangle(x0: int, y0: int, x1: int, y1: int) -> list[Point]:
 
 def add_bounds(robot: ShapeFeatures, obstacles: ShapeFeatures, bounds: Sequence[int], outer: Sequence[int]) -> None:
     """The reference point against the complement of the bounds: overlapping rectangles that reach past every pillar."""
-    common = {"layer": [REFERENCE], "emit": [True], "owner_polygon": [BOUNDS], "owner_ring": [0]}
+    common: dict[str, list[Any]] = {"layer": [REFERENCE], "emit": [True], "owner_polygon": [BOUNDS], "owner_ring": [0]}
     robot.add_ring([(0, 0)], convex=[True], owner_vertex=[0], **common)
     robot.add_piece([len(robot.vertices) - 1], REFERENCE)
     (x0, y0, x1, y1), (X0, Y0, X1, Y1) = bounds, outer
     inner = [(x0, y0), (x0, y1), (x1, y1), (x1, y0)]  # a hole: clockwise
     columns = {name: values * 4 for name, values in common.items()}
-    obstacles.add_ring(inner, convex=[False] * 4, owner_vertex=range(4), **columns)
+    obstacles.add_ring(inner, convex=[False] * 4, owner_vertex=[0, 1, 2, 3], **columns)
     for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1)):
         first = len(obstacles.vertices)
         obstacles.vertices.extend(rectangle(*side))

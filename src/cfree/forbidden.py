@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.errors import UnsupportedError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
 from cfree.patch import Patches, Trapezoid
-from cfree.pose import Angle
+from cfree.pose import Angle, tau_in, theta_in
 from cfree.scene import Scene
 
 if TYPE_CHECKING:
@@ -101,12 +101,12 @@ class Trapezoids:
     @property
     def theta_from(self) -> Floats:
         """Radians, in [-pi/2, 3 pi/2]."""
-        return 2 * np.arctan(self.tau_from) + np.pi * self.chart
+        return theta_in(self.chart, self.tau_from)
 
     @property
     def theta_to(self) -> Floats:
         """Radians, in [-pi/2, 3 pi/2]; more than `theta_from`."""
-        return 2 * np.arctan(self.tau_to) + np.pi * self.chart
+        return theta_in(self.chart, self.tau_to)
 
     @property
     def lower_kind(self) -> NDArray[np.uint8]:
@@ -310,9 +310,9 @@ class Boundary:
         """
         chosen = np.ascontiguousarray(trapezoid, np.int32)
         chart = self.trapezoids.chart[chosen]
-        tau = np.tan((np.asarray(theta, float) - np.pi * chart) / 2)
+        tau = np.ascontiguousarray(tau_in(chart, theta))
         lower, upper = np.empty(len(chosen)), np.empty(len(chosen))
-        self.slicer.limits(chosen, chart.astype(np.int32), np.ascontiguousarray(tau), lower, upper)
+        self.slicer.limits(chosen, chart.astype(np.int32), tau, lower, upper)
         return lower, upper
 
     def slice(self, theta: Angle) -> Slice:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, overload
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.features import BOUNDS, WORKSPACE
+from cfree.pose import theta_in
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -97,7 +97,7 @@ class Trapezoid:
                 kind = "crossing"
             else:
                 kind = "parallel" if features[0].kind == "e-e" else "helix"
-            return CriticalAngle(kind, features, (lo, hi), 2 * math.atan(0.5 * (lo + hi)) + math.pi * chart)
+            return CriticalAngle(kind, features, (lo, hi), float(theta_in(chart, 0.5 * (lo + hi))))
 
         return cls(
             index=k,

@@ -278,7 +278,19 @@ def theta_of(chart: ArrayLike, tau: ArrayLike) -> Floats:
     >>> theta_of([0, 1, 0], [1.0, 0.0, -1.0]) / math.pi
     array([0.5, 1. , 1.5])
     """
-    return normalize_angles(2 * np.arctan(np.asarray(tau, dtype=np.float64)) + np.asarray(chart) * np.pi)
+    return normalize_angles(theta_in(chart, tau))
+
+
+def theta_in(chart: ArrayLike, tau: ArrayLike) -> Floats:
+    """The same in [-pi/2, 3 pi/2], so that it grows with tau in each chart."""
+    theta: Floats = 2 * np.arctan(np.asarray(tau, dtype=np.float64)) + np.asarray(chart) * np.pi
+    return theta
+
+
+def tau_in(chart: ArrayLike, theta: ArrayLike) -> Floats:
+    """Coordinate of angles in charts that are known to hold them."""
+    tau: Floats = np.tan((np.asarray(theta, dtype=np.float64) - np.asarray(chart) * np.pi) / 2)
+    return tau
 
 
 def normalize_angles(theta: ArrayLike) -> Floats:

@@ -38,7 +38,8 @@ class Slice:
 
     @property
     def patches(self) -> NDArray[np.int32]:
-        return self._boundary.trapezoids.patch[self.trapezoids]
+        patches: NDArray[np.int32] = self._boundary.trapezoids.patch[self.trapezoids]
+        return patches
 
     def __repr__(self) -> str:
         return f"Slice(theta={self.theta:.6g}, {len(self.segments)} segments)"
