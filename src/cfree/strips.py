@@ -1,0 +1,85 @@
+"""Trapezoids cut into strips by angles: what meshes and pictures are made of.
+
+A contact surface is ruled by straight segments of constant theta (eqs. 5 and 8). So a trapezoid is swept by *rows*, from
+its lower to its upper curve, and two rows bound a strip:
+
+    theta + step   lower o-----------------o upper
+                         |                 |
+    theta          lower o-----------------o upper    t ->
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+THIN = 1e-9
+"""Trapezoids of fewer radians have no area to show, and their curves cannot be told apart in doubles."""
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Rows of all trapezoids; those of one *part* follow each other.
+
+    Attributes
+    ----------
+    trapezoid : (r,) int64
+    part : (r,) int64
+        A trapezoid is one part, or two if theta = 0 cuts it.
+    theta : (r,) float64, radians, in [0, 2 pi]
+    t : (r, 2) float64
+        Limits of each row.
+    points : (r, 2, 2) float64
+        The same two points in the plane.
+    joined : (s,) int64
+        Rows that bound a strip with the row after them.
+    """
+
+    trapezoid: Ints
+    part: Ints
+    theta: Floats
+    t: Floats
+    points: Floats
+    joined: Ints
+
+
+def strips(boundary: Boundary, step: float) -> Strips:
+    """Rows at most `step` radians apart.
+
+    Notes
+    -----
+    Time and memory grow with the number of trapezoids plus the sum of their heights over `step`.
+    """
+    table = boundary.trapezoids
+    first, last = table.theta_from, table.theta_to
+    # what reaches across theta = 0 is cut there; the part below is raised by a turn
+    above, below = np.flatnonzero(last - np.maximum(first, 0) > THIN), np.flatnonzero(np.minimum(last, 0) - first > THIN)
+    trapezoid = np.concatenate((above, below))
+    start = np.concatenate((np.maximum(first[above], 0), first[below]))
+    stop = np.concatenate((last[above], np.minimum(last[below], 0)))
+    turn = np.where(start < 0, math.tau, 0.0)
+
+    count = np.maximum(1, np.ceil((stop - start) / step)).astype(np.int64) + 1  # rows of each part
+    part = np.repeat(np.arange(len(count)), count)
+    row = np.arange(len(part)) - (np.cumsum(count) - count)[part]
+    share = row / (count[part] - 1)
+    theta = (1 - share) * start[part] + share * stop[part]
+
+    # a curve may be 0 / 0 where its trapezoid ends (parallel edges): look just inside
+    margin = 1e-8 * (stop - start)[part]
+    ids, inside = trapezoid[part], np.clip(theta, start[part] + margin, stop[part] - margin)
+    limits = [np.clip(t, 0, 1) for t in boundary.limits(ids, inside)]
+    patch = table.patch[ids]
+    points = np.stack([boundary.evaluate(patch, t, theta) for t in limits], axis=1)
+    joined = np.flatnonzero(part[1:] == part[:-1])
+    return Strips(ids, part, theta + turn[part], np.stack(limits, axis=1), points, joined)
