@@ -1,0 +1,273 @@
+"""Figures: the workspace, slices, and the boundary in three dimensions.
+
+Every function draws on matplotlib axes, given or new, and returns them. New axes belong to a figure without a
+window, so nothing here needs a display: ``plot_slice(s).figure.savefig("slice.png")``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from os import PathLike
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cfree.errors import UnsupportedError
+from cfree.files import replacing
+from cfree.mesh import COLOURS, KINDS
+from cfree.outlines import ROBOT, Window, draw_robots, path_of, rings_of, rings_of_geometry
+from cfree.strips import strips
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure, SubFigure
+    from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+    from cfree.forbidden import Boundary
+    from cfree.pose import Pose
+    from cfree.scene import Scene
+    from cfree.slice import Slice
+
+OBSTACLE, FORBIDDEN, BOUNDS = "#5b6470", "#e4e4e9", "#8a92a0"
+
+
+def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
+    """Obstacles, bounds, workspace, and the robot at start and goal, its reference point marked.
+
+    Parameters
+    ----------
+    scene : Scene
+    ax : matplotlib axes, optional
+
+    Returns
+    -------
+    matplotlib axes
+
+    Notes
+    -----
+    Without start and goal the robot is drawn where its file has it, with the reference point at the origin.
+    """
+    from matplotlib.patches import PathPatch, Rectangle
+
+    ax = ax or _new_axes((7, 6))
+    boxes = [polygon.bounds for polygon in scene.obstacles]
+    if scene.workspace is not None:
+        ax.set_facecolor(OBSTACLE)
+        inside = path_of(rings_of([scene.workspace]))
+        ax.add_patch(PathPatch(inside, facecolor="white", edgecolor=OBSTACLE, linewidth=0.8))
+        boxes.append(scene.workspace.bounds)
+    obstacles = path_of(rings_of(scene.obstacles))
+    ax.add_patch(PathPatch(obstacles, facecolor=OBSTACLE, edgecolor="#3c434d", linewidth=0.5, label="obstacles"))
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=BOUNDS, linestyle=(0, (5, 3))))
+        boxes.append((x0, y0, x1, y1))
+    boxes.extend(draw_robots(ax, scene))
+    _set_window(ax, _around(boxes), scene.units)
+    ax.set_title("workspace")
+    return ax
+
+
+def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
+    """Where the reference point may not be at one orientation, and what it touches there.
+
+    Parameters
+    ----------
+    cut : Slice
+    ax : matplotlib axes, optional
+
+    Returns
+    -------
+    matplotlib axes
+    """
+    from matplotlib.collections import LineCollection
+    from matplotlib.patches import PathPatch
+
+    ax = ax or _new_axes((7, 6))
+    boundary = cut._boundary
+    region = path_of(rings_of_geometry(cut.forbidden))
+    ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", label="forbidden"))
+    kinds = boundary.patch_kind[cut.patches]
+    for kind, name in KINDS.items():
+        chosen = list(cut.segments[kinds == kind])
+        if chosen:
+            style = (0, (5, 3)) if name == "bound" else "solid"
+            ax.add_collection(
+                LineCollection(chosen, colors=_line_colour(kind), linewidths=1.2, linestyles=[style], label=name)
+            )
+    _set_window(ax, extent(boundary), boundary.scene.units)
+    ax.set_title(f"slice at θ = {math.degrees(cut.theta):.4g}°")
+    _legend(ax)
+    return ax
+
+
+def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
+    """Contact patches in (x, y, theta), in the paper's colours; see `cfree.plot3d` for how they are drawn.
+
+    Parameters
+    ----------
+    boundary : Boundary
+    ax : matplotlib axes with ``projection="3d"``, optional
+
+    Returns
+    -------
+    matplotlib axes with three dimensions
+    """
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+    from matplotlib.ticker import MaxNLocator
+
+    from cfree.plot3d import CUT, EDGE_EDGE, HELIX, SECTION_COLOUR, Painting, pieces_of
+
+    if ax is None:
+        ax = _new_space(_new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
+    if ax.name != "3d":
+        raise ValueError(f'axes of {ax.name} projection; make them with projection="3d"')
+    space: Any = ax
+    window = extent(boundary)
+    x0, y0, x1, y1 = window
+    space.add_collection(Painting(pieces_of(boundary, window)), autolim=False)
+    space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360))
+    space.set_box_aspect((x1 - x0, y1 - y0, 0.75 * max(x1 - x0, y1 - y0)), zoom=1.08)
+    space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
+    for axis, name, side in ((space.xaxis, "x", x1 - x0), (space.yaxis, "y", y1 - y0)):
+        axis.set_major_locator(MaxNLocator(1 + round(5 * side / max(x1 - x0, y1 - y0))))
+        axis.set_label_text(_with_unit(name, boundary.scene.units))
+    space.set_zlabel("θ")
+    for axis in (space.xaxis, space.yaxis, space.zaxis):
+        axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
+    handles = [
+        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (1, 2)),
+        Line2D([], [], color=HELIX, label="v-v helix"),
+        Line2D([], [], color=EDGE_EDGE, label="e-e line"),
+        Patch(facecolor=COLOURS[3], edgecolor=CUT, alpha=0.4, label="bounds"),
+        Patch(facecolor=SECTION_COLOUR, edgecolor=CUT, label="section at 360°"),
+    ]
+    space.legend(
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=6,
+        frameon=False, handlelength=1.4, columnspacing=1.4,
+    )  # fmt: skip
+    return space
+
+
+def plot_overview(boundary: Boundary) -> Figure:
+    """One figure of everything: the workspace, two slices, and the boundary.
+
+    The slices are those of start and goal; at the start's and a quarter turn on if these are the same or missing.
+    """
+    scene, s = boundary.scene, boundary.stats
+    figure = _new_figure((14, 7.4))
+    grid = figure.add_gridspec(2, 2, left=0.045, right=0.45, bottom=0.09, top=0.86, height_ratios=(2, 1), hspace=0.3)
+    plot_workspace(scene, figure.add_subplot(grid[0, :]))
+    for k, (theta, pose) in enumerate(_chosen_angles(scene)):
+        ax: Any = plot_slice(boundary.slice(theta), figure.add_subplot(grid[1, k]))
+        ax.get_legend().remove()
+        ax.set_ylabel("")
+        if pose is not None:
+            ax.plot(float(pose.x), float(pose.y), "o", color=ROBOT, markersize=5)
+    plot_boundary(boundary, _new_space(figure, (0.46, 0.09, 0.53, 0.82)))
+    figure.suptitle(scene.name or "boundary of the forbidden space", weight="bold", fontsize=15)
+    counts = f"{s.live_patches:,} of {s.patches:,} contact patches bound the forbidden space"
+    figure.text(0.5, 0.915, f"{counts}: {s.trapezoids:,} trapezoids", ha="center")
+    return figure
+
+
+def extent(boundary: Boundary) -> Window:
+    """Rectangle around everything there is to see of a boundary: the bounds if given."""
+    if boundary.scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, boundary.scene.bounds)
+        return x0, y0, x1, y1
+    points = strips(boundary, math.radians(10)).points.reshape(-1, 2)
+    if not len(points):
+        return _around([(-1.0, -1.0, 1.0, 1.0)])
+    return _around([(*points.min(axis=0).tolist(), *points.max(axis=0).tolist())])
+
+
+def save_figure(figure: Figure | SubFigure, path: str | PathLike[str]) -> None:
+    """Write a figure, whole or not at all; the suffix says in which format.
+
+    Raises
+    ------
+    UnsupportedError
+        If matplotlib knows no such format.
+    """
+    check_picture_path(path)
+    with replacing(path) as unfinished:
+        figure.figure.savefig(unfinished, dpi=160)
+
+
+def check_picture_path(path: str | PathLike[str]) -> None:
+    """Raise an error unless `save_figure` can write a file of this name.
+
+    Examples
+    --------
+    >>> check_picture_path("parking.docx")
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: parking.docx: no picture format; name the file .png, .svg, .pdf, .jpg or .webp
+    """
+    if Path(path).suffix.lower() not in (".png", ".svg", ".pdf", ".jpg", ".webp"):
+        raise UnsupportedError(f"{path}: no picture format; name the file .png, .svg, .pdf, .jpg or .webp")
+
+
+# axes
+
+
+def _new_figure(size: tuple[float, float]) -> Figure:
+    """A figure of its own, with a canvas and no window."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=size, facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3D:
+    """Axes with three dimensions and a faint grid."""
+    import mpl_toolkits.mplot3d  # noqa: F401  registers the projection
+    from matplotlib import rc_context
+
+    with rc_context({"grid.color": "#dfe1e6", "grid.linewidth": 0.6}):
+        return figure.add_axes(place, projection="3d")
+
+
+def _new_axes(size: tuple[float, float]) -> Axes:
+    return _new_figure(size).add_axes((0.1, 0.1, 0.86, 0.8))
+
+
+def _set_window(ax: Axes, window: Window, units: str) -> None:
+    x0, y0, x1, y1 = window
+    margin = 0.03 * max(x1 - x0, y1 - y0)
+    ax.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - margin, y1 + margin), aspect="equal")
+    ax.set_xlabel(_with_unit("x", units))
+    ax.set_ylabel(_with_unit("y", units))
+
+
+def _with_unit(name: str, units: str) -> str:
+    return f"{name} ({units})" if units else name
+
+
+def _line_colour(kind: int) -> str:
+    return BOUNDS if KINDS[kind] == "bound" else COLOURS[kind]
+
+
+def _legend(ax: Axes) -> None:
+    ax.legend(loc="upper left", bbox_to_anchor=(0, -0.08), ncols=4, frameon=False)
+
+
+def _around(boxes: Iterable[Window]) -> Window:
+    corners = np.array(list(boxes))
+    x0, y0 = corners[:, :2].min(axis=0).tolist()
+    x1, y1 = corners[:, 2:].max(axis=0).tolist()
+    return x0, y0, x1, y1
+
+
+def _chosen_angles(scene: Scene) -> list[tuple[float, Pose | None]]:
+    start, goal = scene.start, scene.goal
+    first = start.theta if start else 0.0
+    if start and goal and start.tau != goal.tau:
+        return [(first, start), (goal.theta, goal)]
+    return [(first, start), (first + math.pi / 2, None)]

@@ -1,0 +1,188 @@
+"""Figures: on given axes, with labels, legend and the paper's colours, without a display."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+
+from cfree import plot3d
+from cfree.errors import UnsupportedError
+from cfree.forbidden import Boundary, boundary
+from cfree.io import load_scene
+from cfree.mesh import COLOURS
+from cfree.plot import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
+from cfree.scene import Scene
+
+SCENES = Path("examples/scenes")
+TRIANGLE = [(0, 0), (1, 0), (0, 1)]
+SQUARE = [(3, 3), (5, 3), (5, 5), (3, 5)]
+
+
+@pytest.fixture(scope="module")
+def fig9() -> Boundary:
+    return boundary(load_scene(SCENES / "paper_fig9.json"))
+
+
+def pixels(figure: Figure) -> np.ndarray:
+    canvas = figure.canvas
+    assert isinstance(canvas, FigureCanvasAgg)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3] / 255
+
+
+# the boundary in three dimensions
+
+
+def test_axes_are_labelled_and_the_legend_names_every_colour(fig9: Boundary) -> None:
+    ax = plot_boundary(fig9)
+    ax.figure.canvas.draw()
+    assert (ax.get_xlabel(), ax.get_ylabel(), ax.get_zlabel()) == ("x", "y", "θ")
+    assert [label.get_text() for label in ax.get_zticklabels()] == ["0°", "90°", "180°", "270°", "360°"]
+    names = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert names == ["v-e patch", "e-v patch", "v-v helix", "e-e line", "bounds", "section at 360°"]
+
+
+def test_the_papers_colours_are_seen(fig9: Boundary) -> None:
+    ax = plot_boundary(fig9)
+    ax.get_legend().remove()
+    image = pixels(ax.figure)
+    red, green, blue = image[..., 0], image[..., 1], image[..., 2]
+    assert np.count_nonzero((red > 2 * green) & (red > 2 * blue)) > 10_000
+    assert np.count_nonzero((green > 1.4 * red) & (green > 1.4 * blue)) > 10_000
+    assert np.count_nonzero((blue > 2 * red) & (blue > 1.5 * green)) > 200
+    assert np.count_nonzero((red > 0.8) & (green > 0.6) & (blue < 0.3)) > 200
+
+
+def test_units_are_in_the_labels() -> None:
+    ax = plot_boundary(boundary(Scene(robot=TRIANGLE, obstacles=SQUARE, units="m")))
+    assert ax.get_xlabel() == "x (m)"
+
+
+def test_given_axes_are_used(fig9: Boundary) -> None:
+    figure = Figure()
+    space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
+    assert plot_boundary(fig9, space) is space
+    assert plot_slice(fig9.slice(0.3), plane) is plane
+    assert plot_workspace(fig9.scene, plane) is plane
+    with pytest.raises(ValueError, match='projection="3d"'):
+        plot_boundary(fig9, plane)
+
+
+def test_pieces_of_one_convex_pair_are_those_of_the_paper() -> None:
+    scene = load_scene(SCENES / "paper_fig9.json")
+    result = boundary(Scene(robot=scene.robot, obstacles=scene.obstacles))
+    pieces = plot3d.pieces_of(result, extent(result))
+    assert pieces.corners[..., 2].min() == 0 and pieces.corners[..., 2].max() == pytest.approx(360)
+    curves = {
+        colour: (pieces.sort == plot3d.CURVE) & (pieces.rgb == to_rgb(colour)).all(axis=1)
+        for colour in (plot3d.HELIX, plot3d.EDGE_EDGE)
+    }
+    # n m = 9 e-e lines, each made of the ends of two v-e patches, level
+    lines = pieces.corners[curves[plot3d.EDGE_EDGE]]
+    assert len(lines) == 18
+    assert np.ptp(lines[..., 2], axis=1).max() == 0
+    # n m helices, 2 pi - rho - omega high, each between two patches
+    heights = np.ptp(pieces.corners[curves[plot3d.HELIX]][..., 2], axis=1).sum()
+    angles = np.add.outer(scene.robot[0].interior_angles, scene.obstacles[0].interior_angles)
+    assert heights == pytest.approx(2 * np.degrees(2 * np.pi - angles).sum(), rel=1e-9)
+
+
+def test_the_free_side_is_in_front_and_the_forbidden_side_a_ghost(fig9: Boundary) -> None:
+    ax = plot_boundary(fig9)
+    ax.figure.canvas.draw()
+    (painting,) = ax.collections
+    alpha = painting.get_facecolor()[:, 3]
+    assert {plot3d.GHOST, plot3d.GLASS, 1.0} <= set(np.round(alpha, 12))
+
+
+def test_depth_is_sorted_again_when_the_view_turns(fig9: Boundary) -> None:
+    ax = plot_boundary(fig9)
+    ax.figure.canvas.draw()
+    (painting,) = ax.collections
+    before = painting.get_facecolor().copy()
+    ax.view_init(30, 120)
+    ax.figure.canvas.draw()
+    after = painting.get_facecolor()
+    assert before.shape != after.shape or (before != after).any()
+
+
+# in the plane
+
+
+def test_slices_show_the_region_and_the_kinds_of_contact(fig9: Boundary) -> None:
+    ax = plot_slice(fig9.slice("80deg"))
+    assert {c.get_label() for c in ax.collections} == {"v-e", "e-v", "bound"}
+    red = next(c for c in ax.collections if c.get_label() == "v-e")
+    assert tuple(red.get_colors()[0][:3]) == to_rgb(COLOURS[1])
+    assert ax.get_aspect() == 1 and "θ = " in ax.get_title()
+
+
+def test_the_workspace_shows_the_robot_at_start_and_goal() -> None:
+    scene = load_scene(SCENES / "benchmr_parking1.json")
+    ax = plot_workspace(scene)
+    assert {"start", "goal"} <= {text.get_text() for text in ax.texts}
+    x0, x1 = ax.get_xlim()
+    assert x0 < float(scene.bounds[0]) and x1 > float(scene.bounds[2])
+
+
+def test_without_poses_the_robot_stands_at_rest() -> None:
+    ax = plot_workspace(Scene(robot=TRIANGLE, obstacles=SQUARE))
+    assert "at rest" in {text.get_text() for text in ax.texts}
+
+
+def test_holes_are_seen_through() -> None:
+    island = load_scene(SCENES / "degenerate_island.json")
+    ax = plot_workspace(Scene(robot=[(4.9, 4.9), (5.1, 4.9), (5, 5.1)], obstacles=island.obstacles))
+    image = pixels(ax.figure)
+
+    def at(x: float, y: float) -> np.ndarray:
+        column, row = ax.transData.transform((x, y)).astype(int)
+        return image[len(image) - row, column]
+
+    assert (at(0.5, 0.5) < 0.5).all() and (at(2, 7) == 1).all() and (at(4, 4) < 0.5).all()
+
+
+# everything at once
+
+
+@pytest.mark.parametrize(
+    "name", ["five_convex", "degenerate_no_obstacles", "degenerate_own_hole", "degenerate_workspace"]
+)
+def test_overviews_of_all_sorts_of_scenes_are_drawn(name: str, tmp_path: Path) -> None:
+    file = tmp_path / "new" / f"{name}.png"
+    save_figure(plot_overview(boundary(load_scene(SCENES / f"{name}.json"))), file)
+    assert file.read_bytes()[:4] == b"\x89PNG"
+    assert [entry.name for entry in file.parent.iterdir()] == [file.name]
+
+
+def test_an_empty_boundary_can_be_drawn() -> None:
+    plot_overview(boundary(Scene(robot=TRIANGLE))).canvas.draw()
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".pdf", ".jpg", ".webp"])
+def test_other_formats_are_written(fig9: Boundary, suffix: str, tmp_path: Path) -> None:
+    file = tmp_path / f"slice{suffix}"
+    save_figure(plot_slice(fig9.slice(1.0)).figure, file)
+    assert file.stat().st_size > 1000
+
+
+def test_unknown_formats_are_refused(fig9: Boundary, tmp_path: Path) -> None:
+    with pytest.raises(UnsupportedError, match=r"name the file \.png"):
+        save_figure(plot_slice(fig9.slice(1.0)).figure, tmp_path / "slice.docx")
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_global_state_of_pyplot_is_touched() -> None:
+    program = (
+        "import sys, cfree, cfree.plot as plot\n"
+        "assert 'matplotlib' not in sys.modules\n"
+        "scene = cfree.load_scene('examples/scenes/paper_fig9.json')\n"
+        "plot.plot_boundary(cfree.boundary(scene)).figure.canvas.draw()\n"
+        "assert 'matplotlib.pyplot' not in sys.modules\n"
+    )
+    subprocess.run([sys.executable, "-c", program], check=True)
