@@ -1,0 +1,263 @@
+"""The command line: parse, call, print. Everything heavy is imported where it is used, so that help is quick."""
+
+from __future__ import annotations
+
+import errno
+import json
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import asdict
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+
+import typer
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+    from cfree.pose import Angle
+
+BAD_INPUT, BUG, INTERRUPTED = 2, 1, 130
+
+app = typer.Typer(
+    name="cfree",
+    no_args_is_help=True,
+    rich_markup_mode="markdown",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    help="The exact configuration space of a planar robot that translates and rotates among polygons.",
+    epilog="Example: `cfree boundary examples/scenes/flat.json --picture flat.png`",
+)
+
+SceneArgument = Annotated[
+    Path, typer.Argument(metavar="SCENE", help="Scene file: JSON, GeoJSON or WKT.", show_default=False)
+]
+SourceArgument = Annotated[
+    Path,
+    typer.Argument(
+        metavar="SCENE", help="Scene file, or a boundary written by `cfree boundary -o`.", show_default=False
+    ),
+]
+PictureOption = Annotated[
+    Path | None,
+    typer.Option("--picture", metavar="PNG", help="Write a figure: .png, .svg, .pdf ...", show_default=False),
+]
+ThreadsOption = Annotated[
+    int | None, typer.Option("--threads", metavar="N", min=1, help="Threads to use.", show_default="all cores")
+]
+JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
+
+
+def main() -> None:
+    """Run the command ``cfree``."""
+    app(prog_name="cfree")
+
+
+def _print_version(wanted: bool) -> None:
+    if wanted:
+        from cfree import __version__
+
+        print(f"cfree {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _global_options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command(epilog="Examples: `cfree check scene.json`; `cfree check scene.json --json | jq .patches`")
+def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
+    """Validate a scene and describe it: vertices, pieces, patches to expect, start and goal."""
+    with _one_line_faults():
+        from cfree.describe import describe
+        from cfree.io import load_scene
+
+        facts = {"file": str(scene)} | describe(load_scene(scene))
+        if as_json:
+            _print_json(facts)
+        else:
+            from cfree.report import print_scene
+
+            print_scene(facts)
+
+
+@app.command(
+    epilog="Examples: `cfree boundary scene.json --picture scene.png`; "
+    "`cfree boundary scene.json -o out/scene.npz --mesh out/scene.glb --threads 1`"
+)
+def boundary(
+    scene: SourceArgument,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="Write the boundary, all of it.", show_default=False),
+    ] = None,
+    picture: PictureOption = None,
+    mesh: Annotated[
+        Path | None,
+        typer.Option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.", show_default=False),
+    ] = None,
+    threads: ThreadsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Compute the boundary of the forbidden space: every contact patch, trimmed."""
+    with _one_line_faults():
+        written = _check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
+        result = _boundary_of(scene, threads)
+        if output:
+            result.save(output)
+        if mesh:
+            from cfree.mesh import boundary_mesh, save_mesh
+
+            save_mesh(boundary_mesh(result), mesh)
+        if picture:
+            from cfree.plot import plot_overview, save_figure
+
+            save_figure(plot_overview(result), picture)
+        if as_json:
+            _print_json({"file": str(scene), **asdict(result.stats), "files": written})
+        else:
+            from cfree.report import print_rows, stats_rows
+
+            print_rows(result.scene.name or str(scene), stats_rows(result.stats), written)
+
+
+@app.command(
+    "slice",
+    epilog="Examples: `cfree slice scene.json --theta 30deg --picture slice.png`; "
+    "`cfree slice scene.npz --theta tau:1/3 -o slice.geojson`",
+)
+def cut(
+    scene: SourceArgument,
+    theta: Annotated[
+        str, typer.Option(metavar="ANGLE", help='"30deg", "0.5" radians, or "tau:1/3".', show_default=False)
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output", "-o", metavar="GEOJSON", help="Write region and contact segments.", show_default=False
+        ),
+    ] = None,
+    picture: PictureOption = None,
+    threads: ThreadsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Cut the forbidden space at one orientation of the robot."""
+    with _one_line_faults():
+        angle = _read_angle(theta)
+        written = _check_outputs(scene, {"geojson": output, "picture": picture})
+        from cfree.describe import describe_slice
+
+        result = _boundary_of(scene, threads)
+        found = result.slice(angle)
+        if output:
+            from cfree.slice_geojson import save_slice
+
+            save_slice(found, output)
+        if picture:
+            from cfree.plot import plot_slice, save_figure
+
+            save_figure(plot_slice(found).figure, picture)
+        facts = describe_slice(found)
+        if as_json:
+            _print_json({"file": str(scene), **facts, "files": written})
+        else:
+            from cfree.report import print_rows
+
+            print_rows(f"slice of {result.scene.name or scene}", facts, written)
+
+
+# input
+
+
+def _read_angle(text: str) -> Angle:
+    """An angle as `Pose` takes it; ``tau:p/q`` gives the tangent of its half."""
+    from cfree.pose import Pose
+
+    angle: Angle = {"tau": text.removeprefix("tau:")} if text.startswith("tau:") else text
+    Pose(0, 0, angle)
+    return angle
+
+
+def _boundary_of(source: Path, threads: int | None) -> Boundary:
+    """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
+    from cfree.forbidden import boundary
+    from cfree.io import load_scene
+    from cfree.storage import load_boundary
+
+    if _is_archive(source):
+        return load_boundary(source)
+    scene = load_scene(source)
+    if not sys.stderr.isatty():
+        return boundary(scene, threads=threads)
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("boundary", total=1.0)
+        return boundary(scene, threads=threads, progress=lambda share: bar.update(task, completed=share))
+
+
+def _is_archive(path: Path) -> bool:
+    """Does the file begin as a NumPy archive does? No scene does."""
+    try:
+        with path.open("rb") as file:
+            return file.read(2) == b"PK"
+    except OSError:
+        return False
+
+
+def _check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
+    """The files to write; what cannot be written is refused before a long computation rather than after it."""
+    files = {name: path for name, path in wanted.items() if path is not None}
+    for name, path in files.items():
+        if name == "mesh":
+            from cfree.mesh import check_mesh_path
+
+            check_mesh_path(path)
+        if name == "picture":
+            from cfree.plot import check_picture_path
+
+            check_picture_path(path)
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, "is a directory; give the name of a file", str(path))
+        if path.exists() and source.exists() and path.samefile(source):
+            raise FileExistsError(errno.EEXIST, "is the input; give another name", str(path))
+        folder = next(parent for parent in path.absolute().parents if parent.exists())
+        if not folder.is_dir() or not os.access(folder, os.W_OK | os.X_OK):
+            raise PermissionError(errno.EACCES, f"cannot be made in {folder}; give another place", str(path))
+    return {name: str(path) for name, path in files.items()}
+
+
+@contextmanager
+def _one_line_faults() -> Iterator[None]:
+    """Say what is wrong with the input in one message, without a traceback, and leave with its exit code."""
+    from cfree.errors import CfreeError, InvariantError
+
+    try:
+        yield
+    except KeyboardInterrupt:
+        _fail("interrupted; no file was left half-written", INTERRUPTED)
+    except InvariantError as error:
+        _fail(str(error), BUG)
+    except (CfreeError, ValueError) as error:
+        _fail(str(error), BAD_INPUT)
+    except OSError as error:
+        if error.errno == errno.EPIPE:
+            raise
+        name = f"{error.filename}: " if error.filename else ""
+        _fail(f"{name}{error.strerror or error}", BAD_INPUT)
+
+
+def _fail(message: str, code: int) -> NoReturn:
+    print(f"error: {message}", file=sys.stderr)
+    raise typer.Exit(code)
+
+
+def _print_json(facts: dict[str, Any]) -> None:
+    print(json.dumps(facts, indent=2, ensure_ascii=False))

@@ -1,0 +1,164 @@
+"""Facts for people and machines: what is in a scene before anything is computed, and what is in a slice."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cfree.features import BODY, scene_features
+from cfree.mesh import KINDS
+from cfree.polygon import Polygon
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
+    from cfree.slice import Slice
+
+
+def describe(scene: Scene) -> dict[str, Any]:
+    """Facts about a scene, as JSON.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Returns
+    -------
+    dict
+        ``robot`` and ``obstacles`` hold counts; ``removed`` the points of the input that are no vertices;
+        ``patches`` the contact patches before trimming, by kind; ``start`` and ``goal`` whether they are free.
+
+    Examples
+    --------
+    >>> from cfree.io import load_scene
+    >>> facts = describe(load_scene("examples/scenes/paper_fig9.json"))
+    >>> facts["patches"]
+    {'v-e': 9, 'e-v': 9, 'bound': 4, 'total': 22}
+    >>> facts["goal"]
+    {'x': 3.4, 'y': 2.2, 'degrees': 90.0, 'free': True}
+    """
+    shapes = [
+        *(("robot" if len(scene.robot) == 1 else f"robot[{k}]", part) for k, part in enumerate(scene.robot)),
+        *zip(scene.obstacle_names, scene.obstacles, strict=True),
+        *([("workspace", scene.workspace)] if scene.workspace else []),
+    ]
+    return {
+        "name": scene.name,
+        "units": scene.units,
+        "note": scene.note,
+        "source": dict(scene.source),
+        "robot": _counts(scene.robot),
+        "obstacles": _counts(scene.obstacles),
+        "workspace": _counts([scene.workspace]) if scene.workspace else None,
+        "bounds": [float(value) for value in scene.bounds] if scene.bounds else None,
+        "removed": [
+            {"shape": name, "ring": point.ring, "index": point.index, "reason": point.reason}
+            for name, shape in shapes
+            for point in shape.removed
+        ],
+        "patches": expected_patches(scene),
+        "start": _pose_facts(scene, scene.start),
+        "goal": _pose_facts(scene, scene.goal),
+    }
+
+
+def describe_slice(cut: Slice) -> dict[str, int | float]:
+    """Facts about a slice: angle, contact segments, their lengths by kind, and an area.
+
+    Returns
+    -------
+    dict
+        ``free area`` if bounds or a workspace make it finite, else ``forbidden area``.
+    """
+    boundary = cut._boundary
+    length = np.hypot(*(cut.segments[:, 1] - cut.segments[:, 0]).T)
+    kinds = boundary.patch_kind[cut.patches]
+    facts = {
+        "theta": cut.theta,
+        "degrees": float(np.degrees(cut.theta)),
+        "segments": len(cut.segments),
+        **{f"length {name}": float(length[kinds == kind].sum()) for kind, name in KINDS.items()},
+    }
+    area, rim = float(cut.forbidden.area), boundary.features.rim
+    if rim is None:
+        return facts | {"forbidden area": area}
+    x0, y0, x1, y1 = rim
+    return facts | {"free area": (x1 - x0) * (y1 - y0) - area}
+
+
+def expected_patches(scene: Scene) -> dict[str, int]:
+    """Numbers of contact patches before trimming: convex vertices times edges, both ways."""
+    features = scene_features(scene)
+    robot, obstacles = features.robot.rings, features.obstacles.rings
+    body = [convex for convex, layer in zip(robot["convex"], robot["layer"], strict=True) if layer == BODY]
+    columns = zip(obstacles["convex"], obstacles["layer"], obstacles["emit"], strict=True)
+    met = [convex for convex, layer, emit in columns if layer == BODY and emit]
+    counts = {"v-e": sum(body) * len(met), "e-v": len(body) * sum(met), "bound": 4 if scene.bounds else 0}
+    return counts | {"total": sum(counts.values())}
+
+
+def is_free(scene: Scene, pose: Pose) -> bool:
+    """Is a pose free? Exact; touching is free, because the forbidden space is open.
+
+    Examples
+    --------
+    >>> from cfree.scene import Scene
+    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> scene = Scene(robot=square, obstacles=square, bounds=(-2, -2, 2, 2))
+    >>> is_free(scene, Pose(1, 0)), is_free(scene, Pose("0.999", 0)), is_free(scene, Pose(3, 0))
+    (True, False, False)
+    """
+    from cfree.touch import is_forbidden
+
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = scene.bounds
+        if not (x0 <= pose.x <= x1 and y0 <= pose.y <= y1):
+            return False
+    for part in scene.robot:
+        box = _box(pose.apply(part.vertices))
+        # boxes apart by more than rounding decide most pairs
+        near = [shape for shape in scene.obstacles if _boxes_meet(box, shape.bounds)]
+        outside = _complement(scene.workspace, box) if scene.workspace else []
+        if any(is_forbidden(part, shape, pose) for shape in [*near, *outside]):
+            return False
+    return True
+
+
+def _complement(workspace: Polygon, box: Sequence[float]) -> list[Polygon]:
+    """The outside of a workspace as far as a box reaches, and its holes."""
+    x0, y0, x1, y1 = (int(value) for value in _box(np.array([*workspace.vertices, box[:2], box[2:]])))
+    frame = [(x0 - 9, y0 - 9), (x1 + 9, y0 - 9), (x1 + 9, y1 + 9), (x0 - 9, y1 + 9)]
+    points, offsets = workspace.exact_vertices, workspace.ring_offsets
+    outer, *holes = (points[i:j] for i, j in pairwise(offsets))
+    return [Polygon(frame, [outer]), *map(Polygon, holes)]
+
+
+def _box(points: Any) -> tuple[float, ...]:
+    return (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
+
+
+def _boxes_meet(box: Sequence[float], other: Sequence[float]) -> bool:
+    slack = 1e-9 * max(map(abs, (*box, *other)))
+    return all(box[k] <= other[k + 2] + slack and other[k] <= box[k + 2] + slack for k in (0, 1))
+
+
+def _counts(shapes: Sequence[Polygon]) -> dict[str, int]:
+    vertices, convex = sum(map(len, shapes)), sum(int(shape.convex.sum()) for shape in shapes)
+    return {
+        "polygons": len(shapes),
+        "vertices": vertices,
+        "convex": convex,
+        "reflex": vertices - convex,
+        "holes": sum(len(shape.ring_offsets) - 2 for shape in shapes),
+        "pieces": sum(len(shape.pieces) for shape in shapes),
+    }
+
+
+def _pose_facts(scene: Scene, pose: Pose | None) -> dict[str, Any] | None:
+    if pose is None:
+        return None
+    degrees = float(np.degrees(pose.theta))
+    return {"x": float(pose.x), "y": float(pose.y), "degrees": degrees, "free": is_free(scene, pose)}

@@ -1,0 +1,84 @@
+"""What the commands print on a terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from rich.console import Console
+from rich.table import Table
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Stats
+
+COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
+
+
+def print_scene(facts: Mapping[str, Any]) -> None:
+    """The facts of `cfree.describe.describe`."""
+    counts = Table(box=None)
+    counts.add_column()
+    for column in COUNTS:
+        counts.add_column(column, justify="right")
+    for row in ("robot", "obstacles", "workspace"):
+        if facts[row]:
+            counts.add_row(row, *(f"{facts[row][column]:,}" for column in COUNTS))
+    console = _console()
+    console.print(facts["name"] or facts["file"])
+    console.print(counts)
+    for line in _lines(facts):
+        console.print(line)
+
+
+def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
+    patches = facts["patches"]
+    kinds = ", ".join(f"{patches[kind]:,} {kind}" for kind in ("v-e", "e-v", "bound"))
+    yield f"patches    {patches['total']:,} before trimming: {kinds}"
+    if facts["bounds"]:
+        x0, y0, x1, y1 = facts["bounds"]
+        yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
+    for name in ("start", "goal"):
+        if pose := facts[name]:
+            verdict = "free" if pose["free"] else "FORBIDDEN"
+            yield f"{name:<10} x {pose['x']:g}, y {pose['y']:g}, theta {pose['degrees']:g} degrees: {verdict}"
+    for point in facts["removed"]:
+        place = "outer ring" if point["ring"] == 0 else f"hole {point['ring'] - 1}"
+        yield f"removed    {point['shape']}: {place}, point {point['index']}: {point['reason']}"
+    for name in ("units", "note"):
+        if facts[name]:
+            yield f"{name:<10} {facts[name]}"
+    for name, value in facts["source"].items():
+        yield f"source     {name}: {value}"
+
+
+def stats_rows(stats: Stats) -> dict[str, int | float | str]:
+    """The stats of a boundary in words."""
+    return {
+        "contact patches": stats.patches,
+        "of them live": stats.live_patches,
+        "trapezoids": stats.trapezoids,
+        "patch and pillar pairs": stats.pairs,
+        "decided by doubles with a bound": stats.decided_by_filter,
+        "decided by exact integers": stats.decided_exactly,
+        **{f"seconds, {phase}": f"{value:.4f}" for phase, value in stats.seconds.items()},
+    }
+
+
+def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
+    """A title, names with values, and the files written."""
+    table = Table(box=None, show_header=False)
+    table.add_column()
+    table.add_column(justify="right")
+    for name, value in rows.items():
+        text = f"{value:,}" if isinstance(value, int) else f"{value:,.6g}" if isinstance(value, float) else value
+        table.add_row(name, text)
+    console = _console()
+    console.print(title)
+    console.print(table)
+    for name, path in files.items():
+        console.print(f" {name:<8} {path} ({Path(path).stat().st_size / 1000:,.1f} kB)")
+
+
+def _console() -> Console:
+    return Console(soft_wrap=True, highlight=False, markup=False)
