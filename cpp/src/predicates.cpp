@@ -210,18 +210,16 @@ Found roots_inside(const double* c, int degree, double err) {
     return changes == 0 ? Found::none : changes == 1 ? Found::one : Found::unclear;
 }
 
-// Shrink an interval with certain, opposite signs at its ends and one root inside.
+// Illinois method: false position that halves the value of an end that stays twice.
 template <class Form>
-std::array<double, 2> refine(const Form& form, double lo, double hi) {
-    const double flo = form.at(lo).v, fhi = form.at(hi).v;
-    double a = lo, b = hi, fa = flo, fb = fhi, t = lo, err = 0;
-    int stayed = 0;  // Illinois: halve the value of an end that stays twice
+double false_position(const Form& form, double a, double b, double fa, double fb) {
+    double t = a;
+    int stayed = 0;
     for (int k = 0; k < 60 && b - a > 4e-16; ++k) {
         t = (a * fb - b * fa) / (fb - fa);
         if (!(t > a && t < b)) t = 0.5 * (a + b);
         const auto value = form.at(t);
-        err = value.err;
-        if (std::abs(value.v) <= err) break;
+        if (std::abs(value.v) <= value.err) break;
         if ((value.v > 0) == (fb > 0)) {
             b = t, fb = value.v;
             if (stayed == 1) fa *= 0.5;
@@ -232,9 +230,28 @@ std::array<double, 2> refine(const Form& form, double lo, double hi) {
             stayed = 2;
         }
     }
-    // certain signs on both sides: start at the error over the slope and widen
-    const double l = std::max(lo, t - 1e-9), r = std::min(hi, t + 1e-9);
-    double delta = 2 * err * (r - l) / std::abs(form.at(r).v - form.at(l).v) + 2.3e-16;
+    return t;
+}
+
+// Shrink an interval with certain, opposite signs at its ends and one root inside.
+template <class Form>
+std::array<double, 2> refine(const Form& form, double lo, double hi) {
+    const double flo = form.at(lo).v, fhi = form.at(hi).v;
+    double t = lo, width;
+    if (form.degree == 2) {  // (a - b) tau^2 + 2 c tau + (a + b)
+        const double A = form.p.a - form.p.b, B = form.p.c, C = form.p.a + form.p.b;
+        const double s = std::sqrt(std::max(0.0, B * B - A * C)), q = B > 0 ? -(B + s) : s - B;
+        t = q / A;
+        if (!(t >= lo && t <= hi)) t = C / q;
+        if (!(t >= lo && t <= hi)) t = 0.5 * (lo + hi);
+        width = form.p.err / s;
+    } else {
+        t = false_position(form, lo, hi, flo, fhi);
+        const double l = std::max(lo, t - 1e-9), r = std::min(hi, t + 1e-9);
+        width = 2 * form.at(t).err * (r - l) / std::abs(form.at(r).v - form.at(l).v);
+    }
+    // certain signs on both sides: widen until they are
+    double delta = width + 2.3e-16;
     if (!(delta < hi - lo)) delta = hi - lo;
     for (int k = 0; k < 64; ++k, delta *= 2) {
         const double x = std::max(lo, t - delta), y = std::min(hi, t + delta);
@@ -445,21 +462,16 @@ int Predicates::order(const Event& x, const Event& y) {
 
 Poly Predicates::defining(const Event& x) const {
     if (x.first.kind == Kind::none) return {Int(-x.lo), Int(1)};
-    const Poly p = polynomial(x.first, x.second);
-    const int l = cfree::sign_at(p, Dyadic::from(x.lo)), h = cfree::sign_at(p, Dyadic::from(x.hi));
-    return l * h < 0 ? p : squarefree(p);  // one root and a change of sign are enough to halve the interval
+    return polynomial(x.first, x.second);
 }
 
 namespace {
 
-// The only root of a squarefree polynomial in [lo, hi].
+// The only root of a polynomial in [lo, hi]: its sign changes between the ends, unless they are one.
 struct Root {
     Poly p;
     Dyadic lo, hi;
-    Root(Poly polynomial, const Event& x) : p(std::move(polynomial)), lo(Dyadic::from(x.lo)), hi(Dyadic::from(x.hi)) {
-        if (sign_at(p, lo) == 0) hi = lo;
-        else if (sign_at(p, hi) == 0) lo = hi;
-    }
+    Root(const Poly& polynomial, const Event& x) : p(polynomial), lo(Dyadic::from(x.lo)), hi(Dyadic::from(x.hi)) {}
     void halve() {
         if (compare(lo, hi) == 0) return;
         const Dyadic mid = Dyadic::middle(lo, hi);
