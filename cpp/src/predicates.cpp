@@ -23,6 +23,26 @@ Filtered combination(double k, double ek, const Filtered& f, double l, double el
     return {k * f.a - l * g.a, k * f.b - l * g.b, k * f.c - l * g.c, err * (1 + 8 * u)};
 }
 
+// Signs of products of differences, in machine integers where they fit.
+int dot_sign(const Scene& s, Index g, Index f) {
+    if (s.robot.bits + s.obstacles.bits < 126) return sign_of(dot(edge<Wide>(s.robot, g), edge<Wide>(s.obstacles, f)));
+    return sign_of(dot(edge<Int>(s.robot, g), edge<Int>(s.obstacles, f)));
+}
+bool is_parallel(const Shape& s, Index e, Index p, Index q) {  // edge e and the line through two vertices
+    if (2 * s.bits < 126) return cross(edge<Wide>(s, e), difference<Wide>(s, p, q)) == 0;
+    return cross(edge<Int>(s, e), difference<Int>(s, p, q)).is_zero();
+}
+// Order of the angles of two pairs of edges, as directions (G.F, G x F) turned to the right half-plane.
+template <class T>
+int parallel_order(const Scene& s, const Feature& x, const Feature& y) {
+    const auto direction = [&](const Feature& f) {
+        const auto G = edge<T>(s.robot, f.robot), F = edge<T>(s.obstacles, f.obstacle);
+        const Vec<T> d{dot(G, F), cross(G, F)};
+        return sign_of(d.x) < 0 ? -d : d;
+    };
+    return sign_of(cross(direction(y), direction(x)));
+}
+
 bool same_feature(const Scene& s, const Feature& x, const Feature& y) { return code(s, x) == code(s, y); }
 
 }  // namespace
@@ -371,7 +391,7 @@ Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from
     int side = c.v > 0 ? 1 : -1;
     if (std::abs(c.v) <= coefficient_error * c.m) {
         ++counters.exact;
-        side = dot(edge<Int>(scene.robot, g), edge<Int>(scene.obstacles, f)).sign();
+        side = dot_sign(scene, g, f);
         if (side == 0) return result;
     }
     if (side < 0) n = -n, c = -c;
@@ -484,13 +504,26 @@ struct Root {
 
 }  // namespace
 
+// Whether two angles are roots of one polynomial for a reason of identity.
+bool Predicates::same_polynomial(const Event& x, const Event& y) const {
+    if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
+    const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
+    if (same(x.first, y.first) && same(x.second, y.second)) return true;
+    if (x.second.kind != Kind::none) return same(x.first, y.second) && same(x.second, y.first);
+    if (x.first.kind != Kind::vertex_vertex || y.first.kind != Kind::vertex_vertex || y.second.kind != Kind::none)
+        return false;
+    // helices at one height above the surface's edge
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (surface.contact.kind == Kind::vertex_edge)
+        return A.point[x.first.robot] == A.point[y.first.robot] &&
+               is_parallel(O, surface.contact.obstacle, x.first.obstacle, y.first.obstacle);
+    return O.point[x.first.obstacle] == O.point[y.first.obstacle] &&
+           is_parallel(A, surface.contact.robot, x.first.robot, y.first.robot);
+}
+
 int Predicates::order_exactly(const Event& x, const Event& y) {
-    const auto same = [&](const Event& p, const Event& q) {
-        return same_feature(scene, p.first, q.first) && same_feature(scene, p.second, q.second);
-    };
-    const Event swapped{y.second, y.first, y.lo, y.hi};
-    if (x.first.kind != Kind::none && (same(x, y) || (y.second.kind != Kind::none && same(x, swapped)))) {
-        // one polynomial, one root in each of two overlapping intervals: opposite signs around both mean one root in all
+    if (same_polynomial(x, y)) {
+        // one root in each of two overlapping intervals: opposite signs around both mean one root in all
         const Form f = form(x);
         const double lo = std::min(x.lo, y.lo), hi = std::max(x.hi, y.hi);
         const auto l = f.at(lo), h = f.at(hi);
@@ -498,13 +531,8 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
     }
     ++counters.exact;
     if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge) {
-        // directions (G.F, G x F), turned to the right half-plane, by their cross product
-        const auto direction = [&](const Feature& f) {
-            const auto G = edge<Int>(scene.robot, f.robot), F = edge<Int>(scene.obstacles, f.obstacle);
-            const Vec<Int> d{dot(G, F), cross(G, F)};
-            return d.x.sign() < 0 ? -d : d;
-        };
-        return cross(direction(y.first), direction(x.first)).sign();
+        if (2 * (scene.robot.bits + scene.obstacles.bits + 1) < 126) return parallel_order<Wide>(scene, x.first, y.first);
+        return parallel_order<Int>(scene, x.first, y.first);
     }
     Root p(defining(x), x), q(defining(y), y);
     const Dyadic lo = cfree::compare(p.lo, q.lo) < 0 ? q.lo : p.lo, hi = cfree::compare(p.hi, q.hi) < 0 ? p.hi : q.hi;
@@ -563,7 +591,7 @@ Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f,
     int sign = c.v > 0 ? 1 : -1;
     if (std::abs(c.v) <= coefficient_error * c.m) {
         ++counters.exact;
-        sign = -dot(edge<Int>(scene.robot, g), edge<Int>(scene.obstacles, f)).sign();
+        sign = -dot_sign(scene, g, f);
     } else {
         ++counters.filter;
     }

@@ -14,7 +14,11 @@ using Int = boost::multiprecision::number<
                                            boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
 
+// Where it is known to be wide enough.
+__extension__ typedef __int128 Wide;
+
 inline int sign_of(const Int& n) { return n.sign(); }
+inline int sign_of(Wide n) { return (n > 0) - (n < 0); }
 
 // A double v and the magnitude m of the terms it was summed from. An expression of d roundings in a row, inputs
 // included, satisfies |v - exact| <= d u m (1 + O(u)), u = 2^-53. Inputs are integers, so nothing underflows;

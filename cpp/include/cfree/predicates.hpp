@@ -148,6 +148,7 @@ private:
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
     int sign_at(const Filtered& f, const Feature& first, const Sample& at);
     Poly defining(const Event& x) const;
+    bool same_polynomial(const Event& x, const Event& y) const;
     int order_exactly(const Event& x, const Event& y);
 
     const Scene& scene;

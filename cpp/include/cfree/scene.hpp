@@ -14,6 +14,8 @@ struct Shape {
     std::vector<Int> X, Y;         // exact coordinates
     std::vector<double> x, y;      // the same, rounded
     bool rounded = false;          // whether any coordinate changed by rounding
+    std::vector<std::int64_t> nx, ny;  // the same as machine integers, if `bits` allows
+    int bits = 0;                  // differences of coordinates are below 2^bits
     std::vector<Index> point;      // class of coincident vertices
     // Directed edges v -> w. Those of rings come first: edge e of a ring starts at vertex e. Then the pieces' diagonals.
     std::vector<Index> v, w, line, direction;
@@ -47,6 +49,10 @@ inline Vec<Approx> difference(const Shape& s, Index p, Index q) {
 template <>
 inline Vec<Int> difference(const Shape& s, Index p, Index q) {
     return {s.X[p] - s.X[q], s.Y[p] - s.Y[q]};
+}
+template <>
+inline Vec<Wide> difference(const Shape& s, Index p, Index q) {
+    return {Wide(s.nx[p]) - s.nx[q], Wide(s.ny[p]) - s.ny[q]};
 }
 template <class T>
 Vec<T> edge(const Shape& s, Index e) { return difference<T>(s, s.w[e], s.v[e]); }
