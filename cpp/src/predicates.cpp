@@ -521,19 +521,52 @@ bool Predicates::same_polynomial(const Event& x, const Event& y) const {
            is_parallel(A, surface.contact.robot, x.first.robot, y.first.robot);
 }
 
-int Predicates::order_exactly(const Event& x, const Event& y) {
-    if (same_polynomial(x, y)) {
-        // one root in each of two overlapping intervals: opposite signs around both mean one root in all
-        const Form f = form(x);
-        const double lo = std::min(x.lo, y.lo), hi = std::max(x.hi, y.hi);
-        const auto l = f.at(lo), h = f.at(hi);
-        if (std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0)) return ++counters.filter, 0;
+int Predicates::order_at_wall(const Event& x, const Event& wall) const {
+    const Poly p = defining(x);
+    const Dyadic at = Dyadic::from(wall.lo);
+    const int s = cfree::sign_at(p, at);
+    if (s == 0) return 0;
+    return cfree::sign_at(p, Dyadic::from(x.lo)) == s ? 1 : -1;
+}
+
+// Whether a root of a + b cos + c sin is the angle at which two edges are parallel: that of the direction d = (G.F, G x F),
+// so that a |d| = -(b, c).d.
+bool Predicates::meets_parallel(const Event& parallel, const Event& x) const {
+    if (parallel.first.kind != Kind::edge_edge) return false;
+    Trig<Int> f;
+    if (x.first.kind == Kind::vertex_vertex && x.second.kind == Kind::none) {
+        f = offset_trig<Int>(x.first.robot, x.first.obstacle);
+    } else if (x.first.kind == Kind::vertex_vertex || x.second.kind == Kind::vertex_vertex) {
+        const bool first = x.first.kind == Kind::vertex_vertex;
+        const auto [n, d] = curve_trig<Int>(first ? x.first : x.second);
+        const auto [N, D] = curve_trig<Int>(first ? x.second : x.first);
+        f = {n.a * D.a - d.a * N.a, n.a * D.b - d.a * N.b, n.a * D.c - d.a * N.c};
+    } else {
+        return false;
     }
+    const auto G = edge<Int>(scene.robot, parallel.first.robot), F = edge<Int>(scene.obstacles, parallel.first.obstacle);
+    const Vec<Int> d{dot(G, F), cross(G, F)};
+    // in the right half-plane of the chart
+    const Int along = d.x.sign() * (kappa > 0 ? 1 : -1) * (f.b * d.x + f.c * d.y);
+    return along.sign() == -f.a.sign() && along * along == f.a * f.a * dot(d, d);
+}
+
+int Predicates::order_exactly(const Event& x, const Event& y) {
+    // One root in each of two overlapping intervals: of one polynomial, opposite signs around both mean one root in all.
+    const auto alone = [&](const Event& z) {
+        const Form f = form(z);
+        const auto l = f.at(std::min(x.lo, y.lo)), h = f.at(std::max(x.hi, y.hi));
+        return std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0);
+    };
+    if (same_polynomial(x, y) && alone(x)) return ++counters.filter, 0;
     ++counters.exact;
     if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge) {
         if (2 * (scene.robot.bits + scene.obstacles.bits + 1) < 126) return parallel_order<Wide>(scene, x.first, y.first);
         return parallel_order<Int>(scene, x.first, y.first);
     }
+    if (x.first.kind == Kind::none) return -order_at_wall(y, x);
+    if (y.first.kind == Kind::none) return order_at_wall(x, y);
+    if ((meets_parallel(x, y) && alone(y)) || (meets_parallel(y, x) && alone(x))) return 0;
     Root p(defining(x), x), q(defining(y), y);
     const Dyadic lo = cfree::compare(p.lo, q.lo) < 0 ? q.lo : p.lo, hi = cfree::compare(p.hi, q.hi) < 0 ? p.hi : q.hi;
     const Poly g = greatest_common_divisor(p.p, q.p);

@@ -149,6 +149,8 @@ private:
     int sign_at(const Filtered& f, const Feature& first, const Sample& at);
     Poly defining(const Event& x) const;
     bool same_polynomial(const Event& x, const Event& y) const;
+    int order_at_wall(const Event& x, const Event& wall) const;
+    bool meets_parallel(const Event& parallel, const Event& x) const;
     int order_exactly(const Event& x, const Event& y);
 
     const Scene& scene;
