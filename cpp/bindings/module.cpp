@@ -44,22 +44,15 @@ static cfree::Int integer(const std::int64_t* limbs, std::size_t count) {
     return n;
 }
 
-static void set_coordinates(cfree::Shape& s, const Limbs& xy) {
+static std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> integers(const Limbs& xy) {
     const std::size_t n = xy.shape(0), limbs = xy.shape(2);
     if (xy.shape(1) != 2 || limbs == 0) throw std::invalid_argument("coordinates must have the shape (n, 2, limbs)");
-    int bits = 1;
+    std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> result;
     for (std::size_t k = 0; k < n; ++k) {
-        s.X.push_back(integer(xy.data() + 2 * k * limbs, limbs));
-        s.Y.push_back(integer(xy.data() + (2 * k + 1) * limbs, limbs));
-        s.x.push_back(s.X[k].convert_to<double>()), s.y.push_back(s.Y[k].convert_to<double>());
-        for (const auto& [exact, rounded] : {std::pair{&s.X[k], s.x[k]}, std::pair{&s.Y[k], s.y[k]}})
-            s.rounded |= !std::isfinite(rounded) || cfree::Int(rounded) != *exact;
-        for (const cfree::Int* c : {&s.X[k], &s.Y[k]})
-            if (!c->is_zero()) bits = std::max(bits, static_cast<int>(msb(abs(*c))) + 1);
+        result.first.push_back(integer(xy.data() + 2 * k * limbs, limbs));
+        result.second.push_back(integer(xy.data() + (2 * k + 1) * limbs, limbs));
     }
-    s.bits = bits + 1;
-    for (std::size_t k = 0; bits < 63 && k < n; ++k)
-        s.nx.push_back(static_cast<std::int64_t>(s.X[k])), s.ny.push_back(static_cast<std::int64_t>(s.Y[k]));
+    return result;
 }
 
 NB_MODULE(_core, m) {
@@ -70,7 +63,8 @@ NB_MODULE(_core, m) {
                             Column<int> edge_rank, Column<int> piece, Column<int> piece_vertex, Column<int> piece_edge,
                             Column<int> piece_layer) {
             new (s) cfree::Shape{};
-            set_coordinates(*s, coordinates);
+            auto [x, y] = integers(coordinates);
+            s->set_coordinates(std::move(x), std::move(y));
             s->point = vector_of(point), s->v = vector_of(v), s->w = vector_of(w);
             s->line = vector_of(line), s->direction = vector_of(direction);
             s->ring_vertices = ring_vertices, s->previous = vector_of(previous);

@@ -1,6 +1,7 @@
 // Exact polynomials in tau with integer coefficients: signs at doubles, common divisors, root counts.
 #pragma once
 #include <array>
+#include <initializer_list>
 #include <vector>
 
 #include "cfree/number.hpp"
@@ -22,8 +23,8 @@ int compare(const Dyadic& p, const Dyadic& q);
 class Poly {
 public:
     Poly() = default;
-    Poly(std::initializer_list<Int> c) {
-        for (const Int& x : c) push_back(x);
+    Poly(std::initializer_list<Int> coefficients) {
+        for (const Int& x : coefficients) push_back(x);
         trim();
     }
     int size() const { return count; }

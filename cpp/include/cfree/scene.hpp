@@ -31,6 +31,8 @@ struct Shape {
     std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
 
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
+    // Sets X and Y and what is derived from them.
+    void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y);
 };
 
 struct Scene {

@@ -1,0 +1,28 @@
+#include "cfree/scene.hpp"
+
+#include <algorithm>
+
+namespace cfree {
+
+void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y) {
+    X = std::move(exact_x), Y = std::move(exact_y);
+    int widest = 1;
+    rounded = false;
+    const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& out) {
+        out.clear();
+        for (const Int& c : exact) {
+            const double nearest = c.convert_to<double>();
+            out.push_back(nearest);
+            rounded |= !std::isfinite(nearest) || Int(nearest) != c;
+            if (!c.is_zero()) widest = std::max(widest, static_cast<int>(msb(abs(c))) + 1);
+        }
+    };
+    convert(X, x), convert(Y, y);
+    bits = widest + 1;
+    nx.clear(), ny.clear();
+    if (widest > 62) return;
+    for (const Int& c : X) nx.push_back(static_cast<std::int64_t>(c));
+    for (const Int& c : Y) ny.push_back(static_cast<std::int64_t>(c));
+}
+
+}  // namespace cfree

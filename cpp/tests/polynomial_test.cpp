@@ -1,0 +1,51 @@
+#include "cfree/polynomial.hpp"
+
+#include "check.hpp"
+
+using namespace cfree;
+
+static void signs_at_dyadics_are_exact() {
+    const Poly p{-1, 0, 2};  // 2 t^2 - 1, root at sqrt(1/2)
+    CHECK(sign_at(p, Dyadic::from(0.70710678118654746)) < 0);
+    CHECK(sign_at(p, Dyadic::from(0.70710678118654757)) > 0);
+    CHECK(sign_at(Poly{-1, 2}, Dyadic::from(0.5)) == 0);
+    CHECK(sign_at(Poly{}, Dyadic::from(0.5)) == 0);
+}
+
+static void common_divisors_are_found() {
+    const Poly root{-1, 3}, a = product(root, Poly{5, 0, 7}), b = product(root, Poly{2, 1});
+    const Poly g = greatest_common_divisor(a, b);
+    CHECK(g.size() == 2 && g[0] * 3 == -g[1]);
+    CHECK(greatest_common_divisor(Poly{1, 1}, Poly{2, 1}).size() == 1);
+    CHECK(squarefree(product(root, root)).size() == 2);
+}
+
+static void roots_are_isolated_in_order() {
+    const Poly p = product(product(Poly{-1, 2}, Poly{-1, 3}), Poly{1, 4});  // 1/2, 1/3, -1/4
+    const Sturm sturm(squarefree(p));
+    const auto found = isolate(sturm, Dyadic::from(-1), Dyadic::from(1), 40);
+    CHECK(found.size() == 3);
+    const double roots[] = {-0.25, 1.0 / 3, 0.5};
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        CHECK(found[k][0].rounded_down() <= roots[k] && roots[k] <= found[k][1].rounded_up());
+        CHECK(found[k][1].rounded_up() - found[k][0].rounded_down() < 1e-11);
+    }
+    CHECK(isolate(Sturm(Poly{1, 0, 1}), Dyadic::from(-1), Dyadic::from(1), 40).empty());
+}
+
+static void rounding_is_outward() {
+    const Dyadic third{(Int(1) << 200) / 3, 200};
+    CHECK(third.rounded_down() < third.rounded_up());
+    CHECK(compare(Dyadic::from(third.rounded_down()), third) < 0);
+    CHECK(compare(Dyadic::from(third.rounded_up()), third) > 0);
+    for (const double x : {0.0, 1.0, -1.0, 0.1, -0.3, 1e-300, 5e-324, 12345.678})
+        CHECK(Dyadic::from(x).rounded_down() == x && Dyadic::from(x).rounded_up() == x);
+}
+
+int main() {
+    signs_at_dyadics_are_exact();
+    common_divisors_are_found();
+    roots_are_isolated_in_order();
+    rounding_is_outward();
+    return failures > 0;
+}

@@ -1,0 +1,74 @@
+#include "cfree/predicates.hpp"
+
+#include "check.hpp"
+#include "shapes.hpp"
+
+using namespace cfree;
+
+static const Scene triangles{shape_of({{{0, 0}, {2, 0}, {0, 1}}}), shape_of({{{5, 5}, {8, 5}, {6, 7}}})};
+static const Event first{{}, {}, -1, -1}, last{{}, {}, 1, 1};
+
+static void equal_features_have_equal_codes() {
+    const Scene s{triangles.robot, shape_of({{{0, 0}, {1, 0}, {0, 1}}, {{1, 0}, {2, 0}, {1, 1}}})};
+    const auto edge = [&](Index i, Index j) { return code(s, {Kind::vertex_edge, i, j}); };
+    CHECK(edge(1, 0) == edge(1, 3));  // collinear bottoms
+    CHECK(edge(1, 0) != edge(1, 1));
+    CHECK(code(s, {Kind::vertex_vertex, 0, 1}) == code(s, {Kind::vertex_vertex, 0, 3}));
+    CHECK(code(s, {Kind::vertex_vertex, 0, 1}) != code(s, {Kind::edge_vertex, 0, 1}));
+}
+
+static void parallels_are_found_and_ordered() {
+    Predicates p(triangles, {{Kind::vertex_edge, 0, 0}, 0});
+    // E_1 = (-2, 1) is parallel to (3, 0) at tan(theta) = 1/2
+    const auto roots = p.parallel_roots(1, 0, first, last);
+    CHECK(roots.count == 1);
+    const double tau = std::tan(std::atan(0.5) / 2);
+    CHECK(roots.at[0].lo < tau && tau < roots.at[0].hi);
+    CHECK(p.order(first, roots.at[0]) < 0 && p.order(roots.at[0], last) < 0);
+    CHECK(p.order(roots.at[0], roots.at[0]) == 0);
+    // G . F = 0: the roots are the chart walls, and not inside
+    CHECK(p.parallel_roots(2, 0, first, last).count == 0);
+}
+
+static void a_sample_lies_between() {
+    Predicates p(triangles, {{Kind::vertex_edge, 0, 0}, 0});
+    const Event root = p.parallel_roots(1, 0, first, last).at[0];
+    for (const double part : {0.1, 0.5, 0.9}) {
+        const Sample at = p.between(first, root, part);
+        CHECK(at.tau > -1 && p.order(root, at) > 0 && p.order(first, at) < 0);
+    }
+}
+
+static void identical_curves_compare_equal() {
+    Predicates p(triangles, {{Kind::vertex_edge, 0, 0}, 0});
+    const Curve low = p.curve({Kind::vertex_vertex, 0, 0}), high = p.curve({Kind::vertex_vertex, 0, 1});
+    CHECK(p.compare(low, low, first, last).sign[0] == 0);
+    const auto order = p.compare(low, high, first, last);
+    CHECK(order.count == 0 && order.sign[0] == -1);
+    // the next edge through b_1 meets this surface in the helix of b_1: t = 1, by arithmetic
+    Curve next = p.curve({Kind::vertex_edge, 0, 1});
+    next.N = -next.N, next.D = -next.D, next.flipped = true;
+    CHECK(p.compare(next, high, first, last).sign[0] == 0);
+}
+
+static void ranges_begin_and_end_on_walls_exactly() {
+    Counters c;
+    const Scene boxes{shape_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}), shape_of({{{5, 5}, {8, 5}, {8, 7}, {5, 7}}})};
+    for (Index g = 0; g < 4; ++g)
+        for (Index f = 0; f < 4; ++f) {
+            const auto start = Predicates::range_end(boxes, g, f, true, c), end = Predicates::range_end(boxes, g, f, false, c);
+            const bool wall = (g + f) % 2 == 1;
+            CHECK((start.event.first.kind == Kind::none) == wall);
+            CHECK(wall ? start.event.lo == -1 && end.event.lo == 1 && start.chart != end.chart
+                       : start.chart == end.chart && start.event.lo < 0 && start.event.hi > 0);
+        }
+}
+
+int main() {
+    equal_features_have_equal_codes();
+    parallels_are_found_and_ordered();
+    a_sample_lies_between();
+    identical_curves_compare_equal();
+    ranges_begin_and_end_on_walls_exactly();
+    return failures > 0;
+}
