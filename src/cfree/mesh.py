@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from cfree.errors import UnsupportedError
 from cfree.files import replacing
-from cfree.strips import Strips, strips
+from cfree.strips import Strips, step_for, strips
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -41,9 +41,10 @@ COLOURS = {1: "#d7301f", 2: "#3a9a3a", 3: "#b4b9c1"}
 """Colour of each kind of patch: the paper's red and green, and light grey for the bounds."""
 
 MESH_SUFFIXES = (".glb", ".ply", ".obj", ".stl")
-STEP = math.radians(2)
-TWIST = math.radians(8)
-"""How far the normal may turn across a cell."""
+STEPS = math.radians(2), math.radians(10)
+ROWS = 200_000  # the step is as small as this many rows allow
+TWIST = 4
+"""How many steps the normal may turn across a cell."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,14 +79,14 @@ class Mesh:
         return table[self.kind]
 
 
-def boundary_mesh(boundary: Boundary, *, step: float = STEP, angle_scale: float | None = None) -> Mesh:
+def boundary_mesh(boundary: Boundary, *, step: float | None = None, angle_scale: float | None = None) -> Mesh:
     """Mesh of all patches.
 
     Parameters
     ----------
     boundary : Boundary
-    step : float, radians
-        Greatest height of a strip.
+    step : float, radians, optional
+        Greatest height of a cell; if not given, 2 degrees, or up to 10 where the boundary is large.
     angle_scale : float, optional
         Length per radian; the robot's radius about its reference point if not given.
 
@@ -106,10 +107,11 @@ def boundary_mesh(boundary: Boundary, *, step: float = STEP, angle_scale: float 
     True
     """
     scale = robot_radius(boundary.scene) if angle_scale is None else angle_scale
+    step = step_for(boundary, ROWS, STEPS) if step is None else step
     if not (0 < step < math.inf and 0 < scale < math.inf):
         raise ValueError(f"step {step} and angle_scale {scale} must be finite and positive")
     rows = strips(boundary, step)
-    columns = _columns(boundary, rows, scale)
+    columns = _columns(boundary, rows, scale, TWIST * step)
     # vertices: the points of each row
     width = columns[rows.part] + 1
     row = np.repeat(np.arange(len(width)), width)
@@ -129,8 +131,8 @@ def boundary_mesh(boundary: Boundary, *, step: float = STEP, angle_scale: float 
     return Mesh(vertices, corners.reshape(-1, 3), patch, boundary.patch_kind[patch], scale)
 
 
-def _columns(boundary: Boundary, rows: Strips, scale: float) -> Ints:
-    """Columns of each part, so that the normal turns by `TWIST` at most across a cell.
+def _columns(boundary: Boundary, rows: Strips, scale: float, twist: float) -> Ints:
+    """Columns of each part, so that the normal turns by `twist` radians at most across a cell.
 
     Notes
     -----
@@ -143,7 +145,7 @@ def _columns(boundary: Boundary, rows: Strips, scale: float) -> Ints:
     turn = np.ptp(np.arctan((along[:, None] + rows.t * length[:, None]) / scale), axis=1)
     most = np.zeros(rows.part.max(initial=-1) + 1)
     np.maximum.at(most, rows.part, turn)
-    return np.maximum(1, np.ceil(most / TWIST)).astype(np.int64)
+    return np.maximum(1, np.ceil(most / twist)).astype(np.int64)
 
 
 def robot_radius(scene: Scene) -> float:

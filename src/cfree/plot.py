@@ -90,12 +90,13 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     region = path_of(rings_of_geometry(cut.forbidden))
     ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", label="forbidden"))
     kinds = boundary.patch_kind[cut.patches]
+    width = min(1.2, max(0.3, math.sqrt(2000 / max(1, len(kinds)))))
     for kind, name in KINDS.items():
         chosen = list(cut.segments[kinds == kind])
         if chosen:
             style = (0, (5, 3)) if name == "bound" else "solid"
             ax.add_collection(
-                LineCollection(chosen, colors=_line_colour(kind), linewidths=1.2, linestyles=[style], label=name)
+                LineCollection(chosen, colors=_line_colour(kind), linewidths=width, linestyles=[style], label=name)
             )
     _set_window(ax, extent(boundary), boundary.scene.units)
     ax.set_title(f"slice at θ = {math.degrees(cut.theta):.4g}°")

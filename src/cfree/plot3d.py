@@ -18,7 +18,7 @@ from mpl_toolkits.mplot3d import proj3d
 from numpy.typing import NDArray
 
 from cfree.mesh import COLOURS, robot_radius
-from cfree.strips import Strips, strips
+from cfree.strips import Strips, step_for, strips
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -27,9 +27,10 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Window = tuple[float, float, float, float]
 
-STEPS = math.radians(1.5), math.radians(3)
-ROWS = 15_000  # the steps are as small as this many rows allow
+STEPS = math.radians(1.5), math.radians(15)
+ROWS = 25_000  # the steps are as small as this many rows allow
 CELLS = 70  # a face is at most this part of the window wide, so that its middle stands for its depth
+CROWDED = 100_000  # curves of more trapezoids would hide the patches
 HELIX, EDGE_EDGE, SECTION_COLOUR = "#1f3fbf", "#f5c518", "#d9d9de"
 CUT = "#7a808c"
 LIGHT = np.array([-0.55, -0.65, 0.52])
@@ -104,13 +105,13 @@ class Painting(PolyCollection):
 
 def pieces_of(boundary: Boundary, window: Window) -> Pieces:
     """Everything there is to draw of a boundary: patches, section, helices and e-e segments."""
-    heights = (boundary.trapezoids.theta_to - boundary.trapezoids.theta_from).sum()
-    rows = strips(boundary, float(np.clip(heights / ROWS, *STEPS)))
+    rows = strips(boundary, step_for(boundary, ROWS, STEPS))
     corners, kind, cell = _faces(boundary, rows, window)
     table = np.array([(0.0, 0.0, 0.0), *(to_rgb(COLOURS[k]) for k in (1, 2, 3))])
     rgb = _shaded(table[kind], corners, robot_radius(boundary.scene))
     faces = Pieces(corners, rgb, np.where(kind == 3, WALL, SURFACE), np.arange(len(corners)))
-    return _joined([faces, _section(boundary, window, len(corners)), *_curves(boundary, rows, cell)])
+    curves = _curves(boundary, rows, cell) if len(boundary.trapezoids) <= CROWDED else []
+    return _joined([faces, _section(boundary, window, len(corners)), *curves])
 
 
 def _faces(boundary: Boundary, rows: Strips, window: Window) -> tuple[Floats, NDArray[np.uint8], Ints]:

@@ -83,3 +83,9 @@ def strips(boundary: Boundary, step: float) -> Strips:
     points = np.stack([boundary.evaluate(patch, t, theta) for t in limits], axis=1)
     joined = np.flatnonzero(part[1:] == part[:-1])
     return Strips(ids, part, theta + turn[part], np.stack(limits, axis=1), points, joined)
+
+
+def step_for(boundary: Boundary, rows: int, limits: tuple[float, float]) -> float:
+    """Step, in radians and within limits, that makes about so many rows besides one for each trapezoid."""
+    heights = float((boundary.trapezoids.theta_to - boundary.trapezoids.theta_from).sum())
+    return min(max(heights / rows, limits[0]), limits[1])
