@@ -1,7 +1,7 @@
 """Trapezoids cut into strips by angles: what meshes and pictures are made of.
 
-A contact surface is ruled by straight segments of constant theta (eqs. 5 and 8). So a trapezoid is swept by *rows*, from
-its lower to its upper curve, and two rows bound a strip:
+A contact surface is ruled by straight segments of constant theta (eqs. 5 and 8). So a trapezoid is swept by *rows*,
+from its lower to its upper curve, and two rows bound a strip:
 
     theta + step   lower o-----------------o upper
                          |                 |
@@ -63,7 +63,8 @@ def strips(boundary: Boundary, step: float) -> Strips:
     table = boundary.trapezoids
     first, last = table.theta_from, table.theta_to
     # what reaches across theta = 0 is cut there; the part below is raised by a turn
-    above, below = np.flatnonzero(last - np.maximum(first, 0) > THIN), np.flatnonzero(np.minimum(last, 0) - first > THIN)
+    (above,) = np.nonzero(last - np.maximum(first, 0) > THIN)
+    (below,) = np.nonzero(np.minimum(last, 0) - first > THIN)
     trapezoid = np.concatenate((above, below))
     start = np.concatenate((np.maximum(first[above], 0), first[below]))
     stop = np.concatenate((last[above], np.minimum(last[below], 0)))
