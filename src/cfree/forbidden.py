@@ -170,7 +170,7 @@ def boundary(
             if progress is not None:
                 progress(job.progress())
     except _core.Undecided as error:
-        raise UnsupportedError(f"{error}; a documented limit of this version, see docs/theory.md") from None
+        raise UnsupportedError(f"{error}; a limit of this version, see docs/theory.md, section 8") from None
     except BaseException:
         job.cancel()
         raise
