@@ -90,20 +90,42 @@ double Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn r) const
         vx = -(r.c * gx - r.s * gy), vy = -(r.s * gx + r.c * gy);
         qx = b[2 * v] - (r.c * a[2 * g] - r.s * a[2 * g + 1]), qy = b[2 * v + 1] - (r.s * a[2 * g] + r.c * a[2 * g + 1]);
     }
-    return -(vx * (l.py - qy) - vy * (l.px - qx)) / (vx * l.uy - vy * l.ux);
+    const double t = -(vx * (l.py - qy) - vy * (l.px - qx)) / (vx * l.uy - vy * l.ux);
+    return t > 0 ? std::min(t, 1.0) : 0.0;  // rounding may lead out of the patch
 }
+
+// Curves may have no value at the ends of a trapezoid: look at them a little inside.
+constexpr double inside = 1e-9;
 
 void Slicer::limits(const Index* trapezoid, const int* charts, const double* tau, std::size_t count, double* low,
                     double* high) const {
     for (std::size_t k = 0; k < count; ++k) {
-        const Turn r = turn(charts[k], tau[k]);
-        const Index id = patch[trapezoid[k]];
+        const Index x = trapezoid[k], id = patch[x];
+        const double margin = inside * std::abs(tau_to[x] - tau_from[x]);
+        const double at = std::max(tau_from[x] + margin, std::min(tau[k], tau_to[x] - margin));
+        const Turn r = turn(charts[k], at);
         const Line l = line(id, r);
-        low[k] = meets(id, l, lower[trapezoid[k]], r), high[k] = meets(id, l, upper[trapezoid[k]], r);
+        low[k] = meets(id, l, lower[x], r), high[k] = meets(id, l, upper[x], r);
+    }
+}
+
+void Slicer::step_off_events(int& c, double& tau) const {
+    constexpr double near = 1e-12;
+    for (int step = 0; step < 1000; ++step) {
+        if (tau >= 1) c = 1 - c, tau = -1;
+        const Index q = part_of(c, tau);
+        bool clear = tau > near - 1 && tau < 1 - near;
+        for (Index k = part_start[q]; clear && k < part_start[q + 1]; ++k) {
+            const Index x = part_member[k];
+            clear = std::abs(tau_from[x] - tau) > near && std::abs(tau_to[x] - tau) > near;
+        }
+        if (clear) return;
+        tau += 2 * near;
     }
 }
 
 Slicer::Segments Slicer::segments(int c, double tau) const {
+    step_off_events(c, tau);
     Segments result;
     const Turn r = turn(c, tau);
     const Index q = part_of(c, tau);

@@ -73,7 +73,7 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
     dict
         ``free area`` if bounds or a workspace make it finite, else ``forbidden area``.
     """
-    boundary = cut._boundary
+    boundary = cut.boundary
     length = np.hypot(*(cut.segments[:, 1] - cut.segments[:, 0]).T)
     kinds = boundary.patch_kind[cut.patches]
     facts = {

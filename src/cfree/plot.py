@@ -86,7 +86,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     from matplotlib.patches import PathPatch
 
     ax = ax or _new_axes((7, 6))
-    boundary = cut._boundary
+    boundary = cut.boundary
     region = path_of(rings_of_geometry(cut.forbidden))
     ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", label="forbidden"))
     kinds = boundary.patch_kind[cut.patches]

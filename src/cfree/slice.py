@@ -22,6 +22,7 @@ class Slice:
 
     Attributes
     ----------
+    boundary : Boundary
     theta : float, radians
     segments : (k, 2, 2) float64
         Where the reference point touches, from one end to the other, forbidden on the left.
@@ -31,14 +32,14 @@ class Slice:
 
     def __init__(self, boundary: Boundary, theta: Angle) -> None:
         self.theta, *place = place_of(theta)
-        self._boundary = boundary
+        self.boundary = boundary
         self._place = tuple(place)
         xy, self.trapezoids = boundary.slicer.segments(*self._place)
         self.segments: NDArray[np.float64] = xy.reshape(-1, 2, 2)
 
     @property
     def patches(self) -> NDArray[np.int32]:
-        patches: NDArray[np.int32] = self._boundary.trapezoids.patch[self.trapezoids]
+        patches: NDArray[np.int32] = self.boundary.trapezoids.patch[self.trapezoids]
         return patches
 
     def __repr__(self) -> str:
@@ -58,10 +59,10 @@ class Slice:
         """
         import shapely
 
-        xy, start, shell = self._boundary.slicer.rings(*self._place)
+        xy, start, shell = self.boundary.slicer.rings(*self._place)
         points = xy.reshape(-1, 2)
         rings = [points[i:j] for i, j in pairwise(start)]
-        rim = self._boundary.features.rim
+        rim = self.boundary.features.rim
         parts: dict[int, list[NDArray[np.float64]]] = {}
         for k, around in enumerate(shell.tolist()):
             if around < 0 and rim is None:

@@ -38,7 +38,7 @@ def slice_geojson(cut: Slice) -> dict[str, Any]:
 
     region = shapely.geometry.mapping(shapely.orient_polygons(cut.forbidden))
     features = [_feature(region, role="forbidden", theta=cut.theta)]
-    patches = cut._boundary.patches
+    patches = cut.boundary.patches
     for ends, k in zip(cut.segments.tolist(), cut.patches.tolist(), strict=True):
         patch = patches[k]
         features.append(

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from cfree.forbidden import COLUMNS, Boundary, Stats, Trapezoids
 from cfree.errors import FormatError
 from cfree.features import scene_features
 from cfree.files import replacing
+from cfree.forbidden import COLUMNS, Boundary, Stats, Trapezoids
 
 FORMAT, VERSION = "cfree-boundary", 1
 
@@ -47,7 +47,7 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
         return FormatError(f"{name}: {what}", path=str(name))
 
     try:
-        with np.load(name, allow_pickle=False) as archive:
+        with open(name, "rb") as file, np.load(file, allow_pickle=False) as archive:
             if "header" not in archive:
                 raise fault("a NumPy archive, but not a boundary; make one with `cfree boundary SCENE -o FILE`")
             header = json.loads(archive["header"].tobytes())

@@ -1,5 +1,5 @@
 // A built boundary at one orientation: a look-up, then the contact segments; chained, the outline of the forbidden region.
-// Doubles throughout: what is where was decided before.
+// Doubles throughout: what is where was decided before. At a critical angle the slice is that of the orientations just after.
 #pragma once
 #include <memory>
 #include <vector>
@@ -56,6 +56,7 @@ private:
     Index parts = 1;
     std::vector<Index> part_start, part_member;
     Index part_of(int chart, double tau) const;
+    void step_off_events(int& chart, double& tau) const;
 };
 
 }  // namespace cfree
