@@ -91,9 +91,10 @@ NB_MODULE(_core, m) {
             return nb::make_tuple(array_of(std::move(t.patch)), array_of(std::move(t.chart)), array_of(std::move(t.lower)),
                                   array_of(std::move(t.upper)), array_of(std::move(t.from_first)),
                                   array_of(std::move(t.from_second)), array_of(std::move(t.from_lo)),
-                                  array_of(std::move(t.from_hi)), array_of(std::move(t.to_first)),
-                                  array_of(std::move(t.to_second)), array_of(std::move(t.to_lo)),
-                                  array_of(std::move(t.to_hi)));
+                                  array_of(std::move(t.from_hi)), array_of(std::move(t.from_place)),
+                                  array_of(std::move(t.to_first)), array_of(std::move(t.to_second)),
+                                  array_of(std::move(t.to_lo)), array_of(std::move(t.to_hi)),
+                                  array_of(std::move(t.to_place)));
         })
         .def("tally", [](const cfree::Job& job) {
             const auto& t = job.tally;
@@ -104,7 +105,6 @@ NB_MODULE(_core, m) {
             d["collect_seconds"] = t.collect_seconds;
             return d;
         });
-    nb::exception<cfree::Undecided>(m, "Undecided", PyExc_RuntimeError);
     nb::class_<cfree::Slicer>(m, "Slicer")
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,
                             In1 obstacle_xy, Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle,

@@ -338,6 +338,7 @@ void Job::collect() {
     Trapezoids& t = trapezoids;
     t.patch.reserve(total), t.chart.reserve(total), t.lower.reserve(total), t.upper.reserve(total);
     for (auto* v : {&t.from_first, &t.from_second, &t.to_first, &t.to_second}) v->reserve(total);
+    t.from_place.reserve(total), t.to_place.reserve(total);
     for (auto* v : {&t.from_lo, &t.from_hi, &t.to_lo, &t.to_hi}) v->reserve(total);
     for (auto& f : found) {
         for (const Trapezoid& x : f) {
@@ -347,6 +348,8 @@ void Job::collect() {
             t.to_first.push_back(packed(x.to.first)), t.to_second.push_back(packed(x.to.second));
             t.from_lo.push_back(x.from.lo), t.from_hi.push_back(x.from.hi);
             t.to_lo.push_back(x.to.lo), t.to_hi.push_back(x.to.hi);
+            t.from_place.push_back(static_cast<std::uint8_t>(x.from_place));
+            t.to_place.push_back(static_cast<std::uint8_t>(x.to_place));
         }
         std::vector<Trapezoid>().swap(f);
     }

@@ -338,6 +338,11 @@ Predicates::Form Predicates::form(const Event& x) const {
 Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const Feature& second, const Event& from,
                                     const Event& to) {
     Roots result;
+    const auto keep = [&](const Event& x) {
+        if (order(from, x) >= 0 || order(x, to) >= 0) return;
+        if (result.count == 4) throw std::logic_error("more roots than the degree");
+        result.at[result.count++] = x;
+    };
     // A root may be one of the two ends: look a little beyond them, then compare.
     double found[enough][2];
     int count = 0;
@@ -346,35 +351,35 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
         count = 0, decided = isolate_by_filter(f, from.lo - margin, to.hi + margin, found, count);
     if (decided) {
         ++counters.filter;
-    } else {
-        ++counters.exact;
-        count = 0;
-        const Poly p = polynomial(first, second);
-        if (p.empty()) {
-            result.all_zero = true;
-            return result;
-        }
-        if (p.size() == 3 && p[1] * p[1] <= 4 * p[0] * p[2]) return result;  // no sign changes
-        const Sturm sturm(squarefree(p));
-        const Dyadic lo = Dyadic::from(std::nextafter(from.lo, -2)), hi = Dyadic::from(std::nextafter(to.hi, 2));
-        for (const auto& [below, above] : isolate(sturm, lo, hi, 56)) {
-            // doubles around it, with no root at their ends nor a second one between them
-            double l = below.rounded_down(), h = above.rounded_up();
-            while (cfree::sign_at(sturm.polynomial(), Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
-            while (cfree::sign_at(sturm.polynomial(), Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
-            if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1)
-                throw Undecided("two critical angles closer than doubles can tell apart");
-            // a touch changes no sign
-            if (cfree::sign_at(p, Dyadic::from(l)) == cfree::sign_at(p, Dyadic::from(h))) continue;
-            found[count][0] = l, found[count][1] = h, ++count;
-        }
+        for (int k = 0; k < count; ++k) keep({first, second, found[k][0], found[k][1]});
+        return result;
     }
-    for (int k = 0; k < count; ++k) {
-        const Event x{first, second, found[k][0], found[k][1]};
-        if (order(from, x) < 0 && order(x, to) < 0) {
-            if (result.count == 4) throw std::logic_error("more roots than the degree");
-            result.at[result.count++] = x;
+    ++counters.exact;
+    const Poly p = polynomial(first, second);
+    result.all_zero = p.empty();
+    if (p.empty() || (p.size() == 3 && p[1] * p[1] <= 4 * p[0] * p[2])) return result;  // at most a touch
+    const Sturm sturm(squarefree(p));
+    const Dyadic lowest = Dyadic::from(std::nextafter(from.lo, -2)), highest = Dyadic::from(std::nextafter(to.hi, 2));
+    for (auto [below, above] : isolate(sturm, lowest, highest, 56)) {
+        const auto sign = [&](const Dyadic& t) { return cfree::sign_at(sturm.polynomial(), t); };
+        while (sign(below) == 0) {  // the root before this one
+            const Dyadic mid = Dyadic::middle(below, above);
+            (sturm.roots_in(mid, above) == 1 ? below : above) = mid;
         }
+        double l = below.rounded_down(), h = above.rounded_up();
+        if (sign(above) == 0) below = above;
+        else if (cfree::sign_at(p, below) == cfree::sign_at(p, above)) continue;  // a touch changes no sign
+        // doubles around it, with no root at their ends; a finer interval if there is a second one between them
+        while (sign(Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
+        while (sign(Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
+        Event x{first, second, l, h};
+        if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1) {
+            x.fine = static_cast<Index>(fine.size());
+            fine.push_back({below, above});
+        } else if (cfree::sign_at(p, Dyadic::from(l)) == cfree::sign_at(p, Dyadic::from(h))) {
+            continue;
+        }
+        keep(x);
     }
     return result;
 }
@@ -480,29 +485,29 @@ int Predicates::order(const Event& x, const Event& y) {
     return order_exactly(x, y);
 }
 
-Poly Predicates::defining(const Event& x) const {
-    if (x.first.kind == Kind::none) return {Int(-x.lo), Int(1)};
-    return polynomial(x.first, x.second);
-}
-
-namespace {
-
 // The only root of a polynomial in [lo, hi]: its sign changes between the ends, unless they are one.
-struct Root {
+struct Predicates::Root {
     Poly p;
     Dyadic lo, hi;
-    Root(const Poly& polynomial, const Event& x) : p(polynomial), lo(Dyadic::from(x.lo)), hi(Dyadic::from(x.hi)) {}
     void halve() {
-        if (compare(lo, hi) == 0) return;
+        if (cfree::compare(lo, hi) == 0) return;
         const Dyadic mid = Dyadic::middle(lo, hi);
-        const int s = sign_at(p, mid);
+        const int s = cfree::sign_at(p, mid);
         if (s == 0) lo = hi = mid;
-        else if (s == sign_at(p, lo)) lo = mid;
+        else if (s == cfree::sign_at(p, lo)) lo = mid;
         else hi = mid;
     }
 };
 
-}  // namespace
+Predicates::Root Predicates::root_of(const Event& x) const {
+    if (x.fine >= 0) return {polynomial(x.first, x.second), fine[x.fine][0], fine[x.fine][1]};
+    return {polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
+}
+
+int Predicates::place(const Event& x) const {
+    if (x.fine < 0) return 0;
+    return Sturm(squarefree(polynomial(x.first, x.second))).roots_in(Dyadic::from(x.lo), fine[x.fine][1]);
+}
 
 // Whether two angles are roots of one polynomial for a reason of identity.
 bool Predicates::same_polynomial(const Event& x, const Event& y) const {
@@ -522,11 +527,13 @@ bool Predicates::same_polynomial(const Event& x, const Event& y) const {
 }
 
 int Predicates::order_at_wall(const Event& x, const Event& wall) const {
-    const Poly p = defining(x);
+    const Root root = root_of(x);
     const Dyadic at = Dyadic::from(wall.lo);
-    const int s = cfree::sign_at(p, at);
+    if (cfree::compare(at, root.lo) < 0) return 1;
+    if (cfree::compare(root.hi, at) < 0) return -1;
+    const int s = cfree::sign_at(root.p, at);
     if (s == 0) return 0;
-    return cfree::sign_at(p, Dyadic::from(x.lo)) == s ? 1 : -1;
+    return cfree::sign_at(root.p, root.lo) == s ? 1 : -1;
 }
 
 // Whether a root of a + b cos + c sin is the angle at which two edges are parallel: that of the direction d = (G.F, G x F),
@@ -567,7 +574,9 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none) return -order_at_wall(y, x);
     if (y.first.kind == Kind::none) return order_at_wall(x, y);
     if ((meets_parallel(x, y) && alone(y)) || (meets_parallel(y, x) && alone(x))) return 0;
-    Root p(defining(x), x), q(defining(y), y);
+    Root p = root_of(x), q = root_of(y);
+    if (cfree::compare(p.hi, q.lo) < 0) return -1;
+    if (cfree::compare(q.hi, p.lo) < 0) return 1;
     const Dyadic lo = cfree::compare(p.lo, q.lo) < 0 ? q.lo : p.lo, hi = cfree::compare(p.hi, q.hi) < 0 ? p.hi : q.hi;
     const Poly g = greatest_common_divisor(p.p, q.p);
     if (g.size() > 1) {
@@ -585,7 +594,7 @@ int Predicates::order(const Event& x, const Sample& at) {
     if (!at.fine && x.hi < at.tau) return -1;
     if (!at.fine && x.lo > at.tau) return 1;
     ++counters.exact;
-    const Root root(defining(x), x);
+    const Root root = root_of(x);
     const Dyadic t = at.exact();
     if (cfree::compare(t, root.lo) < 0) return 1;
     if (cfree::compare(root.hi, t) < 0) return -1;
@@ -598,7 +607,7 @@ Sample Predicates::between(const Event& x, const Event& y, double part) {
     double lo = x.hi, hi = y.lo;
     if (!(lo < hi)) {  // intervals that overlap: halve them until they part
         ++counters.exact;
-        Root p(defining(x), x), q(defining(y), y);
+        Root p = root_of(x), q = root_of(y);
         while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
         lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
         if (!(std::nextafter(lo, hi) < hi)) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 namespace cfree {
 
@@ -35,7 +36,7 @@ void Trimmer::cover(Index p, Index k) {
         State state = at.fine ? state_at<Int>(p, k, at) : state_at<double>(p, k, at);
         Verdict verdict = lifetime(state, at, span);
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
-            if (attempt == 20) throw Undecided("no sample decides a pillar's state");
+            if (attempt == 20) throw std::logic_error("no sample decides a pillar's state");
             if (verdict == Verdict::resample)  // the sample is itself a critical angle
                 at = decide.between(events[whole.from], events[whole.to], (attempt + 1) / 23.0);
             span = whole;
@@ -460,7 +461,8 @@ void Trimmer::finish(Index patch, std::vector<Trapezoid>& out) {
         return x.t_min < y.t_min;
     });
     for (const Area& x : live)
-        out.push_back({patch, surface.chart, curves[x.lower].feature, curves[x.upper].feature, events[x.from], events[x.to]});
+        out.push_back({patch, surface.chart, curves[x.lower].feature, curves[x.upper].feature, events[x.from], events[x.to],
+                       decide.place(events[x.from]), decide.place(events[x.to])});
 }
 
 }  // namespace cfree

@@ -16,7 +16,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.errors import UnsupportedError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
 from cfree.patch import Patches, Trapezoid
 from cfree.pose import Angle, tau_in, theta_in
@@ -72,6 +71,8 @@ class Trapezoids:
     lower, upper : (T,) uint64, curves
     from_first, from_second, to_first, to_second : (T,) uint64, what defines the two angles
     from_lo, from_hi, to_lo, to_hi : (T,) float64, isolating intervals of tau in the chart
+    from_place, to_place : (T,) uint8
+        0: the only root in the interval. Where doubles cannot hold two roots apart: its number among those there.
     """
 
     patch: Ints
@@ -82,10 +83,12 @@ class Trapezoids:
     from_second: Codes
     from_lo: Floats
     from_hi: Floats
+    from_place: NDArray[np.uint8]
     to_first: Codes
     to_second: Codes
     to_lo: Floats
     to_hi: Floats
+    to_place: NDArray[np.uint8]
 
     def __len__(self) -> int:
         return len(self.patch)
@@ -140,8 +143,6 @@ def boundary(
 
     Raises
     ------
-    UnsupportedError
-        If two critical angles lie closer together than doubles can tell apart.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -169,8 +170,6 @@ def boundary(
         while not job.wait(0.1):
             if progress is not None:
                 progress(job.progress())
-    except _core.Undecided as error:
-        raise UnsupportedError(f"{error}; a limit of this version, see docs/theory.md, section 8") from None
     except BaseException:
         job.cancel()
         raise

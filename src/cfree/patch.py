@@ -62,13 +62,16 @@ class CriticalAngle:
     features : tuple of Contact
         None, one or two of them.
     interval : (float, float)
-        It is the only root in this interval of tau, in the chart.
+        An interval of tau, in the chart, that holds it.
+    place : int
+        0: it is the only root there; else its number among those that doubles cannot hold apart.
     theta : float, radians
     """
 
     kind: str
     features: tuple[Contact, ...]
     interval: tuple[float, float]
+    place: int
     theta: float
 
 
@@ -89,7 +92,9 @@ class Trapezoid:
         t = boundary.trapezoids
         chart = int(t.chart[k])
 
-        def angle(first: int, second: int, lo: float, hi: float) -> CriticalAngle:
+        def angle(end: str) -> CriticalAngle:
+            first, second = int(getattr(t, f"{end}_first")[k]), int(getattr(t, f"{end}_second")[k])
+            lo, hi = float(getattr(t, f"{end}_lo")[k]), float(getattr(t, f"{end}_hi")[k])
             features = tuple(contact(boundary, code) for code in (first, second) if code)
             if not features:
                 kind = "wall"
@@ -97,7 +102,8 @@ class Trapezoid:
                 kind = "crossing"
             else:
                 kind = "parallel" if features[0].kind == "e-e" else "helix"
-            return CriticalAngle(kind, features, (lo, hi), float(theta_in(chart, 0.5 * (lo + hi))))
+            place = int(getattr(t, f"{end}_place")[k])
+            return CriticalAngle(kind, features, (lo, hi), place, float(theta_in(chart, 0.5 * (lo + hi))))
 
         return cls(
             index=k,
@@ -105,8 +111,8 @@ class Trapezoid:
             chart=chart,
             lower=contact(boundary, int(t.lower[k])),
             upper=contact(boundary, int(t.upper[k])),
-            start=angle(int(t.from_first[k]), int(t.from_second[k]), float(t.from_lo[k]), float(t.from_hi[k])),
-            stop=angle(int(t.to_first[k]), int(t.to_second[k]), float(t.to_lo[k]), float(t.to_hi[k])),
+            start=angle("from"),
+            stop=angle("to"),
         )
 
 

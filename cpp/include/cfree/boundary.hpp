@@ -30,6 +30,7 @@ struct Trapezoids {
     std::vector<std::uint64_t> lower, upper;
     std::vector<std::uint64_t> from_first, from_second, to_first, to_second;
     std::vector<double> from_lo, from_hi, to_lo, to_hi;
+    std::vector<std::uint8_t> from_place, to_place;
 };
 
 struct Tally {

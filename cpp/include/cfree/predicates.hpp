@@ -9,7 +9,6 @@
 #pragma once
 #include <array>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "cfree/polynomial.hpp"
@@ -48,9 +47,11 @@ struct Filtered {
 // A critical angle: the only root in [lo, hi] of the polynomial that its features define on the surface:
 //   none: a chart wall (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
 //   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
+// Where doubles cannot hold two roots apart, `fine` is the place of a finer interval kept by the Predicates that found it.
 struct Event {
     Feature first, second;
     double lo, hi;
+    Index fine = -1;
 };
 
 // A curve t(theta) = N / D on the surface, D > 0 where it is used.
@@ -67,11 +68,6 @@ struct Sample {
     double tau;
     std::optional<Dyadic> fine;
     Dyadic exact() const { return fine ? *fine : Dyadic::from(tau); }
-};
-
-// Two roots of one polynomial that no double separates are not told apart in this version.
-struct Undecided : std::runtime_error {
-    using std::runtime_error::runtime_error;
 };
 
 struct Counters {
@@ -121,6 +117,9 @@ public:
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
 
+    // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
+    int place(const Event& x) const;
+
     // End of a patch's range in its chart: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max.
     // Returns the chart too; a half turn apart from the parallels of equal direction.
     struct RangeEnd {
@@ -147,7 +146,8 @@ private:
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
     int sign_at(const Filtered& f, const Feature& first, const Sample& at);
-    Poly defining(const Event& x) const;
+    struct Root;
+    Root root_of(const Event& x) const;
     bool same_polynomial(const Event& x, const Event& y) const;
     int order_at_wall(const Event& x, const Event& wall) const;
     bool meets_parallel(const Event& parallel, const Event& x) const;
@@ -156,6 +156,7 @@ private:
     const Scene& scene;
     Surface surface;
     double kappa;
+    std::vector<std::array<Dyadic, 2>> fine;
 };
 
 }  // namespace cfree

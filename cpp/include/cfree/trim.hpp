@@ -15,6 +15,7 @@ struct Trapezoid {
     int chart = 0;
     Feature lower, upper;
     Event from, to;
+    int from_place = 0, to_place = 0;  // see Predicates::place
 };
 
 class Trimmer {
