@@ -12,7 +12,7 @@ import statistics
 import subprocess
 import time
 import zlib
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from datetime import date
 from pathlib import Path
@@ -107,7 +107,7 @@ def checksum(arrays: Iterable[np.ndarray]) -> str:
     return f"{value:08x}"
 
 
-def machine() -> Mapping[str, Any]:
+def machine() -> dict[str, Any]:
     """Processor, compiler, versions, date and commit; no names."""
     cpu = {}
     if os.path.exists("/proc/cpuinfo"):

@@ -8,6 +8,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+import os
 import sys
 import time
 from dataclasses import asdict
@@ -40,8 +41,9 @@ def main() -> int:
             reports.append(report)
             print_report(console, report)
     seconds = time.perf_counter() - start
+    about["load"] += f", {os.getloadavg()[0]:.1f} at the end"
     missed = print_verdicts(console, reports)
-    console.print(f"{seconds:.0f} s in all")
+    console.print(f"{seconds:.0f} s in all; load {about['load']}")
     if options.json:
         facts = {"machine": about, "seconds": seconds, "reports": [asdict(report) for report in reports]}
         options.json.write_text(json.dumps(facts, indent=1) + "\n")
