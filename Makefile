@@ -4,7 +4,7 @@ BIN := .venv/bin
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
-.PHONY: demo test ctest lint bench dev clean
+.PHONY: demo test ctest lint bench dev stub clean
 
 demo: $(INSTALLED)  ## the boundary of the forbidden space of a car park, into demo/
 	$(BIN)/cfree boundary examples/scenes/benchmr_parking1.json \
@@ -14,9 +14,9 @@ test: $(INSTALLED) ctest lint  ## every test
 	$(BIN)/python -m pytest -n 2
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python
-	cmake -S . -B build/ctest -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
-	cmake --build build/ctest -j 2 >> build/ctest.log
-	ctest --test-dir build/ctest --output-on-failure
+	$(BIN)/cmake -S . -B build/ctest -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
+	$(BIN)/cmake --build build/ctest -j 2 >> build/ctest.log
+	$(BIN)/ctest --test-dir build/ctest --output-on-failure
 
 lint: $(INSTALLED)
 	$(BIN)/ruff check src tests benchmarks examples
@@ -29,6 +29,9 @@ dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++
 	$(BIN)/pip install -q scikit-build-core nanobind boost-headers cmake ninja
 	$(BIN)/pip install -q --no-build-isolation -C editable.rebuild=true -C editable.verbose=false -C build-dir=build/dev -e '.[test]'
 	touch $(INSTALLED)
+
+stub: $(INSTALLED)  ## after a change of the binding
+	$(BIN)/python -m nanobind.stubgen -q -m cfree._core -o src/cfree/_core.pyi
 
 clean:
 	rm -rf .venv build demo
