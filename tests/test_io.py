@@ -14,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cfree.errors import FormatError, UnsupportedError
-from cfree.findings import InvalidFileError
+from cfree.formats.findings import InvalidFileError
+from cfree.formats.json_positions import places
 from cfree.io import load_polygons, load_scene, number_text, save_scene, scene_text
-from cfree.json_positions import places
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Scene
@@ -466,7 +466,7 @@ MULTIPOLYGON (((0 0, 1 0, 0 1)), ((0 0, 1 0)))
 
 
 def test_the_schema_names_the_keys_of_the_models() -> None:
-    from cfree.scene_format import SceneModel
+    from cfree.formats.scene_format import SceneModel
 
     written = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
     meant = SceneModel.model_json_schema()

@@ -8,7 +8,7 @@ import re
 import pytest
 
 
-def test_the_code_in_the_readme_prints_what_it_shows(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_code_prints_what_it_shows(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     root = request.config.rootpath
     monkeypatch.chdir(root)
     result = doctest.testfile(str(root / "README.md"), module_relative=False)

@@ -18,8 +18,8 @@ from pathlib import Path
 from cfree.errors import UnsupportedError
 from cfree.exact import MAX_DIGITS
 from cfree.files import replacing
-from cfree.findings import Findings, read_text
-from cfree.json_text import read_json
+from cfree.formats.findings import Findings, read_text
+from cfree.formats.json_text import read_json
 from cfree.polygon import Polygon
 from cfree.pose import Angle, Pose
 from cfree.scene import Scene, default_name
@@ -54,25 +54,25 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     """
     findings = _open(path)
     if _is_wkt(findings):
-        from cfree.shapes import scene_from_shapes
-        from cfree.wkt import wkt_shapes
+        from cfree.formats.shapes import scene_from_shapes
+        from cfree.formats.wkt import wkt_shapes
 
         return scene_from_shapes(findings, wkt_shapes(findings), "begin its line with robot:")
     data = read_json(findings)
     if _is_geojson(data):
-        from cfree.geojson import geojson_shapes
-        from cfree.shapes import scene_from_shapes
+        from cfree.formats.geojson import geojson_shapes
+        from cfree.formats.shapes import scene_from_shapes
 
         remedy = 'give its feature the property "role": "robot"'
         return scene_from_shapes(findings, geojson_shapes(findings, data), remedy)
-    from cfree.scene_format import scene_from_json
+    from cfree.formats.scene_format import scene_from_json
 
     return scene_from_json(findings, data)
 
 
 def scene_from_text(name: str, text: str) -> Scene:
     """Scene from the JSON text that `scene_text` makes; `name` stands for the file in errors."""
-    from cfree.scene_format import scene_from_json
+    from cfree.formats.scene_format import scene_from_json
 
     findings = Findings(name, text)
     return scene_from_json(findings, read_json(findings))
@@ -88,11 +88,11 @@ def load_polygons(path: str | PathLike[str]) -> tuple[Polygon, ...]:
     """
     findings = _open(path)
     if _is_wkt(findings):
-        from cfree.wkt import wkt_shapes
+        from cfree.formats.wkt import wkt_shapes
 
         shapes = wkt_shapes(findings)
     else:
-        from cfree.geojson import geojson_shapes
+        from cfree.formats.geojson import geojson_shapes
 
         shapes = geojson_shapes(findings, read_json(findings))
     findings.fail_if_any()

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from cfree.findings import Findings
+from cfree.formats.findings import Findings
 from cfree.polygon import Polygon
 from cfree.scene import Scene
 

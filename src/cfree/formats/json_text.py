@@ -7,8 +7,8 @@ import re
 from decimal import Decimal, InvalidOperation
 
 from cfree.exact import MAX_DIGITS
-from cfree.findings import Findings
-from cfree.json_positions import shortened
+from cfree.formats.findings import Findings
+from cfree.formats.json_positions import shortened
 
 
 def read_json(findings: Findings) -> object:

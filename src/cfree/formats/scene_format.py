@@ -30,8 +30,8 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact import to_fraction
-from cfree.findings import Findings
-from cfree.json_positions import Path, shortened
+from cfree.formats.findings import Findings
+from cfree.formats.json_positions import Path, shortened
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Scene, explained

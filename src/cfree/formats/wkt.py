@@ -13,11 +13,11 @@ from typing import NoReturn, TypeVar
 
 from cfree.errors import InvalidPolygonError
 from cfree.exact import ExactPoint, to_fraction
-from cfree.findings import Findings
-from cfree.json_positions import shortened
+from cfree.formats.findings import Findings
+from cfree.formats.json_positions import shortened
+from cfree.formats.shapes import ROLES, Shape
 from cfree.polygon import Polygon
 from cfree.scene import explained, flat_shape
-from cfree.shapes import ROLES, Shape
 
 T = TypeVar("T")
 _LABEL = re.compile(r"\s*(?:([^:()]*):)?\s*")

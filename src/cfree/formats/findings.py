@@ -13,7 +13,7 @@ from functools import cached_property
 from pathlib import Path as FilePath
 
 from cfree.errors import FormatError
-from cfree.json_positions import Path, Place, dotted, places, shortened
+from cfree.formats.json_positions import Path, Place, dotted, places, shortened
 
 SHOWN = 50
 """Problems written out in the message; `InvalidFileError.problems` has them all."""

@@ -10,12 +10,12 @@ from typing import Annotated, Any
 from pydantic import BeforeValidator, TypeAdapter, ValidationError
 
 from cfree.errors import InvalidPolygonError
-from cfree.findings import Findings
-from cfree.json_positions import Path
+from cfree.formats.findings import Findings
+from cfree.formats.json_positions import Path
+from cfree.formats.scene_format import Point, is_encodable, report
+from cfree.formats.shapes import ROLES, Shape
 from cfree.polygon import Polygon
 from cfree.scene import explained, flat_shape
-from cfree.scene_format import Point, is_encodable, report
-from cfree.shapes import ROLES, Shape
 
 # further coordinates, such as heights, are ignored as the RFC allows
 _RINGS = TypeAdapter(
