@@ -32,7 +32,7 @@ def run(quick: bool) -> Report:
             with ThreadPoolExecutor(2) as pool:
                 return max(pool.map(Build.__call__, rivals))
 
-        one, two, both = measured(first, second, at_once, rounds=3 if quick or case == "5000 convex" else 7)
+        one, two, both = measured(first, second, at_once, rounds=3 if quick or case == "5000 convex" else 25)
         stats, ratio = first.boundary.stats, one.best / two.best
         same = first.checksum() == second.checksum()
         verdict = "the same" if same else "DIFFERENT"
