@@ -2,7 +2,6 @@
 
 import math
 import random
-import time
 from pathlib import Path
 from typing import Any
 
@@ -126,16 +125,6 @@ def test_angle_scale_is_the_robots_radius_unless_given(triangles: Boundary) -> N
             boundary_mesh(triangles, angle_scale=wrong)
         with pytest.raises(ValueError, match="positive"):
             boundary_mesh(triangles, step=wrong)
-
-
-def test_the_car_park_is_meshed_quickly() -> None:
-    result = boundary(load_scene(SCENES / "benchmr_parking1.json"))
-    seconds = []
-    for _ in range(3):
-        start = time.perf_counter()
-        boundary_mesh(result)
-        seconds.append(time.perf_counter() - start)
-    assert min(seconds) < 0.5
 
 
 # files
