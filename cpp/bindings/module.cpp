@@ -57,14 +57,14 @@ static std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> integers(cons
 
 NB_MODULE(_core, m) {
     nb::class_<cfree::Shape>(m, "Shape")
-        .def("__init__", [](cfree::Shape* s, Limbs coordinates, Column<int> point, Column<int> v, Column<int> w,
+        .def("__init__", [](cfree::Shape* s, Limbs coordinates, int shift, Column<int> point, Column<int> v, Column<int> w,
                             Column<int> line, Column<int> direction, int ring_vertices, Column<int> previous,
                             Column<char> convex, Column<char> emit, Column<int> layer, Column<int> vertex_rank,
                             Column<int> edge_rank, Column<int> piece, Column<int> piece_vertex, Column<int> piece_edge,
                             Column<int> piece_layer) {
             new (s) cfree::Shape{};
             auto [x, y] = integers(coordinates);
-            s->set_coordinates(std::move(x), std::move(y));
+            s->set_coordinates(std::move(x), std::move(y), shift);
             s->point = vector_of(point), s->v = vector_of(v), s->w = vector_of(w);
             s->line = vector_of(line), s->direction = vector_of(direction);
             s->ring_vertices = ring_vertices, s->previous = vector_of(previous);
@@ -72,7 +72,7 @@ NB_MODULE(_core, m) {
             s->vertex_rank = vector_of(vertex_rank), s->edge_rank = vector_of(edge_rank);
             s->piece = vector_of(piece), s->piece_vertex = vector_of(piece_vertex);
             s->piece_edge = vector_of(piece_edge), s->piece_layer = vector_of(piece_layer);
-        }, "coordinates"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a, "ring_vertices"_a, "previous"_a,
+        }, "coordinates"_a, "shift"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a, "ring_vertices"_a, "previous"_a,
            "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a, "piece_vertex"_a, "piece_edge"_a,
            "piece_layer"_a);
     nb::class_<cfree::Job>(m, "Job")

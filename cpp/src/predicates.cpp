@@ -11,8 +11,18 @@ constexpr double u = 0x1p-53;
 // most doubles the magnitude: 22 u would do.
 constexpr double coefficient_error = 32 * u;
 constexpr double product_error = 8 * u;
+// More than any underflow loses: coefficients are far above it or zero.
+constexpr double tiny = 0x1p-1000;
 
 const Event wall_event(int side) { return {{}, {}, double(side), double(side)}; }
+
+// A direction times a power of two, so that products of two are neither huge nor tiny.
+Vec<Approx> of_unit_size(const Vec<Approx>& d) {
+    int exponent;
+    std::frexp(std::max(d.x.m, d.y.m), &exponent);
+    const double scale = std::ldexp(1.0, -exponent);
+    return {{d.x.v * scale, d.x.m * scale}, {d.y.v * scale, d.y.m * scale}};
+}
 
 // k f - l g for constants k, l that are themselves within ek, el of the truth
 Filtered combination(double k, double ek, const Filtered& f, double l, double el, const Filtered& g) {
@@ -20,16 +30,16 @@ Filtered combination(double k, double ek, const Filtered& f, double l, double el
     const double mg = 2 * (std::abs(g.a) + std::abs(g.b) + std::abs(g.c));
     const double err = (std::abs(k) + ek) * f.err + (std::abs(l) + el) * g.err + mf * (ek + product_error * std::abs(k)) +
                        mg * (el + product_error * std::abs(l));
-    return {k * f.a - l * g.a, k * f.b - l * g.b, k * f.c - l * g.c, err * (1 + 8 * u)};
+    return {k * f.a - l * g.a, k * f.b - l * g.b, k * f.c - l * g.c, err * (1 + 8 * u) + tiny};
 }
 
 // Signs of products of differences, in machine integers where they fit.
 int dot_sign(const Scene& s, Index g, Index f) {
-    if (s.robot.bits + s.obstacles.bits < 126) return sign_of(dot(edge<Wide>(s.robot, g), edge<Wide>(s.obstacles, f)));
+    if (s.robot.is_narrow() && s.obstacles.is_narrow()) return sign_of(dot(edge<Wide>(s.robot, g), edge<Wide>(s.obstacles, f)));
     return sign_of(dot(edge<Int>(s.robot, g), edge<Int>(s.obstacles, f)));
 }
 bool is_parallel(const Shape& s, Index e, Index p, Index q) {  // edge e and the line through two vertices
-    if (2 * s.bits < 126) return cross(edge<Wide>(s, e), difference<Wide>(s, p, q)) == 0;
+    if (s.is_narrow()) return cross(edge<Wide>(s, e), difference<Wide>(s, p, q)) == 0;
     return cross(edge<Int>(s, e), difference<Int>(s, p, q)).is_zero();
 }
 // Order of the angles of two pairs of edges, as directions (G.F, G x F) turned to the right half-plane.
@@ -108,7 +118,7 @@ std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
 }
 
 Filtered Predicates::filtered(const Trig<Approx>& f) const {
-    return {f.a.v, kappa * f.b.v, kappa * f.c.v, coefficient_error * (f.a.m + f.b.m + f.c.m)};
+    return {f.a.v, kappa * f.b.v, kappa * f.c.v, coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
 }
 Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
 Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
@@ -159,7 +169,7 @@ int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sam
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
     if (shape.direction[e] == shape.direction[f]) return 0;
     const Approx value = cross(edge<Approx>(shape, e), edge<Approx>(shape, f));
-    if (std::abs(value.v) > coefficient_error * value.m) return ++counters.filter, value.v > 0 ? 1 : -1;
+    if (std::abs(value.v) > coefficient_error * value.m + tiny) return ++counters.filter, value.v > 0 ? 1 : -1;
     ++counters.exact;
     return cross(edge<Int>(shape, e), edge<Int>(shape, f)).sign();
 }
@@ -180,7 +190,7 @@ struct Predicates::Form {
         if (degree == 2) return {x, p.err};
         const double y = q.polar(t, t), z = r.polar(t, t), w = s.polar(t, t);
         return {x * y - z * w, std::abs(x) * q.err + std::abs(y) * p.err + std::abs(z) * s.err + std::abs(w) * r.err +
-                                   p.err * q.err + r.err * s.err + product_error * (std::abs(x * y) + std::abs(z * w))};
+                                   p.err * q.err + r.err * s.err + product_error * (std::abs(x * y) + std::abs(z * w)) + tiny};
     }
     // Bernstein coefficients on [lo, hi], all within the error returned
     double bernstein(double lo, double hi, double* c) const {
@@ -200,7 +210,7 @@ struct Predicates::Form {
         const auto largest = [](double x, double y, double z) { return std::max({std::abs(x), std::abs(y), std::abs(z)}); };
         const double P = largest(p0, p1, p2), Q = largest(q0, q1, q2), R = largest(r0, r1, r2), S = largest(s0, s1, s2);
         return P * q.err + Q * p.err + R * s.err + S * r.err + p.err * q.err + r.err * s.err +
-               2 * product_error * (P * Q + R * S);
+               2 * product_error * (P * Q + R * S) + tiny;
     }
 };
 
@@ -388,21 +398,49 @@ Predicates::Roots Predicates::offset_roots(Index s, Index v, const Filtered& f, 
     return roots(Form{2, f, {}, {}, {}}, {Kind::vertex_vertex, s, v}, {}, from, to);
 }
 
+namespace {
+
+// The angle at which two edges are parallel, as that of the direction d = (G.F, G x F) turned to the right half-plane.
+struct ParallelAngle {
+    int side;  // sign of G.F before turning; 0 for a right angle
+    bool up;   // sign of G x F before turning
+    double tau, half;
+};
+
+ParallelAngle parallel_angle(const Scene& scene, Index g, Index f, Counters& counters) {
+    const auto G = of_unit_size(edge<Approx>(scene.robot, g)), F = of_unit_size(edge<Approx>(scene.obstacles, f));
+    const Approx c = dot(G, F), n = cross(G, F);
+    const auto angle = [](double x, double y, double error) {
+        const double length = std::hypot(x, y), sign = x < 0 ? -1 : 1;
+        return ParallelAngle{x > 0 ? 1 : -1, y > 0, sign * y / (length + sign * x), 8 * u * error / length + 4 * u};
+    };
+    const ParallelAngle guess = angle(c.v, n.v, c.m + n.m);
+    if (std::abs(c.v) > coefficient_error * c.m && guess.half < 64 * u) return ++counters.filter, guess;
+    ++counters.exact;
+    if (guess.half < 64 * u && dot_sign(scene, g, f) == 0) return {0, n.v > 0, 0, 0};
+    // the direction itself, exactly, and then rounded
+    const auto E = edge<Int>(scene.robot, g), H = edge<Int>(scene.obstacles, f);
+    Vec<Int> d{dot(E, H), cross(E, H)};
+    if (d.x.is_zero()) return {0, d.y.sign() > 0, 0, 0};
+    const auto bits = [](const Int& z) { return z.is_zero() ? 0 : static_cast<int>(msb(abs(z))); };
+    const int excess = std::max(bits(d.x), bits(d.y)) - 500;
+    if (excess > 0) d.x /= Int(1) << static_cast<unsigned>(excess), d.y /= Int(1) << static_cast<unsigned>(excess);
+    const int side = dot_sign(scene, g, f);
+    ParallelAngle result = angle(std::abs(d.x.convert_to<double>()) * side, d.y.convert_to<double>(), 2);
+    result.half = 16 * u;
+    result.side = side;
+    if (d.x.is_zero()) result.tau = side * (d.y.sign() > 0 ? 1 : -1);
+    return result;
+}
+
+}  // namespace
+
 Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from, const Event& to) {
-    // tan(theta) = G x F / G.F has one root in the chart, and two at its walls if G.F = 0
+    // one in the chart, or two at its walls
     Roots result;
-    const auto G = edge<Approx>(scene.robot, g), F = edge<Approx>(scene.obstacles, f);
-    Approx c = dot(G, F), n = cross(G, F);
-    int side = c.v > 0 ? 1 : -1;
-    if (std::abs(c.v) <= coefficient_error * c.m) {
-        ++counters.exact;
-        side = dot_sign(scene, g, f);
-        if (side == 0) return result;
-    }
-    if (side < 0) n = -n, c = -c;
-    const double length = std::hypot(c.v, n.v), tau = n.v / (length + c.v);
-    const double half = 8 * u * (c.m + n.m) / length + 4 * u;
-    const Event x{{Kind::edge_edge, g, f}, {}, tau - half, tau + half};
+    const ParallelAngle p = parallel_angle(scene, g, f, counters);
+    if (p.side == 0) return result;
+    const Event x{{Kind::edge_edge, g, f}, {}, p.tau - p.half, p.tau + p.half};
     if (order(from, x) < 0 && order(x, to) < 0) result.at[result.count++] = x;
     return result;
 }
@@ -461,14 +499,19 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     result.count = r.count;
     for (int k = 0; k <= r.count; ++k) {
         if (k < r.count) result.at[k] = r.at[k];
-        const Sample at = between(k == 0 ? from : r.at[k - 1], k == r.count ? to : r.at[k]);
-        const auto value = f.at(at.tau);
-        if (!at.fine && std::abs(value.v) > value.err) {
-            ++counters.filter;
-            result.sign[k] = value.v > 0 ? 1 : -1;
-        } else {
-            ++counters.exact;
-            result.sign[k] = flip * cfree::sign_at(polynomial(p.feature, q.feature), at.exact());
+        const Event &before = k == 0 ? from : r.at[k - 1], &after = k == r.count ? to : r.at[k];
+        result.sign[k] = 0;
+        for (int attempt = 0; result.sign[k] == 0; ++attempt) {  // a sample may be where the curves touch
+            if (attempt == 20) throw std::logic_error("two different curves are equal at twenty samples");
+            const Sample at = between(before, after, (attempt + 10) / 30.0 + (attempt == 0 ? 1 / 6.0 : 0));
+            const auto value = f.at(at.tau);
+            if (!at.fine && std::abs(value.v) > value.err) {
+                ++counters.filter;
+                result.sign[k] = value.v > 0 ? 1 : -1;
+            } else {
+                ++counters.exact;
+                result.sign[k] = flip * cfree::sign_at(polynomial(p.feature, q.feature), at.exact());
+            }
         }
     }
     return result;
@@ -502,6 +545,11 @@ struct Predicates::Root {
 Predicates::Root Predicates::root_of(const Event& x) const {
     if (x.fine >= 0) return {polynomial(x.first, x.second), fine[x.fine][0], fine[x.fine][1]};
     return {polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
+}
+
+void Predicates::halve(Root& p, Root& q, int steps) {
+    if (steps == 1000000) throw std::logic_error("two critical angles that differ do not part");
+    p.halve(), q.halve();
 }
 
 int Predicates::place(const Event& x) const {
@@ -583,10 +631,10 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
         const int l = cfree::sign_at(g, lo), h = cfree::sign_at(g, hi);
         if (l == 0 || h == 0 || l != h || (g.size() > 2 && Sturm(squarefree(g)).roots_in(lo, hi) > 0)) return 0;
     }
-    while (true) {  // different roots: halve both intervals until they part
+    for (int k = 0;; ++k) {  // different roots: halve both intervals until they part
         if (cfree::compare(p.hi, q.lo) < 0) return -1;
         if (cfree::compare(q.hi, p.lo) < 0) return 1;
-        p.halve(), q.halve();
+        halve(p, q, k);
     }
 }
 
@@ -608,7 +656,7 @@ Sample Predicates::between(const Event& x, const Event& y, double part) {
     if (!(lo < hi)) {  // intervals that overlap: halve them until they part
         ++counters.exact;
         Root p = root_of(x), q = root_of(y);
-        while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+        for (int k = 0; cfree::compare(p.hi, q.lo) >= 0; ++k) halve(p, q, k);
         lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
         if (!(std::nextafter(lo, hi) < hi)) {
             Dyadic below = p.hi, at = Dyadic::middle(p.hi, q.lo);
@@ -628,24 +676,13 @@ Sample Predicates::between(const Event& x, const Event& y, double part) {
 }
 
 Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters) {
-    const auto G = edge<Approx>(scene.robot, g), F = edge<Approx>(scene.obstacles, f);
-    Approx c = -dot(G, F), n = -cross(G, F);
-    int sign = c.v > 0 ? 1 : -1;
-    if (std::abs(c.v) <= coefficient_error * c.m) {
-        ++counters.exact;
-        sign = -dot_sign(scene, g, f);
-    } else {
-        ++counters.filter;
-    }
-    if (sign == 0) {
-        const bool quarter = n.v > 0;  // theta = pi/2, else -pi/2
+    const ParallelAngle p = parallel_angle(scene, g, f, counters);  // antiparallel is half a turn further
+    if (p.side == 0) {
+        const bool quarter = !p.up;  // theta = pi/2, else -pi/2
         if (is_start) return {quarter ? 1 : 0, wall_event(-1)};
         return {quarter ? 0 : 1, wall_event(1)};
     }
-    if (sign < 0) c = -c, n = -n;
-    const double length = std::hypot(c.v, n.v), tau = n.v / (length + c.v);
-    const double half = 8 * u * (c.m + n.m) / length + 4 * u;
-    return {sign > 0 ? 0 : 1, {{Kind::edge_edge, g, f}, {}, tau - half, tau + half}};
+    return {p.side < 0 ? 0 : 1, {{Kind::edge_edge, g, f}, {}, p.tau - p.half, p.tau + p.half}};
 }
 
 }  // namespace cfree

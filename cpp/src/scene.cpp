@@ -4,7 +4,7 @@
 
 namespace cfree {
 
-void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y) {
+void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift) {
     X = std::move(exact_x), Y = std::move(exact_y);
     int widest = 1;
     rounded = false;
@@ -12,7 +12,7 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y) 
         out.clear();
         for (const Int& c : exact) {
             const double nearest = c.convert_to<double>();
-            out.push_back(nearest);
+            out.push_back(std::ldexp(nearest, -shift));
             rounded |= !std::isfinite(nearest) || Int(nearest) != c;
             if (!c.is_zero()) widest = std::max(widest, static_cast<int>(msb(abs(c))) + 1);
         }

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 Point = tuple[int, int]
 BODY, REFERENCE = 0, 1  # layers
+LARGEST_BITS = 100  # of the core's doubles, so that products of four of their products stay finite
 OWNER_COLUMNS = ("owner_polygon", "owner_ring", "owner_vertex")
 RING_COLUMNS = ("previous", "convex", "emit", "layer", *OWNER_COLUMNS)
 
@@ -40,6 +41,8 @@ class ShapeFeatures:
 
     Attributes
     ----------
+    shift : int
+        The core's doubles are the integer coordinates times ``2 ** -shift``, the same for both shapes.
     xy : (n, 2) float64
         Vertices in the user's units, correctly rounded.
     v, w : (e,) int32
@@ -54,6 +57,7 @@ class ShapeFeatures:
 
     def __init__(self, scale: int) -> None:
         self.scale = scale
+        self.shift = 0
         self.vertices: list[Point] = []
         self.edges: list[tuple[int, int]] = []
         self.pieces: list[list[int]] = []  # of vertices
@@ -193,6 +197,8 @@ def scene_features(scene: Scene) -> SceneFeatures:
         rim = (outer[0] / scale, outer[1] / scale, outer[2] / scale, outer[3] / scale)
         if bounds:
             add_bounds(robot, obstacles, bounds, outer)
+    widest = max((abs(c) for p in robot.vertices + obstacles.vertices for c in p), default=0)
+    robot.shift = obstacles.shift = max(0, widest.bit_length() - LARGEST_BITS)
     return SceneFeatures(robot, obstacles, scale, rim)
 
 
@@ -305,4 +311,4 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
     }
     arrays: dict[str, Any] = {name: np.array(column, np.int32) for name, column in ints.items()}
     arrays |= {name: np.array(shape.rings[name], np.int8) for name in ("convex", "emit")}
-    return arrays | {"coordinates": limbs(vertices), "ring_vertices": len(previous)}
+    return arrays | {"coordinates": limbs(vertices), "shift": shape.shift, "ring_vertices": len(previous)}

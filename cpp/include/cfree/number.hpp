@@ -21,8 +21,8 @@ inline int sign_of(const Int& n) { return n.sign(); }
 inline int sign_of(Wide n) { return (n > 0) - (n < 0); }
 
 // A double v and the magnitude m of the terms it was summed from. An expression of d roundings in a row, inputs
-// included, satisfies |v - exact| <= d u m (1 + O(u)), u = 2^-53. Inputs are integers, so nothing underflows;
-// overflow makes m infinite, and then no comparison against a multiple of m succeeds.
+// included, satisfies |v - exact| <= d u m (1 + O(u)), u = 2^-53, but for underflow, which bounds allow for. Overflow makes
+// m infinite, and then no comparison against a multiple of m succeeds.
 struct Approx {
     double v, m;
 };

@@ -148,6 +148,7 @@ private:
     int sign_at(const Filtered& f, const Feature& first, const Sample& at);
     struct Root;
     Root root_of(const Event& x) const;
+    static void halve(Root& p, Root& q, int steps);
     bool same_polynomial(const Event& x, const Event& y) const;
     int order_at_wall(const Event& x, const Event& wall) const;
     bool meets_parallel(const Event& parallel, const Event& x) const;

@@ -12,10 +12,11 @@ namespace cfree {
 
 struct Shape {
     std::vector<Int> X, Y;         // exact coordinates
-    std::vector<double> x, y;      // the same, rounded
+    std::vector<double> x, y;      // the same times 2^-shift, rounded
     bool rounded = false;          // whether any coordinate changed by rounding
     std::vector<std::int64_t> nx, ny;  // the same as machine integers, if `bits` allows
     int bits = 0;                  // differences of coordinates are below 2^bits
+    bool is_narrow() const { return bits <= 63; }  // so that a cross or dot product of two fits a Wide
     std::vector<Index> point;      // class of coincident vertices
     // Directed edges v -> w. Those of rings come first: edge e of a ring starts at vertex e. Then the pieces' diagonals.
     std::vector<Index> v, w, line, direction;
@@ -31,8 +32,9 @@ struct Shape {
     std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
 
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
-    // Sets X and Y and what is derived from them.
-    void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y);
+    // Sets X and Y and what is derived from them. Both shapes of a scene have the same shift: 0, or enough to keep products
+    // of four doubles finite.
+    void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0);
 };
 
 struct Scene {
