@@ -110,8 +110,10 @@ void Slicer::limits(const Index* trapezoid, const int* charts, const double* tau
 }
 
 void Slicer::step_off_events(int& c, double& tau) const {
-    constexpr double near = 1e-12;
-    for (int step = 0; step < 1000; ++step) {
+    // Near a critical angle lines are nearly parallel: at a distance d their meeting point is good to about 1e-16 / d, and
+    // d away from where it was asked for.
+    constexpr double near = 1e-11, step = 1e-8;
+    for (int steps = 0; steps < 1000; ++steps) {
         if (tau >= 1) c = 1 - c, tau = -1;
         const Index q = part_of(c, tau);
         bool clear = tau > near - 1 && tau < 1 - near;
@@ -120,7 +122,7 @@ void Slicer::step_off_events(int& c, double& tau) const {
             clear = std::abs(tau_from[x] - tau) > near && std::abs(tau_to[x] - tau) > near;
         }
         if (clear) return;
-        tau += 2 * near;
+        tau += step;
     }
 }
 

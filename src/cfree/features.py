@@ -193,6 +193,7 @@ def scene_features(scene: Scene) -> SceneFeatures:
         reach = 1 + sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
         bounds = [int(b * scale) for b in scene.bounds or ()]
         x0, y0, x1, y1 = box([*obstacles.vertices, *zip(bounds[::2], bounds[1::2], strict=True)])
+        reach += max(x1 - x0, y1 - y0) // 8  # so that doubles see the difference
         outer = x0 - reach, y0 - reach, x1 + reach, y1 + reach
         rim = (outer[0] / scale, outer[1] / scale, outer[2] / scale, outer[3] / scale)
         if bounds:

@@ -75,4 +75,4 @@ class Slice:
         frame = None if rim is None else shapely.box(*rim).exterior.coords
         polygons = [shapely.Polygon(frame if k < 0 else rings[k], holes) for k, holes in parts.items()]
         region = polygons[0] if len(polygons) == 1 else shapely.MultiPolygon(polygons)
-        return region if shapely.is_valid(region) else shapely.buffer(shapely.make_valid(region), 0)
+        return region if shapely.is_valid(region) else shapely.union_all(shapely.make_valid(polygons))
