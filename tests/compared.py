@@ -107,13 +107,15 @@ def vertex(scene: Scene, place: Place, *, of_robot: bool) -> Point:
 
 def edge(scene: Scene, place: Place, *, of_robot: bool) -> tuple[Point, Point]:
     """Start and vector of the exact edge that a place names."""
-    if place.polygon == -1:
-        after = (place.index + 1) % 4
-    else:
-        after = int(polygon_of(scene, place, of_robot=of_robot).next[place.index])
+    assert place.end is not None
     p = vertex(scene, place, of_robot=of_robot)
-    q = vertex(scene, Place(place.polygon, place.name, place.ring, after), of_robot=of_robot)
+    ring = place.ring if place.polygon == -1 else ring_of(polygon_of(scene, place, of_robot=of_robot), place.end)
+    q = vertex(scene, Place(place.polygon, place.name, ring, place.end), of_robot=of_robot)
     return p, (q[0] - p[0], q[1] - p[1])
+
+
+def ring_of(polygon: Polygon, index: int) -> int:
+    return next(k for k, end in enumerate(polygon.ring_offsets[1:]) if index < end)
 
 
 def polygon_of(scene: Scene, place: Place, *, of_robot: bool) -> Polygon:

@@ -89,7 +89,6 @@ def test_owners_name_the_rings_of_the_input() -> None:
     )
     shape: ShapeFeatures = features.obstacles
     assert shape.owner_polygon[:12].tolist() == [0] * 4 + [1] * 8
-    assert shape.owner_ring[:12].tolist() == [0] * 8 + [1] * 4
     assert shape.owner_vertex[:12].tolist() == [*range(4), *range(8)]
     assert set(shape.owner_polygon[12:].tolist()) == {-2, -1}
     assert features.robot.owner_polygon.tolist() == [0] * 6 + [-1]

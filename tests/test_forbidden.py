@@ -172,7 +172,6 @@ def test_turning_the_obstacles_turns_the_space(plain: PlainScene) -> None:
     assert np.allclose(areas(before), areas(after, turned_angles))
 
 
-@pytest.mark.xfail(strict=True, reason="tests/cases/failure/touch_at_turned_sample.json")
 @quick
 @given(strategies.scenes())
 def test_turning_the_robot_shifts_the_orientations(plain: PlainScene) -> None:

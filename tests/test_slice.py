@@ -86,7 +86,6 @@ def test_slices_at_right_angles_are_those_just_after(angle) -> None:
             assert np.abs(now.segments - after.segments).max(initial=0) < 1e-3, (kind, seed)
 
 
-@pytest.mark.xfail(strict=True, reason="ends where two lines are about to coincide are found 1e-12 beyond, to 4 digits")
 def test_slices_at_right_angles_keep_their_digits() -> None:
     result = boundary(load_scene(SCENES[0].parent / "degenerate_collinear_walls.json"))
     now, after = result.slice("0deg"), result.slice(1e-7)

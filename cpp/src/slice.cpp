@@ -65,7 +65,7 @@ Slicer::Line Slicer::line(Index id, Turn r) const {
     return l;
 }
 
-double Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn r) const {
+Slicer::Meeting Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn r) const {
     const Shape &A = scene->robot, &O = scene->obstacles;
     const Feature f = unpacked(curve);
     if (f.kind == Kind::vertex_vertex) {  // where the vertex lies along the edge; 0 and 1 for the edge's own ends
@@ -74,10 +74,10 @@ double Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn r) const
         const std::vector<double>& xy = on_edge ? b : a;
         const Index e = on_edge ? patches.obstacle[id] : patches.robot[id], x = on_edge ? f.obstacle : f.robot;
         const Index v = shape.v[e], w = shape.w[e];
-        if (shape.point[x] == shape.point[v]) return 0;
-        if (shape.point[x] == shape.point[w]) return 1;
+        if (shape.point[x] == shape.point[v]) return {0, 1};
+        if (shape.point[x] == shape.point[w]) return {1, 1};
         const double ex = xy[2 * w] - xy[2 * v], ey = xy[2 * w + 1] - xy[2 * v + 1];
-        return ((xy[2 * x] - xy[2 * v]) * ex + (xy[2 * x + 1] - xy[2 * v + 1]) * ey) / (ex * ex + ey * ey);
+        return {((xy[2 * x] - xy[2 * v]) * ex + (xy[2 * x + 1] - xy[2 * v + 1]) * ey) / (ex * ex + ey * ey), 1};
     }
     double vx, vy, qx, qy;
     if (f.kind == Kind::vertex_edge) {
@@ -90,8 +90,9 @@ double Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn r) const
         vx = -(r.c * gx - r.s * gy), vy = -(r.s * gx + r.c * gy);
         qx = b[2 * v] - (r.c * a[2 * g] - r.s * a[2 * g + 1]), qy = b[2 * v + 1] - (r.s * a[2 * g] + r.c * a[2 * g + 1]);
     }
-    const double t = -(vx * (l.py - qy) - vy * (l.px - qx)) / (vx * l.uy - vy * l.ux);
-    return t > 0 ? std::min(t, 1.0) : 0.0;  // rounding may lead out of the patch
+    const double cross = vx * l.uy - vy * l.ux, t = -(vx * (l.py - qy) - vy * (l.px - qx)) / cross;
+    const double sine = std::abs(cross) / (std::hypot(vx, vy) * std::hypot(l.ux, l.uy));
+    return {t > 0 ? std::min(t, 1.0) : 0.0, sine};  // rounding may lead out of the patch
 }
 
 // Curves may have no value at the ends of a trapezoid: look at them a little inside.
@@ -105,13 +106,11 @@ void Slicer::limits(const Index* trapezoid, const int* charts, const double* tau
         const double at = std::max(tau_from[x] + margin, std::min(tau[k], tau_to[x] - margin));
         const Turn r = turn(charts[k], at);
         const Line l = line(id, r);
-        low[k] = meets(id, l, lower[x], r), high[k] = meets(id, l, upper[x], r);
+        low[k] = meets(id, l, lower[x], r).t, high[k] = meets(id, l, upper[x], r).t;
     }
 }
 
 void Slicer::step_off_events(int& c, double& tau) const {
-    // Near a critical angle lines are nearly parallel: at a distance d their meeting point is good to about 1e-16 / d, and
-    // d away from where it was asked for.
     constexpr double near = 1e-11, step = 1e-8;
     for (int steps = 0; steps < 1000; ++steps) {
         if (tau >= 1) c = 1 - c, tau = -1;
@@ -127,16 +126,24 @@ void Slicer::step_off_events(int& c, double& tau) const {
 }
 
 Slicer::Segments Slicer::segments(int c, double tau) const {
+    const Turn asked = turn(c, tau);
+    const double was = tau;
     step_off_events(c, tau);
     Segments result;
     const Turn r = turn(c, tau);
+    const bool stepped = tau != was;
     const Index q = part_of(c, tau);
+    // Where lines are nearly parallel at the angle asked for, they meet where they do a step beyond it.
+    constexpr double steep = 1e-6;
     for (Index k = part_start[q]; k < part_start[q + 1]; ++k) {
-        const Index x = part_member[k];
+        const Index x = part_member[k], id = patch[x];
         if (!(tau_from[x] <= tau && tau < tau_to[x])) continue;
-        const Line l = line(patch[x], r);
-        const double t0 = meets(patch[x], l, lower[x], r), t1 = meets(patch[x], l, upper[x], r);
-        result.xy.insert(result.xy.end(), {l.px + t0 * l.ux, l.py + t0 * l.uy, l.px + t1 * l.ux, l.py + t1 * l.uy});
+        const Line l = line(id, asked), beyond = stepped ? line(id, r) : l;
+        for (const std::uint64_t curve : {lower[x], upper[x]}) {
+            Meeting m = meets(id, l, curve, asked);
+            if (stepped && !(m.sine > steep)) m = meets(id, beyond, curve, r);
+            result.xy.insert(result.xy.end(), {l.px + m.t * l.ux, l.py + m.t * l.uy});
+        }
         result.trapezoid.push_back(x);
     }
     return result;

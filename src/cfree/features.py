@@ -11,7 +11,8 @@ robot's reference point, as a shape of its own, with the complement of `bounds`.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -27,9 +28,10 @@ if TYPE_CHECKING:
     from cfree.scene import Scene
 
 Point = tuple[int, int]
+Box = tuple[int, int, int, int]
 BODY, REFERENCE = 0, 1  # layers
 LARGEST_BITS = 100  # of the core's doubles, so that products of four of their products stay finite
-OWNER_COLUMNS = ("owner_polygon", "owner_ring", "owner_vertex")
+OWNER_COLUMNS = ("owner_polygon", "owner_vertex")
 RING_COLUMNS = ("previous", "convex", "emit", "layer", *OWNER_COLUMNS)
 
 
@@ -49,7 +51,7 @@ class ShapeFeatures:
         Ends of the directed edges: edge k of a ring starts at vertex k; the pieces' diagonals come last.
     previous : (r,) int32
         The vertex before, for the vertices of rings, which come first.
-    owner_polygon, owner_ring, owner_vertex : (r,) int32
+    owner_polygon, owner_vertex : (r,) int32
         Whose they are; polygon is `BOUNDS` or `WORKSPACE` for those of no user's polygon.
     turning : (r,) float64
         pi minus the interior angle, radians.
@@ -72,7 +74,15 @@ class ShapeFeatures:
         for name, values in columns.items():
             self.rings[name].extend(values)
 
-    def add_polygon(self, polygon: Polygon, layer: int, index: int, *, emit_outer: bool = True) -> None:
+    def add_polygon(
+        self,
+        polygon: Polygon,
+        layer: int,
+        index: int,
+        *,
+        emit_outer: bool = True,
+        owner_vertex: Mapping[Point, int] | None = None,
+    ) -> None:
         factor, first = self.scale // polygon.denominator, len(self.vertices)
         points = [(x * factor, y * factor) for x, y in polygon.numerators]
         convex, offsets = polygon.convex.tolist(), polygon.ring_offsets
@@ -84,8 +94,7 @@ class ShapeFeatures:
                 emit=[emit_outer or ring > 0] * n,
                 layer=[layer] * n,
                 owner_polygon=[index] * n,
-                owner_ring=[ring] * n,
-                owner_vertex=range(i, j),
+                owner_vertex=range(i, j) if owner_vertex is None else [owner_vertex[p] for p in points[i:j]],
             )
         for piece in polygon.pieces:
             self.add_piece([first + v for v in piece], layer)
@@ -125,9 +134,10 @@ class ShapeFeatures:
 
     @cached_property
     def names(self) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
-        """One vertex of each point, by vertex, and one edge of each line, by edge: of a ring, and of lowest rank."""
+        """A vertex of each point, by vertex, and an edge of each line, by edge: of lowest layer and rank in a ring."""
         core = self.core
-        return _representatives(core["point"], core["vertex_rank"]), _representatives(core["line"], core["edge_rank"])
+        keys = [core[rank] + (core["layer"].astype(np.int64) << 32) for rank in ("vertex_rank", "edge_rank")]
+        return _representatives(core["point"], keys[0]), _representatives(core["line"], keys[1])
 
 
 @dataclass(frozen=True)
@@ -163,7 +173,7 @@ def _take(table: NDArray[np.uint64], index: NDArray[np.uint64]) -> NDArray[np.ui
     return table[np.minimum(index, len(table) - 1)] if len(table) else index
 
 
-def _representatives(group: NDArray[np.int32], rank: NDArray[np.int32]) -> NDArray[np.uint64]:
+def _representatives(group: NDArray[np.int32], rank: NDArray[np.int64]) -> NDArray[np.uint64]:
     keys = np.full(len(group), np.iinfo(np.int64).max)
     keys[: len(rank)] = rank
     order = np.lexsort((np.arange(len(group)), keys, group))
@@ -184,10 +194,15 @@ def scene_features(scene: Scene) -> SceneFeatures:
     for k, polygon in enumerate(scene.obstacles):
         obstacles.add_polygon(polygon, BODY, k)
     if scene.workspace is not None:
-        frame, *islands = complement(scene.workspace, robot.vertices, obstacles.vertices, scale)
-        obstacles.add_polygon(frame, BODY, WORKSPACE, emit_outer=False)
-        for island in islands:
-            obstacles.add_polygon(island, BODY, WORKSPACE)
+        factor = scale // scene.workspace.denominator
+        corners = [(x * factor, y * factor) for x, y in scene.workspace.numerators]
+        offsets = scene.workspace.ring_offsets
+        rings = [dict(zip(corners[i:j], range(i, j), strict=True)) for i, j in pairwise(offsets)]
+        parts = complement(rings, box(robot.vertices), box([*corners, *obstacles.vertices]), scale)
+        for part, ring in zip(parts, rings, strict=True):
+            # the frame's rim stands for infinity, and has no owner
+            named = ring if part is not parts[0] else defaultdict(lambda: -1, ring)
+            obstacles.add_polygon(part, BODY, WORKSPACE, emit_outer=part is not parts[0], owner_vertex=named)
     rim = None
     if scene.bounds is not None or scene.workspace is not None:
         reach = 1 + sum(max(abs(c) for c in axis) for axis in zip(*robot.vertices, strict=True))
@@ -203,23 +218,20 @@ def scene_features(scene: Scene) -> SceneFeatures:
     return SceneFeatures(robot, obstacles, scale, rim)
 
 
-def complement(workspace: Polygon, robot: list[Point], obstacles: list[Point], scale: int) -> list[Polygon]:
+def complement(rings: Sequence[Iterable[Point]], robot: Box, around: Box, scale: int) -> list[Polygon]:
     """What the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes."""
-    factor = scale // workspace.denominator
-    points = [(x * factor, y * factor) for x, y in workspace.numerators]
-    offsets = workspace.ring_offsets
-    rings = [points[i:j] for i, j in pairwise(offsets)]
-    thickness = 1 + 2 * sum(max(abs(c) for c in axis) for axis in zip(*robot, strict=True))
-    x0, y0, x1, y1 = box(points + obstacles)
+    thickness = 1 + 2 * sum(map(abs, robot))
+    x0, y0, x1, y1 = around
     frame = rectangle(x0 - thickness, y0 - thickness, x1 + thickness, y1 + thickness)
 
-    def exact(ring: list[Point]) -> list[tuple[Fraction, Fraction]]:
+    def exact(ring: Iterable[Point]) -> list[tuple[Fraction, Fraction]]:
         return [(Fraction(x, scale), Fraction(y, scale)) for x, y in ring]
 
-    return [Polygon(exact(frame), [exact(rings[0])]), *(Polygon(exact(ring)) for ring in rings[1:])]
+    outer, *holes = map(exact, rings)
+    return [Polygon(exact(frame), [outer]), *map(Polygon, holes)]
 
 
-def box(points: Sequence[Point]) -> tuple[int, int, int, int]:
+def box(points: Sequence[Point]) -> Box:
     xs, ys = zip(*points, strict=True)
     return min(xs), min(ys), max(xs), max(ys)
 
@@ -230,7 +242,7 @@ def rectangle(x0: int, y0: int, x1: int, y1: int) -> list[Point]:
 
 def add_bounds(robot: ShapeFeatures, obstacles: ShapeFeatures, bounds: Sequence[int], outer: Sequence[int]) -> None:
     """The reference point against the complement of the bounds: overlapping rectangles that reach past every pillar."""
-    common: dict[str, list[Any]] = {"layer": [REFERENCE], "emit": [True], "owner_polygon": [BOUNDS], "owner_ring": [0]}
+    common: dict[str, list[Any]] = {"layer": [REFERENCE], "emit": [True], "owner_polygon": [BOUNDS]}
     robot.add_ring([(0, 0)], convex=[True], owner_vertex=[0], **common)
     robot.add_piece([len(robot.vertices) - 1], REFERENCE)
     (x0, y0, x1, y1), (X0, Y0, X1, Y1) = bounds, outer

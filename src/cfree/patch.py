@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.features import BOUNDS, WORKSPACE
+from cfree.errors import InvariantError
+from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures
 from cfree.pose import theta_in
 
 if TYPE_CHECKING:
@@ -20,7 +21,7 @@ KINDS = {1: "v-e", 2: "e-v", 3: "v-v", 4: "e-e"}
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """A vertex, or the edge that starts there, in the user's own counting.
+    """A vertex, or an edge, in the user's own counting.
 
     Attributes
     ----------
@@ -32,13 +33,18 @@ class Place:
     ring : int
         0 the outer ring, k + 1 the hole k.
     index : int
-        Vertex of the `Polygon`, counted over all its rings.
+        Vertex of the `Polygon`, counted over all its rings; of an edge, the one where t = 0.
+    end : int or None
+        Of an edge, the vertex where t = 1. Edges of the workspace run against its rings: forbidden is on their left.
+        A critical angle may be named by a diagonal of a convex piece: then the two are not neighbours. -1 is a corner
+        of the finite frame that stands for what is outside the bounds or the workspace.
     """
 
     polygon: int
     name: str
     ring: int
     index: int
+    end: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,26 +125,37 @@ class Trapezoid:
 def contact(boundary: Boundary, code: int) -> Contact:
     """The contact that a packed pair of features names."""
     kind, i, j = code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
-    return Contact(KINDS[kind], robot_place(boundary, i), obstacle_place(boundary, j))
+    robot_edge, obstacle_edge = kind in (2, 4), kind in (1, 4)
+    return Contact(KINDS[kind], robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge))
 
 
-def robot_place(boundary: Boundary, i: int) -> Place:
-    shape = boundary.features.robot
-    polygon, index = int(shape.owner_polygon[i]), int(shape.owner_vertex[i])
+def robot_place(boundary: Boundary, feature: int, is_edge: bool) -> Place:
+    polygon, index, end = _owner(boundary.features.robot, feature, is_edge)
     if polygon == BOUNDS:
         return Place(polygon, "reference point", 0, 0)
-    return Place(polygon, "robot", _ring(boundary.scene.robot[polygon].ring_offsets, index), index)
+    return Place(polygon, "robot", _ring(boundary.scene.robot[polygon].ring_offsets, index), index, end)
 
 
-def obstacle_place(boundary: Boundary, j: int) -> Place:
-    shape, scene = boundary.features.obstacles, boundary.scene
-    polygon, index = int(shape.owner_polygon[j]), int(shape.owner_vertex[j])
+def obstacle_place(boundary: Boundary, feature: int, is_edge: bool) -> Place:
+    scene = boundary.scene
+    polygon, index, end = _owner(boundary.features.obstacles, feature, is_edge)
     if polygon == BOUNDS:
-        return Place(polygon, "bounds", 0, index)
+        return Place(polygon, "bounds", 0, index, end)
     if polygon == WORKSPACE:
-        return Place(polygon, "workspace", int(shape.owner_ring[j]), index)
-    offsets = scene.obstacles[polygon].ring_offsets
-    return Place(polygon, scene.obstacle_names[polygon], _ring(offsets, index), index)
+        if scene.workspace is None:
+            raise InvariantError("a feature of a workspace in a scene that has none", state=feature)
+        return Place(polygon, "workspace", _ring(scene.workspace.ring_offsets, index), index, end)
+    name = scene.obstacle_names[polygon]
+    return Place(polygon, name, _ring(scene.obstacles[polygon].ring_offsets, index), index, end)
+
+
+def _owner(shape: ShapeFeatures, feature: int, is_edge: bool) -> tuple[int, int, int | None]:
+    """Polygon, vertex and, of an edge, the vertex it leads to."""
+    start, end = (int(shape.v[feature]), int(shape.w[feature])) if is_edge else (feature, feature)
+    owners = shape.owner_vertex
+    if max(start, end) >= len(owners):
+        return BOUNDS, -1, -1 if is_edge else None
+    return int(shape.owner_polygon[start]), int(owners[start]), int(owners[end]) if is_edge else None
 
 
 def _ring(offsets: Sequence[int], vertex: int) -> int:
@@ -202,11 +219,12 @@ class Patches(Sequence[Patch]):
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
         k, b = range(len(self))[index], self._boundary
+        on_edge = bool(b.contact_kind[k] == 1)
         return Patch(
             index=k,
             kind={1: "v-e", 2: "e-v", 3: "bound"}[int(b.patch_kind[k])],
-            robot=robot_place(b, int(b.contact_robot[k])),
-            obstacle=obstacle_place(b, int(b.contact_obstacle[k])),
+            robot=robot_place(b, int(b.contact_robot[k]), not on_edge),
+            obstacle=obstacle_place(b, int(b.contact_obstacle[k]), on_edge),
             phi_min=float(b.phi_min[k]),
             phi_range=float(b.phi_range[k]),
             trapezoids=range(int(b.patch_start[k]), int(b.patch_start[k + 1])),

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from cfree.errors import FormatError
-from cfree.features import scene_features
+from cfree.features import SceneFeatures, scene_features
 from cfree.files import replacing
 from cfree.forbidden import COLUMNS, Boundary, Stats, Trapezoids
 
@@ -55,17 +55,56 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
                 raise fault(f'format {header["format"]!r}; expected "{FORMAT}"')
             if header["version"] != VERSION:
                 raise fault(f"version {header['version']}; this cfree reads version {VERSION}: compute it again")
+            stats = Stats(**header["stats"], seconds={})
             text = archive["scene"].tobytes().decode()
             kind, robot, obstacle = (archive[k] for k in ("contact_kind", "contact_robot", "contact_obstacle"))
             trapezoids = Trapezoids(*(archive[column] for column in COLUMNS))
     except OSError as error:
         raise fault(f"{error.strerror or 'not a boundary file'}; give a file that `cfree boundary` wrote") from None
-    except (ValueError, KeyError, TypeError, EOFError, zipfile.BadZipFile, zlib.error) as error:
-        if isinstance(error, FormatError):
-            raise
+    except FormatError:
+        raise
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile, zlib.error):
         raise fault("truncated, damaged, or not a boundary file; make it again with `cfree boundary`") from None
     from cfree.io import scene_from_text
 
     scene = scene_from_text(f"{name}:scene", text)
-    stats = Stats(**header["stats"], seconds={})
-    return Boundary(scene, scene_features(scene), kind, robot, obstacle, trapezoids, stats)
+    features = scene_features(scene)
+    wrong = misfit(features, kind, robot, obstacle, trapezoids)
+    if wrong:
+        raise fault(f"{wrong} does not fit the rest; make it again with `cfree boundary`")
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, stats)
+
+
+def misfit(features: SceneFeatures, kind: Any, robot: Any, obstacle: Any, trapezoids: Trapezoids) -> str:
+    """Name of an array whose type, length or values cannot be right, or nothing."""
+    patches, count = np.size(kind), np.size(trapezoids.patch)
+
+    def fits(array: Any, dtype: str, length: int, low: float, high: float) -> bool:
+        if array.dtype != dtype or array.shape != (length,):
+            return False
+        return bool(np.all((array >= low) & (array <= high)))
+
+    a, b = features.robot, features.obstacles
+    edges, others = len(a.v) - 1, len(b.v) - 1
+    contacts = {"contact_kind": (kind, "u1", 1, 2), "contact_robot": (robot, "i4", 0, len(a.previous) - 1)}
+    contacts["contact_obstacle"] = (obstacle, "i4", 0, len(b.previous) - 1)
+    for name, (array, dtype, low, high) in contacts.items():
+        if not fits(array, dtype, patches, low, high):
+            return name
+    for name in COLUMNS:
+        array = getattr(trapezoids, name)
+        if name.endswith(("_lo", "_hi")):
+            right = fits(array, "f8", count, -1.001, 1.001)
+        elif name == "patch":
+            right = fits(array, "i4", count, 0, patches - 1) and bool(np.all(np.diff(array) >= 0))
+        elif name == "chart" or name.endswith("_place"):
+            right = fits(array, "u1", count, 0, 1 if name == "chart" else 4)
+        else:
+            right = fits(array, "u8", count, 0, (5 << 61) - 1)
+            if right and count:
+                used = array[array > 0]
+                i, j = used >> np.uint64(31) & np.uint64(0x3FFFFFFF), used & np.uint64(0x7FFFFFFF)
+                right = bool(np.all(i <= edges) and np.all(j <= others))
+        if not right:
+            return name
+    return ""

@@ -42,7 +42,10 @@ private:
     };
     static Turn turn(int chart, double tau);
     Line line(Index patch, Turn r) const;
-    double meets(Index patch, const Line& l, std::uint64_t curve, Turn r) const;
+    struct Meeting {
+        double t, sine;  // of the angle between the two lines, at least in size
+    };
+    Meeting meets(Index patch, const Line& l, std::uint64_t curve, Turn r) const;
     std::uint64_t name(std::uint64_t packed_feature) const;
 
     std::shared_ptr<const Scene> scene;
