@@ -18,9 +18,7 @@ const Event wall_event(int side) { return {{}, {}, double(side), double(side)}; 
 
 // A direction times a power of two, so that products of two are neither huge nor tiny.
 Vec<Approx> of_unit_size(const Vec<Approx>& d) {
-    int exponent;
-    std::frexp(std::max(d.x.m, d.y.m), &exponent);
-    const double scale = std::ldexp(1.0, -exponent);
+    const double scale = power_below(std::max(d.x.m, d.y.m));
     return {{d.x.v * scale, d.x.m * scale}, {d.y.v * scale, d.y.m * scale}};
 }
 
@@ -669,9 +667,8 @@ Sample Predicates::between(const Event& x, const Event& y, double part) {
         const Dyadic at = Dyadic::middle(Dyadic::from(lo), Dyadic::from(hi));
         return {lo, at};
     }
-    int exponent;
-    std::frexp(hi - lo, &exponent);
-    const double scale = std::ldexp(1.0, 5 - exponent), few = std::nearbyint(mid * scale) / scale;
+    // |mid| is below 2^53 (hi - lo), so that its leading digits fit a machine integer
+    const double scale = 32 * power_below(hi - lo), few = static_cast<double>(static_cast<std::int64_t>(mid * scale)) / scale;
     return {lo < few && few < hi ? few : mid, {}};
 }
 

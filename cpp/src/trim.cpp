@@ -79,6 +79,11 @@ Vec<Int> between_vertices(const Shape& s, Index p, Index q) {
 
 }  // namespace
 
+template <>
+std::vector<double>* Trimmer::scratch() const { return heights; }
+template <>
+std::vector<Int>* Trimmer::scratch() const { return exact_heights; }
+
 // The pillar is a convex polygon whose edges are those of both pieces, merged by direction. Offsets from the surface's line
 // rise and fall once along it.
 template <class T>
@@ -102,7 +107,7 @@ Trimmer::State Trimmer::state_at(Index p, Index k, const Sample& at) const {
     const Index* a = &A.piece_vertex[A.piece[p]];
     const Index* b = &O.piece_vertex[O.piece[k]];
     const Index n = A.piece[p + 1] - A.piece[p], m = O.piece[k + 1] - O.piece[k];
-    static thread_local std::vector<T> robot, obstacle;  // offsets are obstacle[y] - robot[x]
+    auto &robot = scratch<T>()[0], &obstacle = scratch<T>()[1];  // offsets are obstacle[y] - robot[x]
     robot.resize(n), obstacle.resize(m);
     for (Index x = 0; x < n; ++x) robot[x] = cross(V, between_vertices<T>(A, a[x], a0));
     for (Index y = 0; y < m; ++y) obstacle[y] = cross(U, between_vertices<T>(O, b[y], b0));

@@ -1,6 +1,7 @@
 // The number types of the decisions: exact integers of any size, and doubles that carry their magnitude.
 #pragma once
 #include <boost/multiprecision/cpp_int.hpp>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -30,6 +31,12 @@ inline Approx operator+(Approx p, Approx q) { return {p.v + q.v, p.m + q.m}; }
 inline Approx operator-(Approx p, Approx q) { return {p.v - q.v, p.m + q.m}; }
 inline Approx operator-(Approx p) { return {-p.v, p.m}; }
 inline Approx operator*(Approx p, Approx q) { return {p.v * q.v, p.m * q.m}; }
+
+// 2^-e for a positive x in [2^(e-1), 2^e); frexp without the call.
+inline double power_below(double x) {
+    const auto exponent = std::bit_cast<std::uint64_t>(x) >> 52;
+    return std::bit_cast<double>((2045 - exponent) << 52);
+}
 
 template <class T>
 struct Vec {

@@ -64,6 +64,8 @@ private:
     enum class Verdict { holds, wrong, resample };
 
     template <class T>
+    std::vector<T>* scratch() const;
+    template <class T>
     State state_at(Index p, Index k, const Sample& at) const;
     Verdict lifetime(const State& state, const Sample& at, Span& span);
     int conditions(const State& state, Condition* out, bool& wrong);
@@ -83,6 +85,8 @@ private:
     std::vector<Curve> curves;
     std::vector<Area> live, next;
     std::vector<Span> todo;
+    mutable std::vector<double> heights[2];  // scratch of state_at
+    mutable std::vector<Int> exact_heights[2];
 };
 
 }  // namespace cfree
