@@ -1,6 +1,7 @@
 #include "cfree/predicates.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace cfree {
 
@@ -178,7 +179,6 @@ int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
 struct Predicates::Form {
     int degree;
     Filtered p, q, r, s;
-    double scale = 0;  // of the quartic's error
 
     struct Value {
         double v, err;
@@ -398,7 +398,8 @@ Predicates::Roots Predicates::offset_roots(Index s, Index v, const Filtered& f, 
 
 namespace {
 
-// The angle at which two edges are parallel, as that of the direction d = (G.F, G x F) turned to the right half-plane.
+// The angle at which two edges are parallel, as that of the direction d = (G.F, G x F) turned to the right half-plane:
+// tau = y / (|d| + |x|) moves by at most 2 (dx + dy) / |d| for errors dx, dy of 6 u times the magnitudes.
 struct ParallelAngle {
     int side;  // sign of G.F before turning; 0 for a right angle
     bool up;   // sign of G x F before turning
@@ -410,7 +411,7 @@ ParallelAngle parallel_angle(const Scene& scene, Index g, Index f, Counters& cou
     const Approx c = dot(G, F), n = cross(G, F);
     const auto angle = [](double x, double y, double error) {
         const double length = std::hypot(x, y), sign = x < 0 ? -1 : 1;
-        return ParallelAngle{x > 0 ? 1 : -1, y > 0, sign * y / (length + sign * x), 8 * u * error / length + 4 * u};
+        return ParallelAngle{x > 0 ? 1 : -1, y > 0, sign * y / (length + sign * x), 16 * u * error / length + 4 * u};
     };
     const ParallelAngle guess = angle(c.v, n.v, c.m + n.m);
     if (std::abs(c.v) > coefficient_error * c.m && guess.half < 64 * u) return ++counters.filter, guess;

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.errors import InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
 from cfree.patch import Patches, Trapezoid
 from cfree.pose import Angle, tau_in, theta_in
@@ -143,6 +144,8 @@ def boundary(
 
     Raises
     ------
+    InvariantError
+        If the computation contradicts itself: a fault of cfree.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -159,15 +162,15 @@ def boundary(
     """
     from cfree import _core
 
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; give at least 1")
     start = time.perf_counter()
     features = scene_features(scene)
     shapes = features.robot.core_shape(), features.obstacles.core_shape()
     prepared = time.perf_counter()
-    if threads is not None and threads < 1:
-        raise ValueError(f"threads: {threads}; give at least 1")
     job = _core.Job(*shapes, threads=threads or os.cpu_count() or 1)
     try:
-        while not job.wait(0.1):
+        while not _has_ended(job, scene):
             if progress is not None:
                 progress(job.progress())
     except BaseException:
@@ -185,6 +188,13 @@ def boundary(
     counts = {key: tally[key] for key in tally if not key.endswith("_seconds")}
     stats = Stats(patches=len(kind), trapezoids=len(trapezoids), seconds=seconds, **counts)
     return Boundary(scene, features, kind, robot, obstacle, trapezoids, stats)
+
+
+def _has_ended(job: Any, scene: Scene) -> bool:
+    try:
+        return bool(job.wait(0.1))
+    except RuntimeError as error:
+        raise InvariantError(f"{error}: a fault of cfree; please report it with the scene", state=scene) from error
 
 
 class Boundary:

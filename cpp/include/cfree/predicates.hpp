@@ -84,7 +84,7 @@ public:
     Filtered offset(Index s, Index v) const;
     // parallel: R(robot edge g) x (obstacle edge f)
     Filtered parallel(Index g, Index f) const;
-    Curve curve(const Feature& f) const;  // D with the sign it has: see orient_curve
+    Curve curve(const Feature& f) const;
 
     // Sign on the whole closed interval, 0 if not certain.
     static int sign_on(const Filtered& f, double lo, double hi);
@@ -120,8 +120,7 @@ public:
     // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
     int place(const Event& x) const;
 
-    // End of a patch's range in its chart: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max.
-    // Returns the chart too; a half turn apart from the parallels of equal direction.
+    // Where a patch's range begins or ends: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
     struct RangeEnd {
         int chart;
         Event event;
