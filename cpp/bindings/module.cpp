@@ -119,7 +119,11 @@ NB_MODULE(_core, m) {
            "patch"_a, "chart"_a, "lower"_a, "upper"_a, "tau_from"_a, "tau_to"_a)
         .def("segments", [](const cfree::Slicer& s, int chart, double tau) {
             auto r = s.segments(chart, tau);
-            return nb::make_tuple(array_of(std::move(r.xy)), array_of(std::move(r.trapezoid)));
+            const std::size_t n = r.trapezoid.size();
+            auto* xy = new std::vector<double>(std::move(r.xy));
+            nb::capsule owner(xy, [](void* p) noexcept { delete static_cast<std::vector<double>*>(p); });
+            return nb::make_tuple(nb::ndarray<nb::numpy, double, nb::ndim<3>>(xy->data(), {n, 2, 2}, owner),
+                                  array_of(std::move(r.trapezoid)));
         }, "chart"_a, "tau"_a)
         .def("rings", [](const cfree::Slicer& s, int chart, double tau) {
             auto r = s.rings(chart, tau);

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.collector import collection_paused
 from cfree.errors import InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
 from cfree.patch import Patches, Trapezoid
@@ -165,8 +166,9 @@ def boundary(
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
     start = time.perf_counter()
-    features = scene_features(scene)
-    shapes = features.robot.core_shape(), features.obstacles.core_shape()
+    with collection_paused():
+        features = scene_features(scene)
+        shapes = features.robot.core_shape(), features.obstacles.core_shape()
     prepared = time.perf_counter()
     job = _core.Job(*shapes, threads=threads or os.cpu_count() or 1)
     try:

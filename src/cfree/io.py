@@ -15,6 +15,7 @@ from fractions import Fraction
 from os import PathLike
 from pathlib import Path
 
+from cfree.collector import collection_paused
 from cfree.errors import UnsupportedError
 from cfree.exact import MAX_DIGITS
 from cfree.files import replacing
@@ -53,6 +54,11 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     Fraction(-3, 1)
     """
     findings = _open(path)
+    with collection_paused():
+        return _scene(findings)
+
+
+def _scene(findings: Findings) -> Scene:
     if _is_wkt(findings):
         from cfree.formats.shapes import scene_from_shapes
         from cfree.formats.wkt import wkt_shapes

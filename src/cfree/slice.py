@@ -31,11 +31,12 @@ class Slice:
     """
 
     def __init__(self, boundary: Boundary, theta: Angle) -> None:
-        self.theta, *place = place_of(theta)
+        self.theta, chart, tau = place_of(theta)
         self.boundary = boundary
-        self._place = tuple(place)
-        xy, self.trapezoids = boundary.slicer.segments(*self._place)
-        self.segments: NDArray[np.float64] = xy.reshape(-1, 2, 2)
+        self._place = chart, tau
+        self.segments: NDArray[np.float64]
+        self.trapezoids: NDArray[np.int32]
+        self.segments, self.trapezoids = boundary.slicer.segments(chart, tau)
 
     @property
     def patches(self) -> NDArray[np.int32]:
