@@ -107,12 +107,17 @@ def _delaunay(v: Sequence[IntPoint], rings: Sequence[Ring]) -> list[Triangle]:
     x1, y1 = (max(c) for c in zip(*v, strict=True))
     framed = [[((v[k][0] - x0) / (x1 - x0), (v[k][1] - y0) / (y1 - y0)) for k in ring] for ring in rings]
     names = dict(zip(chain(*framed), chain(*rings), strict=True))
+    if len(names) < len(set(chain(*rings))):
+        return []  # doubles cannot tell the points apart
     try:
         found = shapely.constrained_delaunay_triangles(shapely.Polygon(framed[0], framed[1:]))
     except shapely.GEOSException:
         return []
     corners = shapely.get_coordinates(found).reshape(-1, 4, 2)[:, :3].tolist()
-    triangles = [(names[tuple(a)], names[tuple(b)], names[tuple(c)]) for a, b, c in corners]
+    try:
+        triangles = [(names[tuple(a)], names[tuple(b)], names[tuple(c)]) for a, b, c in corners]
+    except KeyError:
+        return []  # not the polygon's points: rings that collapse in doubles lead to anything
     return [(a, b, c) if orient(v[a], v[b], v[c]) is Orientation.LEFT else (a, c, b) for a, b, c in triangles]
 
 
