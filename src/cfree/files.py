@@ -17,9 +17,10 @@ def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
     Examples
     --------
-    >>> with replacing("/tmp/cfree-example/note.txt") as unfinished:
-    ...     _ = unfinished.write_text("all of it")
-    >>> Path("/tmp/cfree-example/note.txt").read_text()
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with replacing(f"{folder}/new/note.txt") as unfinished:
+    ...         _ = unfinished.write_text("all of it")
+    ...     Path(f"{folder}/new/note.txt").read_text()
     'all of it'
     """
     target = Path(os.path.realpath(path))
