@@ -31,8 +31,7 @@ Point = tuple[int, int]
 Box = tuple[int, int, int, int]
 BODY, REFERENCE = 0, 1  # layers
 LARGEST_BITS = 100  # of the core's doubles, so that products of four of their products stay finite
-OWNER_COLUMNS = ("owner_polygon", "owner_vertex")
-RING_COLUMNS = ("previous", "convex", "emit", "layer", *OWNER_COLUMNS)
+RING_COLUMNS = ("previous", "convex", "emit", "layer", "owner_polygon", "owner_vertex")
 
 
 BOUNDS, WORKSPACE = -1, -2  # owners that are not polygons of the user's robot or obstacles
@@ -117,12 +116,25 @@ class ShapeFeatures:
 
         return _core.Shape(**self.core)
 
-    def __getattr__(self, name: str) -> NDArray[Any]:
-        if name in ("v", "w", "previous"):
-            return self.core[name]  # type: ignore[no-any-return]
-        if name in OWNER_COLUMNS:
-            return np.array(self.rings[name], np.int32)
-        raise AttributeError(name)
+    @property
+    def v(self) -> NDArray[np.int32]:
+        return self.core["v"]  # type: ignore[no-any-return]
+
+    @property
+    def w(self) -> NDArray[np.int32]:
+        return self.core["w"]  # type: ignore[no-any-return]
+
+    @property
+    def previous(self) -> NDArray[np.int32]:
+        return self.core["previous"]  # type: ignore[no-any-return]
+
+    @cached_property
+    def owner_polygon(self) -> NDArray[np.int32]:
+        return np.array(self.rings["owner_polygon"], np.int32)
+
+    @cached_property
+    def owner_vertex(self) -> NDArray[np.int32]:
+        return np.array(self.rings["owner_vertex"], np.int32)
 
     @cached_property
     def turning(self) -> NDArray[np.float64]:
@@ -159,14 +171,17 @@ class SceneFeatures:
 
     def use_names(self, codes: NDArray[np.uint64]) -> None:
         """Replace features in packed pairs by the ones that name their point or line, in place."""
-        kind = codes >> np.uint64(61)
-        i = codes >> np.uint64(31) & np.uint64(0x3FFFFFFF)
-        j = codes & np.uint64(0x7FFFFFFF)
+        kind, i, j = unpacked(codes)
         vertex, edge = self.robot.names
         i[:] = np.where((kind == 1) | (kind == 3), _take(vertex, i), _take(edge, i))
         vertex, edge = self.obstacles.names
         j[:] = np.where((kind == 2) | (kind == 3), _take(vertex, j), _take(edge, j))
         codes[kind > 0] = (kind << np.uint64(61) | i << np.uint64(31) | j)[kind > 0]
+
+
+def unpacked(code: Any) -> tuple[Any, Any, Any]:
+    """Kind, robot feature and obstacle feature of a packed pair, an int or an array of uint64."""
+    return code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
 
 
 def _take(table: NDArray[np.uint64], index: NDArray[np.uint64]) -> NDArray[np.uint64]:

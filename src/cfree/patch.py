@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import InvariantError
-from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures
+from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.pose import theta_in
 
 if TYPE_CHECKING:
@@ -124,7 +124,7 @@ class Trapezoid:
 
 def contact(boundary: Boundary, code: int) -> Contact:
     """The contact that a packed pair of features names."""
-    kind, i, j = code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
+    kind, i, j = unpacked(code)
     robot_edge, obstacle_edge = kind in (2, 4), kind in (1, 4)
     return Contact(KINDS[kind], robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge))
 

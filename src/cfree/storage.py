@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from cfree.errors import FormatError
-from cfree.features import SceneFeatures, scene_features
+from cfree.features import SceneFeatures, scene_features, unpacked
 from cfree.files import replacing
 from cfree.forbidden import COLUMNS, Boundary, Stats, Trapezoids
 
@@ -102,8 +102,7 @@ def misfit(features: SceneFeatures, kind: Any, robot: Any, obstacle: Any, trapez
         else:
             right = fits(array, "u8", count, 0, (5 << 61) - 1)
             if right and count:
-                used = array[array > 0]
-                i, j = used >> np.uint64(31) & np.uint64(0x3FFFFFFF), used & np.uint64(0x7FFFFFFF)
+                _, i, j = unpacked(array[array > 0])
                 right = bool(np.all(i <= edges) and np.all(j <= others))
         if not right:
             return name
