@@ -92,28 +92,9 @@ int Predicates::order(const Event& x, const Event& y) {
     return order_exactly(x, y);
 }
 
-// The only root of a polynomial in [lo, hi]: its sign changes between the ends, unless they are one.
-struct Predicates::Root {
-    Poly p;
-    Dyadic lo, hi;
-    void halve() {
-        if (cfree::compare(lo, hi) == 0) return;
-        const Dyadic mid = Dyadic::middle(lo, hi);
-        const int s = cfree::sign_at(p, mid);
-        if (s == 0) lo = hi = mid;
-        else if (s == cfree::sign_at(p, lo)) lo = mid;
-        else hi = mid;
-    }
-};
-
-Predicates::Root Predicates::root_of(const Event& x) const {
+RealRoot Predicates::root_of(const Event& x) const {
     if (x.fine >= 0) return {polynomial(x.first, x.second), fine[x.fine][0], fine[x.fine][1]};
     return {polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
-}
-
-void Predicates::halve(Root& p, Root& q, int steps) {
-    if (steps == 1000000) throw std::logic_error("two critical angles that differ do not part");
-    p.halve(), q.halve();
 }
 
 int Predicates::place(const Event& x) const {
@@ -139,7 +120,7 @@ bool Predicates::same_polynomial(const Event& x, const Event& y) const {
 }
 
 int Predicates::order_at_wall(const Event& x, const Event& wall) const {
-    const Root root = root_of(x);
+    const RealRoot root = root_of(x);
     const Dyadic at = Dyadic::from(wall.lo);
     if (cfree::compare(at, root.lo) < 0) return 1;
     if (cfree::compare(root.hi, at) < 0) return -1;
@@ -186,27 +167,15 @@ int Predicates::order_exactly(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none) return -order_at_wall(y, x);
     if (y.first.kind == Kind::none) return order_at_wall(x, y);
     if ((meets_parallel(x, y) && alone(y)) || (meets_parallel(y, x) && alone(x))) return 0;
-    Root p = root_of(x), q = root_of(y);
-    if (cfree::compare(p.hi, q.lo) < 0) return -1;
-    if (cfree::compare(q.hi, p.lo) < 0) return 1;
-    const Dyadic lo = cfree::compare(p.lo, q.lo) < 0 ? q.lo : p.lo, hi = cfree::compare(p.hi, q.hi) < 0 ? p.hi : q.hi;
-    const Poly g = greatest_common_divisor(p.p, q.p);
-    if (g.size() > 1) {
-        const int l = cfree::sign_at(g, lo), h = cfree::sign_at(g, hi);
-        if (l == 0 || h == 0 || l != h || (g.size() > 2 && Sturm(squarefree(g)).roots_in(lo, hi) > 0)) return 0;
-    }
-    for (int k = 0;; ++k) {  // different roots: halve both intervals until they part
-        if (cfree::compare(p.hi, q.lo) < 0) return -1;
-        if (cfree::compare(q.hi, p.lo) < 0) return 1;
-        halve(p, q, k);
-    }
+    RealRoot p = root_of(x), q = root_of(y);
+    return cfree::compare(p, q);
 }
 
 int Predicates::order(const Event& x, const Sample& at) {
     if (!at.fine && x.hi < at.tau) return -1;
     if (!at.fine && x.lo > at.tau) return 1;
     ++counters.exact;
-    const Root root = root_of(x);
+    const RealRoot root = root_of(x);
     const Dyadic t = at.exact();
     if (cfree::compare(t, root.lo) < 0) return 1;
     if (cfree::compare(root.hi, t) < 0) return -1;
@@ -219,8 +188,8 @@ Sample Predicates::between(const Event& x, const Event& y, double part) {
     double lo = x.hi, hi = y.lo;
     if (!(lo < hi)) {  // intervals that overlap: halve them until they part
         ++counters.exact;
-        Root p = root_of(x), q = root_of(y);
-        for (int k = 0; cfree::compare(p.hi, q.lo) >= 0; ++k) halve(p, q, k);
+        RealRoot p = root_of(x), q = root_of(y);
+        while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
         lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
         if (!(std::nextafter(lo, hi) < hi)) {
             Dyadic below = p.hi, at = Dyadic::middle(p.hi, q.lo);

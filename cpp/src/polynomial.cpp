@@ -33,12 +33,6 @@ Poly remainder(Poly p, const Poly& q) {
     return p;
 }
 
-Poly derivative(const Poly& p) {
-    Poly d;
-    for (int i = 1; i < p.size(); ++i) d.push_back(p[i] * i);
-    return d;
-}
-
 // The exact quotient of two polynomials, up to a positive constant.
 Poly quotient(Poly p, const Poly& q) {
     Poly result;
@@ -112,6 +106,12 @@ Poly difference(const Poly& p, const Poly& q) {
     for (int i = 0; i < q.size(); ++i) r[i] -= q[i];
     r.trim();
     return r;
+}
+
+Poly derivative(const Poly& p) {
+    Poly d;
+    for (int i = 1; i < p.size(); ++i) d.push_back(p[i] * i);
+    return d;
 }
 
 int sign_at(const Poly& p, const Dyadic& tau) {

@@ -52,6 +52,7 @@ private:
 
 Poly product(const Poly& p, const Poly& q);
 Poly difference(const Poly& p, const Poly& q);
+Poly derivative(const Poly& p);
 int sign_at(const Poly& p, const Dyadic& tau);
 Poly greatest_common_divisor(Poly p, Poly q);
 Poly squarefree(const Poly& p);

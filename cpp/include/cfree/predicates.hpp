@@ -11,7 +11,7 @@
 #include <optional>
 #include <vector>
 
-#include "cfree/polynomial.hpp"
+#include "cfree/algebraic.hpp"
 #include "cfree/scene.hpp"
 
 namespace cfree {
@@ -119,6 +119,8 @@ public:
 
     // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
     int place(const Event& x) const;
+    // The angle as an exact number.
+    RealRoot root_of(const Event& x) const;
 
     // Where a patch's range begins or ends: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
     struct RangeEnd {
@@ -145,9 +147,6 @@ private:
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
     int sign_at(const Filtered& f, const Feature& first, const Sample& at);
-    struct Root;
-    Root root_of(const Event& x) const;
-    static void halve(Root& p, Root& q, int steps);
     bool same_polynomial(const Event& x, const Event& y) const;
     int order_at_wall(const Event& x, const Event& wall) const;
     bool meets_parallel(const Event& parallel, const Event& x) const;

@@ -1,0 +1,23 @@
+// Real algebraic numbers of degree at most 4, compared exactly.
+#pragma once
+#include "cfree/polynomial.hpp"
+
+namespace cfree {
+
+// The only root of p in [lo, hi]; p changes sign there, or lo = hi is the root.
+struct RealRoot {
+    Poly p;
+    Dyadic lo, hi;
+    bool is_dyadic() const { return cfree::compare(lo, hi) == 0; }
+    void halve();
+};
+
+// Sign of q at the root; narrows its interval.
+int sign_at(const Poly& q, RealRoot& x);
+// Order of two roots; narrows their intervals.
+int compare(RealRoot& x, RealRoot& y);
+// Sign of q just after the root, and just before; q is not zero.
+int sign_after(const Poly& q, RealRoot& x);
+int sign_before(const Poly& q, RealRoot& x);
+
+}  // namespace cfree
