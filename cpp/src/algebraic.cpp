@@ -21,6 +21,14 @@ bool is_root_of_divisor(const Poly& g, const RealRoot& x) {
     return g.size() > 2 && Sturm(squarefree(g)).roots_in(x.lo, x.hi) > 0;
 }
 
+// Order of a root and a dyadic number in its interval.
+int order_at(const RealRoot& x, const Dyadic& at) {
+    if (x.is_dyadic()) return compare(x.lo, at);
+    const int s = sign_at(x.p, at);
+    if (s == 0) return 0;
+    return s == sign_at(x.p, x.lo) ? 1 : -1;
+}
+
 }  // namespace
 
 int sign_at(const Poly& q, RealRoot& x) {
@@ -35,6 +43,8 @@ int sign_at(const Poly& q, RealRoot& x) {
 int compare(RealRoot& x, RealRoot& y) {
     if (compare(x.hi, y.lo) < 0) return -1;
     if (compare(y.hi, x.lo) < 0) return 1;
+    if (x.is_dyadic()) return -order_at(y, x.lo);
+    if (y.is_dyadic()) return order_at(x, y.lo);
     const RealRoot both{{}, compare(x.lo, y.lo) < 0 ? y.lo : x.lo, compare(x.hi, y.hi) < 0 ? x.hi : y.hi};
     if (is_root_of_divisor(greatest_common_divisor(x.p, y.p), both)) return 0;
     for (;;) {  // they differ: halve both intervals until they part

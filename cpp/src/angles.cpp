@@ -102,6 +102,32 @@ int Predicates::place(const Event& x) const {
     return Sturm(squarefree(polynomial(x.first, x.second))).roots_in(Dyadic::from(x.lo), fine[x.fine][1]);
 }
 
+Event Predicates::restored(const Event& x, int place) {
+    if (place == 0) return x;
+    const Sturm sturm(squarefree(polynomial(x.first, x.second)));
+    const Dyadic first = Dyadic::from(x.lo);
+    Dyadic below = first, above = Dyadic::from(x.hi);
+    while (sturm.roots_in(first, below) != place - 1 || sturm.roots_in(below, above) != 1) {
+        const Dyadic mid = Dyadic::middle(below, above);
+        (sturm.roots_in(first, mid) < place ? below : above) = mid;
+    }
+    if (cfree::sign_at(sturm.polynomial(), above) == 0) below = above;
+    while (cfree::sign_at(sturm.polynomial(), below) == 0 && cfree::compare(below, above) < 0) {  // the root before this one
+        const Dyadic mid = Dyadic::middle(below, above);
+        (sturm.roots_in(mid, above) == 1 ? below : above) = mid;
+    }
+    Event result = x;
+    result.fine = static_cast<Index>(fine.size());
+    fine.push_back({below, above});
+    return result;
+}
+
+bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
+    const Form f = form(x);
+    const auto l = f.at(lo), h = f.at(hi);
+    return std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0);
+}
+
 // Whether two angles are roots of one polynomial for a reason of identity.
 bool Predicates::same_polynomial(const Event& x, const Event& y) const {
     if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
@@ -153,11 +179,7 @@ bool Predicates::meets_parallel(const Event& parallel, const Event& x) const {
 
 int Predicates::order_exactly(const Event& x, const Event& y) {
     // One root in each of two overlapping intervals: of one polynomial, opposite signs around both mean one root in all.
-    const auto alone = [&](const Event& z) {
-        const Form f = form(z);
-        const auto l = f.at(std::min(x.lo, y.lo)), h = f.at(std::max(x.hi, y.hi));
-        return std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0);
-    };
+    const auto alone = [&](const Event& z) { return changes_sign(z, std::min(x.lo, y.lo), std::max(x.hi, y.hi)); };
     if (same_polynomial(x, y) && alone(x)) return ++counters.filter, 0;
     ++counters.exact;
     if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge) {
@@ -197,6 +219,10 @@ Sample Predicates::between(const Event& x, const Event& y, double part) {
             return {at.rounded_down(), at};
         }
     }
+    return within(lo, hi, part);
+}
+
+Sample Predicates::within(double lo, double hi, double part) {
     const double mid = lo + part * (hi - lo);
     if (!(lo < mid && mid < hi)) {  // neighbouring doubles
         const Dyadic at = Dyadic::middle(Dyadic::from(lo), Dyadic::from(hi));

@@ -7,13 +7,6 @@
 
 namespace cfree {
 
-namespace {
-Feature unpacked(std::uint64_t code) {
-    return {static_cast<Kind>(code >> 61), static_cast<Index>(code >> 31 & 0x3fffffff),
-            static_cast<Index>(code & 0x7fffffff)};
-}
-}  // namespace
-
 Slicer::Slicer(std::shared_ptr<const Scene> s, std::vector<double> robot_xy, std::vector<double> obstacle_xy, Patches p,
                std::vector<Index> patch_, std::vector<std::uint8_t> chart_, std::vector<std::uint64_t> lower_,
                std::vector<std::uint64_t> upper_, std::vector<double> tau_from_, std::vector<double> tau_to_)

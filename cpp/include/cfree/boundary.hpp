@@ -22,6 +22,10 @@ inline std::uint64_t packed(const Feature& f) {
     return static_cast<std::uint64_t>(f.kind) << 61 | static_cast<std::uint64_t>(f.robot) << 31 |
            static_cast<std::uint64_t>(f.obstacle);
 }
+inline Feature unpacked(std::uint64_t code) {
+    return {static_cast<Kind>(code >> 61), static_cast<Index>(code >> 31 & 0x3fffffff),
+            static_cast<Index>(code & 0x7fffffff)};
+}
 
 // Structure of arrays; features packed.
 struct Trapezoids {

@@ -99,6 +99,7 @@ public:
     int order(const Event& x, const Sample& at);
     // A sample strictly between two angles, with few digits, after about that part of the way.
     Sample between(const Event& x, const Event& y, double part = 0.5);
+    static Sample within(double lo, double hi, double part);
 
     // Roots strictly between two angles, in order; a touch without a change of sign is none.
     // all_zero: the polynomial vanishes identically.
@@ -119,6 +120,10 @@ public:
 
     // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
     int place(const Event& x) const;
+    // The angle of that place, for decisions made here.
+    Event restored(const Event& x, int place);
+    // Whether the polynomial of an angle has certain, opposite signs at lo and hi.
+    bool changes_sign(const Event& x, double lo, double hi) const;
     // The angle as an exact number.
     RealRoot root_of(const Event& x) const;
 
