@@ -4,6 +4,7 @@
 #include <nanobind/stl/shared_ptr.h>
 
 #include "cfree/boundary.hpp"
+#include "cfree/cell_complex.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
 
@@ -105,6 +106,26 @@ NB_MODULE(_core, m) {
             d["collect_seconds"] = t.collect_seconds;
             return d;
         });
+    m.def("glue", [](const cfree::Shape& robot, const cfree::Shape& obstacles, Column<std::uint8_t> kind, Column<int> patch_robot,
+                     Column<int> patch_obstacle, Column<int> patch, Column<std::uint8_t> chart, Column<std::uint64_t> lower,
+                     Column<std::uint64_t> upper, Column<std::uint64_t> from_first, Column<std::uint64_t> from_second,
+                     In1 from_lo, In1 from_hi, Column<std::uint8_t> from_place, Column<std::uint64_t> to_first,
+                     Column<std::uint64_t> to_second, In1 to_lo, In1 to_hi, Column<std::uint8_t> to_place) {
+        const cfree::Scene scene{robot, obstacles};
+        const cfree::Patches patches{vector_of(kind), vector_of(patch_robot), vector_of(patch_obstacle)};
+        const cfree::Trapezoids t{vector_of(patch), vector_of(chart), vector_of(lower), vector_of(upper),
+                                  vector_of(from_first), vector_of(from_second), vector_of(to_first), vector_of(to_second),
+                                  vector_of(from_lo), vector_of(from_hi), vector_of(to_lo), vector_of(to_hi),
+                                  vector_of(from_place), vector_of(to_place)};
+        cfree::CellComplex x;
+        {
+            nb::gil_scoped_release release;
+            x = cfree::glue(scene, patches, t);
+        }
+        return nb::make_tuple(array_of(std::move(x.first)), array_of(std::move(x.face)), array_of(std::move(x.side)),
+                              array_of(std::move(x.twin)), array_of(std::move(x.edge)), array_of(std::move(x.vertex)),
+                              array_of(std::move(x.component)), x.edges, x.vertices, x.components);
+    });
     nb::class_<cfree::Slicer>(m, "Slicer")
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,
                             In1 obstacle_xy, Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle,

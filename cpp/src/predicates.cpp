@@ -90,6 +90,9 @@ Curve Predicates::curve(const Feature& f) const {
 template Trig<Int> Predicates::offset_trig(Index, Index) const;
 template Trig<Int> Predicates::parallel_trig(Index, Index) const;
 template std::array<Trig<Int>, 2> Predicates::curve_trig(const Feature&) const;
+template Trig<Approx> Predicates::offset_trig(Index, Index) const;
+template Trig<Approx> Predicates::parallel_trig(Index, Index) const;
+template std::array<Trig<Approx>, 2> Predicates::curve_trig(const Feature&) const;
 
 Predicates::Form Predicates::form(const Curve& p, const Curve& q) const {
     if (p.constant_D && q.constant_D)

@@ -118,6 +118,9 @@ public:
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
 
+    // Whether what two curves, or a helix alone, define on the surface is zero at every angle.
+    bool vanishes(const Feature& first, const Feature& second) const { return polynomial(first, second).empty(); }
+
     // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
     int place(const Event& x) const;
     // The angle of that place, for decisions made here.
@@ -137,6 +140,7 @@ public:
     Counters counters;
 
 private:
+    friend class Junction;  // the same polynomials, at critical angles
     template <class T>
     Trig<T> offset_trig(Index s, Index v) const;
     template <class T>

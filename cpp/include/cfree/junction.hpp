@@ -1,0 +1,58 @@
+// What several contact lines look like at one critical angle, and just before and after it.
+#pragma once
+#include "cfree/angle_table.hpp"
+
+namespace cfree {
+
+// A place on a contact line at the critical angle: where a curve of the surface arrives.
+struct Spot {
+    Feature curve;
+    Code code;
+    bool is_given = false;  // where the curve runs along the line: at t = n / d of the surface `on`, by continuity
+    Feature on;
+    Int n = 0, d = 1;
+};
+
+class Junction {
+public:
+    Junction(const Scene& scene, AngleTable& angles, Index rank);
+
+    // Directions of two contact lines: 1 the same, -1 opposite, 0 not parallel.
+    int parallel(const Feature& x, const Feature& y);
+    // Of parallel lines: y is left of x (1), right (-1), or the same line.
+    int side(const Feature& x, const Feature& y);
+    // Where a curve on a surface ends.
+    Spot spot(const Feature& on, const Feature& curve);
+    // Order of two places along a line, that of a surface through both.
+    int order(const Feature& line, const Spot& p, const Spot& q);
+    // Two surfaces with one line here: whether, just after this angle or before it and between two places on the line, x is left
+    // of y (1) or right (-1); 0: they are one surface.
+    int across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after);
+
+private:
+    struct Ends {
+        Index a, b;  // the surface's line starts at b_b - R a_a
+    };
+    Ends start(const Feature& x) const;
+    Predicates on(const Feature& x) const { return {scene, {x, chart}}; }
+    template <class T>
+    Trig<T> along(const Feature& x, Index a, Index b) const;  // U . (b_b - R a_a - P)
+    template <class T>
+    Trig<T> directions_dot(const Feature& x, const Feature& y) const;
+    template <class T>
+    Trig<T> directions_cross(const Feature& x, const Feature& y) const;
+    template <class T>
+    std::array<Trig<T>, 2> position(const Feature& line, const Spot& p) const;
+    template <class F>
+    int sign(const F& trig);
+    Poly polynomial(const Trig<Int>& f) const;
+    Filtered filtered(const Trig<Approx>& f) const;
+
+    const Scene& scene;
+    AngleTable& angles;
+    Index rank;
+    int chart;
+    double lo, hi;
+};
+
+}  // namespace cfree

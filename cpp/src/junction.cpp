@@ -1,0 +1,169 @@
+#include "cfree/junction.hpp"
+
+#include <stdexcept>
+
+#include "form.hpp"
+
+namespace cfree {
+
+namespace {
+
+bool is_on_edge(const Feature& x) { return x.kind == Kind::vertex_edge; }
+
+template <class T>
+Trig<T> times(const T& k, const Trig<T>& f) { return {k * f.a, k * f.b, k * f.c}; }
+template <class T>
+Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, f.c + g.c}; }
+
+}  // namespace
+
+Junction::Junction(const Scene& s, AngleTable& table, Index at)
+    : scene(s), angles(table), rank(at == table.last ? 0 : at), chart(rank > table.middle ? 1 : 0),
+      lo(table.lo(rank, chart)), hi(table.hi(rank, chart)) {}
+
+Junction::Ends Junction::start(const Feature& x) const {
+    if (is_on_edge(x)) return {x.robot, scene.obstacles.v[x.obstacle]};
+    return {scene.robot.v[x.robot], x.obstacle};
+}
+
+Poly Junction::polynomial(const Trig<Int>& f) const { return on({}).polynomial(f); }
+Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtered(f); }
+
+// Sign at the angle of a trigonometric form given for every number type.
+template <class F>
+int Junction::sign(const F& trig) {
+    if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
+    RealRoot here = angles.exact(rank, chart);
+    return sign_at(polynomial(trig(Int{})), here);
+}
+
+// The surface's line is P + t U, U = E_j or -R E_i.
+template <class T>
+Trig<T> Junction::along(const Feature& x, Index a, Index b) const {
+    const auto [a0, b0] = start(x);
+    const auto w = difference<T>(scene.obstacles, b, b0), d = difference<T>(scene.robot, a, a0);
+    if (is_on_edge(x)) {
+        const auto E = edge<T>(scene.obstacles, x.obstacle);
+        return {dot(w, E), -dot(d, E), -cross(d, E)};
+    }
+    const auto G = edge<T>(scene.robot, x.robot);
+    return {dot(G, d), -dot(G, w), -cross(G, w)};
+}
+
+template <class T>
+Trig<T> Junction::directions_dot(const Feature& x, const Feature& y) const {
+    const auto direction = [&](const Feature& f) {
+        return is_on_edge(f) ? edge<T>(scene.obstacles, f.obstacle) : edge<T>(scene.robot, f.robot);
+    };
+    const auto E = direction(x), F = direction(y);
+    if (x.kind == y.kind) return {dot(E, F), T{}, T{}};
+    const auto &G = is_on_edge(x) ? F : E, &fixed = is_on_edge(x) ? E : F;
+    return {T{}, -dot(G, fixed), -cross(G, fixed)};
+}
+
+template <class T>
+Trig<T> Junction::directions_cross(const Feature& x, const Feature& y) const {
+    const auto direction = [&](const Feature& f) {
+        return is_on_edge(f) ? edge<T>(scene.obstacles, f.obstacle) : edge<T>(scene.robot, f.robot);
+    };
+    const auto E = direction(x), F = direction(y);
+    if (x.kind == y.kind) return {cross(E, F), T{}, T{}};
+    if (is_on_edge(x)) return {T{}, -cross(E, F), -dot(E, F)};  // E x -R F
+    return {T{}, -cross(E, F), dot(E, F)};                      // -R E x F
+}
+
+int Junction::parallel(const Feature& x, const Feature& y) {
+    if (x.kind == y.kind) {
+        const bool same = is_on_edge(x) ? scene.obstacles.direction[x.obstacle] == scene.obstacles.direction[y.obstacle]
+                                        : scene.robot.direction[x.robot] == scene.robot.direction[y.robot];
+        if (!same) return 0;
+    } else if (sign([&](auto T) { return directions_cross<decltype(T)>(x, y); }) != 0) {
+        return 0;
+    }
+    return sign([&](auto T) { return directions_dot<decltype(T)>(x, y); });
+}
+
+int Junction::side(const Feature& x, const Feature& y) {
+    if (code(scene, x) == code(scene, y)) return 0;
+    const auto [a, b] = start(y);
+    return sign([&, a = a, b = b](auto T) { return on(x).offset_trig<decltype(T)>(a, b); });
+}
+
+Spot Junction::spot(const Feature& surface, const Feature& curve) {
+    Spot result{curve, code(scene, curve), false, surface, 0, 1};
+    if (curve.kind == Kind::vertex_vertex) return result;
+    if (sign([&](auto T) { return on(surface).curve_trig<decltype(T)>(curve)[1]; }) != 0) return result;
+    // t = N / D, both zero here: either t is constant, or their common root is rational and t = N' / D' there
+    result.is_given = true;
+    const auto [N, D] = on(surface).curve_trig<Int>(curve);
+    const Poly p = polynomial(N), q = polynomial(D);
+    const auto at = [](const Poly& f, int k) { return k < f.size() ? f[k] : Int(0); };
+    const auto minor = [&](int k, int l) -> Int { return at(p, k) * at(q, l) - at(p, l) * at(q, k); };
+    if (minor(0, 1).is_zero() && minor(0, 2).is_zero() && minor(1, 2).is_zero()) {
+        if (q.empty()) throw std::logic_error("a curve on a surface parallel to it");
+        result.n = at(p, q.size() - 1), result.d = q.back();
+    } else {
+        const Int c0 = minor(0, 2), c1 = minor(1, 2);  // (p q2 - q p2) is linear
+        // without it p and q are linear, with the one root of either
+        const Poly& linear = q.size() == 2 ? q : p;
+        const Int r0 = c1.is_zero() ? at(linear, 0) : c0, r1 = c1.is_zero() ? at(linear, 1) : c1;
+        result.n = at(p, 1) * r1 - 2 * at(p, 2) * r0, result.d = at(q, 1) * r1 - 2 * at(q, 2) * r0;
+    }
+    if (result.d.is_zero()) throw std::logic_error("a curve has no end");
+    return result;
+}
+
+template <class T>
+std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) const {
+    if constexpr (std::is_same_v<T, Int>) {
+        if (p.is_given) {
+            const auto [a, b] = start(p.on);
+            const Trig<Int> N = sum(times(p.d, along<Int>(line, a, b)), times(p.n, directions_dot<Int>(line, p.on)));
+            return {N, times(p.d, directions_dot<Int>(line, line))};
+        }
+    }
+    if (p.curve.kind != Kind::vertex_vertex) return on(line).curve_trig<T>(p.curve);
+    return {along<T>(line, p.curve.robot, p.curve.obstacle), directions_dot<T>(line, line)};
+}
+
+int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
+    if (p.code == q.code && !p.is_given && !q.is_given) return 0;
+    if (!p.is_given && !q.is_given) {
+        const auto [Np, Dp] = position<Approx>(line, p);
+        const auto [Nq, Dq] = position<Approx>(line, q);
+        const Predicates::Form form{4, filtered(Np), filtered(Dq), filtered(Nq), filtered(Dp)};
+        const int signs = Predicates::sign_on(form.q, lo, hi) * Predicates::sign_on(form.s, lo, hi);
+        double c[5];
+        const double err = form.bernstein(lo, hi, c);
+        int positive = 0, negative = 0;
+        for (const double x : c) positive += x > err, negative += x < -err;
+        if (signs != 0 && positive == 5) return signs;
+        if (signs != 0 && negative == 5) return -signs;
+    }
+    const auto [Np, Dp] = position<Int>(line, p);
+    const auto [Nq, Dq] = position<Int>(line, q);
+    const Poly np = polynomial(Np), dp = polynomial(Dp), nq = polynomial(Nq), dq = polynomial(Dq);
+    RealRoot here = angles.exact(rank, chart);
+    return sign_at(difference(product(np, dq), product(nq, dp)), here) * sign_at(dp, here) * sign_at(dq, here);
+}
+
+int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after) {
+    // a rational place on x between the two
+    const bool upwards = order(x, p, q) < 0;
+    const Spot &first = upwards ? p : q, &last = upwards ? q : p;
+    Spot at{x, 0, true, x, 0, 1};
+    for (Int low = 0, high = 1;;) {  // over the denominator at.d
+        at.n = low + high, at.d *= 2, low *= 2, high *= 2;
+        const bool above = order(x, first, at) < 0, below = order(x, at, last) < 0;
+        if (above && below) break;
+        (above ? high : low) = at.n;
+    }
+    const auto [a, b] = start(x);
+    const Trig<Int> g = sum(times(at.d, on(y).offset_trig<Int>(a, b)), times(at.n, directions_cross<Int>(y, x)));
+    const Poly offset = polynomial(g);
+    if (offset.empty()) return 0;
+    RealRoot here = angles.exact(rank, chart);
+    return after ? sign_after(offset, here) : sign_before(offset, here);
+}
+
+}  // namespace cfree
