@@ -38,6 +38,14 @@ static nb::ndarray<nb::numpy, T, nb::ndim<1>> array_of(std::vector<T>&& values) 
     return {kept->data(), {kept->size()}, owner};
 }
 
+static nb::tuple columns_of(cfree::Trapezoids&& t) {
+    return nb::make_tuple(array_of(std::move(t.patch)), array_of(std::move(t.chart)), array_of(std::move(t.lower)),
+                          array_of(std::move(t.upper)), array_of(std::move(t.from_first)), array_of(std::move(t.from_second)),
+                          array_of(std::move(t.from_lo)), array_of(std::move(t.from_hi)), array_of(std::move(t.from_place)),
+                          array_of(std::move(t.to_first)), array_of(std::move(t.to_second)), array_of(std::move(t.to_lo)),
+                          array_of(std::move(t.to_hi)), array_of(std::move(t.to_place)));
+}
+
 // Two's complement, least limb first.
 static cfree::Int integer(const std::int64_t* limbs, std::size_t count) {
     cfree::Int n = limbs[count - 1];
@@ -87,16 +95,8 @@ NB_MODULE(_core, m) {
             return nb::make_tuple(array_of(std::move(job.patches.kind)), array_of(std::move(job.patches.robot)),
                                   array_of(std::move(job.patches.obstacle)));
         })
-        .def("trapezoids", [](cfree::Job& job) {
-            auto& t = job.trapezoids;
-            return nb::make_tuple(array_of(std::move(t.patch)), array_of(std::move(t.chart)), array_of(std::move(t.lower)),
-                                  array_of(std::move(t.upper)), array_of(std::move(t.from_first)),
-                                  array_of(std::move(t.from_second)), array_of(std::move(t.from_lo)),
-                                  array_of(std::move(t.from_hi)), array_of(std::move(t.from_place)),
-                                  array_of(std::move(t.to_first)), array_of(std::move(t.to_second)),
-                                  array_of(std::move(t.to_lo)), array_of(std::move(t.to_hi)),
-                                  array_of(std::move(t.to_place)));
-        })
+        .def("trapezoids", [](cfree::Job& job) { return columns_of(std::move(job.trapezoids)); })
+        .def("thin", [](cfree::Job& job) { return columns_of(std::move(job.thin)); })
         .def("tally", [](const cfree::Job& job) {
             const auto& t = job.tally;
             nb::dict d;

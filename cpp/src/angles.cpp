@@ -93,8 +93,11 @@ int Predicates::order(const Event& x, const Event& y) {
 }
 
 RealRoot Predicates::root_of(const Event& x) const {
-    if (x.fine >= 0) return {polynomial(x.first, x.second), fine[x.fine][0], fine[x.fine][1]};
-    return {polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
+    RealRoot root{polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
+    if (x.fine >= 0) root.lo = fine[x.fine][0], root.hi = fine[x.fine][1];
+    // a touch: the sign changes without the multiple factor only
+    if (!root.is_dyadic() && cfree::sign_at(root.p, root.lo) == cfree::sign_at(root.p, root.hi)) root.p = squarefree(root.p);
+    return root;
 }
 
 int Predicates::place(const Event& x) const {

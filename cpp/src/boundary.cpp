@@ -243,7 +243,7 @@ void Job::run(int threads) {
         patches = list_patches(*scene);
         const Index count = scene->obstacles.ring_vertices;
         neighbours = std::make_unique<Neighbours>(*scene);
-        found.resize(count);
+        found.resize(count), found_thin.resize(count);
         std::vector<Index> first(static_cast<std::size_t>(count) + 1, 0);
         for (const Index j : patches.obstacle) ++first[j + 1];
         for (Index j = 0; j < count; ++j) first[j + 1] += first[j];
@@ -317,7 +317,7 @@ void Job::work() {
                             if (trimmer.empty()) break;
                         }
                     }
-                    trimmer.finish(id, found[j]);
+                    trimmer.finish(id, found[j], found_thin[j]);
                     mine.decisions += trimmer.decide.counters;
                 }
                 mine.live_patches += found[j].size() > before;
@@ -333,26 +333,34 @@ void Job::work() {
 }
 
 void Job::collect() {
-    std::size_t total = 0;
-    for (const auto& f : found) total += f.size();
-    Trapezoids& t = trapezoids;
-    t.patch.reserve(total), t.chart.reserve(total), t.lower.reserve(total), t.upper.reserve(total);
-    for (auto* v : {&t.from_first, &t.from_second, &t.to_first, &t.to_second}) v->reserve(total);
-    t.from_place.reserve(total), t.to_place.reserve(total);
-    for (auto* v : {&t.from_lo, &t.from_hi, &t.to_lo, &t.to_hi}) v->reserve(total);
-    for (auto& f : found) {
-        for (const Trapezoid& x : f) {
-            t.patch.push_back(x.patch), t.chart.push_back(static_cast<std::uint8_t>(x.chart));
-            t.lower.push_back(packed(x.lower)), t.upper.push_back(packed(x.upper));
-            t.from_first.push_back(packed(x.from.first)), t.from_second.push_back(packed(x.from.second));
-            t.to_first.push_back(packed(x.to.first)), t.to_second.push_back(packed(x.to.second));
-            t.from_lo.push_back(x.from.lo), t.from_hi.push_back(x.from.hi);
-            t.to_lo.push_back(x.to.lo), t.to_hi.push_back(x.to.hi);
-            t.from_place.push_back(static_cast<std::uint8_t>(x.from_place));
-            t.to_place.push_back(static_cast<std::uint8_t>(x.to_place));
+    const auto gather = [](std::vector<std::vector<Trapezoid>>& lists, Trapezoids& into) {
+        std::size_t total = 0;
+        for (const auto& list : lists) total += list.size();
+        into.reserve(total);
+        for (auto& list : lists) {
+            for (const Trapezoid& x : list) into.push_back(x);
+            std::vector<Trapezoid>().swap(list);
         }
-        std::vector<Trapezoid>().swap(f);
-    }
+    };
+    gather(found, trapezoids), gather(found_thin, thin);
+}
+
+void Trapezoids::reserve(std::size_t count) {
+    patch.reserve(count), chart.reserve(count);
+    for (auto* v : {&lower, &upper, &from_first, &from_second, &to_first, &to_second}) v->reserve(count);
+    for (auto* v : {&from_lo, &from_hi, &to_lo, &to_hi}) v->reserve(count);
+    from_place.reserve(count), to_place.reserve(count);
+}
+
+void Trapezoids::push_back(const Trapezoid& x) {
+    patch.push_back(x.patch), chart.push_back(static_cast<std::uint8_t>(x.chart));
+    lower.push_back(packed(x.lower)), upper.push_back(packed(x.upper));
+    from_first.push_back(packed(x.from.first)), from_second.push_back(packed(x.from.second));
+    to_first.push_back(packed(x.to.first)), to_second.push_back(packed(x.to.second));
+    from_lo.push_back(x.from.lo), from_hi.push_back(x.from.hi);
+    to_lo.push_back(x.to.lo), to_hi.push_back(x.to.hi);
+    from_place.push_back(static_cast<std::uint8_t>(x.from_place));
+    to_place.push_back(static_cast<std::uint8_t>(x.to_place));
 }
 
 }  // namespace cfree

@@ -179,7 +179,8 @@ void Gluer::glue_walls() {
     std::vector<Wall> walls;
     for (Index rank = 0; rank < ranks; ++rank) {
         if (start[rank] == start[rank + 1]) continue;
-        Junction at(scene, angles, rank);
+        const int chart = rank > angles.middle ? 1 : 0;
+        Junction at(scene, chart, angles.lo(rank, chart), angles.hi(rank, chart), [&] { return angles.exact(rank, chart); });
         walls.clear();
         for (Index m = start[rank]; m < start[rank + 1]; ++m) {
             const Index k = member[m] / 2;

@@ -17,9 +17,8 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 
 }  // namespace
 
-Junction::Junction(const Scene& s, AngleTable& table, Index at)
-    : scene(s), angles(table), rank(at == table.last ? 0 : at), chart(rank > table.middle ? 1 : 0),
-      lo(table.lo(rank, chart)), hi(table.hi(rank, chart)) {}
+Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> root)
+    : scene(s), chart(in), lo(from), hi(to), exact(std::move(root)) {}
 
 Junction::Ends Junction::start(const Feature& x) const {
     if (is_on_edge(x)) return {x.robot, scene.obstacles.v[x.obstacle]};
@@ -33,7 +32,7 @@ Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtere
 template <class F>
 int Junction::sign(const F& trig) {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
-    RealRoot here = angles.exact(rank, chart);
+    RealRoot here = exact();
     return sign_at(polynomial(trig(Int{})), here);
 }
 
@@ -86,7 +85,11 @@ int Junction::parallel(const Feature& x, const Feature& y) {
 int Junction::side(const Feature& x, const Feature& y) {
     if (code(scene, x) == code(scene, y)) return 0;
     const auto [a, b] = start(y);
-    return sign([&, a = a, b = b](auto T) { return on(x).offset_trig<decltype(T)>(a, b); });
+    return side(x, a, b);
+}
+
+int Junction::side(const Feature& x, Index a, Index b) {
+    return sign([&](auto T) { return on(x).offset_trig<decltype(T)>(a, b); });
 }
 
 Spot Junction::spot(const Feature& surface, const Feature& curve) {
@@ -143,7 +146,7 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
     const auto [Np, Dp] = position<Int>(line, p);
     const auto [Nq, Dq] = position<Int>(line, q);
     const Poly np = polynomial(Np), dp = polynomial(Dp), nq = polynomial(Nq), dq = polynomial(Dq);
-    RealRoot here = angles.exact(rank, chart);
+    RealRoot here = exact();
     return sign_at(difference(product(np, dq), product(nq, dp)), here) * sign_at(dp, here) * sign_at(dq, here);
 }
 
@@ -162,7 +165,7 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
     const Trig<Int> g = sum(times(at.d, on(y).offset_trig<Int>(a, b)), times(at.n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;
-    RealRoot here = angles.exact(rank, chart);
+    RealRoot here = exact();
     return after ? sign_after(offset, here) : sign_before(offset, here);
 }
 

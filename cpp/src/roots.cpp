@@ -141,7 +141,7 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
     ++counters.exact;
     const Poly p = polynomial(first, second);
     result.all_zero = p.empty();
-    if (p.empty() || (p.size() == 3 && p[1] * p[1] <= 4 * p[0] * p[2])) return result;  // at most a touch
+    if (p.empty() || (p.size() == 3 && p[1] * p[1] < 4 * p[0] * p[2])) return result;
     const Sturm sturm(squarefree(p));
     const Dyadic lowest = Dyadic::from(std::nextafter(from.lo, -2)), highest = Dyadic::from(std::nextafter(to.hi, 2));
     for (auto [below, above] : isolate(sturm, lowest, highest, 56)) {
@@ -152,7 +152,6 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
         }
         double l = below.rounded_down(), h = above.rounded_up();
         if (sign(above) == 0) below = above;
-        else if (cfree::sign_at(p, below) == cfree::sign_at(p, above)) continue;  // a touch changes no sign
         // doubles around it, with no root at their ends; a finer interval if there is a second one between them
         while (sign(Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
         while (sign(Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
@@ -160,8 +159,6 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
         if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1) {
             x.fine = static_cast<Index>(fine.size());
             fine.push_back({below, above});
-        } else if (cfree::sign_at(p, Dyadic::from(l)) == cfree::sign_at(p, Dyadic::from(h))) {
-            continue;
         }
         keep(x);
     }
@@ -218,8 +215,8 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     const double err = f.bernstein(from.lo, to.hi, c);
     int positive = 0, negative = 0;
     for (int i = 0; i <= f.degree; ++i) positive += c[i] > err, negative += c[i] < -err;
-    if (positive == f.degree + 1) return ++counters.filter, constant(1);
-    if (negative == f.degree + 1) return ++counters.filter, constant(-1);
+    result.strict = positive == f.degree + 1 || negative == f.degree + 1;
+    if (result.strict) return ++counters.filter, constant(positive > 0 ? 1 : -1);
     const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
     const int flip = p.flipped != q.flipped ? -1 : 1;

@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "cfree/junction.hpp"
+
 namespace cfree {
 
 Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
@@ -28,7 +30,7 @@ void Trimmer::cover(Index p, Index k) {
     // The pillar's state at a sample (which edges the line enters and leaves by, or on which side it passes) holds between
     // two angles around it. Settle it at a sample, find how long it lives, go on with what is left on both sides.
     todo.assign(1, {0, 1});
-    while (!todo.empty() && !live.empty()) {
+    while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
         Sample at = decide.between(events[whole.from], events[whole.to]);
@@ -44,7 +46,7 @@ void Trimmer::cover(Index p, Index k) {
             verdict = lifetime(state, at, span);
             if (verdict == Verdict::wrong) throw std::logic_error("an exact state contradicts its own conditions");
         }
-        if (state.meets == Meets::crosses) add_band(state, span);
+        if (state.meets == Meets::crosses) add_band(state, span, p, k);
         if (span.to != whole.to) todo.push_back({span.to, whole.to});
         if (span.from != whole.from) todo.push_back({whole.from, span.from});
     }
@@ -337,13 +339,13 @@ void Trimmer::bounds(Area& area) const {
     area.t_min -= std::abs(area.t_min) * 0x1p-50, area.t_max += std::abs(area.t_max) * 0x1p-50;
 }
 
-void Trimmer::add_band(const State& state, const Span& span) {
+void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
     // along the line, t grows: it enters by an edge with D > 0 and leaves by one with D < 0
     Feature l = normal_form(state.lower.feature), u = normal_form(state.upper.feature);
     Area band{span.from, span.to, curve_of(l, false), curve_of(u, u.kind != Kind::vertex_vertex), 0, 1};
     bounds(band);
     if (band.t_max < 0 || band.t_min > 1) return;
-    subtract(band);
+    subtract({band, p, k, &state});
 }
 
 void Trimmer::cede(const Feature& first, const Feature& last, const Event& from, const Event& to) {
@@ -353,13 +355,48 @@ void Trimmer::cede(const Feature& first, const Feature& last, const Event& from,
     Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
     if (!before(band.from, band.to)) return;
     bounds(band);
-    subtract(band);
+    subtract({band, -1, -1, nullptr});
+}
+
+// Whether the band covers the inside of its segment at this one of its angles.
+bool Trimmer::covers_at(const Band& band, Index event) {
+    if (band.state == nullptr) return true;
+    const bool inside = before(band.area.from, event) && before(event, band.area.to);
+    return inside || crosses_at(band, event);
+}
+
+// Whether the line passes through the open pillar at an end of the band: there are vertices on both its sides.
+bool Trimmer::crosses_at(const Band& band, Index event) {
+    const Event& e = events[event];
+    const PillarEdge &l = band.state->lower, &u = band.state->upper;
+    const auto certain = [&](Index s, Index v) { return Predicates::sign_on(decide.offset(s, v), e.lo, e.hi); };
+    if ((certain(l.s0, l.v0) > 0 || certain(u.s1, u.v1) > 0) && (certain(l.s1, l.v1) < 0 || certain(u.s0, u.v0) < 0)) return true;
+    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); });
+    bool left = false, right = false;
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    for (Index x = A.piece[band.p]; x < A.piece[band.p + 1]; ++x)
+        for (Index y = O.piece[band.k]; y < O.piece[band.k + 1] && !(left && right); ++y) {
+            if (lies_on_line(A.piece_vertex[x], O.piece_vertex[y])) continue;
+            const int side = here.side(surface.contact, A.piece_vertex[x], O.piece_vertex[y]);
+            left |= side > 0, right |= side < 0;
+        }
+    return left && right;
+}
+
+int Trimmer::order_at(Index event, Index p, Index q) {
+    if (curves[p].code == curves[q].code) return 0;
+    const Event& e = events[event];
+    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); });
+    const Feature& on = surface.contact;
+    return here.order(on, here.spot(on, curves[p].feature), here.spot(on, curves[q].feature));
 }
 
 // --- live region -----------------------------------------------------------------------------------------------------
 
-void Trimmer::subtract(const Area& band) {
-    next.clear();
+void Trimmer::subtract(const Band& taken) {
+    const Area& band = taken.area;
+    if (!thin.empty()) subtract_from_thin(taken);
+    next.clear(), fresh.clear();
     for (const Area& area : live) {
         if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi ||
             band.t_max < area.t_min || band.t_min > area.t_max) {
@@ -408,14 +445,14 @@ void Trimmer::subtract(const Area& band) {
         int open_count = 0;
         const auto emit = [&](Index at, std::initializer_list<std::array<Index, 2>> parts) {
             // go on with those that stay, close the rest
-            Area fresh[2];
-            int fresh_count = 0;
+            Area kept[2];
+            int kept_count = 0;
             bool stays[2] = {false, false};
             for (const auto& part : parts) {
                 Area piece{at, at, part[0], part[1], 0, 1};
                 for (int k = 0; k < open_count; ++k)
                     if (open[k].lower == part[0] && open[k].upper == part[1]) piece.from = open[k].from, stays[k] = true;
-                fresh[fresh_count++] = piece;
+                kept[kept_count++] = piece;
             }
             for (int k = 0; k < open_count; ++k) {
                 if (stays[k]) continue;
@@ -423,29 +460,123 @@ void Trimmer::subtract(const Area& band) {
                 bounds(open[k]);
                 next.push_back(open[k]);
             }
-            open_count = fresh_count;
-            for (int k = 0; k < fresh_count; ++k) open[k] = fresh[k];
+            open_count = kept_count;
+            for (int k = 0; k < kept_count; ++k) open[k] = kept[k];
+        };
+        // what the band leaves of the area without width, at an angle between two parts (or one, or none, of them covered)
+        struct Cover {
+            bool all, low, high;  // some of the area's inside; its lower, its upper curve
+        };
+        const auto leave = [&](Index at, const Cover* before_it, const Cover* after_it, bool low_meets, bool high_meets) {
+            for (const Cover* c : {before_it, after_it})
+                if (c != nullptr && !c->all) return;
+            const auto both = [&](bool Cover::*which) {
+                return (before_it == nullptr || before_it->*which) && (after_it == nullptr || after_it->*which);
+            };
+            if (!covers_at(taken, at)) return add_thin(at, at, area.lower, area.upper);
+            const bool is_end = before_it == nullptr || after_it == nullptr;
+            const auto meets = [&](int w, Index p, Index q) { return is_end && !orders[w].strict && order_at(at, p, q) == 0; };
+            if (both(&Cover::low) && (low_meets || meets(2, band.lower, area.lower))) add_thin(at, at, area.lower, area.lower);
+            if (both(&Cover::high) && (high_meets || meets(3, band.upper, area.upper))) add_thin(at, at, area.upper, area.upper);
         };
         if (from != area.from) emit(area.from, {{area.lower, area.upper}});
+        Cover last{};
+        bool low_meets = false, high_meets = false;
         for (int k = 0;;) {
-            const Index start = k == 0 ? from : cuts[k - 1].event;
+            const Index start = k == 0 ? from : cuts[k - 1].event, end = k == count ? to : cuts[k].event;
             const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
-            if (sign(0) >= 0 || sign(1) <= 0) emit(start, {{area.lower, area.upper}});
+            const Cover cover{sign(0) < 0 && sign(1) > 0, sign(2) < 0, sign(3) > 0};
+            if (!cover.all) emit(start, {{area.lower, area.upper}});
             else if (sign(2) > 0 && sign(3) < 0) emit(start, {{area.lower, band.lower}, {band.upper, area.upper}});
             else if (sign(2) > 0) emit(start, {{area.lower, band.lower}});
             else if (sign(3) < 0) emit(start, {{band.upper, area.upper}});
             else emit(start, {});
+            if (taken.state != nullptr) {
+                if (cover.all && sign(2) == 0) add_thin(start, end, area.lower, area.lower);
+                if (cover.all && sign(3) == 0) add_thin(start, end, area.upper, area.upper);
+                if (k > 0) leave(start, &last, &cover, low_meets, high_meets);
+                else if (from == area.from) leave(start, nullptr, &cover, false, false);
+                if (k == count && to == area.to) leave(to, &cover, nullptr, false, false);
+            }
+            last = cover;
             if (k == count) break;
-            do ++position[cuts[k].which], ++k;
-            while (k < count && equal(cuts[k].event, cuts[k - 1].event));
+            low_meets = high_meets = false;
+            do {
+                low_meets |= cuts[k].which == 2, high_meets |= cuts[k].which == 3;
+                ++position[cuts[k].which], ++k;
+            } while (k < count && equal(cuts[k].event, cuts[k - 1].event));
         }
         if (to != area.to) emit(to, {{area.lower, area.upper}});
         emit(area.to, {});
     }
     live.swap(next);
+    thin.insert(thin.end(), fresh.begin(), fresh.end());
 }
 
-void Trimmer::finish(Index patch, std::vector<Trapezoid>& out) {
+void Trimmer::subtract_from_thin(const Band& taken) {
+    const Area& band = taken.area;
+    fresh.clear();
+    for (const Area& x : thin) {
+        if (x.from == x.to) {  // at one angle
+            const Index at = x.from;
+            if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) ||
+                order_at(at, band.lower, x.upper) >= 0 || order_at(at, band.upper, x.lower) <= 0) {
+                fresh.push_back(x);
+                continue;
+            }
+            const int low = order_at(at, band.lower, x.lower), high = order_at(at, band.upper, x.upper);
+            if (low > 0) add_thin(at, at, x.lower, band.lower);
+            if (high < 0) add_thin(at, at, band.upper, x.upper);
+            if (taken.state == nullptr) continue;
+            if (low == 0) add_thin(at, at, x.lower, x.lower);
+            if (high == 0) add_thin(at, at, x.upper, x.upper);
+            continue;
+        }
+        // a curve
+        const Index from = before(x.from, band.from) ? band.from : x.from, to = before(band.to, x.to) ? band.to : x.to;
+        if (!before(from, to)) {
+            fresh.push_back(x);
+            continue;
+        }
+        const auto order = [&](Index p) { return decide.compare(curves[p], curves[x.lower], events[from], events[to]); };
+        const Predicates::Order low = order(band.lower), high = order(band.upper);
+        struct Cut {
+            Index event;
+            bool is_low;
+        };
+        std::vector<Cut> cuts;
+        for (int r = 0; r < low.count; ++r) cuts.push_back({intern(low.at[r]), true});
+        for (int r = 0; r < high.count; ++r) cuts.push_back({intern(high.at[r]), false});
+        std::stable_sort(cuts.begin(), cuts.end(), [&](const Cut& p, const Cut& q) { return before(p.event, q.event); });
+        Index start = x.from;   // of what is kept
+        bool keeps = from != x.from, was_covered = false;
+        std::size_t k = 0;
+        int i = 0, j = 0;
+        for (Index at = from;;) {
+            const bool covered = low.sign[i] < 0 && high.sign[j] > 0;
+            if (covered && keeps) add_thin(start, at, x.lower, x.lower);
+            if (!covered && !keeps) start = at;
+            if (covered && !keeps && taken.state != nullptr) {  // covered on both sides, or from the curve's end on
+                const bool meets = was_covered || !covers_at(taken, at) || order_at(at, band.lower, x.lower) == 0 ||
+                                   order_at(at, band.upper, x.lower) == 0;
+                if (meets) add_thin(at, at, x.lower, x.lower);
+            }
+            keeps = !covered, was_covered = covered;
+            if (k == cuts.size()) break;
+            at = cuts[k].event;
+            do (cuts[k].is_low ? i : j) += 1, ++k;
+            while (k < cuts.size() && equal(cuts[k].event, at));
+        }
+        if (was_covered && to == x.to && taken.state != nullptr &&
+            (!covers_at(taken, to) || order_at(to, band.lower, x.lower) == 0 || order_at(to, band.upper, x.lower) == 0))
+            add_thin(to, to, x.lower, x.lower);
+        if (to != x.to && was_covered) start = to;
+        if (to != x.to || keeps) add_thin(start, x.to, x.lower, x.lower);
+    }
+    thin.swap(fresh);
+}
+
+void Trimmer::finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out) {
     // join neighbours along theta that have the same curves
     for (std::size_t k = 0; k < live.size(); ++k) {
         for (std::size_t l = 0; l < live.size();) {
@@ -465,9 +596,12 @@ void Trimmer::finish(Index patch, std::vector<Trapezoid>& out) {
         if (events[x.from].lo != events[y.from].lo) return events[x.from].lo < events[y.from].lo;
         return x.t_min < y.t_min;
     });
-    for (const Area& x : live)
-        out.push_back({patch, surface.chart, curves[x.lower].feature, curves[x.upper].feature, events[x.from], events[x.to],
-                       decide.place(events[x.from]), decide.place(events[x.to])});
+    const auto put = [&](const std::vector<Area>& areas, std::vector<Trapezoid>& into) {
+        for (const Area& x : areas)
+            into.push_back({patch, surface.chart, curves[x.lower].feature, curves[x.upper].feature, events[x.from],
+                            events[x.to], decide.place(events[x.from]), decide.place(events[x.to])});
+    };
+    put(live, out), put(thin, thin_out);
 }
 
 }  // namespace cfree

@@ -35,6 +35,8 @@ struct Trapezoids {
     std::vector<std::uint64_t> from_first, from_second, to_first, to_second;
     std::vector<double> from_lo, from_hi, to_lo, to_hi;
     std::vector<std::uint8_t> from_place, to_place;
+    void reserve(std::size_t count);
+    void push_back(const Trapezoid& x);
 };
 
 struct Tally {
@@ -61,6 +63,7 @@ public:
     // After wait() returned true.
     Patches patches;
     Trapezoids trapezoids;
+    Trapezoids thin;  // without width; parts of patches that may be on the rim of trapezoids of others
     Tally tally;
 
 private:
@@ -72,7 +75,7 @@ private:
     class Neighbours;
     std::unique_ptr<Neighbours> neighbours;
     std::vector<Index> first_patch;                     // of each obstacle ring vertex and the edge that starts there
-    std::vector<std::vector<Trapezoid>> found;          // by obstacle ring vertex
+    std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};
     std::atomic<bool> stop{false};

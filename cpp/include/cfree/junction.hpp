@@ -1,6 +1,8 @@
 // What several contact lines look like at one critical angle, and just before and after it.
 #pragma once
-#include "cfree/angle_table.hpp"
+#include <functional>
+
+#include "cfree/predicates.hpp"
 
 namespace cfree {
 
@@ -15,12 +17,15 @@ struct Spot {
 
 class Junction {
 public:
-    Junction(const Scene& scene, AngleTable& angles, Index rank);
+    // At an angle of a chart, in an interval, and exactly when asked for.
+    Junction(const Scene& scene, int chart, double lo, double hi, std::function<RealRoot()> exact);
 
     // Directions of two contact lines: 1 the same, -1 opposite, 0 not parallel.
     int parallel(const Feature& x, const Feature& y);
     // Of parallel lines: y is left of x (1), right (-1), or the same line.
     int side(const Feature& x, const Feature& y);
+    // The side of x's line on which the point b_b - R a_a lies.
+    int side(const Feature& x, Index a, Index b);
     // Where a curve on a surface ends.
     Spot spot(const Feature& on, const Feature& curve);
     // Order of two places along a line, that of a surface through both.
@@ -49,10 +54,9 @@ private:
     Filtered filtered(const Trig<Approx>& f) const;
 
     const Scene& scene;
-    AngleTable& angles;
-    Index rank;
     int chart;
     double lo, hi;
+    std::function<RealRoot()> exact;
 };
 
 }  // namespace cfree

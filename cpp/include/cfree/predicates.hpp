@@ -101,7 +101,7 @@ public:
     Sample between(const Event& x, const Event& y, double part = 0.5);
     static Sample within(double lo, double hi, double part);
 
-    // Roots strictly between two angles, in order; a touch without a change of sign is none.
+    // Roots strictly between two angles, in order, those without a change of sign among them.
     // all_zero: the polynomial vanishes identically.
     struct Roots {
         int count = 0;
@@ -115,6 +115,7 @@ public:
         int count = 0;
         Event at[4];
         int sign[5];  // all 0 if the curves are one
+        bool strict = false;  // the same sign at the two ends, too
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
 

@@ -2,7 +2,8 @@
 //
 // The patch's domain is (t, theta). A pillar Q = O_k (+) -R A_p covers, at each theta, one open interval of t: its bands on
 // the patch. `live` starts as the whole domain and loses one band after another; it is a list of trapezoids, each
-// bounded by two angles and two curves.
+// bounded by two angles and two curves. Areas are closed and bands are open, so that parts of no width can remain: a curve, a
+// piece of the line at one angle, a point. Those are `thin`.
 #pragma once
 #include <vector>
 
@@ -27,9 +28,9 @@ public:
     void cover(Index p, Index k);
     // Take away what another patch of the same surface owns: the edge between two vertices on this one's line.
     void cede(const Feature& first, const Feature& last, const Event& from, const Event& to);
-    bool empty() const { return live.empty(); }
-    // What is left, in order, neighbours with the same curves joined.
-    void finish(Index patch, std::vector<Trapezoid>& out);
+    bool empty() const { return live.empty() && thin.empty(); }
+    // What is left, in order, neighbours with the same curves joined; and what is left without width: lower = upper or from = to.
+    void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
 
     Predicates decide;
 
@@ -62,6 +63,12 @@ private:
         Filtered value;
     };
     enum class Verdict { holds, wrong, resample };
+    // The part of a pillar that covers the area's inside; what is ceded has no pillar.
+    struct Band {
+        Area area;
+        Index p, k;
+        const State* state;
+    };
 
     template <class T>
     std::vector<T>* scratch() const;
@@ -70,11 +77,16 @@ private:
     Verdict lifetime(const State& state, const Sample& at, Span& span);
     int conditions(const State& state, Condition* out, bool& wrong);
     bool lies_on_line(Index s, Index v) const;
-    void add_band(const State& state, const Span& span);
+    void add_band(const State& state, const Span& span, Index p, Index k);
+    bool covers_at(const Band& band, Index event);
+    bool crosses_at(const Band& band, Index event);
+    int order_at(Index event, Index p, Index q);
     Index curve_of(const Feature& feature, bool flipped);
     Feature normal_form(const Feature& feature) const;
     void bounds(Area& area) const;
-    void subtract(const Area& band);
+    void subtract(const Band& band);
+    void subtract_from_thin(const Band& band);
+    void add_thin(Index from, Index to, Index lower, Index upper) { fresh.push_back({from, to, lower, upper, 0, 1}); }
     Index intern(const Event& event);
     bool equal(Index x, Index y) { return x == y || decide.order(events[x], events[y]) == 0; }
     bool before(Index x, Index y) { return x != y && decide.order(events[x], events[y]) < 0; }
@@ -84,6 +96,7 @@ private:
     std::vector<Event> events;
     std::vector<Curve> curves;
     std::vector<Area> live, next;
+    std::vector<Area> thin, fresh;
     std::vector<Span> todo;
     mutable std::vector<double> heights[2];  // scratch of state_at
     mutable std::vector<Int> exact_heights[2];
