@@ -5,6 +5,7 @@
 
 #include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
+#include "cfree/isolated.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
 
@@ -96,7 +97,16 @@ NB_MODULE(_core, m) {
                                   array_of(std::move(job.patches.obstacle)));
         })
         .def("trapezoids", [](cfree::Job& job) { return columns_of(std::move(job.trapezoids)); })
-        .def("thin", [](cfree::Job& job) { return columns_of(std::move(job.thin)); })
+        .def("isolated", [](const cfree::Job& job) {
+            cfree::IsolatedParts x;
+            {
+                nb::gil_scoped_release release;
+                x = cfree::isolated_parts(job.input(), job.patches, job.trapezoids, job.thin);
+            }
+            return nb::make_tuple(columns_of(std::move(x.parts)), array_of(std::move(x.lower_patch)),
+                                  array_of(std::move(x.upper_patch)), array_of(std::move(x.from_patch)),
+                                  array_of(std::move(x.to_patch)));
+        })
         .def("tally", [](const cfree::Job& job) {
             const auto& t = job.tally;
             nb::dict d;

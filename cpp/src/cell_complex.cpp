@@ -40,7 +40,7 @@ private:
     [[noreturn]] void fail(const std::string& what, Index trapezoid) const {
         throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
     }
-    Feature contact(Index trapezoid) const { return angles.surface(trapezoid).contact; }
+    Feature contact(Index trapezoid) const { return surface_of(patches, trapezoids, trapezoid).contact; }
     NamedCurve curve(Index k, bool upper) const {
         return {contact(k), unpacked((upper ? trapezoids.upper : trapezoids.lower)[k])};
     }

@@ -65,16 +65,23 @@ Fingerprint Fingerprints::of(const NamedCurve& curve) const {
     return {plus(P.x, times(t, U.x)), plus(P.y, times(t, U.y))};
 }
 
+bool Fingerprints::may_lie_on(const Feature& surface, const Fingerprint& curve) const {
+    const auto [P, U] = line(surface);
+    return times(U.x, minus(curve.y, P.y)) == times(U.y, minus(curve.x, P.x));
+}
+
+bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface) {
+    if (curve.other.kind == Kind::vertex_vertex) return Predicates(scene, {surface, 0}).vanishes(curve.other, {});
+    const Code own = code(scene, surface);
+    return own == code(scene, curve.on) || own == code(scene, curve.other) ||
+           Predicates(scene, {curve.on, 0}).vanishes(curve.other, surface);
+}
+
 bool is_same_curve(const Scene& scene, const NamedCurve& x, const NamedCurve& y) {
-    const auto same = [&](const Feature& f, const Feature& g) { return code(scene, f) == code(scene, g); };
     const bool helix = x.other.kind == Kind::vertex_vertex;
-    if (helix && y.other.kind == Kind::vertex_vertex) return same(x.other, y.other);
-    if (!helix && y.other.kind == Kind::vertex_vertex) return is_same_curve(scene, y, x);
-    const auto lies_on = [&](const Feature& surface) {
-        if (helix) return Predicates(scene, {surface, 0}).vanishes(x.other, {});
-        return same(surface, x.on) || same(surface, x.other) || Predicates(scene, {x.on, 0}).vanishes(x.other, surface);
-    };
-    return lies_on(y.on) && lies_on(y.other);
+    if (helix && y.other.kind == Kind::vertex_vertex) return code(scene, x.other) == code(scene, y.other);
+    if (y.other.kind == Kind::vertex_vertex) return is_same_curve(scene, y, x);
+    return lies_on(scene, x, y.on) && lies_on(scene, x, y.other);
 }
 
 }  // namespace cfree

@@ -150,6 +150,28 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
     return sign_at(difference(product(np, dq), product(nq, dp)), here) * sign_at(dp, here) * sign_at(dq, here);
 }
 
+int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
+    // U_x x (P + t U - P_x) = offset of the line's start + t U_x x U, with t = N / D
+    const auto [a, b] = start(line);
+    if (!p.is_given) {
+        const auto [N, D] = position<Approx>(line, p);
+        const Predicates::Form form{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
+                                    -filtered(directions_cross<Approx>(x, line))};
+        double c[5];
+        const double err = form.bernstein(lo, hi, c);
+        int positive = 0, negative = 0;
+        for (const double v : c) positive += v > err, negative += v < -err;
+        if (positive == 5 || negative == 5) {
+            if (const int s = Predicates::sign_on(form.q, lo, hi); s != 0) return positive == 5 ? s : -s;
+        }
+    }
+    const auto [N, D] = position<Int>(line, p);
+    const Poly d = polynomial(D), offset = product(polynomial(on(x).offset_trig<Int>(a, b)), d);
+    const Poly along_it = product(polynomial(N), polynomial(times(Int(-1), directions_cross<Int>(x, line))));
+    RealRoot here = exact();
+    return sign_at(difference(offset, along_it), here) * sign_at(d, here);
+}
+
 int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after) {
     // a rational place on x between the two
     const bool upwards = order(x, p, q) < 0;

@@ -148,6 +148,12 @@ int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sam
     return sign_at(value, {Kind::edge_edge, g, f}, at);
 }
 
+int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) const {
+    const Dyadic tau = at.exact();
+    const auto denominator = [&](const Feature& f) { return cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), tau); };
+    return cfree::sign_at(polynomial(p, q), tau) * denominator(p) * denominator(q);
+}
+
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
     if (shape.direction[e] == shape.direction[f]) return 0;
     const Approx value = cross(edge<Approx>(shape, e), edge<Approx>(shape, f));

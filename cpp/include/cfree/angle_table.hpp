@@ -1,9 +1,8 @@
 // The critical angles of all trapezoids in one order, equal ones made one: across patches, names and charts.
 #pragma once
-#include <memory>
-#include <vector>
+#include <optional>
 
-#include "cfree/boundary.hpp"
+#include "cfree/critical_angle.hpp"
 
 namespace cfree {
 
@@ -22,29 +21,22 @@ public:
     // A sample strictly between two angles.
     Sample between(Index first, Index second, int chart);
 
-    Surface surface(Index trapezoid) const;
-
 private:
     struct Angle {
         double lo, hi;
         Index trapezoid;  // one that has it; -1: a wall
         bool is_to;
-        std::shared_ptr<RealRoot> root;  // once needed
     };
     std::size_t place(Index rank, int chart) const { return static_cast<std::size_t>(rank + chart); }
     void sort_chart(int chart);
     void order_cluster(const Angle* begin, const Angle* end, int chart);
-    int order(Angle& x, Angle& y);
-    RealRoot& exact(Angle& x) const;
-    Event event(const Angle& x, Predicates& on) const;
-    std::array<Feature, 2> features(const Angle& x) const;
-    std::array<Code, 3> name(const Angle& x) const;
-    bool is_one(const std::vector<const Angle*>& same);
+    CriticalAngle critical(const Angle& x) const;
 
     const Scene& scene;
     const Patches& patches;
     const Trapezoids& trapezoids;
     std::vector<Angle> angles;  // of chart 0, wall to wall, then of chart 1: `middle` is in both
+    std::optional<std::pair<std::size_t, CriticalAngle>> recent;  // the last that was asked for exactly
 };
 
 }  // namespace cfree

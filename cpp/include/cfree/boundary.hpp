@@ -60,10 +60,11 @@ public:
     bool wait(double seconds);  // whether it has ended; rethrows what a thread threw
     double progress() const;    // patches done, of all
     void cancel() { stop = true; }
+    const Scene& input() const { return *scene; }
     // After wait() returned true.
     Patches patches;
     Trapezoids trapezoids;
-    Trapezoids thin;  // without width; parts of patches that may be on the rim of trapezoids of others
+    Trapezoids thin;  // without width, many of them on the rims of trapezoids of other patches; see isolated.hpp
     Tally tally;
 
 private:

@@ -23,6 +23,8 @@ class Fingerprints {
 public:
     explicit Fingerprints(const Scene& scene);
     Fingerprint of(const NamedCurve& curve) const;
+    // Whether the curve may lie on a surface; if not, it does not.
+    bool may_lie_on(const Feature& surface, const Fingerprint& curve) const;
 
 private:
     using Word = std::uint64_t;
@@ -38,7 +40,8 @@ private:
     Word c, s;  // of the orientation
 };
 
-// Whether two names are of one curve, exactly.
+// Whether a curve lies on a surface, and whether two names are of one curve, exactly.
+bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface);
 bool is_same_curve(const Scene& scene, const NamedCurve& x, const NamedCurve& y);
 
 }  // namespace cfree

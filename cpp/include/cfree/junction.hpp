@@ -28,6 +28,8 @@ public:
     int side(const Feature& x, Index a, Index b);
     // Where a curve on a surface ends.
     Spot spot(const Feature& on, const Feature& curve);
+    // The side of x's line on which a place on another surface's line lies.
+    int side(const Feature& x, const Feature& line, const Spot& p);
     // Order of two places along a line, that of a surface through both.
     int order(const Feature& line, const Spot& p, const Spot& q);
     // Two surfaces with one line here: whether, just after this angle or before it and between two places on the line, x is left

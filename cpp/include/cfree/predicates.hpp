@@ -122,6 +122,9 @@ public:
     // Whether what two curves, or a helix alone, define on the surface is zero at every angle.
     bool vanishes(const Feature& first, const Feature& second) const { return polynomial(first, second).empty(); }
 
+    // Order at a sample of where two curves are on the surface, wherever that is.
+    int order_at(const Feature& p, const Feature& q, const Sample& at) const;
+
     // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
     int place(const Event& x) const;
     // The angle of that place, for decisions made here.
