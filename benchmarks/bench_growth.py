@@ -17,7 +17,7 @@ from families import SIZES, convex
 from measure import Report, Times, checksum, measured
 
 import cfree
-from cfree.forbidden import COLUMNS
+from cfree.trapezoids import COLUMNS
 
 EXPONENT, BYTES = 1.1, 200
 

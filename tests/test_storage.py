@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from cfree import Boundary, FormatError, boundary, load_boundary
-from cfree.forbidden import COLUMNS
+from cfree.trapezoids import COLUMNS
 from compared import scene_of
 from shapes import KINDS, random_scene
 

@@ -5,7 +5,6 @@
 
 #include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
-#include "cfree/isolated.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
 
@@ -97,15 +96,12 @@ NB_MODULE(_core, m) {
                                   array_of(std::move(job.patches.obstacle)));
         })
         .def("trapezoids", [](cfree::Job& job) { return columns_of(std::move(job.trapezoids)); })
-        .def("isolated", [](const cfree::Job& job) {
-            cfree::IsolatedParts x;
-            {
-                nb::gil_scoped_release release;
-                x = cfree::isolated_parts(job.input(), job.patches, job.trapezoids, job.thin);
-            }
+        .def("isolated", [](cfree::Job& job) {
+            auto& x = job.isolated;
             return nb::make_tuple(columns_of(std::move(x.parts)), array_of(std::move(x.lower_patch)),
                                   array_of(std::move(x.upper_patch)), array_of(std::move(x.from_patch)),
-                                  array_of(std::move(x.to_patch)));
+                                  array_of(std::move(x.to_patch)), array_of(std::move(x.first_t)),
+                                  array_of(std::move(x.last_t)));
         })
         .def("tally", [](const cfree::Job& job) {
             const auto& t = job.tally;
@@ -113,7 +109,7 @@ NB_MODULE(_core, m) {
             d["pairs"] = t.pairs, d["live_patches"] = t.live_patches;
             d["decided_by_filter"] = t.decisions.filter, d["decided_exactly"] = t.decisions.exact;
             d["setup_seconds"] = t.setup_seconds, d["trim_seconds"] = t.trim_seconds;
-            d["collect_seconds"] = t.collect_seconds;
+            d["collect_seconds"] = t.collect_seconds, d["isolated_seconds"] = t.isolated_seconds;
             return d;
         });
     m.def("glue", [](const cfree::Shape& robot, const cfree::Shape& obstacles, Column<std::uint8_t> kind, Column<int> patch_robot,

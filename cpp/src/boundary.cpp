@@ -4,6 +4,7 @@
 #include <array>
 
 #include "box_tree.hpp"
+#include "cfree/isolated.hpp"
 
 namespace cfree {
 
@@ -46,6 +47,16 @@ Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
                              : Predicates::range_end(scene, i, j, false, counters);
     if (start.chart == end.chart) return {1, {start.chart, 0}, {start.event, {}}, {end.event, {}}};
     return {2, {start.chart, end.chart}, {start.event, first_wall}, {last_wall, end.event}};
+}
+
+void gather(std::vector<std::vector<Trapezoid>>& lists, Trapezoids& into) {
+    std::size_t total = 0;
+    for (const auto& list : lists) total += list.size();
+    into.reserve(total);
+    for (auto& list : lists) {
+        for (const Trapezoid& x : list) into.push_back(x);
+        std::vector<Trapezoid>().swap(list);
+    }
 }
 
 }  // namespace
@@ -197,8 +208,12 @@ void Job::run(int threads) {
         for (std::thread& t : pool) t.join();
         tally.trim_seconds = seconds(start);
         start = Clock::now();
-        if (!error && !stop) collect();
+        Trapezoids thin;
+        if (!error && !stop) gather(found, trapezoids), gather(found_thin, thin);
         tally.collect_seconds = seconds(start);
+        start = Clock::now();
+        if (!error) isolated = isolated_parts(*scene, patches, trapezoids, thin, stop);
+        tally.isolated_seconds = seconds(start);
     } catch (...) {
         const std::lock_guard lock(mutex);
         error = std::current_exception();
@@ -268,19 +283,6 @@ void Job::work() {
     }
     const std::lock_guard lock(mutex);
     tally.pairs += mine.pairs, tally.live_patches += mine.live_patches, tally.decisions += mine.decisions;
-}
-
-void Job::collect() {
-    const auto gather = [](std::vector<std::vector<Trapezoid>>& lists, Trapezoids& into) {
-        std::size_t total = 0;
-        for (const auto& list : lists) total += list.size();
-        into.reserve(total);
-        for (auto& list : lists) {
-            for (const Trapezoid& x : list) into.push_back(x);
-            std::vector<Trapezoid>().swap(list);
-        }
-    };
-    gather(found, trapezoids), gather(found_thin, thin);
 }
 
 void Trapezoids::reserve(std::size_t count) {

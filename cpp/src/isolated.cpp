@@ -44,8 +44,8 @@ public:
         for (std::size_t k = 1; k < first_live.size(); ++k) first_live[k] += first_live[k - 1];
     }
 
-    IsolatedParts run() {
-        for (Index k = 0; k < static_cast<Index>(thin.patch.size()); ++k) {
+    IsolatedParts run(const std::atomic<bool>& stop) {
+        for (Index k = 0; k < static_cast<Index>(thin.patch.size()) && !stop; ++k) {
             const CriticalAngle from = angle_from(patches, thin, k), to = angle_to(patches, thin, k);
             const Index patch = thin.patch[k];
             if (order(scene, from, to) == 0) flats_of(patch, from, unpacked(thin.lower[k]), unpacked(thin.upper[k]));
@@ -285,14 +285,21 @@ private:
             const auto event = [](const CriticalAngle& x) { return Event{x.first, x.second, x.lo, x.hi}; };
             result.parts.push_back({patch, from.chart(), lower, upper, event(from), event(to), from.place, to.place});
         };
+        const auto put_ends = [&](const CriticalAngle& from, const End& first, const CriticalAngle& to, const End& last) {
+            result.lower_patch.push_back(first.patch), result.upper_patch.push_back(last.patch);
+            result.first_t.push_back(junction(from).value(contact(first.patch), first.spot));
+            result.last_t.push_back(junction(to).value(contact(last.patch), last.spot));
+        };
         for (const Ridge& r : ridges) {
+            const Feature own = contact(r.patch);
             put(r.patch, r.curve, r.curve, r.from, r.to);
-            result.lower_patch.push_back(r.patch), result.upper_patch.push_back(r.patch);
+            put_ends(r.from, {junction(r.from).spot(own, r.curve), r.patch}, r.to, {junction(r.to).spot(own, r.curve), r.patch});
             result.from_patch.push_back(r.from_patch), result.to_patch.push_back(r.to_patch);
         }
         for (const Flat& f : flats) {
-            put(f.patch, f.low.spot.curve, f.high.spot.curve, f.angle, f.angle);
-            result.lower_patch.push_back(f.low.patch), result.upper_patch.push_back(f.high.patch);
+            const End& high = f.is_point ? f.low : f.high;
+            put(f.patch, f.low.spot.curve, high.spot.curve, f.angle, f.angle);
+            put_ends(f.angle, f.low, f.angle, high);
             result.from_patch.push_back(f.angle_patch), result.to_patch.push_back(f.angle_patch);
         }
         return result;
@@ -310,8 +317,9 @@ private:
 
 }  // namespace
 
-IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin) {
-    return Finder(scene, patches, live, thin).run();
+IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
+                             const std::atomic<bool>& stop) {
+    return Finder(scene, patches, live, thin).run(stop);
 }
 
 }  // namespace cfree

@@ -129,6 +129,13 @@ std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) co
     return {along<T>(line, p.curve.robot, p.curve.obstacle), directions_dot<T>(line, line)};
 }
 
+double Junction::value(const Feature& surface, const Spot& p) const {
+    if (p.is_given) return boost::multiprecision::cpp_rational(Int(p.n), Int(p.d)).convert_to<double>();
+    const auto [N, D] = position<Approx>(surface, p);
+    const double tau = 0.5 * (lo + hi);
+    return filtered(N).polar(tau, tau) / filtered(D).polar(tau, tau);
+}
+
 int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
     if (p.code == q.code && !p.is_given && !q.is_given) return 0;
     if (!p.is_given && !q.is_given) {

@@ -66,4 +66,5 @@ class InvariantError(CfreeError, RuntimeError):
 
     def __init__(self, message: str, *, state: object = None) -> None:
         super().__init__(f"{message}; this is a bug in cfree, please report it")
+        self.what = message
         self.state = state

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -19,16 +19,15 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.collector import collection_paused
 from cfree.errors import InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
-from cfree.patch import Patches, Trapezoid
-from cfree.pose import Angle, tau_in, theta_in
+from cfree.patch import IsolatedPart, Patches, Trapezoid
+from cfree.pose import Angle, tau_in
 from cfree.scene import Scene
+from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
 
 if TYPE_CHECKING:
+    from cfree.cell_complex import CellComplex
     from cfree.slice import Slice
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int32]
-Codes = NDArray[np.uint64]
 VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
 
 
@@ -56,74 +55,6 @@ class Stats:
     decided_by_filter: int
     decided_exactly: int
     seconds: dict[str, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Trapezoids:
-    """What is left of the patches, as columns of equal length T.
-
-    In its patch's domain (t, theta) a trapezoid lies between two critical angles and two curves. Curves and angles are
-    named by the features that define them, packed as ``kind << 61 | robot feature << 31 | obstacle feature``; see
-    `Boundary.trapezoid` for readable objects and ``docs/boundary-format.md`` for the meaning of every column.
-
-    Attributes
-    ----------
-    patch : (T,) int32
-    chart : (T,) uint8, 0 or 1
-    lower, upper : (T,) uint64, curves
-    from_first, from_second, to_first, to_second : (T,) uint64, what defines the two angles
-    from_lo, from_hi, to_lo, to_hi : (T,) float64, isolating intervals of tau in the chart
-    from_place, to_place : (T,) uint8
-        0: the only root in the interval. Where doubles cannot hold two roots apart: its number among those there.
-    """
-
-    patch: Ints
-    chart: NDArray[np.uint8]
-    lower: Codes
-    upper: Codes
-    from_first: Codes
-    from_second: Codes
-    from_lo: Floats
-    from_hi: Floats
-    from_place: NDArray[np.uint8]
-    to_first: Codes
-    to_second: Codes
-    to_lo: Floats
-    to_hi: Floats
-    to_place: NDArray[np.uint8]
-
-    def __len__(self) -> int:
-        return len(self.patch)
-
-    @property
-    def tau_from(self) -> Floats:
-        return 0.5 * (self.from_lo + self.from_hi)
-
-    @property
-    def tau_to(self) -> Floats:
-        return 0.5 * (self.to_lo + self.to_hi)
-
-    @property
-    def theta_from(self) -> Floats:
-        """Radians, in [-pi/2, 3 pi/2]."""
-        return theta_in(self.chart, self.tau_from)
-
-    @property
-    def theta_to(self) -> Floats:
-        """Radians, in [-pi/2, 3 pi/2]; more than `theta_from`."""
-        return theta_in(self.chart, self.tau_to)
-
-    @property
-    def lower_kind(self) -> NDArray[np.uint8]:
-        """1: a v-e surface bounds it below, 2: an e-v surface, 3: a v-v helix."""
-        return (self.lower >> np.uint64(61)).astype(np.uint8)
-
-    @property
-    def upper_kind(self) -> NDArray[np.uint8]:
-        return (self.upper >> np.uint64(61)).astype(np.uint8)
-
-
-COLUMNS = tuple(f.name for f in fields(Trapezoids))
 
 
 def boundary(
@@ -183,13 +114,16 @@ def boundary(
     tally = job.tally()
     kind, robot, obstacle = job.patches()
     trapezoids = Trapezoids(*job.trapezoids())
-    for name in ("lower", "upper", "from_first", "from_second", "to_first", "to_second"):
+    columns, *others = job.isolated()
+    isolated = IsolatedParts(*columns, *others)
+    for name in CODED:
         features.use_names(getattr(trapezoids, name))
+        features.use_names(getattr(isolated, name))
     phases = {key.removesuffix("_seconds"): tally[key] for key in tally if key.endswith("_seconds")}
     seconds = {"features": prepared - start, **phases, "total": time.perf_counter() - start}
     counts = {key: tally[key] for key in tally if not key.endswith("_seconds")}
     stats = Stats(patches=len(kind), trapezoids=len(trapezoids), seconds=seconds, **counts)
-    return Boundary(scene, features, kind, robot, obstacle, trapezoids, stats)
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats)
 
 
 def _has_ended(job: Any, scene: Scene) -> bool:
@@ -207,6 +141,9 @@ class Boundary:
     scene : Scene
     trapezoids : Trapezoids
         The trimmed patches, as arrays.
+    isolated : IsolatedParts
+        Free poses that no trapezoid reaches: curves, segments at one orientation, and points, where the robot fits
+        exactly.
     stats : Stats
     patch_kind : (P,) uint8
         1 v-e, 2 e-v, 3 the wall of the bounds.
@@ -222,6 +159,7 @@ class Boundary:
         robot: Ints,
         obstacle: Ints,
         trapezoids: Trapezoids,
+        isolated: IsolatedParts,
         stats: Stats,
     ) -> None:
         self.scene = scene
@@ -230,13 +168,17 @@ class Boundary:
         self.contact_robot = robot
         self.contact_obstacle = obstacle
         self.trapezoids = trapezoids
+        self.isolated = isolated
         self.stats = stats
-        for array in (kind, robot, obstacle, *(getattr(trapezoids, name) for name in COLUMNS)):
+        columns = [getattr(trapezoids, name) for name in COLUMNS]
+        columns += [getattr(isolated, name) for name in ISOLATED_COLUMNS]
+        for array in (kind, robot, obstacle, *columns):
             array.flags.writeable = False
 
     def __repr__(self) -> str:
         s = self.stats
-        return f"Boundary({s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids)"
+        fits = f", {len(self.isolated)} isolated parts" if len(self.isolated) else ""
+        return f"Boundary({s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids{fits})"
 
     @cached_property
     def patch_kind(self) -> NDArray[np.uint8]:
@@ -252,6 +194,17 @@ class Boundary:
     def patch_start(self) -> NDArray[np.int64]:
         """Trapezoids of patch k are ``patch_start[k]`` up to ``patch_start[k + 1]``."""
         return np.searchsorted(self.trapezoids.patch, np.arange(len(self.contact_kind) + 1))
+
+    @cached_property
+    def complex(self) -> CellComplex:
+        """The trapezoids glued into closed surfaces; computed when first asked for."""
+        from cfree.cell_complex import glue
+
+        return glue(self)
+
+    def isolated_part(self, k: int) -> IsolatedPart:
+        """Isolated part k with its curves and angles named."""
+        return IsolatedPart.of(self, range(len(self.isolated))[k])
 
     def trapezoid(self, k: int) -> Trapezoid:
         """Trapezoid k with its curves and angles named."""

@@ -15,6 +15,7 @@ from cfree.pose import theta_in
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
+    from cfree.trapezoids import Trapezoids
 
 KINDS = {1: "v-e", 2: "e-v", 3: "v-v", 4: "e-e"}
 
@@ -96,30 +97,75 @@ class Trapezoid:
     @classmethod
     def of(cls, boundary: Boundary, k: int) -> Trapezoid:
         t = boundary.trapezoids
-        chart = int(t.chart[k])
-
-        def angle(end: str) -> CriticalAngle:
-            first, second = int(getattr(t, f"{end}_first")[k]), int(getattr(t, f"{end}_second")[k])
-            lo, hi = float(getattr(t, f"{end}_lo")[k]), float(getattr(t, f"{end}_hi")[k])
-            features = tuple(contact(boundary, code) for code in (first, second) if code)
-            if not features:
-                kind = "wall"
-            elif len(features) == 2:
-                kind = "crossing"
-            else:
-                kind = "parallel" if features[0].kind == "e-e" else "helix"
-            place = int(getattr(t, f"{end}_place")[k])
-            return CriticalAngle(kind, features, (lo, hi), place, float(theta_in(chart, 0.5 * (lo + hi))))
-
         return cls(
             index=k,
             patch=int(t.patch[k]),
-            chart=chart,
+            chart=int(t.chart[k]),
             lower=contact(boundary, int(t.lower[k])),
             upper=contact(boundary, int(t.upper[k])),
-            start=angle("from"),
-            stop=angle("to"),
+            start=_angle(boundary, t, "from", k),
+            stop=_angle(boundary, t, "to", k),
         )
+
+
+@dataclass(frozen=True, slots=True)
+class IsolatedPart:
+    """A free curve, a segment at one orientation, or a point that is on no trapezoid.
+
+    Attributes
+    ----------
+    index : int
+    kind : str
+        "curve", "segment" or "point".
+    patch : int
+        A contact that holds along it.
+    lower, upper : Contact
+        The curves on the patch that bound it: of a curve the curve itself, of a segment its two ends.
+    start, stop : CriticalAngle
+        Equal but for a curve.
+    ends : ((float, float, float), (float, float, float))
+        (x, y, theta) of its two ends, rounded; equal for a point.
+    """
+
+    index: int
+    kind: str
+    patch: int
+    lower: Contact
+    upper: Contact
+    start: CriticalAngle
+    stop: CriticalAngle
+    ends: tuple[tuple[float, float, float], tuple[float, float, float]]
+
+    @classmethod
+    def of(cls, boundary: Boundary, k: int) -> IsolatedPart:
+        p = boundary.isolated
+        theta = np.array([p.theta_from[k], p.theta_to[k]])
+        patch, t = np.array([p.lower_patch[k], p.upper_patch[k]]), np.array([p.first_t[k], p.last_t[k]])
+        (x0, y0), (x1, y1) = boundary.evaluate(patch, t, theta).tolist()
+        return cls(
+            index=k,
+            kind={1: "curve", 2: "segment", 3: "point"}[int(p.kind[k])],
+            patch=int(p.patch[k]),
+            lower=contact(boundary, int(p.lower[k])),
+            upper=contact(boundary, int(p.upper[k])),
+            start=_angle(boundary, p, "from", k),
+            stop=_angle(boundary, p, "to", k),
+            ends=((x0, y0, float(theta[0])), (x1, y1, float(theta[1]))),
+        )
+
+
+def _angle(boundary: Boundary, columns: Trapezoids, end: str, k: int) -> CriticalAngle:
+    first, second = int(getattr(columns, f"{end}_first")[k]), int(getattr(columns, f"{end}_second")[k])
+    lo, hi = float(getattr(columns, f"{end}_lo")[k]), float(getattr(columns, f"{end}_hi")[k])
+    features = tuple(contact(boundary, code) for code in (first, second) if code)
+    if not features:
+        kind = "wall"
+    elif len(features) == 2:
+        kind = "crossing"
+    else:
+        kind = "parallel" if features[0].kind == "e-e" else "helix"
+    place = int(getattr(columns, f"{end}_place")[k])
+    return CriticalAngle(kind, features, (lo, hi), place, float(theta_in(int(columns.chart[k]), 0.5 * (lo + hi))))
 
 
 def contact(boundary: Boundary, code: int) -> Contact:

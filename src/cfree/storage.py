@@ -14,9 +14,10 @@ import numpy as np
 from cfree.errors import FormatError
 from cfree.features import SceneFeatures, scene_features, unpacked
 from cfree.files import replacing
-from cfree.forbidden import COLUMNS, Boundary, Stats, Trapezoids
+from cfree.forbidden import Boundary, Stats
+from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 
-FORMAT, VERSION = "cfree-boundary", 1
+FORMAT, VERSION = "cfree-boundary", 2
 
 
 def save_boundary(boundary: Boundary, path: str | os.PathLike[str]) -> None:
@@ -29,6 +30,7 @@ def save_boundary(boundary: Boundary, path: str | os.PathLike[str]) -> None:
     arrays: dict[str, Any] = {key: np.frombuffer(text.encode(), np.uint8) for key, text in texts.items()}
     arrays |= {key: getattr(boundary, key) for key in ("contact_kind", "contact_robot", "contact_obstacle")}
     arrays |= {name: getattr(boundary.trapezoids, name) for name in COLUMNS}
+    arrays |= {f"isolated_{name}": getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS}
     with replacing(path) as unfinished, unfinished.open("wb") as file:
         np.savez_compressed(file, **arrays)
 
@@ -59,51 +61,61 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
             text = archive["scene"].tobytes().decode()
             kind, robot, obstacle = (archive[k] for k in ("contact_kind", "contact_robot", "contact_obstacle"))
             trapezoids = Trapezoids(*(archive[column] for column in COLUMNS))
+            isolated = IsolatedParts(*(archive[f"isolated_{column}"] for column in ISOLATED_COLUMNS))
     except OSError as error:
         raise fault(f"{error.strerror or 'not a boundary file'}; give a file that `cfree boundary` wrote") from None
     except FormatError:
         raise
-    except (ValueError, KeyError, TypeError, AttributeError, EOFError, zipfile.BadZipFile, zlib.error):
+    except (ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):
         raise fault("truncated, damaged, or not a boundary file; make it again with `cfree boundary`") from None
     from cfree.io import scene_from_text
 
     scene = scene_from_text(f"{name}:scene", text)
     features = scene_features(scene)
-    wrong = misfit(features, kind, robot, obstacle, trapezoids)
+    wrong = misfit(features, kind, robot, obstacle, trapezoids, isolated)
     if wrong:
         raise fault(f"{wrong} does not fit the rest; make it again with `cfree boundary`")
-    return Boundary(scene, features, kind, robot, obstacle, trapezoids, stats)
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats)
 
 
-def misfit(features: SceneFeatures, kind: Any, robot: Any, obstacle: Any, trapezoids: Trapezoids) -> str:
+def misfit(
+    features: SceneFeatures, kind: Any, robot: Any, obstacle: Any, trapezoids: Trapezoids, isolated: IsolatedParts
+) -> str:
     """Name of an array whose type, length or values cannot be right, or nothing."""
-    patches, count = np.size(kind), np.size(trapezoids.patch)
+    patches = np.size(kind)
+    a, b = features.robot, features.obstacles
+    edges, others = len(a.v) - 1, len(b.v) - 1
 
     def fits(array: Any, dtype: str, length: int, low: float, high: float) -> bool:
         if array.dtype != dtype or array.shape != (length,):
             return False
         return bool(np.all((array >= low) & (array <= high)))
 
-    a, b = features.robot, features.obstacles
-    edges, others = len(a.v) - 1, len(b.v) - 1
+    def column_fits(name: str, array: Any, count: int) -> bool:
+        if name.endswith(("_lo", "_hi")):
+            return fits(array, "f8", count, -1.001, 1.001)
+        if name.endswith("patch"):
+            return fits(array, "i4", count, 0, patches - 1)
+        if name == "chart" or name.endswith("_place"):
+            return fits(array, "u1", count, 0, 1 if name == "chart" else 4)
+        if name.endswith("_t"):
+            return fits(array, "f8", count, -np.inf, np.inf)
+        if not fits(array, "u8", count, 0, (5 << 61) - 1):
+            return False
+        _, i, j = unpacked(array[array > 0])
+        return bool(np.all(i <= edges) and np.all(j <= others))
+
     contacts = {"contact_kind": (kind, "u1", 1, 2), "contact_robot": (robot, "i4", 0, len(a.previous) - 1)}
     contacts["contact_obstacle"] = (obstacle, "i4", 0, len(b.previous) - 1)
     for name, (array, dtype, low, high) in contacts.items():
         if not fits(array, dtype, patches, low, high):
             return name
     for name in COLUMNS:
-        array = getattr(trapezoids, name)
-        if name.endswith(("_lo", "_hi")):
-            right = fits(array, "f8", count, -1.001, 1.001)
-        elif name == "patch":
-            right = fits(array, "i4", count, 0, patches - 1) and bool(np.all(np.diff(array) >= 0))
-        elif name == "chart" or name.endswith("_place"):
-            right = fits(array, "u1", count, 0, 1 if name == "chart" else 4)
-        else:
-            right = fits(array, "u8", count, 0, (5 << 61) - 1)
-            if right and count:
-                _, i, j = unpacked(array[array > 0])
-                right = bool(np.all(i <= edges) and np.all(j <= others))
-        if not right:
+        if not column_fits(name, getattr(trapezoids, name), np.size(trapezoids.patch)):
             return name
+    if np.any(np.diff(trapezoids.patch) < 0):
+        return "patch"
+    for name in ISOLATED_COLUMNS:
+        if not column_fits(name, getattr(isolated, name), np.size(isolated.patch)):
+            return f"isolated_{name}"
     return ""

@@ -39,11 +39,20 @@ struct Trapezoids {
     void push_back(const Trapezoid& x);
 };
 
+// What is free without any width, {(t, theta): lower <= t <= upper, from <= theta <= to} of a patch: from = to (a segment, or a
+// point) or lower = upper (a curve). A curve or an angle may be named on the surface of another patch. Its two ends are at
+// t = first_t on the surface of lower_patch and t = last_t on that of upper_patch.
+struct IsolatedParts {
+    Trapezoids parts;
+    std::vector<Index> lower_patch, upper_patch, from_patch, to_patch;
+    std::vector<double> first_t, last_t;
+};
+
 struct Tally {
     std::int64_t pairs = 0;         // pairs of a patch and a pillar near it
     std::int64_t live_patches = 0;
     Counters decisions;
-    double setup_seconds = 0, trim_seconds = 0, collect_seconds = 0;
+    double setup_seconds = 0, trim_seconds = 0, collect_seconds = 0, isolated_seconds = 0;
 };
 
 // All pairs of a convex vertex and an edge, patches of the boundary before trimming.
@@ -60,17 +69,15 @@ public:
     bool wait(double seconds);  // whether it has ended; rethrows what a thread threw
     double progress() const;    // patches done, of all
     void cancel() { stop = true; }
-    const Scene& input() const { return *scene; }
     // After wait() returned true.
     Patches patches;
     Trapezoids trapezoids;
-    Trapezoids thin;  // without width, many of them on the rims of trapezoids of other patches; see isolated.hpp
+    IsolatedParts isolated;
     Tally tally;
 
 private:
     void run(int threads);
     void work();
-    void collect();
 
     std::shared_ptr<const Scene> scene;
     class Neighbours;

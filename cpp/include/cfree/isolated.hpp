@@ -7,13 +7,7 @@
 
 namespace cfree {
 
-// {(t, theta): lower <= t <= upper, from <= theta <= to} of a patch, with from = to (a segment, or a point) or lower = upper (a
-// curve). A curve or an angle may be named on the surface of another patch.
-struct IsolatedParts {
-    Trapezoids parts;
-    std::vector<Index> lower_patch, upper_patch, from_patch, to_patch;
-};
-
-IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin);
+IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
+                             const std::atomic<bool>& stop);
 
 }  // namespace cfree

@@ -28,6 +28,8 @@ public:
     int side(const Feature& x, Index a, Index b);
     // Where a curve on a surface ends.
     Spot spot(const Feature& on, const Feature& curve);
+    // About where that is: t on the surface that names it.
+    double value(const Feature& on, const Spot& p) const;
     // The side of x's line on which a place on another surface's line lies.
     int side(const Feature& x, const Feature& line, const Spot& p);
     // Order of two places along a line, that of a surface through both.

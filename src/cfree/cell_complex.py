@@ -1,0 +1,175 @@
+"""The boundary as a cell complex: trapezoids glued into closed surfaces.
+
+Faces are trapezoids. The boundary of a face is a loop of coedges, counter-clockwise in its (t, theta), that is, seen
+from the free side. A coedge has a *twin* on the face across it; where more than two faces meet at an edge, twins are
+those between which space is free. So every component is a closed surface without boundary, and a side without a
+partner is an error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.errors import InvariantError
+from cfree.trapezoids import COLUMNS, Ints
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+    from cfree.scene import Scene
+
+SIDES = ("from", "upper", "to", "lower")
+
+
+@dataclass(frozen=True)
+class CellComplex:
+    """Vertices, edges and faces of the boundary, with their incidence.
+
+    Attributes
+    ----------
+    first : (F + 1,) int32
+        Face f is trapezoid f; its loop is the coedges ``first[f]`` up to ``first[f + 1]``, in order.
+    face, twin : (H,) int32
+        The face of a coedge, and the coedge across it, which runs the other way.
+    side : (H,) uint8
+        On which side of the trapezoid it is: 0 the wall at its first angle, 1 the upper curve, 2 the wall at its last
+        angle, 3 the lower curve.
+    vertex : (H,) int32
+        The vertex where it starts. Surfaces that only touch in a point have a vertex there each.
+    edge : (H,) int32
+        The geometric edge it runs along; coedges of several pairs of twins may share one.
+    component : (F,) int32
+        The closed surface a face belongs to.
+    vertices, edges, components : int
+        How many there are; H / 2 pairs of twins.
+    """
+
+    first: Ints
+    face: Ints
+    side: NDArray[np.uint8]
+    twin: Ints
+    edge: Ints
+    vertex: Ints
+    component: Ints
+    edges: int
+    vertices: int
+    components: int
+
+    @cached_property
+    def euler(self) -> NDArray[np.int64]:
+        """(components,) V - E + F of each closed surface: 2 minus twice its genus.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
+        >>> cfree.boundary(scene).complex.euler.tolist()   # theta goes round: a torus
+        [0]
+        """
+        vertex_component = np.empty(self.vertices, np.int32)
+        vertex_component[self.vertex] = self.component[self.face]
+        counts = (vertex_component, self.component[self.face], self.component)
+        v, h, f = (np.bincount(x, minlength=self.components) for x in counts)
+        euler: NDArray[np.int64] = v - h // 2 + f
+        return euler
+
+    @cached_property
+    def pinched(self) -> Ints:
+        """Edges at which more than two faces meet."""
+        return np.flatnonzero(np.bincount(self.edge, minlength=self.edges) > 2).astype(np.int32)
+
+    def loop(self, face: int) -> range:
+        """Coedges around a face, counter-clockwise from the lower end of its first wall."""
+        return range(int(self.first[face]), int(self.first[face + 1]))
+
+    def before(self, coedge: int) -> int:
+        """The coedge before one in its loop."""
+        loop = self.loop(int(self.face[coedge]))
+        return coedge - 1 if coedge > loop.start else loop.stop - 1
+
+    def around_vertex(self, coedge: int) -> Iterator[int]:
+        """Coedges that start where this one does, counter-clockwise, seen from the free side.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
+        >>> cells = cfree.boundary(scene).complex
+        >>> around = list(cells.around_vertex(0))
+        >>> set(cells.vertex[around]) == {cells.vertex[0]}
+        True
+        """
+        h = coedge
+        while True:
+            yield h
+            h = int(self.twin[self.before(h)])
+            if h == coedge:
+                return
+
+    def at_edge(self, edge: int) -> Ints:
+        """Coedges along a geometric edge."""
+        order, start = self._by_edge
+        return order[start[edge] : start[edge + 1]]
+
+    def neighbours(self, face: int) -> Ints:
+        """Faces across the coedges of a face, in the order of its loop."""
+        loop = self.loop(face)
+        return self.face[self.twin[loop.start : loop.stop]]
+
+    @cached_property
+    def _by_edge(self) -> tuple[Ints, NDArray[np.int64]]:
+        order = np.argsort(self.edge, kind="stable").astype(np.int32)
+        return order, np.searchsorted(self.edge[order], np.arange(self.edges + 1))
+
+
+def glue(boundary: Boundary) -> CellComplex:
+    """Match the sides of all trapezoids, exactly, by what they are.
+
+    Raises
+    ------
+    InvariantError
+        If a side has no partner or a surface is not closed: a fault of cfree. Its `state` is the smallest scene found
+        that shows it.
+
+    Notes
+    -----
+    Time is about linear in the trapezoids.
+    """
+    from cfree.shrink import smallest_scene
+
+    try:
+        return _glued(boundary)
+    except InvariantError as error:
+        raise InvariantError(error.what, state=smallest_scene(boundary.scene, _cannot_be_glued)) from error
+
+
+def _glued(boundary: Boundary) -> CellComplex:
+    from cfree import _core
+
+    shapes = boundary.features.robot.core_shape(), boundary.features.obstacles.core_shape()
+    columns: list[Any] = [boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle]
+    columns += [getattr(boundary.trapezoids, name) for name in COLUMNS]
+    try:
+        cells = CellComplex(*_core.glue(*shapes, *columns))
+    except RuntimeError as error:
+        raise InvariantError(f"the boundary is not closed: {error}") from error
+    for name in ("first", "face", "side", "twin", "edge", "vertex", "component"):
+        getattr(cells, name).flags.writeable = False
+    if np.any(cells.euler % 2 != 0) or np.any(cells.euler > 2):
+        raise InvariantError(f"Euler numbers {cells.euler.tolist()}; those of closed surfaces are even and at most 2")
+    return cells
+
+
+def _cannot_be_glued(scene: Scene) -> bool:
+    from cfree.forbidden import boundary
+
+    try:
+        _glued(boundary(scene, threads=1))
+    except InvariantError:
+        return True
+    return False
