@@ -130,7 +130,8 @@ NB_MODULE(_core, m) {
         }
         return nb::make_tuple(array_of(std::move(x.first)), array_of(std::move(x.face)), array_of(std::move(x.side)),
                               array_of(std::move(x.twin)), array_of(std::move(x.edge)), array_of(std::move(x.vertex)),
-                              array_of(std::move(x.component)), x.edges, x.vertices, x.components);
+                              array_of(std::move(x.component)), array_of(std::move(x.x)), array_of(std::move(x.y)),
+                              array_of(std::move(x.theta)), x.edges, x.vertices, x.components);
     });
     nb::class_<cfree::Slicer>(m, "Slicer")
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,

@@ -1,6 +1,8 @@
 #include "cfree/cell_complex.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
 #include <stdexcept>
 #include <string>
@@ -12,13 +14,15 @@ namespace cfree {
 
 namespace {
 
-// A part of a trapezoid's side, between two neighbours' changes.
+// A part of a trapezoid's side, between two changes of its neighbours.
 struct Part {
     Index trapezoid;
     Side side;
     Index order;  // along theta or t
     Index edge;
-    Index twin;
+    Index from, to;    // ranks of angles, one and the same for a wall
+    double first, last;  // t on a wall
+    Index twin = -1;
 };
 
 class Gluer {
@@ -32,13 +36,17 @@ public:
     }
 
 private:
-    Index add(Index trapezoid, Side side, Index order, Index edge) {
-        parts.push_back({trapezoid, side, order, edge, -1});
+    Index add(const Part& part) {
+        parts.push_back(part);
         return static_cast<Index>(parts.size()) - 1;
     }
     void pair(Index p, Index q) { parts[p].twin = q, parts[q].twin = p; }
     [[noreturn]] void fail(const std::string& what, Index trapezoid) const {
         throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
+    }
+    Junction junction(Index rank, int chart) {
+        return {scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
+                [this, rank, chart] { return angles.exact(rank, chart); }};
     }
     Feature contact(Index trapezoid) const { return surface_of(patches, trapezoids, trapezoid).contact; }
     NamedCurve curve(Index k, bool upper) const {
@@ -66,11 +74,17 @@ private:
         Index first, last;  // numbers of its ends among the group's places
     };
     void glue_walls();
-    void glue_junction(Index rank, std::vector<Wall>& walls, Junction& at);
+    void glue_junction(std::vector<Wall>& walls, Junction& at);
     void glue_line(std::vector<Wall*>& line, Junction& at);
     void pair_around_line(const std::vector<std::pair<const Wall*, Index>>& live, const Spot& p, const Spot& q, Junction& at);
 
     CellComplex build();
+    struct Start {
+        Index trapezoid;
+        double tau, t;
+    };
+    Start start_of(const Part& part);
+    void place_vertex(const Start& start, CellComplex& result) const;
 
     const Scene& scene;
     const Patches& patches;
@@ -118,7 +132,8 @@ void Gluer::glue_curve(const CurveSide* begin, const CurveSide* end) {
         live.clear();
         for (const CurveSide* s = begin; s != end; ++s)
             if (s->from <= ranks[r] && ranks[r + 1] <= s->to)
-                live.push_back(add(s->trapezoid, s->is_upper ? Side::upper : Side::lower, static_cast<Index>(r), edges));
+                live.push_back(add({s->trapezoid, s->is_upper ? Side::upper : Side::lower, static_cast<Index>(r), edges, ranks[r],
+                                    ranks[r + 1], 0, 0}));
         if (live.empty()) continue;
         ++edges;
         if (live.size() == 2 && parts[live[0]].side != parts[live[1]].side) pair(live[0], live[1]);
@@ -169,18 +184,17 @@ void Gluer::glue_walls() {
     const auto n = static_cast<Index>(trapezoids.patch.size());
     // trapezoids by the angle where they end, or begin
     const Index ranks = angles.last;
-    const auto junction = [&](Index rank) { return rank == angles.last ? 0 : rank; };
+    const auto round = [&](Index rank) { return rank == angles.last ? 0 : rank; };
     std::vector<Index> start(static_cast<std::size_t>(ranks) + 1, 0), member(2 * static_cast<std::size_t>(n));
-    for (Index k = 0; k < n; ++k) ++start[junction(angles.from[k]) + 1], ++start[junction(angles.to[k]) + 1];
+    for (Index k = 0; k < n; ++k) ++start[round(angles.from[k]) + 1], ++start[round(angles.to[k]) + 1];
     std::partial_sum(start.begin(), start.end(), start.begin());
     std::vector<Index> place(start.begin(), start.end() - 1);
     for (Index k = 0; k < n; ++k)
-        member[place[junction(angles.from[k])]++] = 2 * k, member[place[junction(angles.to[k])]++] = 2 * k + 1;
+        member[place[round(angles.from[k])]++] = 2 * k, member[place[round(angles.to[k])]++] = 2 * k + 1;
     std::vector<Wall> walls;
     for (Index rank = 0; rank < ranks; ++rank) {
         if (start[rank] == start[rank + 1]) continue;
-        const int chart = rank > angles.middle ? 1 : 0;
-        Junction at(scene, chart, angles.lo(rank, chart), angles.hi(rank, chart), [&] { return angles.exact(rank, chart); });
+        Junction at = junction(rank, rank > angles.middle ? 1 : 0);
         walls.clear();
         for (Index m = start[rank]; m < start[rank + 1]; ++m) {
             const Index k = member[m] / 2;
@@ -188,11 +202,11 @@ void Gluer::glue_walls() {
                       at.spot(contact(k), unpacked(trapezoids.upper[k])), 1, 0, 0};
             if (at.order(contact(k), wall.low, wall.high) != 0) walls.push_back(std::move(wall));
         }
-        glue_junction(rank, walls, at);
+        glue_junction(walls, at);
     }
 }
 
-void Gluer::glue_junction(Index, std::vector<Wall>& walls, Junction& at) {
+void Gluer::glue_junction(std::vector<Wall>& walls, Junction& at) {
     std::vector<Wall*> all;
     for (Wall& w : walls) all.push_back(&w);
     std::vector<Wall*> line;
@@ -243,8 +257,11 @@ void Gluer::glue_line(std::vector<Wall*>& line, Junction& at) {
         live.clear();
         for (const Wall* w : line) {
             if (w->first > k || k + 1 > w->last) continue;
-            live.push_back({w, add(w->trapezoid, w->is_above ? Side::first_wall : Side::last_wall,
-                                   w->along > 0 ? k : -k, edges)});
+            const auto t = [&](Index place) { return at.value(contact(w->trapezoid), *places[place]); };
+            const bool forwards = w->along > 0;
+            const Index own = w->is_above ? angles.from[w->trapezoid] : angles.to[w->trapezoid];
+            live.push_back({w, add({w->trapezoid, w->is_above ? Side::first_wall : Side::last_wall, forwards ? k : -k, edges,
+                                    own, own, t(forwards ? k : k + 1), t(forwards ? k + 1 : k)})});
         }
         if (live.empty()) continue;
         ++edges;
@@ -273,6 +290,34 @@ void Gluer::pair_around_line(const std::vector<std::pair<const Wall*, Index>>& l
             fail("a wall with " + std::to_string(around.size()) + " sides that do not alternate", x.first->trapezoid);
         if (free_after(x.first)) pair(x.second, y.second);
     }
+}
+
+// Where a part starts, in doubles.
+Gluer::Start Gluer::start_of(const Part& part) {
+    const bool forwards = part.side == Side::first_wall || part.side == Side::upper;
+    const int chart = trapezoids.chart[part.trapezoid];
+    const auto tau_of = [&](Index rank) { return 0.5 * (angles.lo(rank, chart) + angles.hi(rank, chart)); };
+    const Index rank = forwards ? part.from : part.to;
+    const double tau = tau_of(rank);
+    if (part.from == part.to) return {part.trapezoid, tau, forwards ? part.first : part.last};
+    const NamedCurve c = curve(part.trapezoid, part.side == Side::upper);
+    const Junction at = junction(rank, chart);
+    return {part.trapezoid, tau, at.value(c.on, at.spot(c.on, c.other))};
+}
+
+void Gluer::place_vertex(const Start& start, CellComplex& result) const {
+    const Surface on = surface_of(patches, trapezoids, start.trapezoid);
+    const double tau = start.tau, t = start.t;
+    const double w = (on.chart ? -1 : 1) / (1 + tau * tau), c = (1 - tau * tau) * w, n = 2 * tau * w;
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const auto placed = [&](Index a, Index b) {
+        return Vec<double>{O.x[b] - (c * A.x[a] - n * A.y[a]), O.y[b] - (n * A.x[a] + c * A.y[a])};
+    };
+    const bool on_edge = on.contact.kind == Kind::vertex_edge;
+    const Index i = on.contact.robot, j = on.contact.obstacle;
+    const auto p = placed(on_edge ? i : A.v[i], on_edge ? O.v[j] : j), q = placed(on_edge ? i : A.w[i], on_edge ? O.w[j] : j);
+    result.x.push_back(p.x + t * (q.x - p.x)), result.y.push_back(p.y + t * (q.y - p.y));
+    result.theta.push_back(2 * std::atan(tau) + on.chart * std::numbers::pi);
 }
 
 CellComplex Gluer::build() {
@@ -307,7 +352,12 @@ CellComplex Gluer::build() {
     result.vertex.assign(count, -1);
     for (Index h = 0; h < count; ++h) {
         if (result.vertex[h] >= 0) continue;
-        for (Index x = h; result.vertex[x] < 0; x = result.twin[before(x)]) result.vertex[x] = result.vertices;
+        Index best = h;  // walls know their ends
+        for (Index x = h; result.vertex[x] < 0; x = result.twin[before(x)]) {
+            result.vertex[x] = result.vertices;
+            if (parts[order[x]].from == parts[order[x]].to) best = x;
+        }
+        place_vertex(start_of(parts[order[best]]), result);
         ++result.vertices;
     }
     result.component.assign(n, -1);

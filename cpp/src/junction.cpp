@@ -30,7 +30,7 @@ Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtere
 
 // Sign at the angle of a trigonometric form given for every number type.
 template <class F>
-int Junction::sign(const F& trig) {
+int Junction::sign(const F& trig) const {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
     RealRoot here = exact();
     return sign_at(polynomial(trig(Int{})), here);
@@ -92,7 +92,7 @@ int Junction::side(const Feature& x, Index a, Index b) {
     return sign([&](auto T) { return on(x).offset_trig<decltype(T)>(a, b); });
 }
 
-Spot Junction::spot(const Feature& surface, const Feature& curve) {
+Spot Junction::spot(const Feature& surface, const Feature& curve) const {
     Spot result{curve, code(scene, curve), false, surface, 0, 1};
     if (curve.kind == Kind::vertex_vertex) return result;
     if (sign([&](auto T) { return on(surface).curve_trig<decltype(T)>(curve)[1]; }) != 0) return result;
@@ -129,11 +129,23 @@ std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) co
     return {along<T>(line, p.curve.robot, p.curve.obstacle), directions_dot<T>(line, line)};
 }
 
-double Junction::value(const Feature& surface, const Spot& p) const {
-    if (p.is_given) return boost::multiprecision::cpp_rational(Int(p.n), Int(p.d)).convert_to<double>();
-    const auto [N, D] = position<Approx>(surface, p);
-    const double tau = 0.5 * (lo + hi);
-    return filtered(N).polar(tau, tau) / filtered(D).polar(tau, tau);
+double Junction::value(const Feature& line, const Spot& p) const {
+    if (!p.is_given) {
+        const auto [N, D] = position<Approx>(line, p);
+        const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau);
+        if (std::abs(d) > 0x1p20 * filtered(D).err) return filtered(N).polar(tau, tau) / d;
+    }
+    // lines nearly parallel: as a ratio of integers, much nearer to the angle
+    const auto [N, D] = position<Int>(line, p);
+    RealRoot here = exact();
+    for (int k = 0; k < 160; ++k) here.halve();
+    const auto at = [&](const Trig<Int>& f) {
+        const Poly q = polynomial(f);
+        Int value = 0;
+        for (int k = q.size(); k-- > 0;) value = value * here.lo.n + (q[k] << (here.lo.k * static_cast<unsigned>(2 - k)));
+        return value;
+    };
+    return boost::multiprecision::cpp_rational(at(N), at(D)).convert_to<double>();
 }
 
 int Junction::order(const Feature& line, const Spot& p, const Spot& q) {

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import InvariantError
-from cfree.trapezoids import COLUMNS, Ints
+from cfree.trapezoids import COLUMNS, Floats, Ints
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -45,6 +45,8 @@ class CellComplex:
         The geometric edge it runs along; coedges of several pairs of twins may share one.
     component : (F,) int32
         The closed surface a face belongs to.
+    x, y, theta : (V,) float64
+        Where the vertices are, rounded; theta in [-pi/2, 3 pi/2].
     vertices, edges, components : int
         How many there are; H / 2 pairs of twins.
     """
@@ -56,6 +58,9 @@ class CellComplex:
     edge: Ints
     vertex: Ints
     component: Ints
+    x: Floats
+    y: Floats
+    theta: Floats
     edges: int
     vertices: int
     components: int
@@ -155,11 +160,14 @@ def _glued(boundary: Boundary) -> CellComplex:
     columns: list[Any] = [boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle]
     columns += [getattr(boundary.trapezoids, name) for name in COLUMNS]
     try:
-        cells = CellComplex(*_core.glue(*shapes, *columns))
+        first, face, side, twin, edge, vertex, component, x, y, theta, *counts = _core.glue(*shapes, *columns)
     except RuntimeError as error:
         raise InvariantError(f"the boundary is not closed: {error}") from error
-    for name in ("first", "face", "side", "twin", "edge", "vertex", "component"):
-        getattr(cells, name).flags.writeable = False
+    unit = 2.0**boundary.features.robot.shift / boundary.features.scale
+    arrays = (first, face, side, twin, edge, vertex, component, x * unit, y * unit, theta)
+    for array in arrays:
+        array.flags.writeable = False
+    cells = CellComplex(*arrays, *counts)
     if np.any(cells.euler % 2 != 0) or np.any(cells.euler > 2):
         raise InvariantError(f"Euler numbers {cells.euler.tolist()}; those of closed surfaces are even and at most 2")
     return cells

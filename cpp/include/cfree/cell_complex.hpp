@@ -16,6 +16,7 @@ struct CellComplex {
     std::vector<std::uint8_t> side;
     std::vector<Index> first;      // coedges of face k: first[k] .. first[k + 1]
     std::vector<Index> component;  // of each face
+    std::vector<double> x, y, theta;  // of each vertex, rounded
     Index edges = 0, vertices = 0, components = 0;
 };
 

@@ -27,9 +27,9 @@ public:
     // The side of x's line on which the point b_b - R a_a lies.
     int side(const Feature& x, Index a, Index b);
     // Where a curve on a surface ends.
-    Spot spot(const Feature& on, const Feature& curve);
-    // About where that is: t on the surface that names it.
-    double value(const Feature& on, const Spot& p) const;
+    Spot spot(const Feature& on, const Feature& curve) const;
+    // About where that is: t on a surface whose line goes through it.
+    double value(const Feature& line, const Spot& p) const;
     // The side of x's line on which a place on another surface's line lies.
     int side(const Feature& x, const Feature& line, const Spot& p);
     // Order of two places along a line, that of a surface through both.
@@ -53,7 +53,7 @@ private:
     template <class T>
     std::array<Trig<T>, 2> position(const Feature& line, const Spot& p) const;
     template <class F>
-    int sign(const F& trig);
+    int sign(const F& trig) const;
     Poly polynomial(const Trig<Int>& f) const;
     Filtered filtered(const Trig<Approx>& f) const;
 

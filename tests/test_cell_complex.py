@@ -1,0 +1,162 @@
+"""The cell complex: closed surfaces, checked by arithmetic that shares nothing with the gluing."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cfree import Boundary, InvariantError, Scene, boundary, load_scene
+from cfree.cell_complex import CellComplex
+from compared import scene_of
+from shapes import KINDS, PlainScene, box, random_scene
+
+ROOT = Path(__file__).parents[1]
+SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 20_000)
+CASES = sorted((ROOT / "tests/cases").glob("*.json"))
+
+
+def check(result: Boundary) -> CellComplex:
+    """All that must hold of a closed, oriented cell complex."""
+    cells = result.complex
+    count = len(cells.twin)
+    coedges = np.arange(count)
+    assert np.array_equal(cells.twin[cells.twin], coedges) and np.all(cells.twin != coedges)
+    assert len(cells.first) == len(result.trapezoids) + 1 and np.array_equal(
+        cells.face, np.repeat(np.arange(len(result.trapezoids)), np.diff(cells.first))
+    )
+    after = coedges + 1
+    after[cells.first[1:][np.diff(cells.first) > 0] - 1] = cells.first[:-1][np.diff(cells.first) > 0]
+    # a twin runs the other way, along the same edge
+    assert np.array_equal(cells.vertex[cells.twin], cells.vertex[after])
+    assert np.array_equal(cells.edge[cells.twin], cells.edge)
+    assert np.array_equal(cells.component[cells.face[cells.twin]], cells.component[cells.face])
+    assert set(np.unique(cells.vertex)) == set(range(cells.vertices))
+    assert set(np.unique(cells.edge)) == set(range(cells.edges))
+    assert set(np.unique(cells.component)) == set(range(cells.components))
+    assert np.all(cells.euler % 2 == 0) and np.all(cells.euler <= 2)
+    check_places(result, cells)
+    return cells
+
+
+def check_places(result: Boundary, cells: CellComplex) -> None:
+    """Every vertex is on the surfaces of all faces around it, at an angle of theirs, within their limits."""
+    t = result.trapezoids
+    face = cells.face
+    size = max(1.0, float(np.abs([cells.x, cells.y]).max(initial=1.0)))
+    theta = cells.theta[cells.vertex]
+    turned = theta + 2 * math.pi * np.array([-1, 0, 1])[:, None]
+    assert np.all(np.any((turned > t.theta_from[face] - 1e-6) & (turned < t.theta_to[face] + 1e-6), axis=0))
+    ends = [result.evaluate(t.patch[face], np.full(len(face), at), theta) for at in (0.0, 1.0)]
+    place = np.column_stack([cells.x, cells.y])[cells.vertex]
+    along, away = ends[1] - ends[0], place - ends[0]
+    length = np.hypot(*along.T)
+    sideways = np.abs(along[:, 0] * away[:, 1] - along[:, 1] * away[:, 0]) / length
+    forwards = (along * away).sum(axis=1) / length
+    assert sideways.max(initial=0.0) < 1e-5 * size
+    assert forwards.min(initial=0.0) > -1e-5 * size and (forwards - length).max(initial=0.0) < 1e-5 * size
+
+
+@pytest.mark.parametrize("path", SMALL + CASES, ids=lambda path: path.stem)
+def test_boundaries_are_closed(path: Path) -> None:
+    check(boundary(load_scene(path), threads=1))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_random_boundaries_are_closed(kind: str) -> None:
+    for seed in range(12):
+        check(boundary(scene_of(random_scene(seed, kind)), threads=1))
+
+
+def test_a_convex_pair_is_a_torus() -> None:
+    scene = Scene([(0, 0), (3, 0), (1, 2)], [[(5, 5), (9, 6), (8, 9), (5, 8)]])
+    cells = check(boundary(scene))
+    assert cells.components == 1 and cells.euler.tolist() == [0]
+    assert len(cells.pinched) == 0
+
+
+def test_a_robot_in_a_room_and_around_it() -> None:
+    room = ([(-6, -6), (6, -6), (6, 6), (-6, 6)], [[(-5, -5), (-5, 5), (5, 5), (5, -5)]])
+    cells = check(boundary(scene_of(PlainScene([box(-1, -1, 1, 2)], [room]))))
+    assert sorted(cells.euler.tolist()) == [0, 0]  # the inside and the outside, both round in theta
+
+
+def test_a_niche_that_only_some_orientations_fit_is_a_sphere() -> None:
+    # a rod in a box: it turns a little, but not round; its two orientations are two bounded cells
+    hollow = ([(-5, -3), (5, -3), (5, 3), (-5, 3)], [[(-4, -2), (-4, 2), (4, 2), (4, -2)]])
+    cells = check(boundary(scene_of(PlainScene([box(-3, -1, 3, 1)], [hollow]))))
+    assert sorted(cells.euler.tolist()) == [0, 2, 2]
+
+
+def test_pinched_edges_pair_the_sides_of_free_sectors() -> None:
+    # at one angle a corner of the robot can pass where two obstacles touch in a corner
+    scene = scene_of(PlainScene([box(0, 0, 1, 1)], [box(0, 0, 2, 2), box(2, 2, 4, 4)]))
+    cells = check(boundary(scene))
+    assert len(cells.pinched) > 0
+    for edge in cells.pinched:
+        around = cells.at_edge(int(edge))
+        assert len(around) > 2 and len(around) % 2 == 0
+        assert set(cells.twin[around].tolist()) == set(around.tolist())
+
+
+def test_walkers_go_round() -> None:
+    cells = boundary(Scene([(0, 0), (2, 0), (0, 1)], [[(5, 5), (8, 5), (6, 7)]])).complex
+    seen = 0
+    for vertex in range(cells.vertices):
+        start = int(np.flatnonzero(cells.vertex == vertex)[0])
+        around = list(cells.around_vertex(start))
+        assert set(cells.vertex[around].tolist()) == {vertex}
+        seen += len(around)
+    assert seen == len(cells.twin)  # each coedge starts at one vertex
+    for face in range(len(cells.component)):
+        loop = cells.loop(face)
+        assert [cells.before(h) for h in loop] == [loop[-1], *loop[:-1]]
+        assert [int(f) for f in cells.neighbours(face)] == [int(cells.face[cells.twin[h]]) for h in loop]
+
+
+def test_a_side_without_a_partner_is_an_error_with_its_smallest_scene(monkeypatch: pytest.MonkeyPatch) -> None:
+    from cfree import cell_complex
+
+    scene = scene_of(random_scene(3, "convex"))
+    result = boundary(scene)
+    original = cell_complex._glued
+
+    def broken(built: Boundary) -> CellComplex:
+        if len(built.scene.obstacles) >= 2:  # stands for a fault of the core
+            raise InvariantError("the boundary is not closed: test")
+        return original(built)
+
+    monkeypatch.setattr(cell_complex, "_glued", broken)
+    with pytest.raises(InvariantError, match="not closed") as raised:
+        cell_complex.glue(result)
+    smallest = raised.value.state
+    assert isinstance(smallest, Scene) and len(smallest.obstacles) == 2
+    assert all(len(p) == 3 for p in smallest.obstacles)
+
+
+def test_a_lost_trapezoid_is_noticed() -> None:
+    from cfree import _core
+    from cfree.trapezoids import COLUMNS
+
+    result = boundary(load_scene(ROOT / "examples/scenes/five_convex.json"))
+    shapes = result.features.robot.core_shape(), result.features.obstacles.core_shape()
+    patches = result.contact_kind, result.contact_robot, result.contact_obstacle
+    for lost in range(0, len(result.trapezoids), 37):
+        columns = [np.delete(getattr(result.trapezoids, name), lost) for name in COLUMNS]
+        with pytest.raises(RuntimeError, match=r"partner|alternate"):
+            _core.glue(*shapes, *patches, *columns)
+
+
+def test_euler_numbers_do_not_depend_on_the_robots_frame() -> None:
+    plain = random_scene(5, "nonconvex")
+    found = []
+    for quarters in range(4):
+        turned = [[(x, y) for x, y in ring] for ring in (plain.robot[0][0],)]
+        for _ in range(quarters):
+            turned = [[(-y, x) for x, y in ring] for ring in turned]
+        scene = scene_of(plain._replace(robot=[(turned[0], [])]))
+        found.append(sorted(boundary(scene).complex.euler.tolist()))
+    assert all(a == b for a, b in pairwise(found))
