@@ -91,6 +91,8 @@ NB_MODULE(_core, m) {
         .def("wait", &cfree::Job::wait, "seconds"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("progress", &cfree::Job::progress)
         .def("cancel", &cfree::Job::cancel)
+        .def("finish_early", &cfree::Job::finish_early)
+        .def("trimmed", [](cfree::Job& job) { return array_of(std::move(job.trimmed)); })
         .def("patches", [](cfree::Job& job) {
             return nb::make_tuple(array_of(std::move(job.patches.kind)), array_of(std::move(job.patches.robot)),
                                   array_of(std::move(job.patches.obstacle)));

@@ -192,7 +192,7 @@ void Job::run(int threads) {
         patches = list_patches(*scene);
         const Index count = scene->obstacles.ring_vertices;
         neighbours = std::make_unique<Neighbours>(*scene);
-        found.resize(count), found_thin.resize(count);
+        found.resize(count), found_thin.resize(count), trimmed.assign(patches.kind.size(), 0);
         std::vector<Index> first(static_cast<std::size_t>(count) + 1, 0);
         for (const Index j : patches.obstacle) ++first[j + 1];
         for (Index j = 0; j < count; ++j) first[j + 1] += first[j];
@@ -209,10 +209,10 @@ void Job::run(int threads) {
         tally.trim_seconds = seconds(start);
         start = Clock::now();
         Trapezoids thin;
-        if (!error && !stop) gather(found, trapezoids), gather(found_thin, thin);
+        if (!error && (!stop || early)) gather(found, trapezoids), gather(found_thin, thin);
         tally.collect_seconds = seconds(start);
         start = Clock::now();
-        if (!error) isolated = isolated_parts(*scene, patches, trapezoids, thin, stop);
+        if (!error && !stop) isolated = isolated_parts(*scene, patches, trapezoids, thin, stop);
         tally.isolated_seconds = seconds(start);
     } catch (...) {
         const std::lock_guard lock(mutex);
@@ -274,6 +274,7 @@ void Job::work() {
                     mine.decisions += trimmer.decide.counters;
                 }
                 mine.live_patches += found[j].size() > before;
+                trimmed[id] = 1;
             }
         }
     } catch (...) {

@@ -4,6 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from cfree.cell_complex import CellComplex as CellComplex
     from cfree.contact import AngleRange as AngleRange
     from cfree.contact import EdgeEdge as EdgeEdge
     from cfree.contact import EdgeVertex as EdgeVertex
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from cfree.contact import edge_edge_range as edge_edge_range
     from cfree.errors import CfreeError as CfreeError
     from cfree.errors import FormatError as FormatError
+    from cfree.errors import IncompleteError as IncompleteError
     from cfree.errors import InvalidPolygonError as InvalidPolygonError
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvariantError as InvariantError
@@ -53,9 +55,11 @@ __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
+    "cell_complex": "CellComplex",
     "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
     "edge_edge_range",
-    "errors": "CfreeError FormatError InvalidPolygonError InvalidPoseError InvariantError UnsupportedError",
+    "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
+    "UnsupportedError",
     "forbidden": "Boundary boundary",
     "io": "load_polygons load_scene",
     "mesh": "Mesh boundary_mesh save_mesh",

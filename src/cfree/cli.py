@@ -9,6 +9,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.pose import Angle
 
-BAD_INPUT, BUG, INTERRUPTED = 2, 1, 130
+BAD_INPUT, BUG, INCOMPLETE, INTERRUPTED = 2, 1, 3, 130
 
 app = typer.Typer(
     name="cfree",
@@ -45,6 +46,18 @@ PictureOption = Annotated[
 ]
 ThreadsOption = Annotated[
     int | None, typer.Option("--threads", metavar="N", min=1, help="Threads to use.", show_default="all cores")
+]
+SecondsOption = Annotated[
+    float | None,
+    typer.Option(
+        "--max-seconds", metavar="S", min=0, help="Stop trimming after S seconds, incomplete.", show_default="no limit"
+    ),
+]
+MemoryOption = Annotated[
+    str | None,
+    typer.Option(
+        "--max-memory", metavar="SIZE", help='Stop at "500MB" or "4GB" of memory, incomplete.', show_default="no limit"
+    ),
 ]
 JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
 
@@ -103,14 +116,22 @@ def boundary(
         typer.Option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.", show_default=False),
     ] = None,
     threads: ThreadsOption = None,
+    max_seconds: SecondsOption = None,
+    max_memory: MemoryOption = None,
     as_json: JsonOption = False,
 ) -> None:
-    """Compute the boundary of the forbidden space: every contact patch, trimmed."""
+    """Compute the boundary of the forbidden space: every contact patch, trimmed.
+
+    If a limit stops it, what was done so far is written, marked as incomplete, and the exit code is 3.
+    """
     with _one_line_faults():
         written = _check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
-        result = _boundary_of(scene, threads)
+        result = _boundary_of(scene, threads, max_seconds, None if max_memory is None else _read_size(max_memory))
         if output:
             result.save(output)
+        if not result.complete:
+            kept = f"; what was done is in {output}" if output else ""
+            _fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
         if mesh:
             from cfree.mesh import boundary_mesh, save_mesh
 
@@ -120,11 +141,12 @@ def boundary(
 
             save_figure(plot_overview(result), picture)
         if as_json:
-            _print_json({"file": str(scene), **asdict(result.stats), "files": written})
+            facts = asdict(result.stats) | {"isolated": len(result.isolated)}
+            _print_json({"file": str(scene), **facts, "files": written})
         else:
-            from cfree.report import print_rows, stats_rows
+            from cfree.report import boundary_rows, print_rows
 
-            print_rows(result.scene.name or str(scene), stats_rows(result.stats), written)
+            print_rows(result.scene.name or str(scene), boundary_rows(result), written)
 
 
 @app.command(
@@ -184,7 +206,22 @@ def _read_angle(text: str) -> Angle:
     return angle
 
 
-def _boundary_of(source: Path, threads: int | None) -> Boundary:
+def _read_size(text: str) -> float:
+    """Bytes, from "500MB", "1.5 GB", "2e9"."""
+    units = {"KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+    unit = text.strip().upper()[-2:]
+    try:
+        size = float(text.strip()[: -2 if unit in units else None]) * units.get(unit, 1)
+    except ValueError:
+        size = 0
+    if not size > 0:
+        raise ValueError(f'--max-memory: {text!r}; give a size such as "500MB" or "4GB"')
+    return size
+
+
+def _boundary_of(
+    source: Path, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
+) -> Boundary:
     """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
     from cfree.forbidden import boundary
     from cfree.io import load_scene
@@ -193,14 +230,15 @@ def _boundary_of(source: Path, threads: int | None) -> Boundary:
     if _is_archive(source):
         return load_boundary(source)
     scene = load_scene(source)
+    compute = partial(boundary, scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory)
     if not sys.stderr.isatty():
-        return boundary(scene, threads=threads)
+        return compute()
     from rich.console import Console
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("boundary", total=1.0)
-        return boundary(scene, threads=threads, progress=lambda share: bar.update(task, completed=share))
+        return compute(progress=lambda share: bar.update(task, completed=share))
 
 
 def _is_archive(path: Path) -> bool:

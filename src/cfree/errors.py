@@ -5,6 +5,7 @@
       InvalidPoseError    (ValueError)     not finite, not an angle
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
+      IncompleteError     (RuntimeError)   a question to a boundary whose computation was stopped by a limit
       InvariantError      (RuntimeError)   our bug, please report; carries the smallest state seen
 
 Messages give the place, the value and the remedy.
@@ -59,6 +60,10 @@ class FormatError(CfreeError, ValueError):
 
 class UnsupportedError(CfreeError, NotImplementedError):
     """A documented limit of the method."""
+
+
+class IncompleteError(CfreeError, RuntimeError):
+    """A question that only a complete boundary can answer, asked of one that a limit of time or memory stopped."""
 
 
 class InvariantError(CfreeError, RuntimeError):

@@ -213,7 +213,9 @@ def scene_features(scene: Scene) -> SceneFeatures:
         corners = [(x * factor, y * factor) for x, y in scene.workspace.numerators]
         offsets = scene.workspace.ring_offsets
         rings = [dict(zip(corners[i:j], range(i, j), strict=True)) for i, j in pairwise(offsets)]
-        parts = complement(rings, box(robot.vertices), box([*corners, *obstacles.vertices]), scale)
+        edges = [int(b * scale) for b in scene.bounds or ()]
+        around = box([*corners, *obstacles.vertices, *zip(edges[::2], edges[1::2], strict=True)])
+        parts = complement(rings, box(robot.vertices), around, scale)
         for part, ring in zip(parts, rings, strict=True):
             # the frame's rim stands for infinity, and has no owner
             named = ring if part is not parts[0] else defaultdict(lambda: -1, ring)

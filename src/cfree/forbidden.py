@@ -7,6 +7,7 @@ touching is allowed, and the boundary itself is free.
 from __future__ import annotations
 
 import os
+import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.collector import collection_paused
-from cfree.errors import InvariantError
+from cfree.errors import IncompleteError, InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
 from cfree.patch import IsolatedPart, Patches, Trapezoid
 from cfree.pose import Angle, tau_in
@@ -58,7 +59,12 @@ class Stats:
 
 
 def boundary(
-    scene: Scene, *, threads: int | None = None, progress: Callable[[float], object] | None = None
+    scene: Scene,
+    *,
+    threads: int | None = None,
+    max_seconds: float | None = None,
+    max_memory: float | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> Boundary:
     """Trim every contact patch of a scene.
 
@@ -67,6 +73,10 @@ def boundary(
     scene : Scene
     threads : int, optional
         All cores by default. The result has the same bytes for any number.
+    max_seconds : float, optional
+        Stop trimming after that many seconds: the result is then marked as incomplete.
+    max_memory : float, optional
+        The same once this process has used so many bytes, looked at ten times a second.
     progress : callable, optional
         Called with the share that is done, from 0 to 1, a few times a second.
 
@@ -106,6 +116,10 @@ def boundary(
         while not _has_ended(job, scene):
             if progress is not None:
                 progress(job.progress())
+            if max_seconds is not None and time.perf_counter() - start > max_seconds:
+                job.finish_early()
+            if max_memory is not None and memory_used() > max_memory:
+                job.finish_early()
     except BaseException:
         job.cancel()
         raise
@@ -123,7 +137,15 @@ def boundary(
     seconds = {"features": prepared - start, **phases, "total": time.perf_counter() - start}
     counts = {key: tally[key] for key in tally if not key.endswith("_seconds")}
     stats = Stats(patches=len(kind), trapezoids=len(trapezoids), seconds=seconds, **counts)
-    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats)
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, job.trimmed())
+
+
+def memory_used() -> int:
+    """The most memory this process has used so far, in bytes."""
+    import resource
+
+    used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return used if sys.platform == "darwin" else 1024 * used
 
 
 def _has_ended(job: Any, scene: Scene) -> bool:
@@ -145,6 +167,8 @@ class Boundary:
         Free poses that no trapezoid reaches: curves, segments at one orientation, and points, where the robot fits
         exactly.
     stats : Stats
+    trimmed : (P,) bool
+        Which patches have been trimmed: all of them, unless a limit of time or memory stopped the computation.
     patch_kind : (P,) uint8
         1 v-e, 2 e-v, 3 the wall of the bounds.
     ruled : (P, 8) float64
@@ -161,6 +185,7 @@ class Boundary:
         trapezoids: Trapezoids,
         isolated: IsolatedParts,
         stats: Stats,
+        trimmed: NDArray[np.uint8],
     ) -> None:
         self.scene = scene
         self.features = features
@@ -170,15 +195,28 @@ class Boundary:
         self.trapezoids = trapezoids
         self.isolated = isolated
         self.stats = stats
+        self.trimmed = trimmed.astype(bool)
         columns = [getattr(trapezoids, name) for name in COLUMNS]
         columns += [getattr(isolated, name) for name in ISOLATED_COLUMNS]
-        for array in (kind, robot, obstacle, *columns):
+        for array in (kind, robot, obstacle, self.trimmed, *columns):
             array.flags.writeable = False
 
     def __repr__(self) -> str:
         s = self.stats
         fits = f", {len(self.isolated)} isolated parts" if len(self.isolated) else ""
-        return f"Boundary({s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids{fits})"
+        part = "" if self.complete else f"INCOMPLETE: {self.trimmed.sum()} of {s.patches} patches trimmed; "
+        return f"Boundary({part}{s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids{fits})"
+
+    @property
+    def complete(self) -> bool:
+        """Whether every patch has been trimmed. What is not complete answers no question about what is free."""
+        return bool(self.trimmed.all())
+
+    def require_complete(self) -> None:
+        """Raise `IncompleteError` if a limit stopped the computation."""
+        if not self.complete:
+            done = f"{self.trimmed.sum()} of {len(self.trimmed)} patches were trimmed"
+            raise IncompleteError(f"incomplete: {done} before a limit stopped it; compute it again with a higher limit")
 
     @cached_property
     def patch_kind(self) -> NDArray[np.uint8]:
@@ -200,6 +238,7 @@ class Boundary:
         """The trapezoids glued into closed surfaces; computed when first asked for."""
         from cfree.cell_complex import glue
 
+        self.require_complete()
         return glue(self)
 
     def isolated_part(self, k: int) -> IsolatedPart:
@@ -297,6 +336,7 @@ class Boundary:
         """
         from cfree.slice import Slice
 
+        self.require_complete()
         return Slice(self, theta)
 
     @cached_property

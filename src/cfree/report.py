@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Stats
+    from cfree.forbidden import Boundary
 
 COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
 
@@ -52,12 +52,14 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
         yield f"source     {name}: {value}"
 
 
-def stats_rows(stats: Stats) -> dict[str, int | float | str]:
+def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
     """The stats of a boundary in words."""
+    stats = boundary.stats
     return {
         "contact patches": stats.patches,
         "of them live": stats.live_patches,
         "trapezoids": stats.trapezoids,
+        "isolated parts (exact fits)": len(boundary.isolated),
         "patch and pillar pairs": stats.pairs,
         "decided by doubles with a bound": stats.decided_by_filter,
         "decided by exact integers": stats.decided_exactly,

@@ -17,6 +17,7 @@ from cfree.files import replacing
 from cfree.forbidden import Boundary, Stats
 from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 
+PATCH_COLUMNS = ("contact_kind", "contact_robot", "contact_obstacle", "trimmed")
 FORMAT, VERSION = "cfree-boundary", 2
 
 
@@ -28,7 +29,7 @@ def save_boundary(boundary: Boundary, path: str | os.PathLike[str]) -> None:
     header = {"format": FORMAT, "version": VERSION, "stats": stats}
     texts = {"header": json.dumps(header), "scene": scene_text(boundary.scene)}
     arrays: dict[str, Any] = {key: np.frombuffer(text.encode(), np.uint8) for key, text in texts.items()}
-    arrays |= {key: getattr(boundary, key) for key in ("contact_kind", "contact_robot", "contact_obstacle")}
+    arrays |= {key: getattr(boundary, key) for key in PATCH_COLUMNS}
     arrays |= {name: getattr(boundary.trapezoids, name) for name in COLUMNS}
     arrays |= {f"isolated_{name}": getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS}
     with replacing(path) as unfinished, unfinished.open("wb") as file:
@@ -59,7 +60,7 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
                 raise fault(f"version {header['version']}; this cfree reads version {VERSION}: compute it again")
             stats = Stats(**header["stats"], seconds={})
             text = archive["scene"].tobytes().decode()
-            kind, robot, obstacle = (archive[k] for k in ("contact_kind", "contact_robot", "contact_obstacle"))
+            kind, robot, obstacle, trimmed = (archive[k] for k in PATCH_COLUMNS)
             trapezoids = Trapezoids(*(archive[column] for column in COLUMNS))
             isolated = IsolatedParts(*(archive[f"isolated_{column}"] for column in ISOLATED_COLUMNS))
     except OSError as error:
@@ -73,9 +74,11 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
     scene = scene_from_text(f"{name}:scene", text)
     features = scene_features(scene)
     wrong = misfit(features, kind, robot, obstacle, trapezoids, isolated)
+    if trimmed.dtype != bool or trimmed.shape != np.shape(kind):
+        wrong = "trimmed"
     if wrong:
         raise fault(f"{wrong} does not fit the rest; make it again with `cfree boundary`")
-    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats)
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, trimmed)
 
 
 def misfit(

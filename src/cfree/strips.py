@@ -60,6 +60,7 @@ def strips(boundary: Boundary, step: float) -> Strips:
     -----
     Time and memory grow with the number of trapezoids plus the sum of their heights over `step`.
     """
+    boundary.require_complete()
     table = boundary.trapezoids
     first, last = table.theta_from, table.theta_to
     # what reaches across theta = 0 is cut there; the part below is raised by a turn

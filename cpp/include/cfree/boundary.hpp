@@ -69,8 +69,10 @@ public:
     bool wait(double seconds);  // whether it has ended; rethrows what a thread threw
     double progress() const;    // patches done, of all
     void cancel() { stop = true; }
+    void finish_early() { early = true, stop = true; }  // with the patches done so far
     // After wait() returned true.
     Patches patches;
+    std::vector<std::uint8_t> trimmed;  // of each patch, whether it has been
     Trapezoids trapezoids;
     IsolatedParts isolated;
     Tally tally;
@@ -86,7 +88,7 @@ private:
     std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};
-    std::atomic<bool> stop{false};
+    std::atomic<bool> stop{false}, early{false};
     mutable std::mutex mutex;
     std::condition_variable ended_signal;
     bool ended = false;
