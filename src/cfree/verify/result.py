@@ -1,0 +1,66 @@
+"""What a verification found: one line for each check, and every finding with its place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+PROVED, SAMPLED, SKIPPED = "PROVED", "SAMPLED", "SKIPPED"
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """Something wrong with a boundary.
+
+    Attributes
+    ----------
+    kind : str
+        The check that failed.
+    where : str
+        Trapezoids, patches or an orientation.
+    text : str
+    """
+
+    kind: str
+    where: str
+    text: str
+
+    def __str__(self) -> str:
+        return f"{self.kind}: {self.where}: {self.text}"
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One check: its name, PROVED, SAMPLED or SKIPPED, and what was looked at."""
+
+    name: str
+    how: str
+    extent: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verification:
+    """Result of `cfree.verify.boundary`.
+
+    Attributes
+    ----------
+    checks : tuple of Check
+        What was proved and what was sampled, with counts.
+    findings : tuple of Finding
+        What is wrong; empty if all is well.
+    seconds : float
+    """
+
+    checks: tuple[Check, ...]
+    findings: tuple[Finding, ...]
+    seconds: float
+
+    @property
+    def verified(self) -> bool:
+        """Whether no check found anything."""
+        return not self.findings
+
+    def __str__(self) -> str:
+        rows = [f"{check.how:<8} {check.name}: {check.extent}" for check in self.checks]
+        rows.append(f"{'verified' if self.verified else f'REFUTED: {len(self.findings)} findings'}, {self.seconds:.1f} s")
+        rows += [f"  {finding}" for finding in self.findings[:20]]
+        return "\n".join(rows + ["  ..."] * (len(self.findings) > 20))
