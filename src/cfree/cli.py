@@ -6,10 +6,9 @@ import errno
 import json
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.pose import Angle
 
-BAD_INPUT, BUG, INCOMPLETE, INTERRUPTED = 2, 1, 3, 130
+REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
 app = typer.Typer(
     name="cfree",
@@ -194,6 +193,48 @@ def cut(
             print_rows(f"slice of {result.scene.name or scene}", facts, written)
 
 
+@app.command(
+    epilog="Examples: `cfree verify scene.json scene.npz`; `cfree verify scene.json scene.npz --sample 1000`. "
+    "Exit code 0: verified; 1: refuted; 2: a file that cannot be read."
+)
+def verify(
+    scene: SceneArgument,
+    file: Annotated[
+        Path, typer.Argument(metavar="BOUNDARY", help="Written by `cfree boundary -o`.", show_default=False)
+    ],
+    sample: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=0, help="Check N trapezoids, and not their sides.", show_default="all"),
+    ] = None,
+    slices: Annotated[int, typer.Option(metavar="N", min=0, help="Orientations to compute again.")] = 8,
+    seed: Annotated[int, typer.Option(metavar="N", help="Of the random choices.")] = 0,
+    threads: ThreadsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Check a boundary by independent exact code, and say what is proved and what is sampled."""
+    with _one_line_faults():
+        import cfree.verify
+        from cfree.io import load_scene
+        from cfree.storage import load_boundary
+
+        given, found = load_scene(scene), load_boundary(file)
+        workers = threads or os.cpu_count() or 1
+        if len(found.trapezoids) < 2000:
+            workers = 1  # other processes would take longer to start
+        with _bar("verify") as progress:
+            result = cfree.verify.boundary(
+                found, given, sample=sample, slices=slices, seed=seed, workers=workers, progress=progress
+            )
+        if as_json:
+            _print_json({"file": str(file), "verified": result.verified, **asdict(result)})
+        else:
+            from cfree.report import print_verification
+
+            print_verification(str(file), result)
+    if not result.verified:
+        raise typer.Exit(REFUTED)
+
+
 # input
 
 
@@ -230,15 +271,24 @@ def _boundary_of(
     if _is_archive(source):
         return load_boundary(source)
     scene = load_scene(source)
-    compute = partial(boundary, scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory)
+    with _bar("boundary") as progress:
+        return boundary(
+            scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress
+        )
+
+
+@contextmanager
+def _bar(name: str) -> Iterator[Callable[[float], object] | None]:
+    """What to call with the share that is done: it moves a bar on a terminal."""
     if not sys.stderr.isatty():
-        return compute()
+        yield None
+        return
     from rich.console import Console
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("boundary", total=1.0)
-        return compute(progress=lambda share: bar.update(task, completed=share))
+        task = bar.add_task(name, total=1.0)
+        yield lambda share: bar.update(task, completed=share)
 
 
 def _is_archive(path: Path) -> bool:

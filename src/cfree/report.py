@@ -11,6 +11,7 @@ from rich.table import Table
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
+    from cfree.verify import Verification
 
 COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
 
@@ -80,6 +81,23 @@ def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping
     console.print(table)
     for name, path in files.items():
         console.print(f" {name:<8} {path} ({Path(path).stat().st_size / 1000:,.1f} kB)")
+
+
+def print_verification(title: str, result: Verification) -> None:
+    """A row for each check, then what is wrong."""
+    from cfree.verify import result as verify
+
+    table = Table(box=None)
+    for column in ("check", "", "of what"):
+        table.add_column(column)
+    for check in result.checks:
+        table.add_row(check.name, check.how, check.extent)
+    console = _console()
+    console.print(title)
+    console.print(table)
+    for finding in result.findings[: verify.SHOWN]:
+        console.print(str(finding))
+    console.print(result.verdict)
 
 
 def _console() -> Console:

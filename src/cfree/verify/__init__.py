@@ -1,25 +1,27 @@
 """An independent check of computed boundaries: `cfree.verify.boundary`, and ``cfree verify`` on the command line.
 
-Nothing here calls the C++ core, and no sign is decided but in Python's integers and fractions and in python-flint. From
-the scene's exact coordinates and the file:
+Nothing here calls the C++ core; every sign is one of Python's integers and fractions or of python-flint. The checks:
 
-=================  ==========================================================================================  =======
-convex pieces      those of robot and obstacles are convex and tile them                                       PROVED
-critical angles    the polynomial that the names define has exactly one root in the interval (or the place-th
-                   is meant), in the chart, and the first is less than the second                              PROVED
-domains            from the first angle to the second the contact is in its range, and
-                   0 <= lower <= upper <= 1 without a pole                                                     PROVED
-not forbidden      an exact point of every trapezoid is on its contact and inside no pair of pieces            SAMPLED
-closed surface     the oriented boundary of the sum of all trapezoids is zero: on every curve, and on every
-                   line at every critical angle, what ends there begins there                                  PROVED
-nothing missing    at some exact angles, the slice computed from scratch is the file's slice                   SAMPLED
-=================  ==========================================================================================  =======
+convex pieces, PROVED
+    Those of robot and obstacles are convex and tile them.
+names and angles, PROVED
+    A trapezoid's patch is a contact of the scene. The polynomial that an angle's names define has one root in the
+    interval, or the place-th is meant; it is in the chart, and the first angle is less than the second.
+domains, PROVED
+    From the first angle to the second the contact is in its range, the curves have no pole, 0 <= lower <= upper <= 1.
+not forbidden, SAMPLED
+    At one exact point inside every trapezoid no pair of pieces overlaps, and bounds are kept.
+closed surface, PROVED
+    The oriented boundary of the sum of all trapezoids is zero: on every curve, and on every line at every critical
+    angle, what ends there begins there.
+nothing missing, SAMPLED
+    At some exact angles the boundary of the forbidden slice, computed from scratch, is the file's slice.
 
-"Not forbidden" says nothing about the rest of a trapezoid, "nothing missing" nothing about other angles. Curves are told
-apart by their equations in the configuration space, angles by their irreducible polynomials, points by elements of the
-angle's number field; 32-byte hashes stand for them when they are counted.
+"Not forbidden" says nothing of the rest of a trapezoid, "nothing missing" nothing of other angles. Curves are told
+apart by their equations, angles by irreducible polynomials, points by elements of the angle's number field; 32-byte
+hashes stand for them when they are counted. Only `features` is believed: that it numbers features as the file does.
 
-Files, each importing only from those before it: `algebra` (roots), `surfaces` (contacts and curves), `world` (the scene),
+Each file imports only from those before it: `algebra` (roots), `surfaces` (contacts and curves), `world` (the scene),
 `trapezoids`, `slices`, `result`, `driver`.
 """
 

@@ -60,6 +60,9 @@ def compare(x: Root, y: Root) -> int:
     return -1 if x.hi < y.lo else 1
 
 
+in_order = cmp_to_key(compare)
+
+
 def sign(poly: Sequence[int], x: Fraction) -> int:
     """Sign of a polynomial at a rational."""
     n, d = x.numerator, x.denominator
@@ -93,7 +96,7 @@ def variations(poly: Coefficients, x: Fraction) -> int:
 
 def roots(poly: fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root, int]]:
     """Roots in the closed interval, each once, in order, with their multiplicities; FIRST < lo."""
-    found = []
+    found: list[tuple[Root, int]] = []
     for factor, multiplicity in factors(tuple(map(int, poly.coeffs()))):
         if len(factor) == 2:
             x = Fraction(-factor[0], factor[1])
@@ -101,7 +104,7 @@ def roots(poly: fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root, int]]
                 found.append((Root(factor, 0, x, x), multiplicity))
         else:  # no rational roots: the ends of intervals are none
             found += [(root, multiplicity) for root in _isolated(factor, lo, hi)]
-    return sorted(found, key=cmp_to_key(lambda p, q: compare(p[0], q[0]))) if len(found) > 1 else found
+    return sorted(found, key=lambda item: in_order(item[0]))
 
 
 def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-PROVED, SAMPLED, SKIPPED = "PROVED", "SAMPLED", "SKIPPED"
+PROVED, SAMPLED, SKIPPED, REFUTED = "PROVED", "SAMPLED", "SKIPPED", "REFUTED"
+SHOWN = 20  # findings in a report
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,7 +15,7 @@ class Finding:
     Attributes
     ----------
     kind : str
-        The check that failed.
+        Name of the check that failed.
     where : str
         Trapezoids, patches or an orientation.
     text : str
@@ -30,7 +31,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One check: its name, PROVED, SAMPLED or SKIPPED, and what was looked at."""
+    """One check: its name, whether it PROVED, SAMPLED, SKIPPED or REFUTED, and what it says of how many."""
 
     name: str
     how: str
@@ -61,6 +62,13 @@ class Verification:
 
     def __str__(self) -> str:
         rows = [f"{check.how:<8} {check.name}: {check.extent}" for check in self.checks]
-        rows.append(f"{'verified' if self.verified else f'REFUTED: {len(self.findings)} findings'}, {self.seconds:.1f} s")
-        rows += [f"  {finding}" for finding in self.findings[:20]]
-        return "\n".join(rows + ["  ..."] * (len(self.findings) > 20))
+        rows += [str(finding) for finding in self.findings[:SHOWN]]
+        return "\n".join([*rows, self.verdict])
+
+    @property
+    def verdict(self) -> str:
+        """The last line of a report."""
+        if self.verified:
+            return f"verified ({self.seconds:.1f} s)"
+        more = len(self.findings) - SHOWN
+        return f"REFUTED: {len(self.findings):,} findings{f', {more:,} not shown' * (more > 0)} ({self.seconds:.1f} s)"

@@ -12,11 +12,12 @@ import random
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 
 from cfree.verify.algebra import between
-from cfree.verify.surfaces import Fault, Surface, Turn, Vector, cross, dot, minus
+from cfree.verify.surfaces import Fault, Turn, Vector, cross, dot, minus
 from cfree.verify.trapezoids import Reader
 from cfree.verify.world import Ring, World, boxes, corners, near
 
@@ -37,7 +38,7 @@ def compared(reader: Reader, seed: int, number: int) -> tuple[Turn, int, list[tu
     wrong = []
     for line in true.keys() | found.keys():
         ours, theirs = united(true.get(line, [])), sorted(found.get(line, []))
-        if any(p[1] > q[0] for p, q in zip(theirs, theirs[1:], strict=False)):
+        if any(p[1] > q[0] for p, q in pairwise(theirs)):
             wrong.append((place(line, theirs, turn, reader.world), "trapezoids on one another"))
         elif united(theirs) != ours:
             sizes = [total(line, intervals, turn, reader.world) for intervals in (ours, theirs)]
@@ -106,12 +107,10 @@ def segments_of_file(reader: Reader, turn: Turn) -> Segments | None:
             if 0 in sides:
                 return None
             if sides == [1, -1]:
-                lower, upper = (
-                    reader.curve(patch, turn.chart, int(code)).at(tau) for code in (t.lower[k], t.upper[k])
-                )
+                lower, upper = (reader.curve(patch, turn.chart, int(code)).at(tau) for code in (t.lower[k], t.upper[k]))
                 line = Positions(turn.start(surface), turn.along(surface))
                 found[line.key].append((line.at(lower), line.at(upper)))
-        except Fault:
+        except (Fault, IndexError):
             continue  # reported where trapezoids are checked; the slice will differ as well
     return found
 
@@ -172,7 +171,7 @@ def outside(bounds: tuple[int, int, int, int], w: int, start: Vector, along: Vec
         ends = [Fraction(0), Fraction(1)]
         if slope:
             ends.append(min(max(Fraction(-height, slope), ends[0]), ends[1]))
-        for p, q in zip(sorted(ends), sorted(ends)[1:], strict=False):
+        for p, q in pairwise(sorted(ends)):
             if p < q and height + (p + q) / 2 * slope > 0:
                 yield p, q
 

@@ -114,7 +114,7 @@ def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
 
 
 class Curve:
-    """t = n / d on a surface in a chart, in lowest terms, and the curve of reference points (x : y : z) in the plane."""
+    """t = n / d on a surface in a chart, in lowest terms, and the reference points (x : y : z) along it."""
 
     __slots__ = ("d", "key", "n", "x", "y", "z")
 

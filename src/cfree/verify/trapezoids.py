@@ -2,8 +2,8 @@
 
 A trapezoid is {lower(theta) <= t <= upper(theta), start <= theta <= stop} on a patch. Oriented like (t, theta), it is
 bounded by: start, from lower to upper; upper, from start to stop; stop, from upper to lower; lower, from stop to start.
-A segment of a curve, or of a line at one angle, enters a sum as its end minus its beginning: segments of one curve cancel
-if and only if their ends do. So a side is two signed ends, and a closed surface is one where every end has the sum 0.
+A segment of a curve, or of a line at one angle, enters a sum as its end minus its beginning: segments of one curve
+cancel if and only if their ends do. So a side is two signed ends, and a surface is closed if every end has the sum 0.
 """
 
 from __future__ import annotations
@@ -14,26 +14,27 @@ from functools import lru_cache
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from flint import fmpq_poly, fmpz_poly
+from numpy.typing import NDArray
 
 from cfree.verify.algebra import Root, between, compare, roots
 from cfree.verify.surfaces import Curve, Fault, Surface, Turn, polynomial
 from cfree.verify.world import World, name_of
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden import Trapezoids
+    from cfree.scene import Scene
 
 End = tuple[bytes, int]  # a point of a curve, or of a line at one angle, and its sign
-ONE = Fraction(1)
+Contacts = tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.int32]]  # kind, robot and obstacle feature by patch
 
 
 class Reader:
     """The trapezoids of a boundary with their names resolved in the scene."""
 
-    def __init__(self, world: World, boundary: Boundary) -> None:
-        self.world, self.boundary = world, boundary
-        self.table = boundary.trapezoids
-        self.contacts = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
+    def __init__(self, scene: Scene, contacts: Contacts, table: Trapezoids) -> None:
+        self.world, self.contacts, self.table = World(scene), contacts, table
         self.surface = lru_cache(maxsize=64)(self._surface)
         self.curve = lru_cache(maxsize=4096)(self._curve)
 
@@ -46,7 +47,13 @@ class Reader:
         return Curve(surface, chart, self.world.curve(surface, name_of(code)))
 
     def trapezoid(self, k: int) -> Trapezoid:
-        """Trapezoid k, its angles and curves checked. Raises Fault."""
+        """Trapezoid k, its names resolved and its angles checked. Raises Fault."""
+        try:
+            return self._trapezoid(k)
+        except IndexError:
+            raise Fault("it names a feature that the scene does not have") from None
+
+    def _trapezoid(self, k: int) -> Trapezoid:
         t = self.table
         patch, chart = int(t.patch[k]), int(t.chart[k])
         surface = self.surface(patch)
@@ -71,12 +78,12 @@ class Reader:
             defining = n * e - m * d
         else:
             defining = polynomial(self.world.angle(surface, name_of(first)), chart)
-        if defining == 0:
+        if defining.degree() < 0:
             raise Fault(f"the polynomial of its {end} angle vanishes")
         found = [root for root, _ in roots(defining, lo, hi)]
         if place > len(found) or (len(found) != 1) == (place == 0):
             raise Fault(f"its {end} angle: {len(found)} roots in the interval, place {place}")
-        root = found[max(place, 1) - 1]
+        root: Root = found[max(place, 1) - 1]
         if compare(root, wall(-1)) < 0 or compare(root, wall(1)) > 0:
             raise Fault(f"its {end} angle is beyond the chart")
         return root
@@ -96,7 +103,7 @@ class Trapezoid:
 
     def turn(self) -> Turn:
         """A rational angle strictly between start and stop where the curves, which may touch, do not."""
-        if not self._gap:
+        if self._gap.degree() < 0:
             raise Fault("its two curves are one")
         while self.start.hi >= self.stop.lo:
             self.start.narrow()
@@ -160,7 +167,7 @@ class Trapezoid:
             fmpq_poly(polynomial(form, self.chart)) % m
             for form in ((s.q[0], -s.g[0], s.g[1]), (s.q[1], -s.g[1], -s.g[0]))
         )
-        if u == 0:
+        if u.degree() < 0:
             return None, at[0]
         slope = v * inverse(u, m) % m
         return slope, (at[1] - slope * at[0]) % m
@@ -170,7 +177,7 @@ def point(curve: Curve, angle: Root) -> tuple[Any, Any]:
     """Where a curve is at an angle, as two elements of the field of that angle."""
     m = angle.field
     z = fmpq_poly(curve.z) % m
-    if z == 0:
+    if z.degree() < 0:
         raise Fault("a curve leaves the surface's line to infinity")
     by = inverse(z, m)
     return fmpq_poly(curve.x) * by % m, fmpq_poly(curve.y) * by % m
@@ -178,7 +185,7 @@ def point(curve: Curve, angle: Root) -> tuple[Any, Any]:
 
 def inverse(x: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
     one, factor, _ = x.xgcd(modulus)
-    assert one == 1  # the modulus is irreducible
+    assert one.degree() == 0  # the modulus is irreducible; the divisor is monic
     return factor
 
 

@@ -1,7 +1,7 @@
 """What the scene forbids, and which contacts it has, recomputed from its exact coordinates.
 
-Coordinates are integers, the scene's times `scale`. `cfree.features` serves as the address book that says which vertex a
-number in the file means; whether two features make a contact is decided here, from the rings.
+Coordinates are integers, the scene's times `scale`. `cfree.features` serves as the address book that says which vertex
+a number in the file means; whether two features make a contact is decided here, from the rings.
 """
 
 from __future__ import annotations
@@ -61,13 +61,14 @@ class World:
         self.bounds = (bounds[0], bounds[1], bounds[2], bounds[3]) if bounds else None
         if scene.workspace is not None:
             outer, *holes = rings_of(scene.workspace, self.scale)
-            everything = [*outer, *(p for rings in obstacles for p in rings[0]), *zip(bounds[::2], bounds[1::2])]
+            everything = [*outer, *(p for rings in obstacles for p in rings[0])]
+            everything += zip(bounds[::2], bounds[1::2], strict=True)
             margin = 1 + 4 * max(abs(c) for ring in robot for p in ring[0] for c in p)
             (x0, *_, x1), (y0, *_, y1) = (sorted(axis) for axis in zip(*everything, strict=True))
             x0, y0, x1, y1 = x0 - margin, y0 - margin, x1 + margin, y1 + margin  # every contact is inside
             frame = Polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], [outer])
             for k, polygon in enumerate([frame, *map(Polygon, holes)]):
-                self._add_pieces(self.walls, polygon, f"complement {k} of the workspace", scale=1)
+                self._add_pieces(self.walls, polygon, f"part {k} of the workspace's complement", scale=1)
             obstacles.append([ring[::-1] for ring in (outer, *holes)])
         self.robot_corners = [corner for rings in robot for ring in rings for corner in corners(ring)]
         self.obstacle_corners = [corner for rings in obstacles for ring in rings for corner in corners(ring)]
@@ -200,9 +201,7 @@ def name_of(code: int) -> Name:
 
 def rings_of(polygon: Polygon, scale: int) -> list[Ring]:
     factor = scale // polygon.denominator
-    return [
-        [(x * factor, y * factor) for x, y in polygon.numerators[i:j]] for i, j in pairwise(polygon.ring_offsets)
-    ]
+    return [[(x * factor, y * factor) for x, y in polygon.numerators[i:j]] for i, j in pairwise(polygon.ring_offsets)]
 
 
 def tile(pieces: Iterable[Ring], rings: Iterable[Ring]) -> bool:

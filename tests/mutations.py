@@ -1,0 +1,312 @@
+"""Boundaries with one thing wrong; `python mutations.py SCENE.json ...` prints how many of each kind `verify` detects."""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import fields
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+import cfree.verify
+from cfree import Boundary, boundary, load_scene
+from cfree.features import unpacked
+from cfree.forbidden import Trapezoids
+from cfree.verify import Verification
+
+Columns = dict[str, Any]
+Mutation = Callable[[random.Random, Boundary, Columns], bool]  # changes the columns; False if there is nothing to change
+CONTACT = ("contact_kind", "contact_robot", "contact_obstacle")
+ANGLE = ("first", "second", "lo", "hi", "place")
+
+
+def columns_of(good: Boundary) -> Columns:
+    columns = {f.name: getattr(good.trapezoids, f.name).copy() for f in fields(Trapezoids)}
+    return columns | {name: getattr(good, name).copy() for name in CONTACT}
+
+
+def with_columns(good: Boundary, columns: Columns) -> Boundary:
+    trapezoids = Trapezoids(**{f.name: columns[f.name] for f in fields(Trapezoids)})
+    return Boundary(good.scene, good.features, *(columns[name] for name in CONTACT), trapezoids, good.stats)
+
+
+def keep(columns: Columns, rows: Any) -> bool:
+    for f in fields(Trapezoids):
+        columns[f.name] = columns[f.name][rows]
+    return True
+
+
+def pick(rng: random.Random, good: Boundary) -> int:
+    return rng.randrange(len(good.trapezoids))
+
+
+# --- trapezoids ---
+
+
+def drop_one(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    return keep(columns, np.arange(len(good.trapezoids)) != pick(rng, good))
+
+
+def drop_all(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    return keep(columns, slice(0, 0))
+
+
+def duplicate_one(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    return keep(columns, np.sort([*range(len(good.trapezoids)), pick(rng, good)]))
+
+
+def duplicate_all(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    return keep(columns, np.repeat(np.arange(len(good.trapezoids)), 2))
+
+
+def move_to_another_patch(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k, other = pick(rng, good), pick(rng, good)
+    differs = bool(columns["patch"][k] != columns["patch"][other])
+    columns["patch"][k] = columns["patch"][other]
+    return differs
+
+
+def change_the_chart(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    columns["chart"][pick(rng, good)] ^= 1
+    return True
+
+
+# --- curves ---
+
+
+def swap_lower_and_upper(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k = pick(rng, good)
+    columns["lower"][k], columns["upper"][k] = columns["upper"][k], columns["lower"][k]
+    return True
+
+
+def swap_curves_of_two(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k, side = pick(rng, good), columns[rng.choice(["lower", "upper"])]
+    others = np.flatnonzero((columns["patch"] == columns["patch"][k]) & (side != side[k]))
+    if len(others):
+        side[k] = side[rng.choice(others.tolist())]
+    return len(others) > 0
+
+
+def swap_curves_of_two_patches(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k, other, side = pick(rng, good), pick(rng, good), columns[rng.choice(["lower", "upper"])]
+    differs = bool(side[k] != side[other])
+    side[[k, other]] = side[[other, k]]
+    return differs
+
+
+def renamed(rng: random.Random, good: Boundary, code: int, *, of_robot: bool) -> int:
+    """Another vertex or edge in a packed pair, one that names another point or line; the same if there is none."""
+    kind, i, j = map(int, unpacked(code))
+    shape, old, is_edge = (
+        (good.features.robot, i, kind in (2, 4)) if of_robot else (good.features.obstacles, j, kind in (1, 4))
+    )
+    names = shape.names[is_edge]
+    others = [k for k in range(len(shape.previous)) if names[k] != names[old] and (not is_edge or shape.v[k] != shape.w[k])]
+    new = rng.choice(others) if others else old
+    return kind << 61 | (new if of_robot else i) << 31 | (j if of_robot else new)
+
+
+def change_a_feature(rng: random.Random, good: Boundary, column: Any) -> bool:
+    k = pick(rng, good)
+    old = int(column[k])
+    column[k] = renamed(rng, good, old, of_robot=rng.random() < 0.5) if old else 0
+    return int(column[k]) != old
+
+
+def change_a_curves_feature(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    return change_a_feature(rng, good, columns[rng.choice(["lower", "upper"])])
+
+
+def change_a_curves_kind(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k, side = pick(rng, good), columns[rng.choice(["lower", "upper"])]
+    kind, i, j = map(int, unpacked(int(side[k])))
+    side[k] = (kind % 3 + 1) << 61 | i << 31 | j
+    return True
+
+
+def forget_a_curve(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    columns[rng.choice(["lower", "upper"])][pick(rng, good)] = 0
+    return True
+
+
+# --- angles ---
+
+
+def swap_from_and_to(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k = pick(rng, good)
+    for name in ANGLE:
+        start, stop = columns[f"from_{name}"], columns[f"to_{name}"]
+        start[k], stop[k] = stop[k], start[k]
+    return True
+
+
+def take_another_angle(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """Extend or shorten a trapezoid to another critical angle of its patch."""
+    k, end, other = pick(rng, good), rng.choice(["from", "to"]), rng.choice(["from", "to"])
+    near = (columns["patch"] == columns["patch"][k]) & (columns["chart"] == columns["chart"][k])
+    near &= (columns[f"{other}_lo"] > columns[f"{end}_hi"][k]) | (columns[f"{other}_hi"] < columns[f"{end}_lo"][k])
+    if not near.any():
+        return False
+    taken = rng.choice(np.flatnonzero(near).tolist())
+    for name in ANGLE:
+        columns[f"{end}_{name}"][k] = columns[f"{other}_{name}"][taken]
+    return True
+
+
+def move_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k, end = pick(rng, good), rng.choice(["from", "to"])
+    lo, hi = columns[f"{end}_lo"], columns[f"{end}_hi"]
+    by = float(hi[k] - lo[k]) * 1.5 + 2.0 ** -rng.randrange(10, 50)
+    lo[k], hi[k] = lo[k] + by, hi[k] + by
+    return True
+
+
+def narrow_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """To one of its ends: no root is left, if the end is none."""
+    k, end = pick(rng, good), rng.choice(["from", "to"])
+    lo, hi = columns[f"{end}_lo"], columns[f"{end}_hi"]
+    was_wide = bool(lo[k] < hi[k])
+    lo[k] = hi[k]
+    return was_wide
+
+
+def widen_an_interval(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """To the whole chart, where that holds two roots or more."""
+    k, end = pick(rng, good), rng.choice(["from", "to"])
+    several = len(roots_in_chart(good, k, end)) > 1
+    columns[f"{end}_lo"][k], columns[f"{end}_hi"][k] = -1, 1
+    return several
+
+
+def change_a_place(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    columns[rng.choice(["from_place", "to_place"])][pick(rng, good)] += rng.randrange(1, 4)
+    return True
+
+
+def change_an_angles_feature(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    return change_a_feature(rng, good, columns[rng.choice([f"{e}_{n}" for e in ("from", "to") for n in ANGLE[:2]])])
+
+
+def forget_an_angles_name(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    name, k = rng.choice(["from_first", "to_first"]), pick(rng, good)
+    had_one = bool(columns[name][k])
+    columns[name][k] = 0
+    return had_one
+
+
+# --- patches ---
+
+
+def change_a_patchs_feature(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    k = int(columns["patch"][pick(rng, good)])
+    kind, i, j = (int(columns[name][k]) for name in CONTACT)
+    old = kind << 61 | i << 31 | j
+    new = renamed(rng, good, old, of_robot=rng.random() < 0.5)
+    _, columns["contact_robot"][k], columns["contact_obstacle"][k] = unpacked(new)
+    return new != old
+
+
+def change_a_patchs_kind(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    columns["contact_kind"][columns["patch"][pick(rng, good)]] ^= 3
+    return True
+
+
+MUTATIONS: tuple[Mutation, ...] = (
+    drop_one, drop_all, duplicate_one, duplicate_all, move_to_another_patch, change_the_chart,
+    swap_lower_and_upper, swap_curves_of_two, swap_curves_of_two_patches, change_a_curves_feature, change_a_curves_kind,
+    forget_a_curve, swap_from_and_to, take_another_angle, move_an_interval, narrow_an_interval, widen_an_interval,
+    change_a_place, change_an_angles_feature, forget_an_angles_name, change_a_patchs_feature, change_a_patchs_kind,
+)  # fmt: skip
+
+
+def roots_in_chart(good: Boundary, k: int, end: str) -> set[float]:
+    """Real roots in [-1, 1] of what names an angle, by sampling its sign: enough to see that there are several."""
+    first, second = (int(getattr(good.trapezoids, f"{end}_{name}")[k]) for name in ("first", "second"))
+    if not first or second:
+        return set()
+    kind, i, j = unpacked(first)
+    a, b, p = good.features.robot, good.features.obstacles, int(good.trapezoids.patch[k])
+    tau = np.linspace(-1, 1, 4001)
+    theta = 2 * np.arctan(tau) + np.pi * int(good.trapezoids.chart[k])
+    turn = np.array([np.cos(theta), np.sin(theta)])
+    rotated = lambda v: np.stack([turn[0] * v[0] - turn[1] * v[1], turn[1] * v[0] + turn[0] * v[1]], axis=-1)  # noqa: E731
+    if kind == 4:
+        u, v = rotated(a.xy[a.w[i]] - a.xy[a.v[i]]), b.xy[b.w[j]] - b.xy[b.v[j]] + 0 * turn.T
+    else:
+        starts, ends = (good.evaluate(np.full(len(tau), p), np.full(len(tau), t), theta) for t in (0.0, 1.0))
+        u, v = ends - starts, b.xy[j] - rotated(a.xy[i]) - starts
+    value = u[:, 0] * v[:, 1] - u[:, 1] * v[:, 0]
+    return set(tau[1:][value[1:] * value[:-1] < 0].tolist())
+
+
+# --- trying them ---
+
+
+def mutants(good: Boundary, mutate: Mutation, count: int, seed: int = 0) -> Iterator[Boundary]:
+    """At most `count` boundaries that differ from a good one in what they say."""
+    rng = random.Random(f"{mutate.__name__} {seed}")
+    for _ in range(4 * count):
+        columns = columns_of(good)
+        if mutate(rng, good, columns):
+            yield with_columns(good, columns)
+            count -= 1
+        if not count:
+            return
+
+
+def detected(bad: Boundary) -> Verification:
+    return cfree.verify.boundary(bad, slices=2)
+
+
+def says_the_same(good: Boundary, bad: Boundary) -> bool:
+    """Other names for the same curves and angles: limits of t agree everywhere, angles too. Judged by the core."""
+    t, s = good.trapezoids, bad.trapezoids
+    if len(t) != len(s) or any(np.any(getattr(t, f.name) != getattr(s, f.name)) for f in fields(Trapezoids)[:2]):
+        return False
+    if any(np.any(abs(getattr(t, name) - getattr(s, name)) > 1e-12) for name in ("tau_from", "tau_to")):
+        return False
+    if any(np.any(getattr(good, name) != getattr(bad, name)) for name in CONTACT):
+        return False
+    rows = np.arange(len(t))
+    for share in (0.1, 0.37, 0.62, 0.9):
+        theta = (1 - share) * t.theta_from + share * t.theta_to
+        for mine, theirs in zip(good.limits(rows, theta), bad.limits(rows, theta), strict=True):
+            if np.any(abs(mine - theirs) > 1e-9):
+                return False
+    return True
+
+
+def main(paths: list[str], count: int = 20) -> None:
+    tried: Counter[str] = Counter()
+    same: Counter[str] = Counter()
+    found: Counter[str] = Counter()
+    by: dict[str, Counter[str]] = {}
+    for path in paths:
+        good = boundary(load_scene(Path(path)))
+        for mutate in MUTATIONS:
+            name = mutate.__name__.replace("_", " ")
+            for bad in mutants(good, mutate, count):
+                result = detected(bad)
+                tried[name] += 1
+                if not result.verified:
+                    found[name] += 1
+                    by.setdefault(name, Counter()).update({finding.kind for finding in result.findings})
+                elif says_the_same(good, bad):
+                    same[name] += 1
+    table = Table("mutation", "tried", "other name, same thing", "detected", "missed", "found by", box=None)
+    for name, number in tried.items():
+        checks = ", ".join(f"{check} {n}" for check, n in by.get(name, Counter()).most_common())
+        missed = number - same[name] - found[name]
+        table.add_row(name, str(number), str(same[name]), str(found[name]), str(missed), checks)
+    Console(width=160).print(table)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
