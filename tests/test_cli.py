@@ -9,6 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 import shapely
 from typer.testing import CliRunner
@@ -40,7 +41,7 @@ def in_a_new_process(*arguments: str, **options: Any) -> subprocess.CompletedPro
 
 def test_help_has_examples(run: Run) -> None:
     assert "cfree boundary" in run("--help").stdout
-    for command in ("check", "boundary", "slice"):
+    for command in ("check", "boundary", "slice", "verify"):
         result = run(command, "--help")
         assert result.exit_code == 0
         assert f"cfree {command} scene.json" in " ".join(result.stdout.split())
@@ -332,3 +333,42 @@ def test_a_bar_is_shown_on_terminals_only() -> None:
     assert b"boundary" in os.read(leader, 10_000) and "contact patches" in stdout
     os.close(leader)
     assert in_a_new_process("boundary", FIG9).stderr == ""
+
+
+# verify
+
+
+@pytest.fixture
+def fig9_boundary(run: Run, tmp_path: Path) -> Path:
+    file = tmp_path / "fig9.npz"
+    run("boundary", FIG9, "-o", file)
+    return file
+
+
+def test_verify_says_what_is_proved_and_what_is_sampled(run: Run, fig9_boundary: Path) -> None:
+    result = run("verify", FIG9, fig9_boundary)
+    assert result.exit_code == 0 and result.stderr == ""
+    for word in ("PROVED", "SAMPLED", "closed surface", "verified ("):
+        assert word in result.stdout
+    facts = json.loads(run("verify", FIG9, fig9_boundary, "--sample", 5, "--slices", 1, "--json").stdout)
+    assert facts["verified"] and {check["how"] for check in facts["checks"]} == {"PROVED", "SAMPLED", "SKIPPED"}
+
+
+def test_verify_refutes_with_exit_code_1(run: Run, fig9_boundary: Path) -> None:
+    result = run("verify", SCENES / "five_convex.json", fig9_boundary)
+    assert result.exit_code == 1 and "not the scene" in result.stdout
+    arrays = dict(np.load(fig9_boundary))
+    arrays["lower"], arrays["upper"] = arrays["upper"], arrays["lower"]
+    np.savez(fig9_boundary, **arrays)
+    result = run("verify", FIG9, fig9_boundary)
+    assert result.exit_code == 1 and result.stderr == ""
+    assert "domains           REFUTED" in result.stdout and "not shown" in result.stdout
+
+
+def test_verify_refuses_bad_files_with_exit_code_2(run: Run, fig9_boundary: Path) -> None:
+    cut = fig9_boundary.with_name("cut.npz")
+    cut.write_bytes(fig9_boundary.read_bytes()[:-100])
+    for scene, file in ((FIG9, FIG9), (FIG9, cut), (FIG9, "missing.npz"), ("missing.json", fig9_boundary)):
+        result = run("verify", scene, file)
+        assert result.exit_code == 2
+        assert result.stderr.startswith("error: ") and result.stderr.count("\n") == 1

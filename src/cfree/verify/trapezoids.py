@@ -72,21 +72,25 @@ class Reader:
             if lo != hi or abs(lo) != 1 or second or place:
                 raise Fault(f"its {end} angle has no name and is no chart wall")
             return Root((int(-lo), 1), 0, lo, hi)
-        if second:
-            curves = (self.world.curve(surface, name_of(code)) for code in (first, second))
-            (n, d), (m, e) = (tuple(polynomial(form, chart) for form in t) for t in curves)
-            defining = n * e - m * d
-        else:
-            defining = polynomial(self.world.angle(surface, name_of(first)), chart)
-        if defining.degree() < 0:
-            raise Fault(f"the polynomial of its {end} angle vanishes")
-        found = [root for root, _ in roots(defining, lo, hi)]
+        found = [root for root, _ in roots(self.defining(first, second, surface, chart), lo, hi)]
         if place > len(found) or (len(found) != 1) == (place == 0):
             raise Fault(f"its {end} angle: {len(found)} roots in the interval, place {place}")
         root: Root = found[max(place, 1) - 1]
         if compare(root, wall(-1)) < 0 or compare(root, wall(1)) > 0:
             raise Fault(f"its {end} angle is beyond the chart")
         return root
+
+    def defining(self, first: int, second: int, surface: Surface, chart: int) -> fmpz_poly:
+        """The polynomial that names define on a surface: one pair's condition, or that two curves meet."""
+        if second:
+            curves = (self.world.curve(surface, name_of(code)) for code in (first, second))
+            (n, d), (m, e) = (tuple(polynomial(form, chart) for form in t) for t in curves)
+            found = n * e - m * d
+        else:
+            found = polynomial(self.world.angle(surface, name_of(first)), chart)
+        if found.degree() < 0:
+            raise Fault("an angle is named by what holds at every angle")
+        return found
 
 
 def wall(side: int) -> Root:

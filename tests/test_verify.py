@@ -1,0 +1,262 @@
+"""The independent checker: it finds nothing in what cfree computes, and its parts agree with the oracles."""
+
+from __future__ import annotations
+
+import multiprocessing
+import random
+import subprocess
+import sys
+from dataclasses import replace
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+from flint import fmpz_poly
+from hypothesis import given, settings
+
+import cfree.verify
+import oracles
+import strategies
+from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene
+from cfree.verify.algebra import between, compare, roots
+from cfree.verify.slices import Positions, crossing, pillar, segments_of_scene
+from cfree.verify.surfaces import Turn
+from cfree.verify.world import World, interiors_meet, tile
+from compared import plain_of, scene_of
+from shapes import KINDS, PlainScene, random_scene
+
+TESTS = Path(__file__).parent
+SCENES = TESTS.parent / "examples" / "scenes"
+REAL = {"benchmr_parking1", "benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin"}
+SMALL = [path for path in sorted(SCENES.glob("*.json")) if path.stem not in REAL]
+CASES = sorted((TESTS / "cases").glob("*.json"))
+FLAT = SCENES / "flat.json"
+TAUS = [Fraction(1, 7), Fraction(-5, 9), Fraction(2, 3)]
+
+
+def verified(scene: Scene, **options: object) -> cfree.verify.Verification:
+    return cfree.verify.boundary(boundary(scene, threads=1), scene, **options)  # type: ignore[arg-type]
+
+
+# --- what cfree computes ---
+
+
+@pytest.mark.parametrize("path", [*SMALL, *CASES], ids=lambda path: path.stem)
+def test_every_small_scene_verifies(path: Path) -> None:
+    result = verified(load_scene(path), slices=4)
+    assert not result.findings
+    assert {check.how for check in result.checks} == {"PROVED", "SAMPLED"}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_random_scenes_verify(kind: str) -> None:
+    for seed in range(3):
+        assert not verified(scene_of(random_scene(seed, kind)), slices=2, seed=seed).findings
+
+
+@given(strategies.scenes())
+@settings(max_examples=25)
+def test_small_integer_scenes_verify(plain: PlainScene) -> None:
+    assert not verified(scene_of(plain), slices=2).findings
+
+
+def test_a_sample_of_the_warehouse_verifies() -> None:
+    result = verified(load_scene(SCENES / "benchmr_warehouse.json"), sample=400, slices=2)
+    assert not result.findings
+    assert [check.how for check in result.checks] == ["PROVED", "SAMPLED", "SAMPLED", "SAMPLED", "SKIPPED", "SAMPLED"]
+    assert result.checks[1].extent.startswith("400 of ")
+
+
+# --- the interface ---
+
+
+@pytest.fixture(scope="module")
+def flat(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("verify") / "flat.npz"
+    boundary(load_scene(FLAT)).save(path)
+    return path
+
+
+def test_processes_find_the_same(flat: Path) -> None:
+    shares: list[float] = []
+    one, two = cfree.verify.boundary(flat), cfree.verify.boundary(flat, workers=2, progress=shares.append)
+    assert one.verified and replace(one, seconds=0) == replace(two, seconds=0)
+    assert shares == sorted(shares) and shares[-1] == 1
+
+
+def test_an_interruption_leaves_no_process(flat: Path) -> None:
+    def interrupt(share: float) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        cfree.verify.boundary(flat, workers=2, progress=interrupt)
+    assert not multiprocessing.active_children()
+
+
+def test_the_core_is_not_used(flat: Path) -> None:
+    program = (
+        "import sys; sys.modules['cfree._core'] = None\n"
+        "import cfree.verify\n"
+        f"print(cfree.verify.boundary({str(flat)!r}, slices=1).verified)"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert done.stdout == "True\n", done.stderr
+
+
+def test_another_scene_is_a_finding(flat: Path) -> None:
+    scene = load_scene(FLAT)
+    other = Scene(scene.robot, scene.obstacles[1:], bounds=scene.bounds, workspace=scene.workspace)
+    result = cfree.verify.boundary(flat, other)
+    assert [finding.kind for finding in result.findings] == ["scene"]
+    assert "obstacles" in str(result) and "REFUTED" in str(result)
+
+
+def test_bad_arguments_and_files_are_refused(flat: Path) -> None:
+    with pytest.raises(ValueError, match="workers 0"):
+        cfree.verify.boundary(flat, workers=0)
+    with pytest.raises(FormatError):
+        cfree.verify.boundary(FLAT)
+
+
+@pytest.mark.parametrize("name", ["triangle_pair", "square_pair", "l_in_u"])
+def test_a_coordinate_that_changes_a_little_is_detected(name: str) -> None:
+    good = boundary(load_scene(TESTS / "cases" / f"{name}.json"))
+    plain, rng = plain_of(good.scene), random.Random(0)
+    for shapes in ("robot", "obstacles"):
+        for k in range(len(getattr(plain, shapes)[0][0])):
+            (ring, holes), *others = getattr(plain, shapes)
+            moved = [*ring]
+            moved[k] = ring[k][0] + Fraction(rng.choice([-1, 1]), 10 ** rng.randrange(2, 10)), ring[k][1]
+            scene = scene_of(plain._replace(**{shapes: [(moved, holes), *others]}))
+            columns = good.contact_kind, good.contact_robot, good.contact_obstacle
+            bad = Boundary(scene, good.features, *columns, good.trapezoids, good.stats)
+            assert not cfree.verify.boundary(bad, slices=1).verified
+
+
+# --- parts of it ---
+
+
+def test_roots_are_counted_compared_and_known_under_every_name() -> None:
+    p = fmpz_poly([-1, 0, 2]) * fmpz_poly([-1, 3]) ** 2 * fmpz_poly([1, 0, 1])  # +-1/sqrt 2, 1/3 twice, +-i
+    found = roots(p, Fraction(-1), Fraction(1))
+    assert [multiplicity for _, multiplicity in found] == [1, 2, 1]
+    for (root, _), x in zip(found, (-(0.5**0.5), 1 / 3, 0.5**0.5), strict=True):
+        assert float(root.lo) <= x <= float(root.hi)
+    ((again, _),) = roots(fmpz_poly([-1, 0, 2]) * fmpz_poly([5, 1]), Fraction(7, 10), Fraction(8, 10))
+    assert again.key == found[2][0].key != found[0][0].key
+    assert compare(found[0][0], found[2][0]) == -1 and compare(again, found[2][0]) == 0
+    assert not roots(p, Fraction(9, 10), Fraction(1))
+
+
+def test_roots_agree_with_floating_point() -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        coefficients = rng.integers(-9, 10, rng.integers(2, 6))
+        if not coefficients[1:].any():
+            continue
+        p = fmpz_poly(coefficients.tolist())
+        expected = [x.real for x in np.roots(coefficients[::-1]) if abs(x.imag) < 1e-5 and -1.00001 < x.real < 1.00001]
+        found = [float(root.lo + root.hi) / 2 for root, k in roots(p, Fraction(-1), Fraction(1)) for _ in range(k)]
+        assert len(found) == len(expected)
+
+
+def test_between_is_strictly_between() -> None:
+    rng = random.Random(0)
+    for _ in range(200):
+        lo = Fraction(rng.randrange(-(10**6), 10**6), rng.randrange(1, 10**9))
+        hi = lo + Fraction(rng.randrange(1, 10**6), 10 ** rng.randrange(1, 40))
+        assert lo < between(lo, hi) < hi
+
+
+def test_tiling_is_judged_exactly() -> None:
+    square = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    lower, upper = [(0, 0), (4, 0), (4, 4)], [(0, 0), (4, 4), (0, 4)]
+    assert tile([lower, upper], [square]) and tile([square], [square])
+    assert tile([[(0, 0), (2, 0), (2, 4), (0, 4)], [(2, 0), (4, 0), (4, 4), (2, 4)]], [square])  # a vertex on an edge
+    for bad in (
+        [lower],
+        [lower, upper, upper],
+        [lower, [(0, 0), (4, 4), (0, 5)]],
+        [lower[::-1], upper],
+        [[*square[::-1]]],
+    ):
+        assert not tile(bad, [square])
+    star = [(0, 0), (4, 1), (8, 0), (4, 8)]
+    assert not tile([star], [star])  # not convex
+
+
+def test_overlap_agrees_with_the_oracle() -> None:
+    rng = random.Random(0)
+    for _ in range(300):
+        first, second = (
+            strategies.convex_ring([(rng.randrange(5) + d, rng.randrange(5)) for _ in range(6)]) for d in (0, 3)
+        )
+        if min(len(first), len(second)) > 2:
+            assert interiors_meet(first, second) == oracles.interiors_meet(tuple(first), tuple(second))
+
+
+@pytest.mark.parametrize("name", ["degenerate_workspace", "sofa_corner", "degenerate_bounds_on_walls"])
+def test_forbidden_poses_agree_with_the_oracle(name: str) -> None:
+    scene = load_scene(SCENES / f"{name}.json")
+    world, plain, rng, answers = World(scene), plain_of(scene), random.Random(0), set()
+    for _ in range(60):
+        x, y, d = rng.randrange(-8, 60), rng.randrange(-8, 60), 6
+        turn = Turn.of(0, rng.choice(TAUS))
+        pose = (x * world.scale * turn.w, y * world.scale * turn.w), d * turn.w
+        expected = oracles.exact_is_forbidden(
+            plain.robot, plain.obstacles, Fraction(x, d), Fraction(y, d), turn.tau, plain.bounds, plain.workspace
+        )
+        answers.add(expected)
+        assert world.is_forbidden(turn, pose) == expected
+    assert answers == {True, False}
+
+
+def test_pillars_are_the_oracles_hulls() -> None:
+    scene = load_scene(SCENES / "five_convex.json")
+    world, plain = World(scene), plain_of(scene)
+    for tau in TAUS:
+        turn = Turn.of(0, tau)
+        (part,) = ([(-x, -y) for x, y in map(turn, part)] for part in world.parts)
+        mine = [pillar([(turn.w * x, turn.w * y) for x, y in wall], part) for wall in world.walls]
+        size = turn.w * world.scale
+        area = sum(oracles.ring_area([(Fraction(x, size), Fraction(y, size)) for x, y in ring]) for ring in mine)
+        hulls = [
+            oracles.exact_hull((bx - ax, by - ay) for bx, by in outer for ax, ay in placed)
+            for outer, _ in plain.obstacles
+            for placed in [oracles.exact_place(plain.robot[0][0], Fraction(0), Fraction(0), tau)]
+        ]
+        assert area == sum(map(oracles.ring_area, hulls))
+
+
+def test_a_line_crosses_a_square() -> None:
+    square = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    half = Fraction(1, 2)
+    assert list(crossing(square, (-4, 1), (8, 0))) == [(half, Fraction(1))]
+    assert not list(crossing(square, (0, 0), (4, 0)))  # along an edge
+    assert not list(crossing(square, (-4, 1), (4, 0)))  # up to it
+    assert Positions((0, 1), (6, -3)).key == ((2, -1), 2)
+
+
+@pytest.mark.parametrize("name", ["sofa_corner", "flat", "degenerate_overlapping"])
+def test_slices_have_the_oracles_perimeter(name: str) -> None:
+    scene = load_scene(SCENES / f"{name}.json")
+    world, plain = World(scene), plain_of(scene)
+    for tau in TAUS:
+        turn = Turn.of(0, tau)
+        found = segments_of_scene(world, turn)
+        assert found is not None
+        total = sum(float(q - p) / np.hypot(*line[0]) for line, parts in found.items() for p, q in parts)
+        theta = 2 * np.arctan(float(tau))
+        oracle = oracles.forbidden_slice(plain.robot, plain.obstacles, theta, plain.bounds, plain.workspace)
+        if plain.bounds or plain.workspace:
+            oracle = oracles.free_slice(plain.robot, plain.obstacles, theta, plain.bounds, plain.workspace)
+        assert total / (turn.w * world.scale) == pytest.approx(oracle.length, rel=1e-9)
+
+
+def test_a_polygon_whose_pieces_do_not_tile_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:
+    good = boundary(Scene(robot=[(0, 0), (1, 0), (0, 1)], obstacles=[[(3, 0), (6, 0), (6, 3)]]))
+    good.features.robot.core  # noqa: B018 - made from the true pieces
+    monkeypatch.setattr(Polygon, "pieces", property(lambda self: ((0, 1, 2), (0, 1, 2))))
+    result = cfree.verify.boundary(good, slices=0)
+    assert [finding.kind for finding in result.findings] == ["convex pieces"] * 2
