@@ -200,8 +200,10 @@ def test_overlap_agrees_with_the_oracle() -> None:
 def test_forbidden_poses_agree_with_the_oracle(name: str) -> None:
     scene = load_scene(SCENES / f"{name}.json")
     world, plain, rng, answers = World(scene), plain_of(scene), random.Random(0), set()
-    for _ in range(60):
-        x, y, d = rng.randrange(-8, 60), rng.randrange(-8, 60), 6
+    shapes = [*plain.obstacles, *([plain.workspace] if plain.workspace else [])]
+    x0, y0, x1, y1 = (round(12 * c) for c in oracles.box_of(shapes))
+    for _ in range(100):
+        x, y, d = rng.randint(x0, x1), rng.randint(y0, y1), 12
         turn = Turn.of(0, rng.choice(TAUS))
         pose = (x * world.scale * turn.w, y * world.scale * turn.w), d * turn.w
         expected = oracles.exact_is_forbidden(

@@ -23,11 +23,9 @@ class Root:
 
     Examples
     --------
-    >>> two = roots(fmpz_poly([-2, 0, 1]), Fraction(-2), Fraction(2))
-    >>> [round(float(r.lo), 1) for r, _ in two]
-    [-2.0, 0.0]
-    >>> compare(two[0][0], two[1][0])
-    -1
+    >>> (negative, _), (positive, _) = roots(fmpz_poly([-2, 0, 1]), Fraction(-2), Fraction(2))
+    >>> compare(negative, positive), positive.key
+    (-1, ((-2, 0, 1), 1))
     """
 
     __slots__ = ("hi", "key", "lo", "poly")

@@ -212,6 +212,21 @@ def _unmatched(whole: Part, reader: Reader) -> list[Finding]:
     ]
 
 
+def _parts(whole: Part, count: int) -> int:
+    """Into how many parts the ends in common join the trapezoids; pinched surfaces are joined, too."""
+    parent = list(range(count))
+
+    def root(k: int) -> int:
+        while parent[k] != k:
+            parent[k] = k = parent[parent[k]]
+        return k
+
+    for _, (first, *others) in whole.sides.values():
+        for k in others:
+            parent[root(k)] = root(first)
+    return sum(parent[k] == k for k in range(count))
+
+
 def _place(reader: Reader, numbers: Sequence[int]) -> str:
     t = reader.table
     listed = ", ".join(
@@ -225,13 +240,15 @@ def _checks(whole: Part, reader: Reader, count: int, refuted: set[str]) -> tuple
     all_of_them = n == count
     every = f"{n:,} trapezoids" if all_of_them else f"{n:,} of {count:,} trapezoids"
     proved = PROVED if all_of_them else SAMPLED
+    closed = SKIPPED, "needs every trapezoid"
+    if all_of_them:
+        closed = PROVED, f"{len(whole.sides):,} ends of sides cancel; {_parts(whole, n):,} connected parts"
     rows = (
         (PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles: convex, tiling them"),
         (ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order, in the chart"),
         (DOMAINS, proved, f"{every}: contact in range and 0 <= lower <= upper <= 1 from first to second angle"),
         (FREE, SAMPLED, f"{every}: on the contact, inside no obstacle, at one exact point each"),
-        (CLOSED, PROVED, f"{len(whole.sides):,} ends of sides cancel") if all_of_them
-        else (CLOSED, SKIPPED, "needs every trapezoid"),
+        (CLOSED, *closed),
         (MISSING, SAMPLED, f"{whole.slices} exact slices, {whole.segments:,} segments: computed anew, and the same"),
-    )  # fmt: skip
+    )
     return tuple(Check(name, REFUTED if name in refuted else how, extent) for name, how, extent in rows)

@@ -68,6 +68,7 @@ def segments_of_scene(world: World, turn: Turn) -> Segments | None:
     parts = [[(-u, -v) for u, v in map(turn, part)] for part in world.parts]
     walls = [[(w * u, w * v) for u, v in wall] for wall in world.walls]
     pillars = [pillar(wall, part) for wall in walls for part in parts]
+    pillars += [[(w * u, w * v) for u, v in ring] for ring in world.beyond]
     around = boxes(pillars, w * world.scale)
     found: Segments = defaultdict(list)
     for surface in world.contacts():
@@ -79,8 +80,6 @@ def segments_of_scene(world: World, turn: Turn) -> Segments | None:
         start, along = turn.start(surface), turn.along(surface)
         (box,) = boxes([[start, (start[0] + along[0], start[1] + along[1])]], w * world.scale)
         covered = [interval for k in near(around, box) for interval in crossing(pillars[k], start, along)]
-        if world.bounds:
-            covered += outside(world.bounds, w, start, along)
         line = Positions(start, along)
         found[line.key] += [(line.at(p), line.at(q)) for p, q in left_over(covered)]
     return {key: united(intervals) for key, intervals in found.items() if intervals}
@@ -161,19 +160,6 @@ def crossing(pillar: Ring, start: Vector, along: Vector) -> Iterator[Interval]:
             hi = min(hi, Fraction(-height, slope))
     if lo < hi:
         yield lo, hi
-
-
-def outside(bounds: tuple[int, int, int, int], w: int, start: Vector, along: Vector) -> Iterator[Interval]:
-    """Where a segment is strictly beyond a side of a rectangle."""
-    for axis, sense in ((0, 1), (1, 1), (0, -1), (1, -1)):
-        limit = bounds[axis if sense > 0 else axis + 2]
-        height, slope = sense * (w * limit - start[axis]), -sense * along[axis]  # beyond: height + t slope > 0
-        ends = [Fraction(0), Fraction(1)]
-        if slope:
-            ends.append(min(max(Fraction(-height, slope), ends[0]), ends[1]))
-        for p, q in pairwise(sorted(ends)):
-            if p < q and height + (p + q) / 2 * slope > 0:
-                yield p, q
 
 
 def left_over(covered: Iterable[Interval]) -> Iterator[Interval]:

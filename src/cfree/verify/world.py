@@ -37,6 +37,8 @@ class World:
     ----------
     parts, walls : list of Ring
         Convex pieces of the robot and of the obstacles, the complement of the workspace among them.
+    beyond : list of Ring
+        What is outside the bounds, for the reference point.
     untiled : list of str
         Shapes whose pieces are not convex, or do not tile them.
     """
@@ -57,26 +59,23 @@ class World:
             self._add_pieces(self.parts, polygon, f"robot[{k}]")
         for k, polygon in enumerate(scene.obstacles):
             self._add_pieces(self.walls, polygon, f"obstacle {k}")
+        workspace = scene.workspace and rings_of(scene.workspace, self.scale)
         bounds = [int(b * self.scale) for b in scene.bounds or ()]
-        self.bounds = (bounds[0], bounds[1], bounds[2], bounds[3]) if bounds else None
-        if scene.workspace is not None:
-            outer, *holes = rings_of(scene.workspace, self.scale)
-            everything = [*outer, *(p for rings in obstacles for p in rings[0])]
-            everything += zip(bounds[::2], bounds[1::2], strict=True)
-            margin = 1 + 4 * max(abs(c) for ring in robot for p in ring[0] for c in p)
-            (x0, *_, x1), (y0, *_, y1) = (sorted(axis) for axis in zip(*everything, strict=True))
-            x0, y0, x1, y1 = x0 - margin, y0 - margin, x1 + margin, y1 + margin  # every contact is inside
-            frame = Polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], [outer])
-            for k, polygon in enumerate([frame, *map(Polygon, holes)]):
+        points = [p for rings in (*obstacles, workspace or [[]]) for p in rings[0]]
+        points += zip(bounds[::2], bounds[1::2], strict=True)
+        margin = 1 + 4 * max(abs(c) for ring in robot for p in ring[0] for c in p)
+        (x0, *_, x1), (y0, *_, y1) = (sorted(axis) for axis in zip(*points, *[ZERO] * 2, strict=True))
+        around = x0 - margin, y0 - margin, x1 + margin, y1 + margin  # holds the robot at every contact
+        self.bounds, self.beyond = (tuple(bounds), frame(around, bounds)) if bounds else ((), [])
+        if workspace:
+            outer, *holes = workspace
+            for k, polygon in enumerate([Polygon(rectangle(*around), [outer]), *map(Polygon, holes)]):
                 self._add_pieces(self.walls, polygon, f"part {k} of the workspace's complement", scale=1)
-            obstacles.append([ring[::-1] for ring in (outer, *holes)])
+            obstacles.append([ring[::-1] for ring in workspace])
         self.robot_corners = [corner for rings in robot for ring in rings for corner in corners(ring)]
         self.obstacle_corners = [corner for rings in obstacles for ring in rings for corner in corners(ring)]
-        self.bound_edges: list[tuple[Vector, Vector]] = []
-        if self.bounds:
-            x0, y0, x1, y1 = self.bounds
-            inner = [(x0, y0), (x0, y1), (x1, y1), (x1, y0)]  # the complement is on the left
-            self.bound_edges = [(p, q) for _, p, q in corners(inner)]
+        inner = rectangle(*bounds)[::-1] if bounds else []  # the complement is on the left
+        self.bound_edges = [(p, q) for _, p, q in corners(inner)]
         self._contacts = {id(self.robot): set(self.robot_corners), id(self.obstacles): set(self.obstacle_corners)}
         self.wall_boxes = boxes(self.walls, self.scale)
 
@@ -139,7 +138,7 @@ class World:
     # --- what is forbidden ---
 
     def is_forbidden(self, turn: Turn, pose: Pose) -> bool:
-        """Do interiors of robot and obstacles meet, or is the reference point out of bounds?"""
+        """Is a pose forbidden, at which the robot touches an obstacle or the reference point the bounds?"""
         (x, y), d = pose
         if self.bounds:
             x0, y0, x1, y1 = (d * b for b in self.bounds)
@@ -175,7 +174,7 @@ def edge_vertex(a: Vector, end: Vector, corner: Corner) -> Surface:
 
 
 def corners(ring: Ring) -> list[Corner]:
-    return list(zip([ring[-1], *ring[:-1]], ring, [*ring[1:], ring[0]], strict=True))
+    return list(zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True))
 
 
 def is_convex(corner: Corner) -> bool:
@@ -197,6 +196,16 @@ def name_of(code: int) -> Name:
 
 
 # --- convex pieces ---
+
+
+def rectangle(x0: int, y0: int, x1: int, y1: int) -> Ring:
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+
+
+def frame(outer: Sequence[int], inner: Sequence[int]) -> list[Ring]:
+    """Four rectangles that cover what is between two."""
+    (X0, Y0, X1, Y1), (x0, y0, x1, y1) = outer, inner
+    return [rectangle(*side) for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1))]
 
 
 def rings_of(polygon: Polygon, scale: int) -> list[Ring]:
