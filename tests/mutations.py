@@ -281,7 +281,7 @@ def says_the_same(good: Boundary, bad: Boundary) -> bool:
     return True
 
 
-def main(paths: list[str], count: int = 20) -> None:
+def main(paths: list[str], count: int = 10) -> None:
     tried: Counter[str] = Counter()
     same: Counter[str] = Counter()
     found: Counter[str] = Counter()

@@ -51,8 +51,7 @@ def test_every_small_scene_verifies(path: Path) -> None:
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_scenes_verify(kind: str) -> None:
-    for seed in range(3):
-        assert not verified(scene_of(random_scene(seed, kind)), slices=2, seed=seed).findings
+    assert not verified(scene_of(random_scene(0, kind)), slices=2).findings
 
 
 @given(strategies.scenes())
@@ -62,7 +61,7 @@ def test_small_integer_scenes_verify(plain: PlainScene) -> None:
 
 
 def test_a_sample_of_the_warehouse_verifies() -> None:
-    result = verified(load_scene(SCENES / "benchmr_warehouse.json"), sample=400, slices=2)
+    result = verified(load_scene(SCENES / "benchmr_warehouse.json"), sample=400, slices=1)
     assert not result.findings
     assert [check.how for check in result.checks] == ["PROVED", "SAMPLED", "SAMPLED", "SAMPLED", "SKIPPED", "SAMPLED"]
     assert result.checks[1].extent.startswith("400 of ")
