@@ -17,7 +17,7 @@ from rich.table import Table
 import cfree.verify
 from cfree import Boundary, boundary, load_scene
 from cfree.features import unpacked
-from cfree.forbidden import Trapezoids
+from cfree.trapezoids import Trapezoids
 from cfree.verify import Verification
 from cfree.verify.trapezoids import Reader
 
@@ -35,7 +35,8 @@ def columns_of(good: Boundary) -> Columns:
 
 def with_columns(good: Boundary, columns: Columns) -> Boundary:
     trapezoids = Trapezoids(**{f.name: columns[f.name] for f in fields(Trapezoids)})
-    return Boundary(good.scene, good.features, *(columns[name] for name in CONTACT), trapezoids, good.stats)
+    contacts = (columns[name] for name in CONTACT)
+    return Boundary(good.scene, good.features, *contacts, trapezoids, good.isolated, good.stats)
 
 
 def keep(columns: Columns, rows: Any) -> bool:

@@ -19,8 +19,9 @@ from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Contacts, Reader
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary, Trapezoids
+    from cfree.forbidden import Boundary
     from cfree.scene import Scene
+    from cfree.trapezoids import Trapezoids
 
 BLOCK = 200  # trapezoids checked between two reports
 

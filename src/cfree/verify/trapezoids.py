@@ -23,8 +23,8 @@ from cfree.verify.surfaces import Curve, Fault, Surface, Turn, polynomial
 from cfree.verify.world import World, name_of
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Trapezoids
     from cfree.scene import Scene
+    from cfree.trapezoids import Trapezoids
 
 End = tuple[bytes, int]  # a point of a curve, or of a line at one angle, and its sign
 Contacts = tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.int32]]  # kind, robot and obstacle feature by patch
