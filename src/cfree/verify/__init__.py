@@ -20,6 +20,7 @@ nothing missing, SAMPLED
 "Not forbidden" says nothing of the rest of a trapezoid, "nothing missing" nothing of other angles. Curves are told
 apart by their equations, angles by irreducible polynomials, points by elements of the angle's number field; 32-byte
 hashes stand for them when they are counted. Only `features` is believed: that it numbers features as the file does.
+Isolated parts, at which the robot fits exactly, and the cell complex are not looked at.
 
 Each file imports only from those before it: `algebra` (roots), `surfaces` (contacts and curves), `world` (the scene),
 `trapezoids`, `slices`, `result`, `driver`.
