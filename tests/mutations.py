@@ -36,7 +36,7 @@ def columns_of(good: Boundary) -> Columns:
 def with_columns(good: Boundary, columns: Columns) -> Boundary:
     trapezoids = Trapezoids(**{f.name: columns[f.name] for f in fields(Trapezoids)})
     contacts = (columns[name] for name in CONTACT)
-    return Boundary(good.scene, good.features, *contacts, trapezoids, good.isolated, good.stats)
+    return Boundary(good.scene, good.features, *contacts, trapezoids, good.isolated, good.stats, good.trimmed)
 
 
 def keep(columns: Columns, rows: Any) -> bool:
