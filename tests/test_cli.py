@@ -372,3 +372,14 @@ def test_verify_refuses_bad_files_with_exit_code_2(run: Run, fig9_boundary: Path
         result = run("verify", scene, file)
         assert result.exit_code == 2
         assert result.stderr.startswith("error: ") and result.stderr.count("\n") == 1
+
+
+def test_a_limit_of_time_or_memory_has_exit_code_3_and_a_marked_file(run: Run, tmp_path: Path) -> None:
+    scene, file = SCENES / "benchmr_warehouse.json", tmp_path / "part.npz"
+    for limit in (("--max-seconds", "0"), ("--max-memory", "1 MB")):
+        result = run("boundary", scene, "-o", file, *limit)
+        assert result.exit_code == 3 and "incomplete" in result.stderr and str(file) in result.stderr
+        assert run("slice", file, "--theta", "0").exit_code == 2
+        file.unlink()
+    result = run("boundary", scene, "--max-memory", "a lot")
+    assert result.exit_code == 2 and '"500MB"' in result.stderr

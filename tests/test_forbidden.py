@@ -19,7 +19,16 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree import Boundary, Polygon, Scene, boundary, load_scene
+from cfree import (
+    Boundary,
+    IncompleteError,
+    Polygon,
+    Scene,
+    boundary,
+    boundary_mesh,
+    load_boundary,
+    load_scene,
+)
 from compared import edge, length, mistakes, plain_of, scene_of, slit_length, vertex
 from shapes import (
     KINDS,
@@ -431,3 +440,26 @@ def test_repr_and_types() -> None:
     assert repr(result) == f"Boundary(18 of 18 patches live, {len(result.trapezoids)} trapezoids)"
     with pytest.raises(ValueError, match="read-only"):
         result.trapezoids.patch[0] = 1
+
+
+def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
+    scene = load_scene(TESTS.parent / "examples/scenes/benchmr_warehouse.json")
+    for limit in ({"max_seconds": 0.0}, {"max_memory": 1.0}):
+        part = boundary(scene, threads=1, **limit)
+        assert not part.complete and 0 < part.trimmed.sum() < len(part.trimmed)
+        assert "INCOMPLETE" in repr(part)
+        questions = (
+            lambda part=part: part.slice(0.1),
+            lambda part=part: part.complex,
+            lambda part=part: boundary_mesh(part),
+        )
+        for ask in questions:
+            with pytest.raises(IncompleteError, match=r"of \d+ patches were trimmed"):
+                ask()
+        part.save(tmp_path / "part.npz")
+        loaded = load_boundary(tmp_path / "part.npz")
+        assert not loaded.complete and np.array_equal(loaded.trimmed, part.trimmed)
+    whole = boundary(scene)
+    assert whole.complete
+    done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
+    assert np.array_equal(whole.trapezoids.lower[done], part.trapezoids.lower)  # what was done is right
