@@ -11,10 +11,12 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
     const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& out) {
         out.clear();
         for (const Int& c : exact) {
-            const double nearest = c.convert_to<double>();
-            out.push_back(std::ldexp(nearest, -shift));
+            const int width = c.is_zero() ? 0 : static_cast<int>(msb(abs(c))) + 1, below = std::max(0, width - 64);
+            const double leading = Int(c >> static_cast<unsigned>(below)).convert_to<double>();  // of 64 bits: always finite
+            const double nearest = std::ldexp(leading, below);
+            out.push_back(std::ldexp(leading, below - shift));
             rounded |= !std::isfinite(nearest) || Int(nearest) != c;
-            if (!c.is_zero()) widest = std::max(widest, static_cast<int>(msb(abs(c))) + 1);
+            widest = std::max(widest, width);
         }
     };
     convert(X, x), convert(Y, y);
