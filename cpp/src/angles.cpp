@@ -200,8 +200,9 @@ int Predicates::order(const Event& x, const Sample& at) {
     if (!at.fine && x.hi < at.tau) return -1;
     if (!at.fine && x.lo > at.tau) return 1;
     ++counters.exact;
-    const RealRoot root = root_of(x);
     const Dyadic t = at.exact();
+    if (x.first.kind == Kind::none) return cfree::compare(Dyadic::from(x.lo), t);
+    const RealRoot root = root_of(x);
     if (cfree::compare(t, root.lo) < 0) return 1;
     if (cfree::compare(root.hi, t) < 0) return -1;
     const int sign = cfree::sign_at(root.p, t);

@@ -190,6 +190,10 @@ Predicates::Roots Predicates::crossings(const Form& f, const Feature& p, const F
         a = shared_end(A, p.robot, q.robot), b = p.obstacle;
     }
     if (a < 0 || b < 0) return roots(f, p, q, from, to);
+    // one line both ways is one curve
+    const bool on_one_line = p.kind == q.kind && (p.kind == Kind::vertex_edge ? O.direction[p.obstacle] == O.direction[q.obstacle]
+                                                                             : A.direction[p.robot] == A.direction[q.robot]);
+    if (on_one_line) return {0, true, {}};
     Roots result = offset_roots(a, b, offset(a, b), from, to);
     if (result.all_zero || p.kind == q.kind) return result;
     const Roots parallel = parallel_roots(q.robot, p.obstacle, from, to);
