@@ -64,7 +64,10 @@ static std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> integers(cons
     return result;
 }
 
+void bind_predicates(nb::module_& m);
+
 NB_MODULE(_core, m) {
+    bind_predicates(m);
     nb::class_<cfree::Shape>(m, "Shape")
         .def("__init__", [](cfree::Shape* s, Limbs coordinates, int shift, Column<int> point, Column<int> v, Column<int> w,
                             Column<int> line, Column<int> direction, int ring_vertices, Column<int> previous,

@@ -1,0 +1,184 @@
+// The predicates and the polynomials under them, flat, for tests: they are compared with references in Python. Features are
+// packed; an event is (first, second, lo, hi, fine), a sample (tau, None or (n, k) for n / 2^k).
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "cfree/boundary.hpp"
+
+namespace nb = nanobind;
+using namespace nb::literals;
+using cfree::Code;
+using cfree::Index;
+
+using EventTuple = std::tuple<Code, Code, double, double, Index>;
+using DyadicPair = std::pair<nb::int_, unsigned>;
+using SampleTuple = std::tuple<double, std::optional<DyadicPair>>;
+using FilteredTuple = std::array<double, 4>;  // a, b, c, err
+using Coefficients = std::vector<nb::int_>;
+using RootTuple = std::tuple<Coefficients, DyadicPair, DyadicPair>;  // the only root of a polynomial in [lo, hi]
+
+static cfree::Int integer(const nb::int_& n) {
+    return cfree::Int(nb::steal<nb::str>(PyNumber_ToBase(n.ptr(), 16)).c_str());
+}
+static nb::int_ integer(const cfree::Int& n) {
+    const auto digits = cfree::Int(abs(n)).str(0, std::ios_base::hex);
+    return nb::steal<nb::int_>(PyLong_FromString(((n.sign() < 0 ? "-" : "") + digits).c_str(), nullptr, 16));
+}
+
+static cfree::Dyadic dyadic(const DyadicPair& d) { return {integer(d.first), d.second}; }
+static DyadicPair dyadic(const cfree::Dyadic& d) { return {integer(d.n), d.k}; }
+
+static cfree::Poly polynomial(const Coefficients& c) {
+    if (c.size() > 5) throw std::invalid_argument("the degree is at most 4");
+    cfree::Poly p;
+    for (const auto& x : c) p.push_back(integer(x));
+    p.trim();
+    return p;
+}
+static Coefficients polynomial(const cfree::Poly& p) {
+    Coefficients c;
+    for (const auto& x : p) c.push_back(integer(x));
+    return c;
+}
+
+static cfree::RealRoot root(const RootTuple& x) {
+    const auto& [p, lo, hi] = x;
+    return {polynomial(p), dyadic(lo), dyadic(hi)};
+}
+static cfree::Event event(const EventTuple& x) {
+    const auto& [first, second, lo, hi, fine] = x;
+    return {cfree::unpacked(first), cfree::unpacked(second), lo, hi, fine};
+}
+static EventTuple event(const cfree::Event& x) {
+    return {cfree::packed(x.first), cfree::packed(x.second), x.lo, x.hi, x.fine};
+}
+static cfree::Sample sample(const SampleTuple& at) {
+    const auto& [tau, fine] = at;
+    return {tau, fine ? std::optional(dyadic(*fine)) : std::nullopt};
+}
+static SampleTuple sample(const cfree::Sample& at) {
+    return {at.tau, at.fine ? std::optional(dyadic(*at.fine)) : std::nullopt};
+}
+static FilteredTuple filtered(const cfree::Filtered& f) { return {f.a, f.b, f.c, f.err}; }
+
+static std::vector<EventTuple> events(const cfree::Event* at, int count) {
+    std::vector<EventTuple> list;
+    for (int k = 0; k < count; ++k) list.push_back(event(at[k]));
+    return list;
+}
+static std::pair<std::vector<EventTuple>, bool> roots(const cfree::Predicates::Roots& r) {
+    return {events(r.at, r.count), r.all_zero};
+}
+
+namespace {
+
+struct OnScene {  // owns what it decides about
+    cfree::Scene scene;
+    cfree::Predicates decide;
+    OnScene(const cfree::Shape& robot, const cfree::Shape& obstacles, const cfree::Surface& surface)
+        : scene{robot, obstacles}, decide(scene, surface) {}
+    OnScene(const OnScene&) = delete;
+    cfree::Curve curve(Code code, bool flipped) const {
+        cfree::Curve c = decide.curve(cfree::unpacked(code));
+        if (flipped) c.N = -c.N, c.D = -c.D, c.flipped = true;
+        return c;
+    }
+};
+
+}  // namespace
+
+void bind_predicates(nb::module_& m) {
+    nb::class_<OnScene>(m, "Predicates")
+        .def("__init__", [](OnScene* p, const cfree::Shape& robot, const cfree::Shape& obstacles, Code contact, int chart) {
+            new (p) OnScene(robot, obstacles, {cfree::unpacked(contact), chart});
+        }, "robot"_a, "obstacles"_a, "contact"_a, "chart"_a)
+        .def("code", [](const OnScene& p, Code f) { return cfree::code(p.scene, cfree::unpacked(f)); }, "feature"_a)
+        .def("offset", [](const OnScene& p, Index s, Index v) { return filtered(p.decide.offset(s, v)); }, "s"_a, "v"_a)
+        .def("parallel", [](const OnScene& p, Index g, Index f) { return filtered(p.decide.parallel(g, f)); }, "g"_a, "f"_a)
+        .def("curve", [](const OnScene& p, Code f) {
+            const auto c = p.decide.curve(cfree::unpacked(f));
+            return std::pair(filtered(c.N), filtered(c.D));
+        }, "feature"_a)
+        .def_static("sign_on", [](const FilteredTuple& f, double lo, double hi) {
+            return cfree::Predicates::sign_on({f[0], f[1], f[2], f[3]}, lo, hi);
+        }, "f"_a, "lo"_a, "hi"_a)
+        .def("offset_sign", [](OnScene& p, Index s, Index v, const SampleTuple& at) {
+            return p.decide.offset_sign(s, v, p.decide.offset(s, v), sample(at));
+        }, "s"_a, "v"_a, "at"_a)
+        .def("parallel_sign", [](OnScene& p, Index g, Index f, const SampleTuple& at) {
+            return p.decide.parallel_sign(g, f, p.decide.parallel(g, f), sample(at));
+        }, "g"_a, "f"_a, "at"_a)
+        .def("cross_sign", [](OnScene& p, bool of_robot, Index e, Index f) {
+            return p.decide.cross_sign(of_robot ? p.scene.robot : p.scene.obstacles, e, f);
+        }, "of_robot"_a, "e"_a, "f"_a)
+        .def("order", [](OnScene& p, const EventTuple& x, const EventTuple& y) {
+            return p.decide.order(event(x), event(y));
+        }, "x"_a, "y"_a)
+        .def("order", [](OnScene& p, const EventTuple& x, const SampleTuple& at) {
+            return p.decide.order(event(x), sample(at));
+        }, "x"_a, "at"_a)
+        .def("between", [](OnScene& p, const EventTuple& x, const EventTuple& y, double part) {
+            return sample(p.decide.between(event(x), event(y), part));
+        }, "x"_a, "y"_a, "part"_a)
+        .def("offset_roots", [](OnScene& p, Index s, Index v, const EventTuple& from, const EventTuple& to) {
+            return roots(p.decide.offset_roots(s, v, p.decide.offset(s, v), event(from), event(to)));
+        }, "s"_a, "v"_a, "from_"_a, "to"_a)
+        .def("parallel_roots", [](OnScene& p, Index g, Index f, const EventTuple& from, const EventTuple& to) {
+            return roots(p.decide.parallel_roots(g, f, event(from), event(to)));
+        }, "g"_a, "f"_a, "from_"_a, "to"_a)
+        .def("compare", [](OnScene& p, Code x, bool x_flipped, Code y, bool y_flipped, const EventTuple& from,
+                           const EventTuple& to) {
+            const auto r = p.decide.compare(p.curve(x, x_flipped), p.curve(y, y_flipped), event(from), event(to));
+            return std::tuple(events(r.at, r.count), std::vector<int>(r.sign, r.sign + r.count + 1), r.strict);
+        }, "x"_a, "x_flipped"_a, "y"_a, "y_flipped"_a, "from_"_a, "to"_a)
+        .def("order_at", [](const OnScene& p, Code x, Code y, const SampleTuple& at) {
+            return p.decide.order_at(cfree::unpacked(x), cfree::unpacked(y), sample(at));
+        }, "x"_a, "y"_a, "at"_a)
+        .def("place", [](const OnScene& p, const EventTuple& x) { return p.decide.place(event(x)); }, "x"_a)
+        .def("restored", [](OnScene& p, const EventTuple& x, int place) {
+            return event(p.decide.restored(event(x), place));
+        }, "x"_a, "place"_a)
+        .def("vanishes", [](const OnScene& p, Code first, Code second) {
+            return p.decide.vanishes(cfree::unpacked(first), cfree::unpacked(second));
+        }, "first"_a, "second"_a)
+        .def("range_end", [](OnScene& p, Index g, Index f, bool is_start) {
+            const auto end = cfree::Predicates::range_end(p.scene, g, f, is_start, p.decide.counters);
+            return std::pair(end.chart, event(end.event));
+        }, "g"_a, "f"_a, "is_start"_a)
+        .def("counters", [](const OnScene& p) {
+            return std::pair(p.decide.counters.filter, p.decide.counters.exact);
+        });
+    m.def("sign_at", [](const Coefficients& p, const DyadicPair& at) {
+        return cfree::sign_at(polynomial(p), dyadic(at));
+    }, "p"_a, "at"_a);
+    m.def("sign_at", [](const Coefficients& p, const RootTuple& at) {
+        auto x = root(at);
+        return cfree::sign_at(polynomial(p), x);
+    }, "p"_a, "at"_a);
+    m.def("sign_before", [](const Coefficients& p, const RootTuple& at) {
+        auto x = root(at);
+        return cfree::sign_before(polynomial(p), x);
+    }, "p"_a, "at"_a);
+    m.def("sign_after", [](const Coefficients& p, const RootTuple& at) {
+        auto x = root(at);
+        return cfree::sign_after(polynomial(p), x);
+    }, "p"_a, "at"_a);
+    m.def("compare", [](const RootTuple& p, const RootTuple& q) {
+        auto x = root(p), y = root(q);
+        return cfree::compare(x, y);
+    }, "x"_a, "y"_a);
+    m.def("greatest_common_divisor", [](const Coefficients& p, const Coefficients& q) {
+        return polynomial(cfree::greatest_common_divisor(polynomial(p), polynomial(q)));
+    }, "p"_a, "q"_a);
+    m.def("squarefree", [](const Coefficients& p) { return polynomial(cfree::squarefree(polynomial(p))); }, "p"_a);
+    m.def("isolate", [](const Coefficients& squarefree, const DyadicPair& lo, const DyadicPair& hi, unsigned bits) {
+        std::vector<std::pair<DyadicPair, DyadicPair>> found;
+        for (const auto& [l, h] : cfree::isolate(cfree::Sturm(polynomial(squarefree)), dyadic(lo), dyadic(hi), bits))
+            found.emplace_back(dyadic(l), dyadic(h));
+        return found;
+    }, "squarefree"_a, "lo"_a, "hi"_a, "bits"_a);
+}
