@@ -1,0 +1,534 @@
+"""The core's predicates against those of `reference`, on scenes made to be hard, with one random query after another.
+
+A scene is rings of numbers; they need not be polygons, as the predicates see vertices and edges alone.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from functools import cmp_to_key
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+from cfree import _core
+from cfree.exact import to_fraction
+from cfree.features import LARGEST_BITS, ShapeFeatures, unpacked
+from reference import (
+    EDGE_EDGE,
+    EDGE_VERTEX,
+    VERTEX_EDGE,
+    VERTEX_VERTEX,
+    Angle,
+    Feature,
+    Predicates,
+    Shape,
+    rational,
+    same_feature,
+    sign_at,
+)
+
+Number = int | float | Fraction
+Ring = list[tuple[Number, Number]]
+Event = tuple[int, int, float, float, int]
+Sample = tuple[float, tuple[int, int] | None]
+FIRST_WALL: Event = (0, 0, -1.0, -1.0, -1)
+LAST_WALL: Event = (0, 0, 1.0, 1.0, -1)
+
+
+class Rings(NamedTuple):
+    robot: list[Ring]
+    obstacles: list[Ring]
+
+    def mapped(self, robot: Callable[..., Any], obstacles: Callable[..., Any]) -> Rings:
+        return Rings(
+            [[robot(to_fraction(x), to_fraction(y)) for x, y in ring] for ring in self.robot],
+            [[obstacles(to_fraction(x), to_fraction(y)) for x, y in ring] for ring in self.obstacles],
+        )
+
+
+def pack(feature: Sequence[int]) -> int:
+    kind, robot, obstacle = feature
+    return kind << 61 | robot << 31 | obstacle
+
+
+def value(at: Sample) -> Fraction:
+    tau, fine = at
+    return Fraction(tau) if fine is None else Fraction(fine[0], 2 ** fine[1])
+
+
+def prepared(rings: Rings) -> tuple[ShapeFeatures, ShapeFeatures]:
+    """Both shapes with integer coordinates, as in `scene_features`; every ring with the diagonals of its fan."""
+    numbers = [to_fraction(c) for part in rings for ring in part for p in ring for c in p]
+    scale = math.lcm(*(x.denominator for x in numbers))
+    both = ShapeFeatures(scale), ShapeFeatures(scale)
+    for features, part in zip(both, rings, strict=True):
+        for ring in part:
+            first, n = len(features.vertices), len(ring)
+            points = [(int(to_fraction(x) * scale), int(to_fraction(y) * scale)) for x, y in ring]
+            columns = {"convex": [True], "emit": [True], "layer": [0], "owner_polygon": [0], "owner_vertex": [0]}
+            features.add_ring(points, **{name: column * n for name, column in columns.items()})
+            for k in range(1, n - 1):
+                features.add_piece([first, first + k, first + k + 1], 0)
+    widest = max(abs(c) for features in both for p in features.vertices for c in p)
+    for features in both:
+        features.shift = max(0, widest.bit_length() - LARGEST_BITS)
+    return both
+
+
+class Surface:
+    """One surface of a scene in one chart, as the core and as the reference see it."""
+
+    def __init__(self, rings: Rings, contact: Feature, chart: int) -> None:
+        self.rings, self.contact, self.chart = rings, contact, chart
+        robot, obstacles = prepared(rings)
+        self.shift = robot.shift
+        self.core = _core.Predicates(robot.core_shape(), obstacles.core_shape(), pack(contact), chart)
+        self.shapes = [
+            Shape(s.vertices, list(zip(s.v.tolist(), s.w.tolist(), strict=True))) for s in (robot, obstacles)
+        ]
+        self.reference = Predicates(*self.shapes, contact, chart)
+        self.angles: dict[Event, Angle] = {}
+
+    def __repr__(self) -> str:
+        return f"Surface({self.rings}, {self.contact}, {self.chart})"
+
+    def angle(self, event: Event) -> Angle:
+        """The exact angle that an event of the core stands for."""
+        if event not in self.angles:
+            first, second, lo, hi, _ = event
+            features = Feature(*unpacked(first)), Feature(*unpacked(second))
+            found = self.reference.roots_within(*features, Fraction(lo), Fraction(hi))
+            place = self.core.place(event)
+            assert len(found) == 1 if place == 0 else place <= len(found), (event, place, found)
+            self.angles[event] = angle = found[place - 1] if place else found[0]
+            assert self.reference.place(angle, *features, Fraction(lo), Fraction(hi)) == place
+            # what a file keeps is enough to have it back
+            again = self.core.restored((first, second, lo, hi, -1), place)
+            assert self.core.order(event, again) == 0 or not first
+        return self.angles[event]
+
+    def check_roots(self, events: list[Event], expected: list[Angle]) -> list[Event]:
+        assert [self.angle(event) for event in events] == expected, (events, expected)
+        return events
+
+    def poles(self, curve: Feature) -> list[Event] | None:
+        """Where a curve's denominator is zero; None if it is everywhere."""
+        if self.reference.curve(curve)[1] == 0:
+            return None
+        if curve.kind in (self.contact.kind, VERTEX_VERTEX):
+            return []
+        on_edge = curve.kind == EDGE_VERTEX
+        g, f = (curve.robot, self.contact.obstacle) if on_edge else (self.contact.robot, curve.obstacle)
+        return self.core.parallel_roots(g, f, FIRST_WALL, LAST_WALL)[0]
+
+    def spans(self, p: Feature, q: Feature) -> list[tuple[Event, Event]]:
+        """The parts of the chart where both curves are finite."""
+        poles = [self.poles(p), self.poles(q)]
+        if None in poles:
+            return []
+        return list(pairwise(self.sorted([FIRST_WALL, LAST_WALL, *poles[0], *poles[1]])))
+
+    def sorted(self, events: Sequence[Event]) -> list[Event]:
+        """Different angles in order, one event each."""
+        ordered = sorted(events, key=cmp_to_key(lambda x, y: self.angle(x).compare(self.angle(y))))
+        return ordered[:1] + [y for x, y in pairwise(ordered) if self.angle(x) < self.angle(y)]
+
+    # --- one predicate each; what they are asked is all in the arguments ---
+
+    def check_offset(self, s: int, v: int, at: Sequence[Sample], from_: Event, to: Event) -> list[Event]:
+        f, true = self.core.offset(s, v), self.reference.offset(s, v)
+        self.check_filtered(f, true, from_, to)
+        for sample in at:
+            expected = self.reference.offset_sign(s, v, value(sample))
+            assert self.core.offset_sign(s, v, sample) == expected, ("offset_sign", s, v, sample)
+        events, all_zero = self.core.offset_roots(s, v, from_, to)
+        expected, zero = self.reference.offset_roots(s, v, self.angle(from_), self.angle(to))
+        assert all_zero == zero, ("offset_roots", s, v)
+        return self.check_roots(events, expected)
+
+    def check_parallel(self, g: int, f: int, at: Sequence[Sample], from_: Event, to: Event) -> list[Event]:
+        self.check_filtered(self.core.parallel(g, f), self.reference.parallel(g, f), from_, to)
+        for sample in at:
+            expected = self.reference.parallel_sign(g, f, value(sample))
+            assert self.core.parallel_sign(g, f, sample) == expected, ("parallel_sign", g, f, sample)
+        events, _ = self.core.parallel_roots(g, f, from_, to)
+        return self.check_roots(events, self.reference.parallel_roots(g, f, self.angle(from_), self.angle(to))[0])
+
+    def check_filtered(self, f: Sequence[float], true: Any, from_: Event, to: Event) -> None:
+        """The doubles are as near to the truth as they say, at every knot; a certain sign is right."""
+        a, b, c, err = f
+        knots = sorted({-1.0, 1.0, from_[2], from_[3], to[2], to[3]})
+        scale = Fraction(1, 4**self.shift)
+        if all(map(math.isfinite, f)):
+            for p in knots:
+                for q in knots:
+                    polar = a * (1 + p * q) + b * (1 - p * q) + c * (p + q)
+                    x, y = Fraction(p), Fraction(q)
+                    exact = int(true[0]) + int(true[1]) * (x + y) / 2 + int(true[2]) * x * y
+                    assert abs(Fraction(polar) - exact * scale) <= Fraction(err), ("bound", f, p, q)
+        lo, hi = from_[2], to[3]
+        certain = self.core.sign_on(tuple(f), lo, hi)
+        if certain:
+            assert certain == self.reference.sign_on(true, Fraction(lo), Fraction(hi)), ("sign_on", f, lo, hi)
+
+    def check_cross(self, of_robot: bool, e: int, f: int) -> None:
+        expected = self.reference.cross_sign(of_robot, e, f)
+        assert self.core.cross_sign(of_robot, e, f) == expected, ("cross_sign", of_robot, e, f)
+
+    def check_code(self, x: Feature, y: Feature) -> None:
+        same = self.core.code(pack(x)) == self.core.code(pack(y))
+        assert same == same_feature(*self.shapes, x, y), ("code", x, y)
+
+    def check_range_end(self, g: int, f: int, is_start: bool) -> None:
+        chart, event = self.core.range_end(g, f, is_start)
+        true_chart, angle = self.reference.range_end(g, f, is_start)
+        assert chart == true_chart, ("range_end", g, f, is_start, chart)
+        assert self.angle(event) == angle, ("range_end", g, f, is_start, event)
+
+    def check_order(self, x: Event, y: Event) -> int:
+        expected = self.reference.order(self.angle(x), self.angle(y))
+        assert self.core.order(x, y) == expected, ("order", x, y, expected)
+        return expected
+
+    def check_order_at(self, x: Event, at: Sample) -> None:
+        expected = self.reference.order(self.angle(x), value(at))
+        assert self.core.order(x, at) == expected, ("order", x, at, expected)
+
+    def check_between(self, x: Event, y: Event, part: float) -> Sample:
+        at = self.core.between(x, y, part)
+        tau = value(at)
+        assert self.angle(x).compare(Angle.of(tau)) < 0 < self.angle(y).compare(Angle.of(tau)), ("between", x, y, at)
+        return at
+
+    def check_compare(self, p: Feature, q: Feature, from_: Event, to: Event) -> list[Event]:
+        """On an interval where the denominators of both curves have a sign; they are flipped to be positive."""
+        start, end = self.angle(from_), self.angle(to)
+        middle = self.reference.between(start, end)
+        flipped = [self.reference.curve(x)[1](rational(middle)) < 0 for x in (p, q)]
+        events, signs, strict = self.core.compare(pack(p), flipped[0], pack(q), flipped[1], from_, to)
+        cuts, true = self.reference.compare(p, q, start, end)
+        self.check_roots(events, cuts)
+        assert signs == true, ("compare", p, q, from_, to, events, signs, true)
+        if strict:  # at the ends, too
+            difference = self.reference.polynomial(p, q)
+            assert sign_at(difference, start) != 0 != sign_at(difference, end), ("strict", p, q, from_, to)
+        at = self.core.between(from_, to, 0.4)
+        assert self.core.order_at(pack(p), pack(q), at) == self.reference.order_at(p, q, value(at)), (
+            "order_at",
+            p,
+            q,
+            at,
+        )
+        return events
+
+
+# --- random queries ---
+
+
+def samples_near(surface: Surface, events: Sequence[Event], rng: random.Random) -> Iterator[Sample]:
+    yield from ((tau, None) for tau in (0.0, -1.0, 1.0, rng.uniform(-1, 1), rng.choice([-1, 1]) * rng.random() ** 20))
+    for event in rng.sample(events, min(2, len(events))):
+        lo, hi = event[2:4]
+        for tau in (lo, hi, math.nextafter(lo, -2), math.nextafter(hi, 2), (lo + hi) / 2):
+            if -1 <= tau <= 1:
+                yield tau, None
+        angle = surface.angle(event)
+        for bits in (60, rng.randint(70, 400)):  # just before and after the root
+            below = math.floor((angle.lo + angle.hi) / 2 * 2**bits)
+            for n in (below, below + 1):
+                if abs(n) <= 2**bits:
+                    yield Fraction(n, 2**bits).__float__(), (n, bits)
+
+
+def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
+    """Ask every predicate some questions; the number of them. An AssertionError says which was answered wrong."""
+    A, O = surface.shapes
+    on_edge = surface.contact.kind == VERTEX_EDGE
+    events, asked = [FIRST_WALL, LAST_WALL], 0
+
+    def vertex(shape: Shape) -> int:
+        return rng.randrange(len(shape.vertices))
+
+    def edge(shape: Shape) -> int:
+        return rng.randrange(len(shape.edges))
+
+    def any_feature(kind: int) -> Feature:
+        i = vertex(A) if kind in (VERTEX_EDGE, VERTEX_VERTEX) else edge(A)
+        return Feature(kind, i, vertex(O) if kind in (EDGE_VERTEX, VERTEX_VERTEX) else edge(O))
+
+    def any_curve() -> Feature:
+        kind = rng.choice([VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX])
+        i, j = surface.contact.robot, surface.contact.obstacle
+        if kind == VERTEX_EDGE:
+            return Feature(kind, i if on_edge and rng.random() < 0.2 else vertex(A), edge(O))
+        if kind == EDGE_VERTEX:
+            return Feature(kind, edge(A), vertex(O) if on_edge or rng.random() < 0.8 else j)
+        return Feature(kind, i, rng.choice(O.edges[j])) if on_edge else Feature(kind, rng.choice(A.edges[i]), j)
+
+    def some_span() -> tuple[Event, Event]:
+        if rng.random() < 0.3:
+            return FIRST_WALL, LAST_WALL
+        ordered = surface.sorted(events)
+        k = rng.randrange(len(ordered) - 1)
+        m = k + 1 if rng.random() < 0.5 else rng.randrange(k + 1, len(ordered))
+        return ordered[k], ordered[m]
+
+    def part_of(span: tuple[Event, Event]) -> tuple[Event, Event]:
+        start, end = map(surface.angle, span)
+        inside = [x for x in surface.sorted(events) if start < surface.angle(x) and surface.angle(x) < end]
+        ends = [span[0], *inside, span[1]]
+        k, m = sorted(rng.sample(range(len(ends)), 2))
+        return ends[k], ends[m]
+
+    for _ in range(queries):
+        s, v, g, f = vertex(A), vertex(O), edge(A), edge(O)
+        at = list(samples_near(surface, events, rng))
+        events += surface.check_offset(s, v, at, *some_span())
+        events += surface.check_parallel(g, f, at, *some_span())
+        surface.check_cross(True, g, edge(A))
+        surface.check_cross(False, f, edge(O))
+        for kind in (VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE) * 2:
+            x, other = any_feature(kind), any_feature(kind)  # one of the two features the same
+            surface.check_code(x, x._replace(**rng.choice([{"robot": other.robot}, {"obstacle": other.obstacle}])))
+        surface.check_range_end(g, f, rng.random() < 0.5)
+        for sample in at:
+            surface.check_order_at(rng.choice(events), sample)
+        for _ in range(4):
+            x, y = rng.choice(events), rng.choice(events)
+            near = [z for z in events if z != x and z[2] <= x[3] and x[2] <= z[3]]
+            if near and rng.random() < 0.7:
+                y = rng.choice(near)
+            order = surface.check_order(x, y)
+            if order:
+                surface.check_between(*((x, y) if order < 0 else (y, x)), rng.random())
+        asked += 3 * len(at) + 25
+        for _ in range(2):
+            p, q = any_curve(), any_curve()
+            spans = surface.spans(p, q)
+            if spans:
+                span = rng.choice(spans)
+                events += surface.check_compare(p, q, *(part_of(span) if rng.random() < 0.5 else span))
+                asked += 1
+            assert surface.core.vanishes(pack(p), pack(q)) == (surface.reference.polynomial(p, q) == 0)
+        events = [*rng.sample(events, min(len(events), 14)), FIRST_WALL, LAST_WALL]
+    return asked
+
+
+def random_surface(rings: Rings, rng: random.Random) -> Surface:
+    """A surface of a ring vertex and a ring edge; the first ones often, as some families are made around them."""
+    n, m = (1 if rng.random() < 0.5 else sum(map(len, part)) for part in rings)
+    contact = Feature(rng.choice([VERTEX_EDGE, EDGE_VERTEX]), rng.randrange(n), rng.randrange(m))
+    return Surface(rings, contact, rng.randint(0, 1))
+
+
+# --- hard scenes ---
+
+
+def lattice(rng: random.Random, size: int = 3) -> Rings:
+    def ring() -> Ring:
+        grid = [(x, y) for x in range(-size, size + 1) for y in range(-size, size + 1)]
+        return rng.sample(grid, rng.randint(3, 5))  # type: ignore[return-value]
+
+    return Rings([ring() for _ in range(rng.randint(1, 2))], [ring() for _ in range(rng.randint(1, 3))])
+
+
+def congruent(rng: random.Random) -> Rings:
+    """Obstacles are the robot under rational rigid motions and reflections: every angle of them ties."""
+    robot = lattice(rng).robot[0]
+    turns = [(1, 0), (0, 1), (-1, 0), (Fraction(3, 5), Fraction(4, 5)), (Fraction(-5, 13), Fraction(12, 13))]
+
+    def image() -> Ring:
+        (c, s), dx, dy = rng.choice(turns), rng.randint(-3, 3), rng.randint(-3, 3)
+        return [(c * x - s * y + dx, s * x + c * y + dy) for x, y in robot]
+
+    return Rings([robot, *([image()] if rng.random() < 0.3 else [])], [image() for _ in range(rng.randint(1, 3))])
+
+
+def collinear(rng: random.Random) -> Rings:
+    """Walls on a few lines, both ways; vertices that several shapes share."""
+
+    def box() -> Ring:
+        x, y = rng.sample(range(-2, 4), 2), rng.sample(range(-1, 2), 2)
+        ring = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
+        return ring[:: rng.choice([1, -1])]
+
+    return Rings([box()], [box() for _ in range(rng.randint(1, 4))])
+
+
+def tangent(rng: random.Random) -> Rings:
+    """Circles of radius 5 about lines at distance 5, and of the like: double roots everywhere."""
+    legs = [(3, 4), (4, 3), (5, 0), (0, 5), (-3, 4), (4, -3), (-4, -3), (-5, 0), (0, -5), (0, 0), (5, 5), (-5, 5)]
+    return Rings([rng.sample(legs, rng.randint(3, 4))], [rng.sample(legs, rng.randint(3, 4)) for _ in range(2)])  # type: ignore[list-item]
+
+
+def right_angles(rng: random.Random) -> Rings:
+    """Edges along the axes and the diagonals: angles at the chart walls and at 0."""
+    legs = [(0, 0), (1, 0), (0, 1), (1, 1), (-1, 1), (2, 0), (0, 2), (-1, -1)]
+    return Rings([rng.sample(legs, rng.randint(3, 4))], [rng.sample(legs, rng.randint(3, 4)) for _ in range(2)])  # type: ignore[list-item]
+
+
+DEGENERATE = (lattice, congruent, collinear, tangent, right_angles)
+
+
+NEARLY_NOTHING = [
+    Fraction(1, 2**30),
+    Fraction(1, 2**50),
+    Fraction(1, 2**52),
+    Fraction(1, 2**53),
+    Fraction(1, 2**60),
+    Fraction(1, 10**15),
+    Fraction(1, 2**106),
+    Fraction(1, 2**112),
+    Fraction(1, 10**40),
+    Fraction(1, 10**100),
+    Fraction(1, 2**1000),
+]
+
+
+def disturbed(rng: random.Random) -> Rings:
+    """A degenerate scene, some coordinates moved by nearly nothing."""
+    epsilon, often = rng.choice(NEARLY_NOTHING), rng.choice([0.05, 0.25])
+
+    def moved(x: Fraction, y: Fraction) -> Any:
+        return tuple(c + rng.choice([-1, 1]) * epsilon if rng.random() < often else c for c in (x, y))
+
+    return rng.choice(DEGENERATE)(rng).mapped(moved, moved)
+
+
+def split_roots(rng: random.Random) -> Rings:
+    """Circles that touch lines at rational angles, but for nearly nothing: two roots all but one, or none."""
+    legs = [(3, 4), (5, 0), (0, 5), (-3, 4), (4, -3), (-4, -3)]
+    c, s = rng.choice([(1, 0), (0, 1), (Fraction(3, 5), Fraction(4, 5)), (Fraction(-8, 17), Fraction(15, 17))])
+
+    def height() -> Fraction:
+        return rng.choice([-5, 5]) + rng.randint(-1, 1) * rng.choice(NEARLY_NOTHING)
+
+    obstacles = [[(0, 0), (rng.randint(1, 3), 0), (rng.randint(-3, 3), height()), (rng.randint(-2, 2), height())]]
+    rings = Rings([[(0, 0), *rng.sample(legs, 3)]], obstacles)
+    if rng.random() < 0.5:
+        rings = Rings(rings.obstacles, rings.robot)
+    return rings.mapped(lambda x, y: (x, y), lambda x, y: (c * x - s * y, s * x + c * y))
+
+
+def one_ulp(rng: random.Random) -> Rings:
+    """A degenerate scene under a similarity rounded to doubles, some of them moved by one ulp."""
+    scale = rng.choice([1.0, 0.1, 1e10, 1 / 3, 1e-7])
+    dx, dy = rng.choice([0.0, 0.7, 1e5]), rng.choice([0.0, -0.3, 12.1])
+
+    def double(c: float) -> float:
+        return math.nextafter(c, rng.choice([-math.inf, math.inf])) if rng.random() < 0.3 else c
+
+    def robot(x: Fraction, y: Fraction) -> Any:
+        return double(float(x) * scale), double(float(y) * scale)
+
+    def obstacles(x: Fraction, y: Fraction) -> Any:
+        return double(float(x) * scale + dx), double(float(y) * scale + dy)
+
+    return rng.choice(DEGENERATE)(rng).mapped(robot, obstacles)
+
+
+def mixed_sizes(rng: random.Random) -> Rings:
+    """Coordinates from 1e-100 to 1e100."""
+
+    def size(x: Fraction, y: Fraction) -> Any:
+        exponents = (rng.choice([-100, -91, -50, -17, -1, 0, 1, 16, 50, 100]) for _ in range(2))
+        p, q = (c * Fraction(10) ** e for c, e in zip((x, y), exponents, strict=True))
+        return p, q
+
+    return distinct(rng.choice(DEGENERATE)(rng).mapped(size, size))
+
+
+def sized_doubles(rng: random.Random) -> Rings:
+    """The same with generic doubles."""
+
+    def ring() -> Ring:
+        return [
+            (rng.gauss(0, 1) * 10.0 ** rng.randint(-100, 100), rng.gauss(0, 1) * 10.0 ** rng.randint(-100, 100))
+            for _ in range(rng.randint(3, 4))
+        ]
+
+    return Rings([ring()], [ring() for _ in range(2)])
+
+
+def small_robot(rng: random.Random) -> Rings:
+    """A robot and obstacles of very different sizes, and the obstacles far away."""
+    size, far = Fraction(10) ** rng.randint(-100, 100), rng.choice([0, 1, 10**20, 10**100])
+    return rng.choice(DEGENERATE)(rng).mapped(lambda x, y: (x * size, y * size), lambda x, y: (x + far, y - far))
+
+
+def huge_integers(rng: random.Random) -> Rings:
+    """300 bits; half of the time a degenerate scene far from the origin, sheared by one unit."""
+
+    def random_ring() -> Ring:
+        return [(rng.getrandbits(300) - 2**299, rng.getrandbits(300) - 2**299) for _ in range(rng.randint(3, 4))]
+
+    if rng.random() < 0.5:
+        return Rings([random_ring()], [random_ring() for _ in range(2)])
+    size, shift = 2**290 + rng.randint(-5, 5), rng.getrandbits(300)
+
+    def moved(x: Fraction, y: Fraction) -> Any:
+        return x * size + rng.choice([0, 0, 0, 1, -1]), y * size + shift
+
+    return rng.choice(DEGENERATE)(rng).mapped(moved, moved)
+
+
+def fractions(rng: random.Random) -> Rings:
+    """Large denominators."""
+    primes = [2**61 - 1, 2**89 - 1, 10**9 + 7, 998244353, 3**40]
+
+    def near(x: Fraction, y: Fraction) -> Any:
+        p, q = (c + Fraction(rng.randint(-1, 1), rng.choice(primes)) for c in (x, y))
+        return p, q
+
+    return rng.choice(DEGENERATE)(rng).mapped(near, near)
+
+
+def near_walls(rng: random.Random) -> Rings:
+    """Edges nearly parallel and nearly at right angles: angles next to 0 and to the chart walls, on both sides."""
+    epsilon = rng.choice([2.0**-26, 2.0**-50, 2.0**-52, 2.0**-53, 1e-15, 1e-16, 1e-30, 1e-100, 1e-200])
+
+    def leg() -> tuple[Fraction, Fraction]:
+        x, y = Fraction(rng.choice([-1, 1])), rng.randint(-2, 2) * Fraction(epsilon)
+        return rng.choice([(x, y), (y, x), (x + y, x - y), (x, x + y)])
+
+    def ring() -> Ring:
+        x, y = Fraction(rng.randint(-1, 1)), Fraction(rng.randint(-1, 1))
+        points = [(x, y)]
+        while len(points) < 4:
+            dx, dy = leg()
+            x, y = x + dx, y + dy
+            if (x, y) not in points:
+                points.append((x, y))
+        return points  # type: ignore[return-value]
+
+    return Rings([ring()], [ring(), ring()])
+
+
+def distinct(rings: Rings) -> Rings:
+    """Vertices that fell together are dropped; a ring of fewer than three becomes a triangle."""
+
+    def part(those: list[Ring]) -> list[Ring]:
+        unique = [list(dict.fromkeys(ring)) for ring in those]
+        return [ring if len(ring) > 2 else [(0, 0), (1, 0), (0, 1)] for ring in unique]
+
+    return Rings(part(rings.robot), part(rings.obstacles))
+
+
+FAMILIES: dict[str, Callable[[random.Random], Rings]] = {
+    make.__name__: make
+    for make in (
+        *DEGENERATE,
+        disturbed,
+        split_roots,
+        one_ulp,
+        mixed_sizes,
+        sized_doubles,
+        small_robot,
+        huge_integers,
+        fractions,
+        near_walls,
+    )
+}
