@@ -163,7 +163,7 @@ def _glued(boundary: Boundary) -> CellComplex:
         first, face, side, twin, edge, vertex, component, x, y, theta, *counts = _core.glue(*shapes, *columns)
     except RuntimeError as error:
         raise InvariantError(f"the boundary is not closed: {error}") from error
-    unit = 2.0**boundary.features.robot.shift / boundary.features.scale
+    unit = 2**boundary.features.robot.shift / boundary.features.scale
     arrays = (first, face, side, twin, edge, vertex, component, x * unit, y * unit, theta)
     for array in arrays:
         array.flags.writeable = False
