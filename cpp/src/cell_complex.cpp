@@ -198,6 +198,7 @@ void Gluer::glue_walls() {
         walls.clear();
         for (Index m = start[rank]; m < start[rank + 1]; ++m) {
             const Index k = member[m] / 2;
+            at.know((member[m] % 2 == 0 ? angle_from : angle_to)(patches, trapezoids, k).name(scene));
             Wall wall{k, member[m] % 2 == 0, at.spot(contact(k), unpacked(trapezoids.lower[k])),
                       at.spot(contact(k), unpacked(trapezoids.upper[k])), 1, 0, 0};
             if (at.order(contact(k), wall.low, wall.high) != 0) walls.push_back(std::move(wall));

@@ -1,5 +1,6 @@
 #include "cfree/junction.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "form.hpp"
@@ -148,9 +149,32 @@ double Junction::value(const Feature& line, const Spot& p) const {
     return boost::multiprecision::cpp_rational(at(N), at(D)).convert_to<double>();
 }
 
+// Whether what is known to meet here says that two places are one: the two curves and the line's surface, or a helix that both
+// curves pass through and that surface.
+bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) const {
+    const auto knows = [&](Code x, Code y, Code z) {
+        std::array<Code, 3> name{x, y, z};
+        std::sort(name.begin(), name.end());
+        return known.contains(name);
+    };
+    const Code own = code(scene, line);
+    if (knows(own, p.code, q.code) || knows(p.code, q.code, 0)) return true;
+    const auto helices = [&](const Feature& f) -> std::array<Code, 2> {
+        const auto helix = [&](Index a, Index b) { return code(scene, {Kind::vertex_vertex, a, b}); };
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        if (f.kind == Kind::vertex_edge) return {helix(f.robot, O.v[f.obstacle]), helix(f.robot, O.w[f.obstacle])};
+        if (f.kind == Kind::edge_vertex) return {helix(A.v[f.robot], f.obstacle), helix(A.w[f.robot], f.obstacle)};
+        return {code(scene, f), code(scene, f)};
+    };
+    for (const Code x : helices(p.curve))
+        for (const Code y : helices(q.curve))
+            if (x == y && knows(own, x, 0)) return true;
+    return false;
+}
+
 int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
-    if (p.code == q.code && !p.is_given && !q.is_given) return 0;
     if (!p.is_given && !q.is_given) {
+        if (p.code == q.code) return 0;
         const auto [Np, Dp] = position<Approx>(line, p);
         const auto [Nq, Dq] = position<Approx>(line, q);
         const Predicates::Form form{4, filtered(Np), filtered(Dq), filtered(Nq), filtered(Dp)};
@@ -161,6 +185,7 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
         for (const double x : c) positive += x > err, negative += x < -err;
         if (signs != 0 && positive == 5) return signs;
         if (signs != 0 && negative == 5) return -signs;
+        if (is_known(line, p, q)) return 0;
     }
     const auto [Np, Dp] = position<Int>(line, p);
     const auto [Nq, Dq] = position<Int>(line, q);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "cfree/critical_angle.hpp"
 #include "cfree/junction.hpp"
 
 namespace cfree {
@@ -388,6 +389,7 @@ int Trimmer::order_at(Index event, Index p, Index q) {
     const Event& e = events[event];
     Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); });
     const Feature& on = surface.contact;
+    if (e.first.kind != Kind::none) here.know(CriticalAngle(surface, e, 0).name(scene));
     return here.order(on, here.spot(on, curves[p].feature), here.spot(on, curves[q].feature));
 }
 

@@ -1,6 +1,7 @@
 // What several contact lines look like at one critical angle, and just before and after it.
 #pragma once
 #include <functional>
+#include <set>
 
 #include "cfree/predicates.hpp"
 
@@ -19,6 +20,9 @@ class Junction {
 public:
     // At an angle of a chart, in an interval, and exactly when asked for.
     Junction(const Scene& scene, int chart, double lo, double hi, std::function<RealRoot()> exact);
+
+    // Three surfaces, or a helix and a surface and nothing, known to meet here: see CriticalAngle::name.
+    void know(const std::array<Code, 3>& name) { known.insert(name); }
 
     // Directions of two contact lines: 1 the same, -1 opposite, 0 not parallel.
     int parallel(const Feature& x, const Feature& y);
@@ -52,6 +56,7 @@ private:
     Trig<T> directions_cross(const Feature& x, const Feature& y) const;
     template <class T>
     std::array<Trig<T>, 2> position(const Feature& line, const Spot& p) const;
+    bool is_known(const Feature& line, const Spot& p, const Spot& q) const;
     template <class F>
     int sign(const F& trig) const;
     Poly polynomial(const Trig<Int>& f) const;
@@ -61,6 +66,7 @@ private:
     int chart;
     double lo, hi;
     std::function<RealRoot()> exact;
+    std::set<std::array<Code, 3>> known;
 };
 
 }  // namespace cfree
