@@ -92,8 +92,9 @@ def test_a_niche_that_only_some_orientations_fit_is_a_sphere() -> None:
 
 
 def test_pinched_edges_pair_the_sides_of_free_sectors() -> None:
-    # at one angle a corner of the robot can pass where two obstacles touch in a corner
-    scene = scene_of(PlainScene([box(0, 0, 1, 1)], [box(0, 0, 2, 2), box(2, 2, 4, 4)]))
+    # a corner of the triangle passes between the obstacle and the wall at one orientation
+    room = [(-1, -1), (6, -1), (6, 6), (-1, 6)]
+    scene = Scene([(-3, -1), (-4, 0), (-4, -2)], [[(1, 2), (3, 4), (1, 4)]], workspace=room)
     cells = check(boundary(scene))
     assert len(cells.pinched) > 0
     for edge in cells.pinched:
