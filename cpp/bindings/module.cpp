@@ -112,9 +112,11 @@ NB_MODULE(_core, m) {
             const auto& t = job.tally;
             nb::dict d;
             d["pairs"] = t.pairs, d["live_patches"] = t.live_patches;
-            d["decided_by_filter"] = t.decisions.filter, d["decided_exactly"] = t.decisions.exact;
+            d["decided_by_identity"] = t.decisions.identity, d["decided_by_filter"] = t.decisions.filter;
+            d["decided_by_intervals"] = t.decisions.interval, d["decided_exactly"] = t.decisions.exact;
             d["setup_seconds"] = t.setup_seconds, d["trim_seconds"] = t.trim_seconds;
             d["collect_seconds"] = t.collect_seconds, d["isolated_seconds"] = t.isolated_seconds;
+            d["intervals_seconds"] = t.decisions.interval_seconds, d["exact_seconds"] = t.decisions.exact_seconds;
             return d;
         });
     m.def("glue", [](const cfree::Shape& robot, const cfree::Shape& obstacles, Column<std::uint8_t> kind, Column<int> patch_robot,

@@ -14,61 +14,62 @@ Vec<Approx> of_unit_size(const Vec<Approx>& d) {
     return {{d.x.v * scale, d.x.m * scale}, {d.y.v * scale, d.y.m * scale}};
 }
 
-// Signs of products of differences, in machine integers where they fit.
-int dot_sign(const Scene& s, Index g, Index f) {
-    if (s.robot.is_narrow() && s.obstacles.is_narrow()) return sign_of(dot(edge<Wide>(s.robot, g), edge<Wide>(s.obstacles, f)));
-    return sign_of(dot(edge<Int>(s.robot, g), edge<Int>(s.obstacles, f)));
-}
-bool is_parallel(const Shape& s, Index e, Index p, Index q) {  // edge e and the line through two vertices
-    if (s.is_narrow()) return cross(edge<Wide>(s, e), difference<Wide>(s, p, q)) == 0;
-    return cross(edge<Int>(s, e), difference<Int>(s, p, q)).is_zero();
+// Edge e of a shape against the line through two of its vertices.
+bool is_parallel(const Shape& s, Index e, Index p, Index q, Counters& counters) {
+    return settled(counters, [&]<class T>() { return certain_sign(cross(edge<T>(s, e), difference<T>(s, p, q))); }) == 0;
 }
 // Order of the angles of two pairs of edges, as directions (G.F, G x F) turned to the right half-plane.
 template <class T>
-int parallel_order(const Scene& s, const Feature& x, const Feature& y) {
+std::optional<int> parallel_order(const Scene& s, const Feature& x, const Feature& y) {
     const auto direction = [&](const Feature& f) {
         const auto G = edge<T>(s.robot, f.robot), F = edge<T>(s.obstacles, f.obstacle);
-        const Vec<T> d{dot(G, F), cross(G, F)};
-        return sign_of(d.x) < 0 ? -d : d;
+        return Vec<T>{dot(G, F), cross(G, F)};
     };
-    return sign_of(cross(direction(y), direction(x)));
+    const auto d = direction(x), e = direction(y);
+    const auto right = certain_sign(d.x), left = certain_sign(e.x), turn = certain_sign(cross(e, d));
+    if (!right || !left || !turn) return {};
+    return (*right < 0) != (*left < 0) ? -*turn : *turn;
 }
 
 bool same_feature(const Scene& s, const Feature& x, const Feature& y) { return code(s, x) == code(s, y); }
 
 
 // The angle at which two edges are parallel, as that of the direction d = (G.F, G x F) turned to the right half-plane:
-// tau = y / (|d| + |x|) moves by at most 2 (dx + dy) / |d| for errors dx, dy of 6 u times the magnitudes.
+// tau = y / (|d| + |x|) moves by at most 2 (dx + dy) / |d| for errors dx, dy.
 struct ParallelAngle {
     int side;  // sign of G.F before turning; 0 for a right angle
     bool up;   // sign of G x F before turning
     double tau, half;
 };
 
+// Of a direction whose coordinates are together within 8 u times `error` of the truth, x on the side given.
+ParallelAngle angle_of(double x, double y, int side, double error) {
+    const double length = std::hypot(x, y);
+    return {side, y > 0, side * y / (length + std::abs(x)), 16 * u * error / length + 4 * u};
+}
+
+Vec<Ball> as_balls(const Vec<Ball>& d) { return d; }
+Vec<Ball> as_balls(const Vec<Int>& d) {  // up to a factor
+    const auto bits = [](const Int& z) { return z.is_zero() ? 0 : static_cast<int>(msb(abs(z))); };
+    const int excess = std::max(bits(d.x), bits(d.y)) - 500;
+    return {ball(d.x, std::max(excess, 0)), ball(d.y, std::max(excess, 0))};
+}
+
 ParallelAngle parallel_angle(const Scene& scene, Index g, Index f, Counters& counters) {
     const auto G = of_unit_size(edge<Approx>(scene.robot, g)), F = of_unit_size(edge<Approx>(scene.obstacles, f));
     const Approx c = dot(G, F), n = cross(G, F);
-    const auto angle = [](double x, double y, double error) {
-        const double length = std::hypot(x, y), sign = x < 0 ? -1 : 1;
-        return ParallelAngle{x > 0 ? 1 : -1, y > 0, sign * y / (length + sign * x), 16 * u * error / length + 4 * u};
-    };
-    const ParallelAngle guess = angle(c.v, n.v, c.m + n.m);
-    if (std::abs(c.v) > coefficient_error * c.m && guess.half < 64 * u) return ++counters.filter, guess;
-    ++counters.exact;
-    if (guess.half < 64 * u && dot_sign(scene, g, f) == 0) return {0, n.v > 0, 0, 0};
-    // the direction itself, exactly, and then rounded
-    const auto E = edge<Int>(scene.robot, g), H = edge<Int>(scene.obstacles, f);
-    Vec<Int> d{dot(E, H), cross(E, H)};
-    if (d.x.is_zero()) return {0, d.y.sign() > 0, 0, 0};
-    const auto bits = [](const Int& z) { return z.is_zero() ? 0 : static_cast<int>(msb(abs(z))); };
-    const int excess = std::max(bits(d.x), bits(d.y)) - 500;
-    if (excess > 0) d.x /= Int(1) << static_cast<unsigned>(excess), d.y /= Int(1) << static_cast<unsigned>(excess);
-    const int side = dot_sign(scene, g, f);
-    ParallelAngle result = angle(std::abs(d.x.convert_to<double>()) * side, d.y.convert_to<double>(), 2);
-    result.half = 16 * u;
-    result.side = side;
-    if (d.x.is_zero()) result.tau = side * (d.y.sign() > 0 ? 1 : -1);
-    return result;
+    const ParallelAngle guess = angle_of(c.v, n.v, (c.v > 0) - (c.v < 0), c.m + n.m);
+    if (double_only || (std::abs(c.v) > coefficient_error * c.m && guess.half < 64 * u)) return ++counters.filter, guess;
+    return settled(counters, [&]<class T>() -> std::optional<ParallelAngle> {
+        const auto E = edge<T>(scene.robot, g), H = edge<T>(scene.obstacles, f);
+        const Vec<T> exact{dot(E, H), cross(E, H)};
+        const auto side = certain_sign(exact.x);
+        if (!side) return {};
+        const Vec<Ball> d = as_balls(exact);
+        const double length = std::hypot(d.x.hi, d.y.hi);
+        if (!(d.x.radius + d.y.radius < u * length)) return {};
+        return angle_of(d.x.hi, d.y.hi, *side, 0.75 * length);  // less than 3 u times the length
+    });
 }
 
 }  // namespace
@@ -86,10 +87,10 @@ Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from
 int Predicates::order(const Event& x, const Event& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
-    if (x.first.kind == Kind::none && y.first.kind == Kind::none) return 0;  // one wall
+    if (x.first.kind == Kind::none && y.first.kind == Kind::none) return ++counters.identity, 0;  // one wall
     const bool parallels = x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge;
-    if (parallels && same_feature(scene, x.first, y.first)) return 0;  // a chart holds one such angle
-    return order_exactly(x, y);
+    if (parallels && same_feature(scene, x.first, y.first)) return ++counters.identity, 0;  // a chart holds one such angle
+    return order_of_close(x, y);
 }
 
 RealRoot Predicates::root_of(const Event& x) const {
@@ -127,12 +128,11 @@ Event Predicates::restored(const Event& x, int place) {
 
 bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
     const Form f = form(x);
-    const auto l = f.at(lo), h = f.at(hi);
-    return std::abs(l.v) > l.err && std::abs(h.v) > h.err && (l.v > 0) != (h.v > 0);
+    return f.sign(lo) * f.sign(hi) < 0;
 }
 
 // Whether two angles are roots of one polynomial for a reason of identity.
-bool Predicates::same_polynomial(const Event& x, const Event& y) const {
+bool Predicates::same_polynomial(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
     const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
     if (same(x.first, y.first) && same(x.second, y.second)) return true;
@@ -143,82 +143,158 @@ bool Predicates::same_polynomial(const Event& x, const Event& y) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     if (surface.contact.kind == Kind::vertex_edge)
         return A.point[x.first.robot] == A.point[y.first.robot] &&
-               is_parallel(O, surface.contact.obstacle, x.first.obstacle, y.first.obstacle);
+               is_parallel(O, surface.contact.obstacle, x.first.obstacle, y.first.obstacle, counters);
     return O.point[x.first.obstacle] == O.point[y.first.obstacle] &&
-           is_parallel(A, surface.contact.robot, x.first.robot, y.first.robot);
-}
-
-int Predicates::order_at_wall(const Event& x, const Event& wall) const {
-    const RealRoot root = root_of(x);
-    const Dyadic at = Dyadic::from(wall.lo);
-    if (cfree::compare(at, root.lo) < 0) return 1;
-    if (cfree::compare(root.hi, at) < 0) return -1;
-    const int s = cfree::sign_at(root.p, at);
-    if (s == 0) return 0;
-    return cfree::sign_at(root.p, root.lo) == s ? 1 : -1;
+           is_parallel(A, surface.contact.robot, x.first.robot, y.first.robot, counters);
 }
 
 // Whether a root of a + b cos + c sin is the angle at which two edges are parallel: that of the direction d = (G.F, G x F),
 // so that a |d| = -(b, c).d.
-bool Predicates::meets_parallel(const Event& parallel, const Event& x) const {
+template <class T>
+std::optional<bool> Predicates::meets_parallel(const Event& parallel, const Event& x) const {
+    Trig<T> f;
     if (parallel.first.kind != Kind::edge_edge) return false;
-    Trig<Int> f;
     if (x.first.kind == Kind::vertex_vertex && x.second.kind == Kind::none) {
-        f = offset_trig<Int>(x.first.robot, x.first.obstacle);
+        f = offset_trig<T>(x.first.robot, x.first.obstacle);
     } else if (x.first.kind == Kind::vertex_vertex || x.second.kind == Kind::vertex_vertex) {
         const bool first = x.first.kind == Kind::vertex_vertex;
-        const auto [n, d] = curve_trig<Int>(first ? x.first : x.second);
-        const auto [N, D] = curve_trig<Int>(first ? x.second : x.first);
-        f = {n.a * D.a - d.a * N.a, n.a * D.b - d.a * N.b, n.a * D.c - d.a * N.c};
+        const auto [n, d] = curve_trig<T>(first ? x.first : x.second);
+        const auto [N, D] = curve_trig<T>(first ? x.second : x.first);
+        f = combination(n, D, d, N);
     } else {
         return false;
     }
-    const auto G = edge<Int>(scene.robot, parallel.first.robot), F = edge<Int>(scene.obstacles, parallel.first.obstacle);
-    const Vec<Int> d{dot(G, F), cross(G, F)};
+    const auto G = edge<T>(scene.robot, parallel.first.robot), F = edge<T>(scene.obstacles, parallel.first.obstacle);
+    const Vec<T> d{dot(G, F), cross(G, F)};
+    const T along = f.b * d.x + f.c * d.y;
     // in the right half-plane of the chart
-    const Int along = d.x.sign() * (kappa > 0 ? 1 : -1) * (f.b * d.x + f.c * d.y);
-    return along.sign() == -f.a.sign() && along * along == f.a * f.a * dot(d, d);
+    const auto half = certain_sign(d.x), sign = certain_sign(along), constant = certain_sign(f.a);
+    if (!half || !sign || !constant) return {};
+    if (*half * (kappa > 0 ? 1 : -1) * *sign != -*constant) return false;
+    if (*constant == 0) return true;
+    const auto difference = certain_sign(along * along - f.a * f.a * dot(d, d));
+    if (!difference) return {};
+    return *difference == 0;
 }
 
-int Predicates::order_exactly(const Event& x, const Event& y) {
-    // One root in each of two overlapping intervals: of one polynomial, opposite signs around both mean one root in all.
-    const auto alone = [&](const Event& z) { return changes_sign(z, std::min(x.lo, y.lo), std::max(x.hi, y.hi)); };
-    if (same_polynomial(x, y) && alone(x)) return ++counters.filter, 0;
-    ++counters.exact;
-    if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge) {
-        if (2 * (scene.robot.bits + scene.obstacles.bits + 1) < 126) return parallel_order<Wide>(scene, x.first, y.first);
-        return parallel_order<Int>(scene, x.first, y.first);
+bool Predicates::is_touch_of_quadratic(const Event& x) const {
+    const auto p = coefficients<Ball>(x.first, x.second);
+    const auto below = cfree::sign_at(p, x.lo), above = cfree::sign_at(p, x.hi);
+    return x.fine < 0 && p.count == 3 && below && above && *below == *above;
+}
+
+// A polynomial that changes sign at the root and nowhere else in its interval: of a touch, the quadratic's derivative.
+std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
+    if (x.fine >= 0) return {};
+    const auto p = coefficients<Ball>(x.first, x.second);
+    const auto below = cfree::sign_at(p, x.lo), above = cfree::sign_at(p, x.hi);
+    if (!below || !above) return {};
+    if (*below != *above) return p;
+    if (p.count > 3) return {};
+    return derivative(p);
+}
+
+// The root's bracket shrunk to about the precision of balls: certain, opposite signs at its ends.
+std::optional<Predicates::Bracket> Predicates::narrowed(const Event& x) const {
+    if (x.first.kind == Kind::none) return Bracket{Ball(x.lo), Ball(x.hi)};
+    const auto factor = simple(x);
+    if (!factor) return {};
+    const auto& p = *factor;
+    Ball t = 0.5 * (x.lo + x.hi);
+    double value = 0, slope = 1;
+    for (int k = 0; k < 3; ++k) {  // Newton's method; whether it succeeds is seen from the signs
+        Ball v = p.c[p.count - 1];
+        slope = 0;
+        for (int i = p.count - 1; i-- > 0;) slope = slope * t.hi + v.hi, v = v * t + p.c[i];
+        value = std::abs(v.hi) + v.radius;
+        if (k < 2) t = t - Ball(v.hi / slope), t.radius = 0;
     }
-    if (x.first.kind == Kind::none) return -order_at_wall(y, x);
-    if (y.first.kind == Kind::none) return order_at_wall(x, y);
-    if ((meets_parallel(x, y) && alone(y)) || (meets_parallel(y, x) && alone(x))) return 0;
-    RealRoot p = root_of(x), q = root_of(y);
-    return cfree::compare(p, q);
+    double delta = 2 * value / std::abs(slope) + 0x1p-102;
+    for (int k = 0; k < 4 && delta < x.hi - x.lo; ++k, delta *= 256) {
+        Bracket b{t - Ball(delta), t + Ball(delta)};
+        b[0].radius = b[1].radius = 0;
+        if (is_below(b[0], x.lo)) b[0] = x.lo;
+        if (is_below(x.hi, b[1])) b[1] = x.hi;
+        const auto below = cfree::sign_at(p, b[0]), above = cfree::sign_at(p, b[1]);
+        if (below && above && *below * *above < 0) return b;
+    }
+    return {};
+}
+
+// Of two angles whose intervals overlap.
+int Predicates::order_of_close(const Event& x, const Event& y) {
+    const auto sign = [](double d) { return (d > 0) - (d < 0); };
+    if (double_only) return ++counters.filter, sign((x.lo + x.hi) - (y.lo + y.hi));
+    // One root in each of two overlapping intervals: of one polynomial, opposite signs around both mean one root in all.
+    // So does a touch of a quadratic, its only root.
+    const auto alone = [&](const Event& z) {
+        return changes_sign(z, std::min(x.lo, y.lo), std::max(x.hi, y.hi)) || is_touch_of_quadratic(z);
+    };
+    if (same_polynomial(x, y) && alone(x)) return ++counters.identity, 0;
+    if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge)
+        return settled(counters, [&]<class T>() { return parallel_order<T>(scene, x.first, y.first); });
+    if (x.first.kind == Kind::none) return -order(y, Sample{x.lo, {}});
+    if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        const auto first = meets_parallel<T>(x, y), second = meets_parallel<T>(y, x);
+        if (!first || !second) return {};
+        if ((*first && alone(y)) || (*second && alone(x))) return 0;
+        if constexpr (std::is_same_v<T, Int>) {
+            RealRoot p = root_of(x), q = root_of(y);
+            return cfree::compare(p, q);
+        } else {
+            const auto p = narrowed(x), q = narrowed(y);
+            if (!p || !q) return {};
+            if (is_below((*p)[1], (*q)[0])) return -1;
+            if (is_below((*q)[1], (*p)[0])) return 1;
+            return {};
+        }
+    });
 }
 
 int Predicates::order(const Event& x, const Sample& at) {
     if (!at.fine && x.hi < at.tau) return -1;
     if (!at.fine && x.lo > at.tau) return 1;
-    ++counters.exact;
-    const Dyadic t = at.exact();
-    if (x.first.kind == Kind::none) return cfree::compare(Dyadic::from(x.lo), t);
-    const RealRoot root = root_of(x);
-    if (cfree::compare(t, root.lo) < 0) return 1;
-    if (cfree::compare(root.hi, t) < 0) return -1;
-    const int sign = cfree::sign_at(root.p, t);
-    if (sign == 0) return 0;
-    return sign == cfree::sign_at(root.p, root.lo) ? 1 : -1;
+    if (x.first.kind == Kind::none) return ++counters.exact, cfree::compare(Dyadic::from(x.lo), at.exact());
+    const auto sign = [](double d) { return (d > 0) - (d < 0); };
+    if (double_only) return ++counters.filter, sign(x.lo + x.hi - 2 * at.tau);
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        std::optional<int> here, below;
+        if constexpr (std::is_same_v<T, Ball>) {
+            if (at.fine && (at.tau < x.lo || at.tau >= x.hi)) return {};  // the sample is just above tau
+            const auto p = simple(x);
+            if (!p) return {};
+            here = cfree::sign_at(*p, at.ball()), below = cfree::sign_at(*p, x.lo);
+        } else {
+            const RealRoot root = root_of(x);
+            const Dyadic t = at.exact();
+            if (cfree::compare(t, root.lo) < 0) return 1;
+            if (cfree::compare(root.hi, t) < 0) return -1;
+            here = cfree::sign_at(root.p, t), below = cfree::sign_at(root.p, root.lo);
+        }
+        if (!here || !below) return {};
+        return *here == 0 ? 0 : *here == *below ? 1 : -1;
+    });
 }
 
 Sample Predicates::between(const Event& x, const Event& y, double part) {
     double lo = x.hi, hi = y.lo;
-    if (!(lo < hi)) {  // intervals that overlap: halve them until they part
-        ++counters.exact;
-        RealRoot p = root_of(x), q = root_of(y);
-        while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
-        lo = p.hi.rounded_up(), hi = q.lo.rounded_down();
+    if (!(lo < hi)) {  // intervals that overlap: narrow them until they part
+        if (double_only) return {0.25 * (x.lo + x.hi + y.lo + y.hi), {}};
+        const auto [below, above] = settled(counters, [&]<class T>() -> std::optional<std::array<Dyadic, 2>> {
+            if constexpr (std::is_same_v<T, Ball>) {
+                const auto p = narrowed(x), q = narrowed(y);
+                if (!p || !q || !is_below((*p)[1], (*q)[0])) return {};
+                return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
+            } else {
+                RealRoot p = root_of(x), q = root_of(y);
+                while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+                return {{p.hi, q.lo}};
+            }
+        });
+        lo = below.rounded_up(), hi = above.rounded_down();
         if (!(std::nextafter(lo, hi) < hi)) {
-            Dyadic below = p.hi, at = Dyadic::middle(p.hi, q.lo);
+            Dyadic at = Dyadic::middle(below, above);
             for (int steps = 0; steps < static_cast<int>(8 * (1 - part)); ++steps) at = Dyadic::middle(below, at);
             return {at.rounded_down(), at};
         }

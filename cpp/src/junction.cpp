@@ -177,7 +177,7 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
         if (p.code == q.code) return 0;
         const auto [Np, Dp] = position<Approx>(line, p);
         const auto [Nq, Dq] = position<Approx>(line, q);
-        const Predicates::Form form{4, filtered(Np), filtered(Dq), filtered(Nq), filtered(Dp)};
+        const Predicates::Form form{{4, filtered(Np), filtered(Dq), filtered(Nq), filtered(Dp)}};
         const int signs = Predicates::sign_on(form.q, lo, hi) * Predicates::sign_on(form.s, lo, hi);
         double c[5];
         const double err = form.bernstein(lo, hi, c);
@@ -199,8 +199,8 @@ int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     const auto [a, b] = start(line);
     if (!p.is_given) {
         const auto [N, D] = position<Approx>(line, p);
-        const Predicates::Form form{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
-                                    -filtered(directions_cross<Approx>(x, line))};
+        const Predicates::Form form{{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
+                                    -filtered(directions_cross<Approx>(x, line))}};
         double c[5];
         const double err = form.bernstein(lo, hi, c);
         int positive = 0, negative = 0;

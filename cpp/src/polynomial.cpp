@@ -62,6 +62,12 @@ Dyadic Dyadic::from(double value) {
     return d;
 }
 
+Dyadic Dyadic::from(const Ball& x) {
+    const Dyadic hi = from(x.hi), lo = from(x.lo);
+    const unsigned k = hi.k > lo.k ? hi.k : lo.k;
+    return {(hi.n << (k - hi.k)) + (lo.n << (k - lo.k)), k};
+}
+
 Dyadic Dyadic::middle(const Dyadic& p, const Dyadic& q) {
     const unsigned k = p.k > q.k ? p.k : q.k;
     return {(p.n << (k - p.k)) + (q.n << (k - q.k)), k + 1};
@@ -112,6 +118,12 @@ Poly derivative(const Poly& p) {
     Poly d;
     for (int i = 1; i < p.size(); ++i) d.push_back(p[i] * i);
     return d;
+}
+
+std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau) {
+    Ball r = p.c[p.count - 1];
+    for (int i = p.count - 1; i-- > 0;) r = r * tau + p.c[i];
+    return certain_sign(r);
 }
 
 int sign_at(const Poly& p, const Dyadic& tau) {

@@ -2,20 +2,6 @@
 
 namespace cfree {
 
-namespace {
-
-// k f - l g for constants k, l that are themselves within ek, el of the truth
-Filtered combination(double k, double ek, const Filtered& f, double l, double el, const Filtered& g) {
-    const double mf = 2 * (std::abs(f.a) + std::abs(f.b) + std::abs(f.c));
-    const double mg = 2 * (std::abs(g.a) + std::abs(g.b) + std::abs(g.c));
-    const double err = (std::abs(k) + ek) * f.err + (std::abs(l) + el) * g.err + mf * (ek + product_error * std::abs(k)) +
-                       mg * (el + product_error * std::abs(l));
-    return {k * f.a - l * g.a, k * f.b - l * g.b, k * f.c - l * g.c, err * (1 + 8 * u) + tiny};
-}
-
-
-}  // namespace
-
 Code code(const Scene& scene, const Feature& f) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     Index i = 0, j = 0;
@@ -77,7 +63,7 @@ std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
 }
 
 Filtered Predicates::filtered(const Trig<Approx>& f) const {
-    return {f.a.v, kappa * f.b.v, kappa * f.c.v, coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
+    return {f.a.v, kappa * f.b.v, kappa * f.c.v, double_only ? 0 : coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
 }
 Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
 Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
@@ -87,27 +73,22 @@ Curve Predicates::curve(const Feature& f) const {
     return {f, code(scene, f), constant, constant || f.kind == surface.contact.kind, false, filtered(N), filtered(D)};
 }
 
+template Trig<Ball> Predicates::offset_trig(Index, Index) const;
 template Trig<Int> Predicates::offset_trig(Index, Index) const;
-template Trig<Int> Predicates::parallel_trig(Index, Index) const;
+template std::array<Trig<Ball>, 2> Predicates::curve_trig(const Feature&) const;
 template std::array<Trig<Int>, 2> Predicates::curve_trig(const Feature&) const;
 template Trig<Approx> Predicates::offset_trig(Index, Index) const;
 template Trig<Approx> Predicates::parallel_trig(Index, Index) const;
 template std::array<Trig<Approx>, 2> Predicates::curve_trig(const Feature&) const;
 
 Predicates::Form Predicates::form(const Curve& p, const Curve& q) const {
-    if (p.constant_D && q.constant_D)
-        return {2, combination(q.D.a, q.D.err, p.N, p.D.a, p.D.err, q.N), {}, {}, {}};
-    if (p.constant)
-        return {2, combination(p.N.a, p.N.err, q.D, p.D.a, p.D.err, q.N), {}, {}, {}};
-    if (q.constant)
-        return {2, combination(q.D.a, q.D.err, p.N, q.N.a, q.N.err, p.D), {}, {}, {}};
-    return {4, p.N, q.D, q.N, p.D};
+    return {terms<Filtered>({p.constant, p.constant_D}, p.N, p.D, {q.constant, q.constant_D}, q.N, q.D)};
 }
 
 Predicates::Form Predicates::form(const Event& x) const {
     if (x.second.kind != Kind::none) return form(curve(x.first), curve(x.second));
-    if (x.first.kind == Kind::edge_edge) return {2, parallel(x.first.robot, x.first.obstacle), {}, {}, {}};
-    return {2, offset(x.first.robot, x.first.obstacle), {}, {}, {}};
+    if (x.first.kind == Kind::edge_edge) return {{2, parallel(x.first.robot, x.first.obstacle), {}, {}, {}}};
+    return {{2, offset(x.first.robot, x.first.obstacle), {}, {}, {}}};
 }
 
 // --- signs -----------------------------------------------------------------------------------------------------------
@@ -119,33 +100,53 @@ int Predicates::sign_on(const Filtered& f, double lo, double hi) {
     return 0;
 }
 
-Poly Predicates::polynomial(const Trig<Int>& f) const {
-    if (kappa > 0) return {f.a + f.b, 2 * f.c, f.a - f.b};
-    return {f.a - f.b, -2 * f.c, f.a + f.b};
+template <class T>
+Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {
+    if (kappa > 0) return {{f.a + f.b, f.c + f.c, f.a - f.b, {}, {}}, 3};
+    return {{f.a - f.b, -(f.c + f.c), f.a + f.b, {}, {}}, 3};
 }
 
-// What an event's features define; see Event. Two curves: N1 D2 - N2 D1.
-Poly Predicates::polynomial(const Feature& first, const Feature& second) const {
+template <class T>
+Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& second) const {
     if (second.kind == Kind::none) {
-        if (first.kind == Kind::edge_edge) return polynomial(parallel_trig<Int>(first.robot, first.obstacle));
-        return polynomial(offset_trig<Int>(first.robot, first.obstacle));
+        if (first.kind == Kind::edge_edge) return coefficients(parallel_trig<T>(first.robot, first.obstacle));
+        return coefficients(offset_trig<T>(first.robot, first.obstacle));
     }
-    const auto [N1, D1] = curve_trig<Int>(first);
-    const auto [N2, D2] = curve_trig<Int>(second);
-    return difference(product(polynomial(N1), polynomial(D2)), product(polynomial(N2), polynomial(D1)));
+    const auto constants = [&](const Feature& f) {
+        const bool constant = f.kind == Kind::vertex_vertex;
+        return Constants{constant, constant || f.kind == surface.contact.kind};
+    };
+    const auto [N1, D1] = curve_trig<T>(first);
+    const auto [N2, D2] = curve_trig<T>(second);
+    const auto all = terms<Trig<T>>(constants(first), N1, D1, constants(second), N2, D2);
+    if (all.degree == 2) return coefficients(all.p);
+    const auto p = coefficients(all.p), q = coefficients(all.q), r = coefficients(all.r), s = coefficients(all.s);
+    Coefficients<T> result{{}, 5};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) result.c[i + j] = result.c[i + j] + (p.c[i] * q.c[j] - r.c[i] * s.c[j]);
+    return result;
+}
+template Coefficients<Int> Predicates::coefficients(const Trig<Int>&) const;
+template Coefficients<Ball> Predicates::coefficients(const Feature&, const Feature&) const;
+template Coefficients<Int> Predicates::coefficients(const Feature&, const Feature&) const;
+
+Poly Predicates::polynomial(const Feature& first, const Feature& second) const {
+    return Poly(coefficients<Int>(first, second));
 }
 
-int Predicates::sign_at(const Filtered& f, const Feature& feature, const Sample& at) {
-    const double value = f.polar(at.tau, at.tau);
-    if (!at.fine && std::abs(value) > f.err) return ++counters.filter, value > 0 ? 1 : -1;
-    ++counters.exact;
-    return cfree::sign_at(polynomial(feature, {}), at.exact());
+int Predicates::sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at) {
+    if (double_only || (!at.fine && std::abs(value) > err)) return ++counters.filter, (value > 0) - (value < 0);
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        const auto p = coefficients<T>(first, second);
+        if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(p, at.ball());
+        else return cfree::sign_at(Poly(p), at.exact());
+    });
 }
 int Predicates::offset_sign(Index s, Index v, const Filtered& f, const Sample& at) {
-    return sign_at(f, {Kind::vertex_vertex, s, v}, at);
+    return sign_at(f.polar(at.tau, at.tau), f.err, {Kind::vertex_vertex, s, v}, {}, at);
 }
 int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sample& at) {
-    return sign_at(value, {Kind::edge_edge, g, f}, at);
+    return sign_at(value.polar(at.tau, at.tau), value.err, {Kind::edge_edge, g, f}, {}, at);
 }
 
 int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) const {
@@ -155,11 +156,11 @@ int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) c
 }
 
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
-    if (shape.direction[e] == shape.direction[f]) return 0;
+    if (shape.direction[e] == shape.direction[f]) return ++counters.identity, 0;
     const Approx value = cross(edge<Approx>(shape, e), edge<Approx>(shape, f));
-    if (std::abs(value.v) > coefficient_error * value.m + tiny) return ++counters.filter, value.v > 0 ? 1 : -1;
-    ++counters.exact;
-    return cross(edge<Int>(shape, e), edge<Int>(shape, f)).sign();
+    if (double_only || std::abs(value.v) > coefficient_error * value.m + tiny)
+        return ++counters.filter, (value.v > 0) - (value.v < 0);
+    return settled(counters, [&]<class T>() { return certain_sign(cross(edge<T>(shape, e), edge<T>(shape, f))); });
 }
 
 }  // namespace cfree

@@ -6,24 +6,30 @@ namespace cfree {
 
 namespace {
 
+// None of these decides anything: signs at the ends of an interval do, and what they leave open goes to the next rung.
+constexpr double closest = 0x1p-51;       // false position stops here: two units in the last place of 1
+constexpr double nearby = 0x1p-30;        // the slope at a root is taken over this distance
+constexpr double first_margin = 0x1p-40;  // how far beyond the ends roots are sought, in case one is there
+constexpr double last_margin = 0x1p-34;
+constexpr double narrow = 0x1p-46;        // doubles hold roots closer than this apart no more
+
 enum class Found { none, one, unclear, hopeless };
 
 // How many roots inside: by the variations of certain signs, uncertain ones allowed only where they cannot add any.
-Found roots_inside(const double* c, int degree, double err) {
+Found roots_inside(const int* sign, int degree) {
     int changes = 0, last = 0, gap = 0;
     bool ends = true;
     for (int i = 0; i <= degree; ++i) {
-        const int s = c[i] > err ? 1 : c[i] < -err ? -1 : 0;
-        if (s == 0) {
+        if (sign[i] == 0) {
             if (i == 0 || i == degree) ends = false;
             gap = 1;
             continue;
         }
         if (last != 0) {
-            if (s != last) ++changes;
+            if (sign[i] != last) ++changes;
             else if (gap) ends = false;
         }
-        last = s, gap = 0;
+        last = sign[i], gap = 0;
     }
     if (last == 0) return Found::hopeless;
     if (!ends) return Found::unclear;
@@ -35,7 +41,7 @@ template <class Form>
 double false_position(const Form& form, double a, double b, double fa, double fb) {
     double t = a;
     int stayed = 0;
-    for (int k = 0; k < 60 && b - a > 4e-16; ++k) {
+    for (int k = 0; k < 60 && b - a > closest; ++k) {
         t = (a * fb - b * fa) / (fb - fa);
         if (!(t > a && t < b)) t = 0.5 * (a + b);
         const auto value = form.at(t);
@@ -53,10 +59,21 @@ double false_position(const Form& form, double a, double b, double fa, double fb
     return t;
 }
 
-// Shrink an interval with certain, opposite signs at its ends and one root inside.
+// An interval with certain, opposite signs at its ends and one root inside, shrunk around t: widened until the signs are
+// certain again.
+template <class Form>
+std::array<double, 2> around(const Form& form, double t, double delta, double lo, double hi) {
+    const int below = form.sign(lo), above = form.sign(hi);
+    if (!(delta < hi - lo)) delta = hi - lo;
+    for (int k = 0; k < 64; ++k, delta *= 2) {
+        const double x = std::max(lo, t - delta), y = std::min(hi, t + delta);
+        if ((x == lo || form.sign(x) == below) && (y == hi || form.sign(y) == above)) return {x, y};
+    }
+    return {lo, hi};
+}
+
 template <class Form>
 std::array<double, 2> refine(const Form& form, double lo, double hi) {
-    const double flo = form.at(lo).v, fhi = form.at(hi).v;
     double t = lo, width;
     if (form.degree == 2) {  // (a - b) tau^2 + 2 c tau + (a + b)
         const double A = form.p.a - form.p.b, B = form.p.c, C = form.p.a + form.p.b;
@@ -66,27 +83,60 @@ std::array<double, 2> refine(const Form& form, double lo, double hi) {
         if (!(t >= lo && t <= hi)) t = 0.5 * (lo + hi);
         width = form.p.err / s;
     } else {
-        t = false_position(form, lo, hi, flo, fhi);
-        const double l = std::max(lo, t - 1e-9), r = std::min(hi, t + 1e-9);
+        t = false_position(form, lo, hi, form.at(lo).v, form.at(hi).v);
+        const double l = std::max(lo, t - nearby), r = std::min(hi, t + nearby);
         width = 2 * form.at(t).err * (r - l) / std::abs(form.at(r).v - form.at(l).v);
     }
-    // certain signs on both sides: widen until they are
-    double delta = width + 2.3e-16;
-    if (!(delta < hi - lo)) delta = hi - lo;
-    for (int k = 0; k < 64; ++k, delta *= 2) {
-        const double x = std::max(lo, t - delta), y = std::min(hi, t + delta);
-        const auto vx = form.at(x), vy = form.at(y);
-        const bool left = x == lo || (std::abs(vx.v) > vx.err && (vx.v > 0) == (flo > 0));
-        const bool right = y == hi || (std::abs(vy.v) > vy.err && (vy.v > 0) == (fhi > 0));
-        if (left && right) return {x, y};
-    }
-    return {lo, hi};
+    return around(form, t, width + 2 * u, lo, hi);
 }
 
-constexpr int enough = 8;
+// The same polynomial in balls.
+struct Balls {
+    Coefficients<Ball> p;
+    int degree;
 
+    explicit Balls(const Coefficients<Ball>& c) : p(c), degree(c.count - 1) {}
+    explicit Balls(const Poly& exact) : p{{}, exact.size() <= 3 ? 3 : 5}, degree(p.count - 1) {
+        int most = 0;
+        for (const Int& c : exact) most = std::max(most, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
+        for (int i = 0; i < exact.size(); ++i) p.c[i] = ball(exact[i], most);
+    }
+    bool may_touch() const { return false; }
+    int sign(double t) const { return sign_at(p, t).value_or(0); }
+    // Bernstein coefficients, times 2 or 12, by the polar form: elementary symmetric functions of ends of the interval.
+    void signs(double lo, double hi, int* sign) const {
+        for (int i = 0; i <= degree; ++i) {
+            Ball e[5] = {1.0, {}, {}, {}, {}};
+            for (int k = 0; k < degree; ++k)
+                for (int j = k + 1; j > 0; --j) e[j] = e[j] + e[j - 1] * Ball(k < i ? hi : lo);
+            const double weight[2][5] = {{2, 1, 2, 0, 0}, {12, 3, 2, 3, 12}};  // over binomial coefficients
+            Ball sum;
+            for (int j = 0; j <= degree; ++j) sum = sum + Ball(weight[degree / 4][j]) * (p.c[j] * e[j]);
+            sign[i] = certain_sign(sum).value_or(0);
+        }
+    }
+};
+
+std::array<double, 2> refine(const Balls& form, double lo, double hi) {
+    const int below = form.sign(lo);
+    for (;;) {
+        const double mid = 0.5 * (lo + hi);
+        if (!(lo < mid && mid < hi)) return {lo, hi};
+        const int s = form.sign(mid);
+        if (s == 0) return around(form, mid, (hi - lo) * 0x1p-40, lo, hi);
+        (s == below ? lo : hi) = mid;
+    }
+}
+
+struct Brackets {
+    static constexpr int enough = 8;
+    double at[enough][2];
+    int count = 0;
+};
+
+// Brackets of the roots in [lo, hi], in order; false if certain signs do not tell.
 template <class Form>
-bool isolate_by_filter(const Form& form, double lo, double hi, double (*found)[2], int& count) {
+bool isolate_by_signs(const Form& form, double lo, double hi, Brackets& found) {
     struct Span {
         double lo, hi;
     };
@@ -94,56 +144,79 @@ bool isolate_by_filter(const Form& form, double lo, double hi, double (*found)[2
     int top = 0;
     stack[top++] = {lo, hi};
     int budget = 60;
+    found.count = 0;
     while (top > 0) {
         const Span s = stack[--top];
-        double c[5];
-        const double err = form.bernstein(s.lo, s.hi, c);
-        const Found inside = roots_inside(c, form.degree, err);
+        int sign[5];
+        form.signs(s.lo, s.hi, sign);
+        const Found inside = roots_inside(sign, form.degree);
         if (inside == Found::none) continue;
         if (inside == Found::hopeless) return false;
         if (inside == Found::one) {
             const auto bracket = refine(form, s.lo, s.hi);
-            found[count][0] = bracket[0], found[count][1] = bracket[1];
-            if (++count == enough) return false;
+            found.at[found.count][0] = bracket[0], found.at[found.count][1] = bracket[1];
+            if (++found.count == Brackets::enough) return false;
             continue;
         }
-        if (--budget == 0 || s.hi - s.lo < 1e-14 || top > 60) return false;
+        if (--budget == 0 || s.hi - s.lo < narrow || top > 60 || form.may_touch()) return false;
         double mid = 0.5 * (s.lo + s.hi);
-        const auto value = form.at(mid);
-        if (std::abs(value.v) <= value.err) mid = s.lo + 0.4375 * (s.hi - s.lo);
+        if (form.sign(mid) == 0) mid = s.lo + 0.4375 * (s.hi - s.lo);
         stack[top++] = {mid, s.hi};
         stack[top++] = {s.lo, mid};
     }
     return true;
 }
 
+// A root may be one of the two ends: look a little beyond them.
+template <class Form>
+bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
+    for (double margin = first_margin; margin <= last_margin; margin *= 8)
+        if (isolate_by_signs(form, lo - margin, hi + margin, found)) return true;
+    return false;
+}
+
 }  // namespace
 
-Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const Feature& second, const Event& from,
-                                    const Event& to) {
-    Roots result;
-    const auto keep = [&](const Event& x) {
-        if (order(from, x) >= 0 || order(x, to) >= 0) return;
-        if (result.count == 4) throw std::logic_error("more roots than the degree");
-        result.at[result.count++] = x;
-    };
-    // A root may be one of the two ends: look a little beyond them, then compare.
-    double found[enough][2];
+// Roots in the interval and a little beyond it.
+struct Predicates::Candidates {
+    Event at[Brackets::enough];
     int count = 0;
-    bool decided = false;
-    for (double margin = 1e-12; margin < 1e-10 && !decided; margin *= 7)
-        count = 0, decided = isolate_by_filter(f, from.lo - margin, to.hi + margin, found, count);
-    if (decided) {
-        ++counters.filter;
-        for (int k = 0; k < count; ++k) keep({first, second, found[k][0], found[k][1]});
-        return result;
-    }
-    ++counters.exact;
+    bool all_zero = false;
+};
+
+// Of a quadratic, whose touch is the root of its derivative. Of a quartic multiple roots are divided out first, exactly.
+std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& first, const Feature& second, double lo,
+                                                                 double hi) const {
+    const auto p = coefficients<Ball>(first, second);
+    Candidates result;
+    result.all_zero = true;
+    for (int i = 0; i < p.count; ++i) result.all_zero &= certain_sign(p.c[i]) == 0;
+    if (result.all_zero) return result;
+    if (p.count > 3) return {};
+    const auto sign = certain_sign(p.c[1] * p.c[1] - Ball(4.0) * (p.c[0] * p.c[2]));
+    if (!sign) return {};
+    if (*sign < 0) return result;
+    Brackets found;
+    if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
+    for (; result.count < found.count; ++result.count)
+        result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1]};
+    return result;
+}
+
+Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Feature& second, double lo, double hi) {
+    Candidates result;
     const Poly p = polynomial(first, second);
     result.all_zero = p.empty();
     if (p.empty() || (p.size() == 3 && p[1] * p[1] < 4 * p[0] * p[2])) return result;
-    const Sturm sturm(squarefree(p));
-    const Dyadic lowest = Dyadic::from(std::nextafter(from.lo, -2)), highest = Dyadic::from(std::nextafter(to.hi, 2));
+    const Poly simple = squarefree(p);
+    Brackets found;
+    if (isolate_around(Balls(simple), lo, hi, found)) {
+        for (; result.count < found.count; ++result.count)
+            result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1]};
+        return result;
+    }
+    const Sturm sturm(simple);
+    const Dyadic lowest = Dyadic::from(std::nextafter(lo, -2)), highest = Dyadic::from(std::nextafter(hi, 2));
     for (auto [below, above] : isolate(sturm, lowest, highest, 56)) {
         const auto sign = [&](const Dyadic& t) { return cfree::sign_at(sturm.polynomial(), t); };
         while (sign(below) == 0) {  // the root before this one
@@ -160,13 +233,37 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
             x.fine = static_cast<Index>(fine.size());
             fine.push_back({below, above});
         }
-        keep(x);
+        result.at[result.count++] = x;
+    }
+    return result;
+}
+
+Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const Feature& second, const Event& from,
+                                    const Event& to) {
+    Candidates all;
+    Brackets found;
+    if (isolate_around(f, from.lo, to.hi, found) || double_only) {
+        ++counters.filter;
+        for (; all.count < found.count; ++all.count)
+            all.at[all.count] = {first, second, found.at[all.count][0], found.at[all.count][1]};
+    } else {
+        all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
+            if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
+            else return roots_exactly(first, second, from.lo, to.hi);
+        });
+    }
+    Roots result;
+    result.all_zero = all.all_zero;
+    for (int k = 0; k < all.count; ++k) {
+        if (order(from, all.at[k]) >= 0 || order(all.at[k], to) >= 0) continue;
+        if (result.count == 4) throw std::logic_error("more roots than the degree");
+        result.at[result.count++] = all.at[k];
     }
     return result;
 }
 
 Predicates::Roots Predicates::offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to) {
-    return roots(Form{2, f, {}, {}, {}}, {Kind::vertex_vertex, s, v}, {}, from, to);
+    return roots(Form{{2, f, {}, {}, {}}}, {Kind::vertex_vertex, s, v}, {}, from, to);
 }
 
 // Surfaces that share a helix cross where the helix meets the line, and where their own lines are parallel.
@@ -213,14 +310,13 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
         result.sign[0] = s;
         return result;
     };
-    if (p.code == q.code) return constant(0);
+    if (p.code == q.code) return ++counters.identity, constant(0);
     const Form f = form(p, q);
-    double c[5];
-    const double err = f.bernstein(from.lo, to.hi, c);
-    int positive = 0, negative = 0;
-    for (int i = 0; i <= f.degree; ++i) positive += c[i] > err, negative += c[i] < -err;
-    result.strict = positive == f.degree + 1 || negative == f.degree + 1;
-    if (result.strict) return ++counters.filter, constant(positive > 0 ? 1 : -1);
+    int signs[5], sum = 0;
+    f.signs(from.lo, to.hi, signs);
+    for (int i = 0; i <= f.degree; ++i) sum += signs[i];
+    result.strict = std::abs(sum) == f.degree + 1;
+    if (result.strict) return ++counters.filter, constant(sum > 0 ? 1 : -1);
     const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
     const int flip = p.flipped != q.flipped ? -1 : 1;
@@ -233,13 +329,7 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
             if (attempt == 20) throw std::logic_error("two different curves are equal at twenty samples");
             const Sample at = between(before, after, (attempt + 10) / 30.0 + (attempt == 0 ? 1 / 6.0 : 0));
             const auto value = f.at(at.tau);
-            if (!at.fine && std::abs(value.v) > value.err) {
-                ++counters.filter;
-                result.sign[k] = value.v > 0 ? 1 : -1;
-            } else {
-                ++counters.exact;
-                result.sign[k] = flip * cfree::sign_at(polynomial(p.feature, q.feature), at.exact());
-            }
+            result.sign[k] = flip * sign_at(flip * value.v, value.err, p.feature, q.feature, at);
         }
     }
     return result;

@@ -43,17 +43,21 @@ class Stats:
     trapezoids : int
     pairs : int
         Pairs of a patch and a pillar near it.
-    decided_by_filter, decided_exactly : int
-        Signs and orders decided by doubles with an error bound, and by exact integers.
+    decided_by_identity, decided_by_filter, decided_by_intervals, decided_exactly : int
+        Signs and orders, by the rung that decided them: equal features; doubles with an error bound; intervals in
+        twice their precision; exact integers.
     seconds : dict of str to float
-        By phase; empty for a boundary read from a file.
+        By phase: features, setup, trim, collect, and total, of all. `intervals` and `exact` are the parts of `trim` that
+        those two rungs took, summed over threads. Empty for a boundary read from a file.
     """
 
     patches: int
     live_patches: int
     trapezoids: int
     pairs: int
+    decided_by_identity: int
     decided_by_filter: int
+    decided_by_intervals: int
     decided_exactly: int
     seconds: dict[str, float]
 

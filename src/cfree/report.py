@@ -62,7 +62,9 @@ def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
         "trapezoids": stats.trapezoids,
         "isolated parts (exact fits)": len(boundary.isolated),
         "patch and pillar pairs": stats.pairs,
+        "decided by equal features": stats.decided_by_identity,
         "decided by doubles with a bound": stats.decided_by_filter,
+        "decided by intervals": stats.decided_by_intervals,
         "decided by exact integers": stats.decided_exactly,
         **{f"seconds, {phase}": f"{value:.4f}" for phase, value in stats.seconds.items()},
     }

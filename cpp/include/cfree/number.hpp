@@ -9,6 +9,13 @@ namespace cfree {
 
 using Index = std::int32_t;
 
+// For the benchmark of what exactness costs, and for nothing else: every sign is that of the double, however uncertain.
+#ifdef CFREE_DOUBLE_ONLY
+inline constexpr bool double_only = true;
+#else
+inline constexpr bool double_only = false;
+#endif
+
 // Exact integers; up to 512 bits without touching the heap.
 using Int = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
@@ -17,9 +24,6 @@ using Int = boost::multiprecision::number<
 
 // Where it is known to be wide enough.
 __extension__ typedef __int128 Wide;
-
-inline int sign_of(const Int& n) { return n.sign(); }
-inline int sign_of(Wide n) { return (n > 0) - (n < 0); }
 
 // A double v and the magnitude m of the terms it was summed from. An expression of d roundings in a row, inputs
 // included, satisfies |v - exact| <= d u m (1 + O(u)), u = 2^-53, but for underflow, which bounds allow for. Overflow makes

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <vector>
 
-#include "cfree/number.hpp"
+#include "cfree/ball.hpp"
 
 namespace cfree {
 
@@ -13,11 +13,20 @@ struct Dyadic {
     Int n;
     unsigned k = 0;
     static Dyadic from(double value);
+    static Dyadic from(const Ball& middle);
     static Dyadic middle(const Dyadic& p, const Dyadic& q);
     double rounded_down() const;
     double rounded_up() const;
 };
 int compare(const Dyadic& p, const Dyadic& q);
+
+// Three or five coefficients from the constant up, of any number type; leading ones may vanish.
+template <class T>
+struct Coefficients {
+    T c[5];
+    int count;
+};
+std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau);
 
 // Coefficients from the constant up; no leading zeros; degree at most 4; empty is zero.
 class Poly {
@@ -25,6 +34,10 @@ public:
     Poly() = default;
     Poly(std::initializer_list<Int> coefficients) {
         for (const Int& x : coefficients) push_back(x);
+        trim();
+    }
+    explicit Poly(const Coefficients<Int>& p) {
+        for (int i = 0; i < p.count; ++i) push_back(p.c[i]);
         trim();
     }
     int size() const { return count; }

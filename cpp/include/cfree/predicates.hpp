@@ -5,7 +5,8 @@
 // and of N1 D2 - N2 D1 (two curves on a surface). In a chart, tau = tan(theta'/2) in [-1, 1] with theta = theta' or
 // theta' + pi, f times 1 + tau^2 is a quadratic and the order of two curves a quartic in tau.
 //
-// Rungs: doubles with a proven bound; then exact integers of any size. No tolerance decides anything.
+// Rungs: identity of features; doubles with a proven bound; balls of twice the precision; exact integers of any size.
+// No tolerance decides anything.
 #pragma once
 #include <array>
 #include <optional>
@@ -68,12 +69,17 @@ struct Sample {
     double tau;
     std::optional<Dyadic> fine;
     Dyadic exact() const { return fine ? *fine : Dyadic::from(tau); }
+    Ball ball() const { return fine ? cfree::ball(fine->n, static_cast<int>(fine->k)) : Ball(tau); }
 };
 
+// Decisions by the rung that took them, and the time of the slow rungs.
 struct Counters {
-    std::int64_t filter = 0;  // decisions by doubles with their bound
-    std::int64_t exact = 0;   // decisions by exact integers
-    void operator+=(const Counters& o) { filter += o.filter, exact += o.exact; }
+    std::int64_t identity = 0, filter = 0, interval = 0, exact = 0;
+    double interval_seconds = 0, exact_seconds = 0;
+    void operator+=(const Counters& o) {
+        identity += o.identity, filter += o.filter, interval += o.interval, exact += o.exact;
+        interval_seconds += o.interval_seconds, exact_seconds += o.exact_seconds;
+    }
 };
 
 class Predicates {
@@ -152,18 +158,30 @@ private:
     template <class T>
     std::array<Trig<T>, 2> curve_trig(const Feature& f) const;  // N and D
     Filtered filtered(const Trig<Approx>& f) const;
-    Poly polynomial(const Trig<Int>& f) const;
+    // What an event's features define; see Event. Two curves: N1 D2 - N2 D1.
+    template <class T>
+    Coefficients<T> coefficients(const Trig<T>& f) const;
+    template <class T>
+    Coefficients<T> coefficients(const Feature& first, const Feature& second) const;
+    Poly polynomial(const Trig<Int>& f) const { return Poly(coefficients(f)); }
     Poly polynomial(const Feature& first, const Feature& second) const;
     struct Form;
     Form form(const Curve& p, const Curve& q) const;
     Form form(const Event& x) const;
+    struct Candidates;
+    std::optional<Candidates> roots_by_balls(const Feature& first, const Feature& second, double lo, double hi) const;
+    Candidates roots_exactly(const Feature& first, const Feature& second, double lo, double hi);
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
-    int sign_at(const Filtered& f, const Feature& first, const Sample& at);
-    bool same_polynomial(const Event& x, const Event& y) const;
-    int order_at_wall(const Event& x, const Event& wall) const;
-    bool meets_parallel(const Event& parallel, const Event& x) const;
-    int order_exactly(const Event& x, const Event& y);
+    int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
+    using Bracket = std::array<Ball, 2>;
+    bool is_touch_of_quadratic(const Event& x) const;
+    std::optional<Coefficients<Ball>> simple(const Event& x) const;
+    std::optional<Bracket> narrowed(const Event& x) const;
+    bool same_polynomial(const Event& x, const Event& y);
+    template <class T>
+    std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
+    int order_of_close(const Event& x, const Event& y);
 
     const Scene& scene;
     Surface surface;

@@ -6,17 +6,16 @@
 #pragma once
 #include <vector>
 
-#include "cfree/number.hpp"
+#include "cfree/ball.hpp"
 
 namespace cfree {
 
 struct Shape {
     std::vector<Int> X, Y;         // exact coordinates
     std::vector<double> x, y;      // the same times 2^-shift, rounded
+    std::vector<double> x_low, y_low;  // and what that left, rounded
     bool rounded = false;          // whether any coordinate changed by rounding
-    std::vector<std::int64_t> nx, ny;  // the same as machine integers, if `bits` allows
-    int bits = 0;                  // differences of coordinates are below 2^bits
-    bool is_narrow() const { return bits <= 63; }  // so that a cross or dot product of two fits a Wide
+    bool rounded_twice = false;    // whether any is not the sum of its two doubles
     std::vector<Index> point;      // class of coincident vertices
     // Directed edges v -> w. Those of rings come first: edge e of a ring starts at vertex e. Then the pieces' diagonals.
     std::vector<Index> v, w, line, direction;
@@ -55,8 +54,16 @@ inline Vec<Int> difference(const Shape& s, Index p, Index q) {
     return {s.X[p] - s.X[q], s.Y[p] - s.Y[q]};
 }
 template <>
-inline Vec<Wide> difference(const Shape& s, Index p, Index q) {
-    return {Wide(s.nx[p]) - s.nx[q], Wide(s.ny[p]) - s.ny[q]};
+inline Vec<Ball> difference(const Shape& s, Index p, Index q) {
+    if (!s.rounded) {
+        const auto dx = two_sum(s.x[p], -s.x[q]), dy = two_sum(s.y[p], -s.y[q]);
+        return {{dx.s, dx.e, 0}, {dy.s, dy.e, 0}};
+    }
+    const auto coordinate = [&](double high, double low) {
+        return Ball{high, low, s.rounded_twice ? ball_error(high) : 0};
+    };
+    return {coordinate(s.x[p], s.x_low[p]) - coordinate(s.x[q], s.x_low[q]),
+            coordinate(s.y[p], s.y_low[p]) - coordinate(s.y[q], s.y_low[q])};
 }
 template <class T>
 Vec<T> edge(const Shape& s, Index e) { return difference<T>(s, s.w[e], s.v[e]); }
