@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -15,3 +16,29 @@ def test_the_committed_stub_is_that_of_the_binding(request: pytest.FixtureReques
     subprocess.run(command, check=True, cwd=request.config.rootpath)
     committed = request.config.rootpath / "src" / "cfree" / "_core.pyi"
     assert fresh.read_text() == committed.read_text(), "run `make stub`"
+
+
+COMMENT = re.compile(r"//.*")
+NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?")
+NOT_DECIDING = {"slice.cpp", "slice.hpp", "surface.cpp", "surface.hpp"}  # computed from the exact structure, in doubles
+
+
+def tolerances(source: str) -> list[str]:
+    """Decimal literals that are no short binary fraction: 1e-9, 0.0001; hexadecimal powers of two are none."""
+    lines = [COMMENT.sub("", line) for line in source.splitlines()]
+    found = [match for line in lines for match in NUMBER.findall(line)]
+    return [text for text in found if "e" in text.lower() or not (16 * float(text)).is_integer()]
+
+
+def test_no_tolerance_decides(request: pytest.FixtureRequest) -> None:
+    core = request.config.rootpath / "cpp"
+    files = [*core.glob("src/*"), *core.glob("include/cfree/*")]
+    deciding = [file for file in files if file.name not in NOT_DECIDING]
+    assert {"ball.hpp", "predicates.cpp", "roots.cpp", "angles.cpp", "trim.cpp"} <= {file.name for file in deciding}
+    assert {file.name: found for file in deciding if (found := tolerances(file.read_text()))} == {}
+
+
+@pytest.mark.parametrize("line", ["if (x < 1e-9) return;", "x + .001", "y = 4E-16;", "abs(x)<0.1", "return 1e9 * x;"])
+def test_a_tolerance_is_found(line: str) -> None:
+    assert tolerances(line)
+    assert not tolerances("x = 0.5 + 2.0 * 0x1p-53 + 0.4375 - e1 + x1e2 + 3;  // 1e-9")
