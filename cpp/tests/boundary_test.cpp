@@ -69,7 +69,17 @@ static void threads_do_not_change_the_result() {
     const auto scene = std::make_shared<const Scene>(Scene{shape_of({robot}), shape_of(many)});
     const auto a = run(scene, 1), b = run(scene, 3);
     CHECK(a->trapezoids.lower == b->trapezoids.lower && a->trapezoids.from_lo == b->trapezoids.from_lo);
-    CHECK(a->tally.decisions.exact == b->tally.decisions.exact);
+    const Counters &p = a->tally.decisions, &q = b->tally.decisions;
+    CHECK(p.identity == q.identity && p.filter == q.filter && p.interval == q.interval && p.exact == q.exact);
+}
+
+static void ties_of_small_integers_are_certain_in_balls() {
+    std::vector<Ring> grid;
+    for (long k = 0; k < 12; ++k) grid.push_back({{2 * (k % 4), 2 * (k / 4)}, {2 * (k % 4) + 2, 2 * (k / 4)}, {2 * (k % 4) + 2, 2 * (k / 4) + 2}, {2 * (k % 4), 2 * (k / 4) + 2}});
+    const Ring square{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    const Counters c = run(std::make_shared<const Scene>(Scene{shape_of({square}), shape_of(grid)}))->tally.decisions;
+    CHECK(c.interval > 1000 && c.exact < c.interval / 20);
+    CHECK(c.interval_seconds > 0);
 }
 
 static void a_cancelled_job_ends() {
@@ -86,6 +96,7 @@ int main() {
     coincident_obstacles_count_once();
     buried_obstacles_leave_nothing();
     threads_do_not_change_the_result();
+    ties_of_small_integers_are_certain_in_balls();
     a_cancelled_job_ends();
     return failures > 0;
 }

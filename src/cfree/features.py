@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.errors import UnsupportedError
 from cfree.polygon import Polygon
 
 if TYPE_CHECKING:
@@ -31,6 +32,8 @@ Point = tuple[int, int]
 Box = tuple[int, int, int, int]
 BODY, REFERENCE = 0, 1  # layers
 LARGEST_BITS = 100  # of the core's doubles, so that products of four of their products stay finite
+MOST_ROBOT_FEATURES, MOST_OBSTACLE_FEATURES = 2**30, 2**31  # a packed pair has 30 and 31 bits for them
+MOST_PATCHES = 2**31  # numbered by int32
 RING_COLUMNS = ("previous", "convex", "emit", "layer", "owner_polygon", "owner_vertex")
 
 
@@ -232,7 +235,24 @@ def scene_features(scene: Scene) -> SceneFeatures:
             add_bounds(robot, obstacles, bounds, outer)
     widest = max((abs(c) for p in robot.vertices + obstacles.vertices for c in p), default=0)
     robot.shift = obstacles.shift = max(0, widest.bit_length() - LARGEST_BITS)
+    refuse_too_many(robot, obstacles)
     return SceneFeatures(robot, obstacles, scale, rim)
+
+
+def refuse_too_many(robot: ShapeFeatures, obstacles: ShapeFeatures) -> None:
+    """See that every feature and every patch has a number."""
+    for name, shape, most in (
+        ("robot", robot, MOST_ROBOT_FEATURES),
+        ("obstacles", obstacles, MOST_OBSTACLE_FEATURES),
+    ):
+        if (count := len(shape.edges) + sum(map(len, shape.pieces))) >= most:
+            raise UnsupportedError(f"{name}: {count:,} edges and diagonals; fewer than {most:,} have numbers: simplify")
+    n, m = (shape.rings["convex"] for shape in (robot, obstacles))
+    if (patches := sum(n) * len(m) + len(n) * sum(m)) >= MOST_PATCHES:
+        raise UnsupportedError(
+            f"{len(n):,} vertices of the robot and {len(m):,} of the obstacles: {patches:,} contact patches; "
+            f"fewer than {MOST_PATCHES:,} have numbers: simplify, or divide the obstacles"
+        )
 
 
 def complement(rings: Sequence[Iterable[Point]], robot: Box, around: Box, scale: int) -> list[Polygon]:

@@ -14,8 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from cfree.errors import InvalidPolygonError
+from cfree.errors import InvalidPolygonError, UnsupportedError
 from cfree.exact import Number, to_fraction
+from cfree.extent import range_fault
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 
@@ -57,6 +58,9 @@ class Scene:
         If a shape is not a polygon, or the robot is empty.
     ValueError
         If the bounds are empty, or names and obstacles differ in number.
+    UnsupportedError
+        If a coordinate is larger than 1e150, or all of them over one common denominator are integers of more than 1080
+        bits: lengths from 1e-150 to 1e150 may meet in one scene.
 
     Examples
     --------
@@ -129,6 +133,10 @@ class Scene:
         }
         for key, value in values.items():
             object.__setattr__(self, key, value)
+        if fault := range_fault(self.robot, self.obstacles, self.workspace, self.bounds):
+            (kind, *index), message = fault
+            place = self.obstacle_names[int(index[0])] if kind == "obstacles" else f"{kind}{index or ''}"
+            raise UnsupportedError(f"{place}: {message}")
 
     def __repr__(self) -> str:
         title = f"{self.name!r}, " if self.name else ""

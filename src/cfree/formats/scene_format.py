@@ -30,6 +30,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact import to_fraction
+from cfree.extent import range_fault
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path, shortened
 from cfree.polygon import Polygon
@@ -215,21 +216,27 @@ class SceneModel(_Strict):
 
 def scene_from_json(findings: Findings, data: object) -> Scene:
     """Scene of a decoded JSON value; raises every problem there is through `findings`."""
+    single_robot = isinstance(data, dict) and isinstance(data.get("robot"), dict)
     try:
         model = SceneModel.model_validate(data)
     except ValidationError as error:
-        single_robot = isinstance(data, dict) and isinstance(data.get("robot"), dict)
         for item in error.errors(include_url=False, include_input=False):
             path = item["loc"]
             if single_robot and path[:1] == ("robot",):
                 path = ("robot", *path[2:])
             report(findings, path, item)
     findings.fail_if_any()
+    robot, obstacles = ([part.polygon for part in parts] for parts in (model.robot, model.obstacles))
+    workspace = model.workspace.polygon if model.workspace else None
+    if out := range_fault(robot, obstacles, workspace, model.bounds):
+        path, message = out
+        findings.under(path[:1] if path[0] == "robot" and single_robot else path, message)
+        findings.fail_if_any()
     return Scene(
-        robot=[part.polygon for part in model.robot],
-        obstacles=[part.polygon for part in model.obstacles],
+        robot=robot,
+        obstacles=obstacles,
         obstacle_names=[part.name for part in model.obstacles],
-        workspace=model.workspace and model.workspace.polygon,
+        workspace=workspace,
         **{key: getattr(model, key) for key in _PLAIN_FIELDS},
     )
 
