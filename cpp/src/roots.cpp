@@ -7,11 +7,11 @@ namespace cfree {
 namespace {
 
 // None of these decides anything: signs at the ends of an interval do, and what they leave open goes to the next rung.
-constexpr double closest = 0x1p-51;       // false position stops here: two units in the last place of 1
-constexpr double nearby = 0x1p-30;        // the slope at a root is taken over this distance
-constexpr double first_margin = 0x1p-40;  // how far beyond the ends roots are sought, in case one is there
-constexpr double last_margin = 0x1p-34;
-constexpr double narrow = 0x1p-46;        // doubles hold roots closer than this apart no more
+constexpr double closest = 0x1p-51;          // false position stops here: two units in the last place of 1
+constexpr double nearby = 0x1p-30;           // the slope at a root is taken over this distance
+constexpr double margin = 0x1p-40;           // how far beyond the ends roots are sought, in case one is there
+constexpr double narrow = 0x1p-20;           // roots closer than this are left to balls
+constexpr double narrow_in_balls = 0x1p-46;  // and closer than this to exact integers
 
 enum class Found { none, one, unclear, hopeless };
 
@@ -118,6 +118,16 @@ struct Balls {
 };
 
 std::array<double, 2> refine(const Balls& form, double lo, double hi) {
+    double t = 0.5 * (lo + hi);
+    for (int k = 0; k < 8; ++k) {  // Newton's method; if it goes astray, halving
+        double value = form.p.c[form.degree].hi, slope = 0;
+        for (int i = form.degree; i-- > 0;) slope = slope * t + value, value = value * t + form.p.c[i].hi;
+        const double next = t - value / slope;
+        if (!(next > lo && next < hi) || next == t) break;
+        t = next;
+    }
+    const auto close = around(form, t, 2 * u, lo, hi);
+    if (close[1] - close[0] < narrow_in_balls) return close;
     const int below = form.sign(lo);
     for (;;) {
         const double mid = 0.5 * (lo + hi);
@@ -136,7 +146,7 @@ struct Brackets {
 
 // Brackets of the roots in [lo, hi], in order; false if certain signs do not tell.
 template <class Form>
-bool isolate_by_signs(const Form& form, double lo, double hi, Brackets& found) {
+bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brackets& found) {
     struct Span {
         double lo, hi;
     };
@@ -158,7 +168,7 @@ bool isolate_by_signs(const Form& form, double lo, double hi, Brackets& found) {
             if (++found.count == Brackets::enough) return false;
             continue;
         }
-        if (--budget == 0 || s.hi - s.lo < narrow || top > 60 || form.may_touch()) return false;
+        if (--budget == 0 || s.hi - s.lo < least || top > 60 || form.may_touch()) return false;
         double mid = 0.5 * (s.lo + s.hi);
         if (form.sign(mid) == 0) mid = s.lo + 0.4375 * (s.hi - s.lo);
         stack[top++] = {mid, s.hi};
@@ -170,9 +180,10 @@ bool isolate_by_signs(const Form& form, double lo, double hi, Brackets& found) {
 // A root may be one of the two ends: look a little beyond them.
 template <class Form>
 bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
-    for (double margin = first_margin; margin <= last_margin; margin *= 8)
-        if (isolate_by_signs(form, lo - margin, hi + margin, found)) return true;
-    return false;
+    return isolate_by_signs(form, lo - margin, hi + margin, narrow, found);
+}
+bool isolate_around(const Balls& form, double lo, double hi, Brackets& found) {
+    return isolate_by_signs(form, lo - margin, hi + margin, narrow_in_balls, found);
 }
 
 }  // namespace
