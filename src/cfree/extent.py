@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 Path = tuple[str | int, ...]  # as in a scene file
 
-MAX_BITS = 1080
+MAX_BITS = 1110  # with the frame around it and `LARGEST_BITS` no double is below 2^-1022
 LARGEST = 10**150
 
 

@@ -59,7 +59,7 @@ class Scene:
     ValueError
         If the bounds are empty, or names and obstacles differ in number.
     UnsupportedError
-        If a coordinate is larger than 1e150, or all of them over one common denominator are integers of more than 1080
+        If a coordinate is larger than 1e150, or all of them over one common denominator are integers of more than 1110
         bits: lengths from 1e-150 to 1e150 may meet in one scene.
 
     Examples
