@@ -1,0 +1,206 @@
+"""A boundary's slices against the exact ones, as sets of oriented segments on lines: equal, no tolerance."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import NamedTuple
+
+import numpy as np
+
+from cfree import Boundary
+from cfree.features import ShapeFeatures, unpacked
+from cfree.forbidden import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
+from cfree.patch import Contact, Patch, contact
+from compared import Point, cross, minus, placed, plain_of, rotation, turned
+from exact_slices import Segments, ends, exact_slice, oriented, united, without
+from shapes import PlainScene
+
+BEFORE, AFTER = -1, 1
+
+
+class Undecided(Exception):
+    """A tau in the interval of a critical angle whose condition needs more than this file knows."""
+
+
+class Orientation(NamedTuple):
+    """theta = 2 atan(tau) + chart * pi, tau in [-1, 1]."""
+
+    chart: int
+    tau: Fraction
+
+    @classmethod
+    def of(cls, half_tangent: Fraction | None, side: int = AFTER) -> Orientation:
+        """In the chart that holds the angle and those just before or after it; None is the half turn."""
+        if half_tangent is None:
+            return cls(1, Fraction(0))
+        tau = Fraction(half_tangent)
+        if abs(tau) < 1 or tau == -side:
+            return cls(0, tau)
+        return cls(1, -1 / tau)
+
+
+def differences(result: Boundary, half_tangent: Fraction | None, plain: PlainScene | None = None) -> list[str]:
+    """What is wrong with a boundary at an orientation, critical or not: nothing, if all is well.
+
+    The limits of its slices from either side are boundary, and miss nothing but slits that are there at no other angle.
+    """
+    exact = exact_slice(plain or plain_of(result.scene), half_tangent)
+    wrong = []
+    for side, name in ((BEFORE, "before"), (AFTER, "after")):
+        found = slice_segments(result, half_tangent, side)
+        missing = without(without(exact.segments, found), exact.slits)
+        wrong += _told(f"tau {half_tangent}, {name}", without(found, exact.segments), missing)
+    return wrong
+
+
+def generic_differences(result: Boundary, half_tangent: Fraction, plain: PlainScene | None = None) -> list[str]:
+    """The same at an angle at which nothing begins or ends: slits are there as well."""
+    exact = exact_slice(plain or plain_of(result.scene), half_tangent).segments
+    found = slice_segments(result, half_tangent)
+    return _told(f"tau {half_tangent}", without(found, exact), without(exact, found))
+
+
+def _told(where: str, extra: Segments, missing: Segments) -> list[str]:
+    return [f"{where}: from {p} to {q} is no boundary" for p, q in _floats(extra)] + [
+        f"{where}: from {p} to {q} is missing" for p, q in _floats(missing)
+    ]
+
+
+def _floats(segments: Segments) -> list[list[tuple[float, float]]]:
+    return [[(float(x), float(y)) for x, y in segment] for segment in ends(segments)]
+
+
+def slice_segments(result: Boundary, half_tangent: Fraction | None, side: int = AFTER) -> Segments:
+    """Segments of the trapezoids at an angle, exactly; at a critical one their limits from before or after it."""
+    at = Orientation.of(half_tangent, side)
+    segments = (segment(result, k, at) for k in trapezoids_at(result, at, side))
+    return united(oriented(p, q) for p, q in segments if p != q)
+
+
+def segment(result: Boundary, k: int, at: Orientation) -> tuple[Point, Point]:
+    """Ends of trapezoid k at an orientation, forbidden on the left."""
+    patch = result.patches[int(result.trapezoids.patch[k])]
+    origin, along = placed(result.scene, own_contact(patch), rotation(*at))
+    low, high = (
+        limit(result, own_contact(patch), contact(result, int(curve)), at)
+        for curve in (result.trapezoids.lower[k], result.trapezoids.upper[k])
+    )
+    assert 0 <= low <= high <= 1, f"trapezoid {k} at {at}: t from {low} to {high}"
+    p, q = ((origin[0] + t * along[0], origin[1] + t * along[1]) for t in (low, high))
+    return p, q
+
+
+def limit(result: Boundary, own: Contact, curve: Contact, at: Orientation) -> Fraction:
+    """Where a curve is on a patch's line: t = N / D, its limit where both vanish."""
+
+    def quotient(tau: Fraction) -> Point:
+        turn = rotation(at.chart, tau)
+        (origin, along), (point, direction) = (placed(result.scene, one, turn) for one in (own, curve))
+        u, norm = minus(point, origin), 1 + tau * tau
+        if curve.kind == "v-v":
+            assert cross(u, along) == 0, f"{curve} is not on the surface of {own}"
+            return u[0] * along[0] + u[1] * along[1], along[0] ** 2 + along[1] ** 2
+        return norm * cross(u, direction), norm * cross(along, direction)
+
+    numerator, denominator = quotient(at.tau)
+    if denominator:
+        return numerator / denominator
+    # N and D are quadratics in tau: their values and their first and second differences say what they do near by
+    (n0, d0), (n1, d1) = quotient(at.tau - 1), quotient(at.tau + 1)
+    for n, d in ((numerator, denominator), (n1 - n0, d1 - d0), (n1 + n0 - 2 * numerator, d1 + d0 - 2 * denominator)):
+        if d:
+            return n / d
+        assert n == 0, f"{curve} has no limit on {own} at {at}"
+    raise AssertionError(f"{curve} lies on the surface of {own}")
+
+
+def trapezoids_at(result: Boundary, at: Orientation, side: int) -> list[int]:
+    columns, tau = result.trapezoids, float(at.tau)
+    near = (columns.chart == at.chart) & (columns.from_lo <= tau + 1e-9) & (columns.to_hi >= tau - 1e-9)
+    chosen = []
+    for k in np.flatnonzero(near).tolist():
+        after_start, after_stop = (angle_order(result, k, end, at.tau) for end in ("from", "to"))
+        if after_start >= (side == BEFORE) and after_stop <= -(side == AFTER):
+            chosen.append(k)
+    return chosen
+
+
+def angle_order(result: Boundary, k: int, end: str, tau: Fraction) -> int:
+    """-1, 0 or 1: tau is before, at or after a critical angle of trapezoid k."""
+    lo, hi = (Fraction(float(getattr(result.trapezoids, f"{end}_{name}")[k])) for name in ("lo", "hi"))
+    if not lo <= tau <= hi:
+        return 1 if tau > hi else -1
+    if lo == hi:
+        return 0
+    if getattr(result.trapezoids, f"{end}_place")[k]:
+        raise Undecided(f"tau {tau} in [{lo}, {hi}], which holds several roots")
+    values = [condition(result, k, end, value) for value in (lo, tau, hi)]
+    if values[1] == 0:
+        return 0
+    if values[0] * values[2] >= 0:
+        raise Undecided(f"tau {tau} in [{lo}, {hi}]")
+    return -1 if values[0] * values[1] > 0 else 1
+
+
+def rational_angles(result: Boundary, digits: int = 3) -> list[Fraction | None]:
+    """Half-angle tangents of few digits that are, or are very near to, critical angles."""
+    columns, found = result.trapezoids, set[Fraction | None]()
+    for end in ("from", "to"):
+        rows = zip(columns.chart, getattr(columns, f"{end}_lo"), getattr(columns, f"{end}_hi"), strict=True)
+        for chart, lo, hi in {(int(chart), float(lo), float(hi)) for chart, lo, hi in rows}:
+            tau = Fraction(lo).limit_denominator(10**digits)
+            if lo <= tau <= hi:
+                found.add((-1 / tau if tau else None) if chart else tau)
+    return sorted(found, key=lambda tau: (tau is None, tau or 0))
+
+
+def own_contact(patch: Patch) -> Contact:
+    return Contact("v-e" if patch.kind == "bound" else patch.kind, patch.robot, patch.obstacle)
+
+
+def condition(result: Boundary, k: int, end: str, tau: Fraction) -> Fraction:
+    """Zero where trapezoid k begins or ends: edges parallel, a helix on its surface, three lines through one point.
+
+    By number and not by place, as corners of the frame that stands for what is outside the bounds have no place.
+    """
+    columns = result.trapezoids
+    codes = [int(getattr(columns, f"{end}_{name}")[k]) for name in ("first", "second")]
+    turn = rotation(int(columns.chart[k]), tau)
+    own, first, *second = (numbered(result, code, turn) for code in (own_code(result, k), *codes) if code)
+    if codes[0] >> 61 == EDGE_EDGE:
+        return cross(*first)
+    (p, u), (q, v) = own, first
+    if not second:
+        return cross(u, minus(q, p))
+    ((r, w),) = second
+    if codes[0] >> 61 == VERTEX_VERTEX:
+        return cross(w, minus(r, q))
+    if codes[1] >> 61 == VERTEX_VERTEX:
+        return cross(v, minus(q, r))
+    return cross(minus(q, p), v) * cross(u, w) - cross(minus(r, p), w) * cross(u, v)
+
+
+def own_code(result: Boundary, k: int) -> int:
+    patch = result.trapezoids.patch[k]
+    kind, i, j = (int(column[patch]) for column in (result.contact_kind, result.contact_robot, result.contact_obstacle))
+    return kind << 61 | i << 31 | j
+
+
+def numbered(result: Boundary, code: int, turn: Point) -> tuple[Point, Point]:
+    """A packed pair's point and direction in a slice, or, of two edges, their two directions."""
+    kind, i, j = unpacked(code)
+    robot, obstacles = result.features.robot, result.features.obstacles
+
+    def vector(shape: ShapeFeatures, edge: int) -> Point:
+        return minus(shape.vertices[shape.w[edge]], shape.vertices[shape.v[edge]])
+
+    if kind == EDGE_EDGE:
+        return turned(turn, vector(robot, i)), vector(obstacles, j)
+    a = robot.vertices[robot.v[i] if kind == EDGE_VERTEX else i]
+    b = obstacles.vertices[obstacles.v[j] if kind == VERTEX_EDGE else j]
+    direction: Point = (Fraction(0), Fraction(0))
+    if kind == VERTEX_EDGE:
+        direction = vector(obstacles, j)
+    if kind == EDGE_VERTEX:
+        direction = turned(turn, minus((0, 0), vector(robot, i)))
+    return minus(b, turned(turn, a)), direction

@@ -1,0 +1,334 @@
+"""The forbidden slice at a rational tau, exactly: its boundary as oriented segments, and its isolated free points.
+
+Shares nothing with the package: convex pieces by recursive cuts, sums as hulls of all pairwise sums, and every edge of
+every sum cut by all the others. C_forb is open, so what remains of an edge is closed: segments, and single points.
+
+    Segments    {line: [(low, high), ...]}, disjoint closed intervals in ascending order
+    line        (ux, uy, offset): primitive integer direction u, u x p = offset; forbidden is on its left
+    low, high   positions u . p of the ends
+
+Both sides of a slit of no width are there, on lines of opposite directions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from itertools import pairwise, product
+from typing import Any, NamedTuple
+
+from oracles import edges, exact_hull, exact_rotation, orient, ring_area
+from shapes import PlainScene, Shape, box
+
+Point = tuple[Any, Any]
+Ring = tuple[Point, ...]
+Line = tuple[int, int, Fraction]
+Interval = tuple[Fraction, Fraction]
+Segments = dict[Line, list[Interval]]
+
+
+class ExactSlice(NamedTuple):
+    """Boundary of the forbidden slice; `points` are the free points that have no free point near them."""
+
+    segments: Segments
+    points: set[Point]
+
+    @property
+    def slits(self) -> Segments:
+        """Free segments of no width, each once in either direction. With the points, they are what is free but not in
+        the closure of the interior of what is free."""
+        return common(self.segments, reverse(self.segments))
+
+
+class Region(NamedTuple):
+    """An open convex set of integer points, where ux * y - uy * x > offset for all (ux, uy, offset) of `sides`.
+
+    `rim` are the sides that can be seen, `box` surrounds it if it is bounded.
+    """
+
+    sides: list[tuple[int, int, int]]
+    rim: list[tuple[Point, Point]]
+    box: tuple[int, int, int, int] | None = None
+
+    @classmethod
+    def left_of(cls, sides: Iterable[tuple[Point, Point]], box: Any = None) -> Region:
+        rim = list(sides)
+        lines = [(q[0] - p[0], q[1] - p[1], q[0] * p[1] - q[1] * p[0]) for p, q in rim]
+        return cls(lines, rim, box)
+
+
+def exact_slice(plain: PlainScene, tau: Fraction | None) -> ExactSlice:
+    """What bounds the forbidden slice at tan(theta/2) = tau; None is the half turn."""
+    c, s = exact_rotation(tau)
+    turned = [[(c * x - s * y, s * x + c * y) for x, y in part] for part in _pieces(plain.robot)]
+    walls = _pieces(_walls(plain))
+    limits = [tuple(map(Fraction, limit)) for limit in _limits(plain)]
+    numbers = [v for ring in [*turned, *walls] for p in ring for v in p] + [v for limit in limits for v in limit]
+    scale = math.lcm(*(v.denominator for v in numbers))
+
+    def whole(ring: Iterable[Point]) -> list[Point]:
+        return [(int(x * scale), int(y * scale)) for x, y in ring]
+
+    sums = {_sum(wall, part) for part in map(whole, turned) for wall in map(whole, walls)}
+    regions = [Region.left_of(edges(ring), _box(ring)) for ring in sums]
+    for k, (x0, y0, x1, y1) in enumerate(limits):
+        ring = whole([(x0, y0), (x0, y1), (x1, y1), (x1, y0)])  # clockwise: forbidden outside
+        shown = k == 0 and plain.bounds is not None
+        beyond = [Region.left_of([side]) for side in edges(ring)]
+        regions += beyond if shown else [region._replace(rim=[]) for region in beyond]
+    return _visible(regions, scale)
+
+
+def _visible(regions: Sequence[Region], scale: int) -> ExactSlice:
+    """Parts of the rims that are in no region."""
+    found: list[tuple[Line, Interval]] = []
+    single: set[Point] = set()
+    for region in regions:
+        for p, q in region.rim:
+            ux, uy = q[0] - p[0], q[1] - p[1]
+            g = math.gcd(ux, uy)
+            line = ux // g, uy // g, Fraction(ux // g * p[1] - uy // g * p[0], scale)
+            start, length = ux // g * p[0] + uy // g * p[1], (ux * ux + uy * uy) // g
+            for low, high in _uncovered(p, q, regions):
+                if low < high:
+                    found.append((line, ((start + low * length) / scale, (start + high * length) / scale)))
+                else:
+                    single.add((Fraction(p[0] + low * ux) / scale, Fraction(p[1] + low * uy) / scale))
+    segments = united(found)
+    return ExactSlice(segments, {p for p in single if not on_some(p, segments)})
+
+
+def _uncovered(p: Point, q: Point, regions: Sequence[Region]) -> list[Interval]:
+    """Closed intervals of [0, 1] where p + t (q - p) is in no region; a point may be left between open intervals."""
+    x0, x1, y0, y1 = min(p[0], q[0]), max(p[0], q[0]), min(p[1], q[1]), max(p[1], q[1])
+    covered = []
+    for region in regions:
+        if region.box:
+            u0, v0, u1, v1 = region.box
+            if x1 <= u0 or u1 <= x0 or y1 <= v0 or v1 <= y0:
+                continue
+        inside = _inside(p, q, region.sides)
+        if inside == (-1, 2):
+            return []
+        if inside:
+            covered.append(inside)
+    left, reach = [], Fraction(0)
+    for low, high in sorted(covered):
+        if low >= reach:
+            left.append((reach, low))
+        reach = max(reach, high)
+    return [*left, (reach, Fraction(1))] if reach <= 1 else left
+
+
+def _inside(p: Point, q: Point, sides: Sequence[tuple[int, int, int]]) -> Interval | None:
+    """The open interval of t where p + t (q - p) is left of all sides; beyond [0, 1] it ends at -1 or 2."""
+    low, low_by, high, high_by = -1, 1, 2, 1
+    for ux, uy, offset in sides:
+        at_p, at_q = ux * p[1] - uy * p[0] - offset, ux * q[1] - uy * q[0] - offset
+        if at_p <= 0:
+            if at_q <= 0:
+                return None
+            if -at_p * low_by > low * (at_q - at_p):
+                low, low_by = -at_p, at_q - at_p
+        elif at_q <= 0 and at_p * high_by < high * (at_p - at_q):
+            high, high_by = at_p, at_p - at_q
+    return (Fraction(low, low_by), Fraction(high, high_by)) if low * high_by < high * low_by else None
+
+
+def _sum(wall: Sequence[Point], part: Sequence[Point]) -> Ring:
+    """wall (+) -part."""
+    return exact_hull((bx - ax, by - ay) for (bx, by), (ax, ay) in product(wall, part))
+
+
+def _box(ring: Ring) -> tuple[int, int, int, int]:
+    xs, ys = zip(*ring, strict=True)
+    return min(xs), min(ys), max(xs), max(ys)
+
+
+def _pieces(shapes: Iterable[Shape]) -> list[Ring]:
+    return [piece for shape in shapes for piece in convex_pieces(_fractions(shape))]
+
+
+def _walls(plain: PlainScene) -> list[Shape]:
+    """All that the robot must not overlap."""
+    solids = list(plain.obstacles)
+    if plain.workspace:
+        outer, holes = plain.workspace
+        x0, y0, x1, y1 = _around(plain, 3)
+        solids += [(box(x0, y0, x1, y1)[0], [list(outer)]), *((list(hole), []) for hole in holes)]
+    return solids
+
+
+def _limits(plain: PlainScene) -> list[tuple[Any, Any, Any, Any]]:
+    """Where the reference point must be: the bounds, and near the workspace, whose complement is a finite frame."""
+    return [*([plain.bounds] if plain.bounds else []), *([_around(plain, 2)] if plain.workspace else [])]
+
+
+def _around(plain: PlainScene, times: int) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+    """The workspace's box, enlarged by a multiple of the robot's radius, or more."""
+    assert plain.workspace is not None
+    radius = max(abs(Fraction(x)) + abs(Fraction(y)) for outer, _ in plain.robot for x, y in outer)
+    xs, ys = zip(*((Fraction(x), Fraction(y)) for x, y in plain.workspace[0]), strict=True)
+    reach = times * radius
+    return min(xs) - reach, min(ys) - reach, max(xs) + reach, max(ys) + reach
+
+
+# --- convex pieces ---
+
+
+def _fractions(shape: Shape) -> tuple[Ring, ...]:
+    """Rings with the interior on their left."""
+    rings = [tuple((Fraction(x), Fraction(y)) for x, y in ring) for ring in (shape[0], *shape[1])]
+    return tuple(ring if (ring_area(ring) > 0) == (k == 0) else ring[::-1] for k, ring in enumerate(rings))
+
+
+@lru_cache(maxsize=10_000)
+def convex_pieces(rings: tuple[Ring, ...]) -> tuple[Ring, ...]:
+    """Convex rings that tile a polygon with holes: cut from a reflex vertex to one it sees, until there is none.
+
+    A cut to a hole joins its ring to the first; a cut within the first divides it, and each hole goes to its part.
+    """
+    outer, *holes = rings
+    reflex = [(r, k) for r, ring in enumerate(rings) for k in range(len(ring)) if _corner(ring, k) < 0]
+    if not reflex:
+        return (outer,)
+    for r, k in reflex:
+        for s, other in enumerate(rings):
+            for m in range(len(other)):
+                if (r == 0 or s == 0) and _sees(rings, (r, k), (s, m)):
+                    if r == s:
+                        ring = outer[k:] + outer[:k]
+                        m = (m - k) % len(ring)
+                        halves = ring[: m + 1], (*ring[m:], ring[0])
+                        parts = [(half, *(h for h in holes if _contains(half, h[0]))) for half in halves]
+                        return convex_pieces(parts[0]) + convex_pieces(parts[1])
+                    first, second, i, j = (outer, other, k, m) if r == 0 else (outer, rings[r], m, k)
+                    joined = (*first[: i + 1], *second[j:], *second[: j + 1], *first[i:])
+                    rest = [h for n, h in enumerate(holes, 1) if n != max(r, s)]
+                    return convex_pieces((joined, *rest))
+    raise AssertionError("a reflex vertex that sees no vertex")
+
+
+def _corner(ring: Ring, k: int) -> Any:
+    return orient(ring[k - 1], ring[k], ring[(k + 1) % len(ring)])
+
+
+def _sees(rings: Sequence[Ring], one: tuple[int, int], other: tuple[int, int]) -> bool:
+    """Is the open segment between two vertices inside the polygon, touching nothing?"""
+    p, q = rings[one[0]][one[1]], rings[other[0]][other[1]]
+    if p == q or not (_in_corner(rings[one[0]], one[1], q) and _in_corner(rings[other[0]], other[1], p)):
+        return False
+    return not any(_blocks(a, b, p, q) for ring in rings for a, b in edges(ring))
+
+
+def _in_corner(ring: Ring, k: int, p: Point) -> bool:
+    before, at, after = ring[k - 1], ring[k], ring[(k + 1) % len(ring)]
+    left = orient(before, at, p) > 0, orient(at, after, p) > 0
+    return any(left) if _corner(ring, k) < 0 else all(left)
+
+
+def _blocks(a: Point, b: Point, p: Point, q: Point) -> bool:
+    """Does the edge ab meet the open segment pq?"""
+    sides = orient(p, q, a), orient(p, q, b)
+    if sides[0] == 0 or sides[1] == 0:
+        return any(side == 0 and _between(p, v, q) for side, v in zip(sides, (a, b), strict=True)) or (
+            sides == (0, 0) and _between(a, p, b) and _between(a, q, b)
+        )
+    return sides[0] * sides[1] < 0 and orient(a, b, p) * orient(a, b, q) < 0
+
+
+def _between(p: Point, v: Point, q: Point) -> bool:
+    """Is v, on the line pq, strictly between p and q?"""
+    return (v[0] - p[0]) * (v[0] - q[0]) + (v[1] - p[1]) * (v[1] - q[1]) < 0
+
+
+def _contains(ring: Ring, p: Point) -> bool:
+    """Is p, not on the ring, inside it? By crossings with the ray to the right."""
+    crossings = 0
+    for a, b in edges(ring):
+        if (a[1] > p[1]) != (b[1] > p[1]):
+            crossings += (orient(a, b, p) > 0) == (b[1] > a[1])
+    return crossings % 2 == 1
+
+
+# --- sets of oriented segments ---
+
+
+def united(parts: Iterable[tuple[Line, Interval]]) -> Segments:
+    """Each line's intervals, those that touch or overlap as one."""
+    gathered: dict[Line, list[Interval]] = {}
+    for line, interval in parts:
+        gathered.setdefault(line, []).append(interval)
+    return {line: _merged(intervals) for line, intervals in gathered.items()}
+
+
+def _merged(intervals: Iterable[Interval]) -> list[Interval]:
+    merged: list[Interval] = []
+    for low, high in sorted(intervals):
+        if merged and low <= merged[-1][1]:
+            merged[-1] = merged[-1][0], max(merged[-1][1], high)
+        else:
+            merged.append((low, high))
+    return merged
+
+
+def oriented(p: Point, q: Point) -> tuple[Line, Interval]:
+    """The segment from p to q, distinct rational points."""
+    vx, vy = Fraction(q[0] - p[0]), Fraction(q[1] - p[1])
+    m = math.lcm(vx.denominator, vy.denominator)
+    g = math.gcd(int(vx * m), int(vy * m))
+    ux, uy = int(vx * m) // g, int(vy * m) // g
+    return (ux, uy, Fraction(ux * p[1] - uy * p[0])), (Fraction(ux * p[0] + uy * p[1]), Fraction(ux * q[0] + uy * q[1]))
+
+
+def ends(segments: Segments) -> list[tuple[Point, Point]]:
+    """Every segment as (from, to), forbidden on its left."""
+
+    def at(line: Line, position: Fraction) -> Point:
+        ux, uy, offset = line
+        square = ux * ux + uy * uy
+        return (ux * position - uy * offset) / square, (uy * position + ux * offset) / square
+
+    return [(at(line, low), at(line, high)) for line, intervals in segments.items() for low, high in intervals]
+
+
+def area(segments: Segments) -> Fraction:
+    """Area of what is forbidden if that is bounded, else minus the area of what is free."""
+    return sum((p[0] * q[1] - p[1] * q[0] for p, q in ends(segments)), Fraction(0)) / 2
+
+
+def reverse(segments: Segments) -> Segments:
+    return {
+        (-ux, -uy, -offset): [(-high, -low) for low, high in reversed(intervals)]
+        for (ux, uy, offset), intervals in segments.items()
+    }
+
+
+def common(first: Segments, second: Segments) -> Segments:
+    """The segments in both; single points are left out."""
+    parts = [
+        (line, (max(low, bottom), min(high, top)))
+        for line in first.keys() & second.keys()
+        for (low, high), (bottom, top) in product(first[line], second[line])
+    ]
+    return united((line, interval) for line, interval in parts if interval[0] < interval[1])
+
+
+def without(first: Segments, second: Segments) -> Segments:
+    """What of the first is not in the second, closed again."""
+    parts = []
+    for line, intervals in first.items():
+        taken = second.get(line, [])
+        for low, high in intervals:
+            cuts = [low, *(min(max(low, v), high) for interval in taken for v in interval), high]
+            parts += [(line, gap) for gap in list(pairwise(cuts))[::2] if gap[0] < gap[1]]
+    return united(parts)
+
+
+def on_some(p: Point, segments: Segments) -> bool:
+    return any(
+        ux * p[1] - uy * p[0] == offset and any(low <= ux * p[0] + uy * p[1] <= high for low, high in intervals)
+        for (ux, uy, offset), intervals in segments.items()
+    )
