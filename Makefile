@@ -4,7 +4,7 @@ BIN := .venv/bin
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
-.PHONY: demo test ctest lint bench dev stub clean
+.PHONY: demo test ctest ctest-sanitize sanitize fuzz lint bench dev stub clean
 
 demo: $(INSTALLED)  ## the boundary of the forbidden space of a car park, into demo/
 	$(BIN)/cfree boundary examples/scenes/benchmr_parking1.json \
@@ -17,6 +17,21 @@ ctest: $(INSTALLED)  ## the core's own tests, without Python
 	$(BIN)/cmake -S . -B build/ctest -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
 	$(BIN)/cmake --build build/ctest -j 2 >> build/ctest.log
 	$(BIN)/ctest --test-dir build/ctest --output-on-failure
+
+ctest-sanitize: $(INSTALLED)  ## the same under the address and undefined-behaviour sanitizers
+	$(BIN)/cmake -S . -B build/ctest-sanitize -DCFREE_SANITIZE=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest-sanitize.log
+	$(BIN)/cmake --build build/ctest-sanitize -j 2 >> build/ctest-sanitize.log
+	$(BIN)/ctest --test-dir build/ctest-sanitize --output-on-failure
+
+sanitize: ctest-sanitize  ## tests in Python with a core built under them, beside the installed one
+	$(BIN)/pip install -q --disable-pip-version-check --no-deps --upgrade --target build/sanitize \
+	  -C build-dir=build/sanitize-core -C cmake.define.CFREE_SANITIZE=ON .
+	LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
+	ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize \
+	  $(BIN)/python -m pytest -n 2 -p no:cacheprovider $(SANITIZED)
+
+fuzz: $(INSTALLED)  ## random degenerate scenes against exact slices; SECONDS=600 SEED=0 unless given
+	$(BIN)/python tests/fuzz.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
 lint: $(INSTALLED)
 	$(BIN)/ruff check src tests benchmarks examples

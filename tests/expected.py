@@ -1,0 +1,107 @@
+"""What is known of the scenes in `cases`, and its update.
+
+    python tests/expected.py                    what differs from the files
+    python tests/expected.py --write            fill in what the files do not say yet
+    python tests/expected.py --write --force    replace what differs; review the difference
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cfree import Boundary, boundary, load_scene
+from compared import plain_of
+from exact_slices import area, ends, exact_slice
+from shapes import PlainScene
+
+CASES = Path(__file__).parent / "cases"
+KINDS = {1: "v-e", 2: "e-v", 3: "bound"}
+
+
+def cases() -> list[Path]:
+    """All scene files but those of open bugs."""
+    return sorted(path for path in CASES.rglob("*.json") if path.parent.name != "failure")
+
+
+def half_tangent(text: str) -> Fraction | None:
+    return None if text == "inf" else Fraction(text)
+
+
+def topology(result: Boundary) -> dict[str, Any]:
+    """What no motion, scaling or mirroring of a scene changes."""
+    return {"patches": result.stats.patches, "live_surfaces": live_surfaces(result)}
+
+
+def live_surfaces(result: Boundary) -> dict[str, int]:
+    """Surfaces with a live patch, by kind; which patch owns a piece that several have may depend on the axes."""
+    live = np.unique(result.trapezoids.patch)
+    kind, i, j = (
+        column[live].astype(np.uint64)
+        for column in (result.contact_kind, result.contact_robot, result.contact_obstacle)
+    )
+    codes = kind << np.uint64(61) | i << np.uint64(31) | j
+    result.features.use_names(codes)
+    found = {(KINDS[int(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)}
+    return {name: sum(kind == name for kind, _ in found) for name in KINDS.values()}
+
+
+def slice_facts(plain: PlainScene, tau: str) -> dict[str, Any]:
+    """The exact slice: maximal oriented segments, slits and isolated points among what is free, area.
+
+    The area is that of what is forbidden, if that is bounded, else minus that of what is free.
+    """
+    exact = exact_slice(plain, half_tangent(tau))
+    return {
+        "tau": tau,
+        "segments": len(ends(exact.segments)),
+        "slits": len(ends(exact.slits)) // 2,
+        "points": len(exact.points),
+        "area": float(area(exact.segments)),
+    }
+
+
+def facts(path: Path) -> dict[str, Any]:
+    """The `check` of a case as it should be."""
+    scene = load_scene(path)
+    result, plain = boundary(scene, threads=1), plain_of(scene)
+    slices = [slice_facts(plain, at["tau"]) for at in scene.check["slices"]]
+    return {**topology(result), "live_patches": result.stats.live_patches, "slices": slices}
+
+
+def text_of(check: dict[str, Any]) -> str:
+    """As JSON, a slice a line."""
+    slices = ",\n".join("    " + json.dumps(at) for at in check["slices"])
+    return json.dumps({**check, "slices": []}).replace('"slices": []', f'"slices": [\n{slices}\n  ]')
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--write", action="store_true")
+    parser.add_argument("--force", action="store_true")
+    options = parser.parse_args()
+    differing = 0
+    for path in cases():
+        text, known = path.read_text(), load_scene(path).check
+        found = facts(path)
+        if known == found:
+            continue
+        is_new = set(known) == {"slices"} and all(set(at) == {"tau"} for at in known["slices"])
+        if options.write and (is_new or options.force):
+            path.write_text(re.sub(r'"check": .*', "", text, flags=re.DOTALL) + f'"check": {text_of(found)}\n}}\n')
+            print(f"{path.relative_to(CASES)}: written")
+        else:
+            differing += 1
+            print(f"{path.relative_to(CASES)}: {'says nothing yet' if is_new else 'differs'}\n  {known}\n  {found}")
+    return int(differing > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
