@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ import numpy as np
 from cfree import Boundary
 from cfree.features import ShapeFeatures, unpacked
 from cfree.forbidden import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
-from cfree.patch import Contact, Patch, contact
+from cfree.patch import contact
 from compared import Point, cross, minus, placed, plain_of, rotation, turned
 from exact_slices import Segments, ends, exact_slice, oriented, united, without
 from shapes import PlainScene
@@ -72,46 +73,47 @@ def _floats(segments: Segments) -> list[list[tuple[float, float]]]:
 
 def slice_segments(result: Boundary, half_tangent: Fraction | None, side: int = AFTER) -> Segments:
     """Segments of the trapezoids at an angle, exactly; at a critical one their limits from before or after it."""
-    at = Orientation.of(half_tangent, side)
-    segments = (segment(result, k, at) for k in trapezoids_at(result, at, side))
-    return united(oriented(p, q) for p, q in segments if p != q)
+    at, columns = Orientation.of(half_tangent, side), result.trapezoids
+    parts = []
+    for k in trapezoids_at(result, at, side):
+        own = own_code(result, k)
+        low, high = (limit(result, own, int(curve[k]), at) for curve in (columns.lower, columns.upper))
+        assert 0 <= low <= high <= 1, f"trapezoid {k} at {at}: t from {low} to {high}"
+        if low < high:
+            (x, y), (ux, uy) = _placed(result, own, at)
+            parts.append(oriented(*((x + t * ux, y + t * uy) for t in (low, high))))
+    return united(parts)
 
 
-def segment(result: Boundary, k: int, at: Orientation) -> tuple[Point, Point]:
-    """Ends of trapezoid k at an orientation, forbidden on the left."""
-    patch = result.patches[int(result.trapezoids.patch[k])]
-    origin, along = placed(result.scene, own_contact(patch), rotation(*at))
-    low, high = (
-        limit(result, own_contact(patch), contact(result, int(curve)), at)
-        for curve in (result.trapezoids.lower[k], result.trapezoids.upper[k])
-    )
-    assert 0 <= low <= high <= 1, f"trapezoid {k} at {at}: t from {low} to {high}"
-    p, q = ((origin[0] + t * along[0], origin[1] + t * along[1]) for t in (low, high))
-    return p, q
-
-
-def limit(result: Boundary, own: Contact, curve: Contact, at: Orientation) -> Fraction:
+def limit(result: Boundary, own: int, curve: int, at: Orientation) -> Fraction:
     """Where a curve is on a patch's line: t = N / D, its limit where both vanish."""
-
-    def quotient(tau: Fraction) -> Point:
-        turn = rotation(at.chart, tau)
-        (origin, along), (point, direction) = (placed(result.scene, one, turn) for one in (own, curve))
-        u, norm = minus(point, origin), 1 + tau * tau
-        if curve.kind == "v-v":
-            assert cross(u, along) == 0, f"{curve} is not on the surface of {own}"
-            return u[0] * along[0] + u[1] * along[1], along[0] ** 2 + along[1] ** 2
-        return norm * cross(u, direction), norm * cross(along, direction)
-
-    numerator, denominator = quotient(at.tau)
+    numerator, denominator = _quotient(result, own, curve, at)
     if denominator:
         return numerator / denominator
     # N and D are quadratics in tau: their values and their first and second differences say what they do near by
-    (n0, d0), (n1, d1) = quotient(at.tau - 1), quotient(at.tau + 1)
-    for n, d in ((numerator, denominator), (n1 - n0, d1 - d0), (n1 + n0 - 2 * numerator, d1 + d0 - 2 * denominator)):
+    (n0, d0), (n1, d1) = (_quotient(result, own, curve, at._replace(tau=at.tau + step)) for step in (-1, 1))
+    before = numerator
+    for n, d in ((n1 - n0, d1 - d0), (n1 + n0, d1 + d0)):  # the values themselves are 0
+        assert before == 0, f"{contact(result, curve)} has no limit on {contact(result, own)} at {at}"
         if d:
             return n / d
-        assert n == 0, f"{curve} has no limit on {own} at {at}"
-    raise AssertionError(f"{curve} lies on the surface of {own}")
+        before = n
+    raise AssertionError(f"{contact(result, curve)} lies on the surface of {contact(result, own)}")
+
+
+def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> Point:
+    """N and D, as polynomials in tau."""
+    (origin, along), (point, direction) = _placed(result, own, at), _placed(result, curve, at)
+    u, norm = minus(point, origin), 1 + at.tau * at.tau
+    if curve >> 61 == VERTEX_VERTEX:
+        assert cross(u, along) == 0, f"{contact(result, curve)} is not on the surface of {contact(result, own)}"
+        return u[0] * along[0] + u[1] * along[1], along[0] ** 2 + along[1] ** 2
+    return norm * cross(u, direction), norm * cross(along, direction)
+
+
+@lru_cache(maxsize=10_000)
+def _placed(result: Boundary, code: int, at: Orientation) -> tuple[Point, Point]:
+    return placed(result.scene, contact(result, code), rotation(*at))
 
 
 def trapezoids_at(result: Boundary, at: Orientation, side: int) -> list[int]:
@@ -152,10 +154,6 @@ def rational_angles(result: Boundary, digits: int = 3) -> list[Fraction | None]:
             if lo <= tau <= hi:
                 found.add((-1 / tau if tau else None) if chart else tau)
     return sorted(found, key=lambda tau: (tau is None, tau or 0))
-
-
-def own_contact(patch: Patch) -> Contact:
-    return Contact("v-e" if patch.kind == "bound" else patch.kind, patch.robot, patch.obstacle)
 
 
 def condition(result: Boundary, k: int, end: str, tau: Fraction) -> Fraction:

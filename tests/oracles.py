@@ -164,6 +164,7 @@ def enlarged(box: Box, margin: float) -> tuple[float, float, float, float]:
 # --- exact, by rational arithmetic ---
 
 
+@lru_cache(maxsize=10_000)
 def exact_rotation(tau: Fraction | None) -> tuple[Fraction, Fraction]:
     """Cosine and sine of 2 atan(tau); None is the half turn."""
     if tau is None:
