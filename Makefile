@@ -1,6 +1,7 @@
 # Everything lives in .venv; needs python3 (3.11 or newer), g++ and make. Rebuilt only when its sources change.
 PYTHON ?= python3
 BIN := .venv/bin
+SANITIZED := $(addprefix tests/test_,core.py forbidden.py patch.py slice.py storage.py mesh.py surface.py exact_slices.py cases.py)
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
@@ -23,12 +24,14 @@ ctest-sanitize: $(INSTALLED)  ## the same under the address and undefined-behavi
 	$(BIN)/cmake --build build/ctest-sanitize -j 2 >> build/ctest-sanitize.log
 	$(BIN)/ctest --test-dir build/ctest-sanitize --output-on-failure
 
-sanitize: ctest-sanitize  ## tests in Python with a core built under them, beside the installed one
-	$(BIN)/pip install -q --disable-pip-version-check --no-deps --upgrade --target build/sanitize \
+sanitize: ctest-sanitize  ## tests in Python under them, with an extension and an environment of their own
+	$(PYTHON) -m venv build/sanitize
+	$(BIN)/python -c "import sysconfig; print(sysconfig.get_path('purelib'))" \
+	  > $$(build/sanitize/bin/python -c "import sysconfig; print(sysconfig.get_path('purelib'))")/installed.pth
+	build/sanitize/bin/pip install -q --disable-pip-version-check --no-deps --force-reinstall \
 	  -C build-dir=build/sanitize-core -C cmake.define.CFREE_SANITIZE=ON .
-	LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" \
-	ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=build/sanitize \
-	  $(BIN)/python -m pytest -n 2 -p no:cacheprovider $(SANITIZED)
+	LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
+	  build/sanitize/bin/python -m pytest -n 2 $(SANITIZED)
 
 fuzz: $(INSTALLED)  ## random degenerate scenes against exact slices; SECONDS=600 SEED=0 unless given
 	$(BIN)/python tests/fuzz.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)

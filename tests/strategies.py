@@ -121,6 +121,30 @@ def overlapping_scenes() -> st.SearchStrategy[PlainScene]:
     return st.builds(_scene, st.lists(simple_polygons(3), min_size=1, max_size=2), crowd)
 
 
+@st.composite
+def fitting_scenes(draw: st.DrawFn) -> PlainScene:
+    """A box with a hole of the robot's own shape; perhaps something in it."""
+    shape = draw(st.one_of(convex_polygons(4), simple_polygons(4)))
+    xs, ys = zip(*shape[0], strict=True)
+    wall = box(min(xs) - 1, min(ys) - 1, max(xs) + 1, max(ys) + 1)[0], [shape[0][::-1]]
+    others = draw(st.lists(st.one_of(convex_polygons(3), boxes(4)), max_size=2))
+    return PlainScene([moved(shape, draw(st.integers(-5, 2)), draw(st.integers(-5, 2)))], [wall, *others])
+
+
+@st.composite
+def bounded_scenes(draw: st.DrawFn) -> PlainScene:
+    """Bounds on the lattice, where walls are too."""
+    x, y, width, height = draw(st.tuples(*[st.integers(-4, 4)] * 2, *[st.integers(1, 8)] * 2))
+    return draw(scenes())._replace(bounds=(x, y, x + width, y + height))
+
+
+@st.composite
+def walled_scenes(draw: st.DrawFn) -> PlainScene:
+    """A workspace with sides on those of obstacles, or as large as the robot."""
+    plain = draw(scenes())
+    return plain._replace(workspace=draw(st.one_of(boxes(), holed_polygons(), st.sampled_from(plain.robot))))
+
+
 def generic_scenes() -> st.SearchStrategy[PlainScene]:
     small = fraction_polygons().map(lambda shape: scaled(shape, Fraction(1, 3)))
     obstacles = st.lists(fraction_polygons(), min_size=1, max_size=3)
@@ -128,7 +152,7 @@ def generic_scenes() -> st.SearchStrategy[PlainScene]:
 
 
 def scenes() -> st.SearchStrategy[PlainScene]:
-    """Small exact scenes, most of them degenerate."""
+    """Small exact scenes without bounds, most of them degenerate."""
     return st.one_of(
         axis_parallel_scenes(),
         congruent_scenes(),
