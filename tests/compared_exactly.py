@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
@@ -12,8 +13,9 @@ from cfree import Boundary
 from cfree.features import ShapeFeatures, unpacked
 from cfree.forbidden import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
 from cfree.patch import contact
+from cfree.trapezoids import Trapezoids
 from compared import Point, cross, minus, placed, plain_of, rotation, turned
-from exact_slices import Segments, ends, exact_slice, oriented, united, without
+from exact_slices import Segments, both, common, ends, exact_slice, on_some, oriented, united, without
 from shapes import PlainScene
 
 BEFORE, AFTER = -1, 1
@@ -43,46 +45,48 @@ class Orientation(NamedTuple):
 def differences(result: Boundary, half_tangent: Fraction | None, plain: PlainScene | None = None) -> list[str]:
     """What is wrong with a boundary at an orientation, critical or not: nothing, if all is well.
 
-    The limits of its slices from either side are boundary, and miss nothing but slits that are there at no other angle.
+    The limits of its slices from before and after it, and the isolated parts, are the exact slice's boundary, no more
+    and no less. Each limit has all of it but slits, which may be there on one side only, or at this angle only.
     """
     exact = exact_slice(plain or plain_of(result.scene), half_tangent)
-    wrong = []
+    (reached, closed), wrong = ({}, set[Point]()), []
     for side, name in ((BEFORE, "before"), (AFTER, "after")):
-        found = slice_segments(result, half_tangent, side)
+        limits = list(slice_ends(result, half_tangent, side))
+        found = united(oriented(p, q) for p, q in limits if p != q)
+        closed |= {p for p, q in limits if p == q}
+        reached = both(reached, found)
         missing = without(without(exact.segments, found), exact.slits)
-        wrong += _told(f"tau {half_tangent}, {name}", without(found, exact.segments), missing)
-    return wrong
+        wrong += _told(f"{name}, is missing", missing)
+        wrong += _told(f"{name}, is no boundary", without(found, exact.segments))
+    segments, points = isolated_at(result, half_tangent)
+    wrong += _told("isolated, is no slit", without(segments, exact.slits))
+    wrong += _told("isolated, is on a trapezoid", common(segments, reached))
+    wrong += _told("of a slit, is missing", without(without(exact.segments, reached), segments))
+    wrong += [f"the point {p} is missing" for p in exact.points - points - closed]
+    wrong += [f"the point {p} is not free" for p in points - exact.points if not on_some(p, exact.segments)]
+    return [f"tau {half_tangent}: {line}" for line in wrong]
 
 
-def generic_differences(result: Boundary, half_tangent: Fraction, plain: PlainScene | None = None) -> list[str]:
-    """The same at an angle at which nothing begins or ends: slits are there as well."""
-    exact = exact_slice(plain or plain_of(result.scene), half_tangent).segments
-    found = slice_segments(result, half_tangent)
-    return _told(f"tau {half_tangent}", without(found, exact), without(exact, found))
-
-
-def _told(where: str, extra: Segments, missing: Segments) -> list[str]:
-    return [f"{where}: from {p} to {q} is no boundary" for p, q in _floats(extra)] + [
-        f"{where}: from {p} to {q} is missing" for p, q in _floats(missing)
+def _told(what: str, segments: Segments) -> list[str]:
+    return [
+        "from ({:.9g}, {:.9g}) to ({:.9g}, {:.9g}), {}".format(*map(float, (*p, *q)), what) for p, q in ends(segments)
     ]
-
-
-def _floats(segments: Segments) -> list[list[tuple[float, float]]]:
-    return [[(float(x), float(y)) for x, y in segment] for segment in ends(segments)]
 
 
 def slice_segments(result: Boundary, half_tangent: Fraction | None, side: int = AFTER) -> Segments:
     """Segments of the trapezoids at an angle, exactly; at a critical one their limits from before or after it."""
+    return united(oriented(p, q) for p, q in slice_ends(result, half_tangent, side) if p != q)
+
+
+def slice_ends(result: Boundary, half_tangent: Fraction | None, side: int) -> Iterator[tuple[Point, Point]]:
+    """Both ends of each trapezoid at an angle, the same where it closes there."""
     at, columns = Orientation.of(half_tangent, side), result.trapezoids
-    parts = []
     for k in trapezoids_at(result, at, side):
-        own = own_code(result, k)
+        own = own_code(result, int(columns.patch[k]))
         low, high = (limit(result, own, int(curve[k]), at) for curve in (columns.lower, columns.upper))
         assert 0 <= low <= high <= 1, f"trapezoid {k} at {at}: t from {low} to {high}"
-        if low < high:
-            (x, y), (ux, uy) = _placed(result, own, at)
-            parts.append(oriented(*((x + t * ux, y + t * uy) for t in (low, high))))
-    return united(parts)
+        (x, y), (ux, uy) = _placed(result, own, at)
+        yield (x + low * ux, y + low * uy), (x + high * ux, y + high * uy)
 
 
 def limit(result: Boundary, own: int, curve: int, at: Orientation) -> Fraction:
@@ -116,27 +120,58 @@ def _placed(result: Boundary, code: int, at: Orientation) -> tuple[Point, Point]
     return placed(result.scene, contact(result, code), rotation(*at))
 
 
+def isolated_at(result: Boundary, half_tangent: Fraction | None) -> tuple[Segments, set[Point]]:
+    """Isolated segments, in both directions, and isolated points at an angle; a curve is a point there."""
+    parts, segments, points = result.isolated, [], set[Point]()
+    for at in {Orientation.of(half_tangent, side) for side in (BEFORE, AFTER)}:
+        for k in rows_near(parts, at):
+            orders = [angle_order(result, parts, k, end, at.tau) for end in ("from", "to")]
+            if orders[0] < 0 or orders[1] > 0:
+                continue
+            p, q = (
+                _point(result, int(patch[k]), int(curve[k]), at)
+                for patch, curve in ((parts.lower_patch, parts.lower), (parts.upper_patch, parts.upper))
+            )
+            if p == q:
+                points.add(p)
+            else:
+                segments += [oriented(p, q), oriented(q, p)]
+    return united(segments), points
+
+
+def _point(result: Boundary, patch: int, curve: int, at: Orientation) -> Point:
+    own = own_code(result, patch)
+    (x, y), (ux, uy) = _placed(result, own, at)
+    t = limit(result, own, curve, at)
+    return x + t * ux, y + t * uy
+
+
 def trapezoids_at(result: Boundary, at: Orientation, side: int) -> list[int]:
-    columns, tau = result.trapezoids, float(at.tau)
-    near = (columns.chart == at.chart) & (columns.from_lo <= tau + 1e-9) & (columns.to_hi >= tau - 1e-9)
+    """Those that are there just before or just after an angle."""
     chosen = []
-    for k in np.flatnonzero(near).tolist():
-        after_start, after_stop = (angle_order(result, k, end, at.tau) for end in ("from", "to"))
-        if after_start >= (side == BEFORE) and after_stop <= -(side == AFTER):
+    for k in rows_near(result.trapezoids, at):
+        start, stop = (angle_order(result, result.trapezoids, k, end, at.tau) for end in ("from", "to"))
+        if start >= (side == BEFORE) and stop <= -(side == AFTER):
             chosen.append(k)
     return chosen
 
 
-def angle_order(result: Boundary, k: int, end: str, tau: Fraction) -> int:
-    """-1, 0 or 1: tau is before, at or after a critical angle of trapezoid k."""
-    lo, hi = (Fraction(float(getattr(result.trapezoids, f"{end}_{name}")[k])) for name in ("lo", "hi"))
+def rows_near(columns: Trapezoids, at: Orientation) -> list[int]:
+    near = (columns.from_lo <= float(at.tau) + 1e-9) & (columns.to_hi >= float(at.tau) - 1e-9)
+    rows: list[int] = np.flatnonzero(near & (columns.chart == at.chart)).tolist()
+    return rows
+
+
+def angle_order(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fraction) -> int:
+    """-1, 0 or 1: tau is before, at or after a critical angle of a row."""
+    lo, hi = (Fraction(float(getattr(columns, f"{end}_{name}")[k])) for name in ("lo", "hi"))
     if not lo <= tau <= hi:
         return 1 if tau > hi else -1
     if lo == hi:
         return 0
-    if getattr(result.trapezoids, f"{end}_place")[k]:
+    if getattr(columns, f"{end}_place")[k]:
         raise Undecided(f"tau {tau} in [{lo}, {hi}], which holds several roots")
-    values = [condition(result, k, end, value) for value in (lo, tau, hi)]
+    values = [condition(result, columns, k, end, value) for value in (lo, tau, hi)]
     if values[1] == 0:
         return 0
     if values[0] * values[2] >= 0:
@@ -156,15 +191,15 @@ def rational_angles(result: Boundary, digits: int = 3) -> list[Fraction | None]:
     return sorted(found, key=lambda tau: (tau is None, tau or 0))
 
 
-def condition(result: Boundary, k: int, end: str, tau: Fraction) -> Fraction:
-    """Zero where trapezoid k begins or ends: edges parallel, a helix on its surface, three lines through one point.
+def condition(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fraction) -> Fraction:
+    """Zero where a row begins or ends: edges parallel, a helix on its surface, three lines through one point.
 
     By number and not by place, as corners of the frame that stands for what is outside the bounds have no place.
     """
-    columns = result.trapezoids
     codes = [int(getattr(columns, f"{end}_{name}")[k]) for name in ("first", "second")]
+    patch = getattr(columns, f"{end}_patch", columns.patch)  # an isolated part's angles may be named on others
     turn = rotation(int(columns.chart[k]), tau)
-    own, first, *second = (numbered(result, code, turn) for code in (own_code(result, k), *codes) if code)
+    own, first, *second = (numbered(result, code, turn) for code in (own_code(result, int(patch[k])), *codes) if code)
     if codes[0] >> 61 == EDGE_EDGE:
         return cross(*first)
     (p, u), (q, v) = own, first
@@ -178,8 +213,7 @@ def condition(result: Boundary, k: int, end: str, tau: Fraction) -> Fraction:
     return cross(minus(q, p), v) * cross(u, w) - cross(minus(r, p), w) * cross(u, v)
 
 
-def own_code(result: Boundary, k: int) -> int:
-    patch = result.trapezoids.patch[k]
+def own_code(result: Boundary, patch: int) -> int:
     kind, i, j = (int(column[patch]) for column in (result.contact_kind, result.contact_robot, result.contact_obstacle))
     return kind << 61 | i << 31 | j
 

@@ -306,6 +306,10 @@ def reverse(segments: Segments) -> Segments:
     }
 
 
+def both(first: Segments, second: Segments) -> Segments:
+    return united((line, each) for segments in (first, second) for line, kept in segments.items() for each in kept)
+
+
 def common(first: Segments, second: Segments) -> Segments:
     """The segments in both; single points are left out."""
     parts = [

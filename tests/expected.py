@@ -37,7 +37,13 @@ def half_tangent(text: str) -> Fraction | None:
 
 def topology(result: Boundary) -> dict[str, Any]:
     """What no motion, scaling or mirroring of a scene changes."""
-    return {"patches": result.stats.patches, "live_surfaces": live_surfaces(result)}
+    kinds = result.isolated.kind
+    return {
+        "patches": result.stats.patches,
+        "live_surfaces": live_surfaces(result),
+        "euler": sorted(result.complex.euler.tolist()),
+        "isolated": {kind: int((kinds == k).sum()) for k, kind in enumerate(("curve", "segment", "point"), 1)},
+    }
 
 
 def live_surfaces(result: Boundary) -> dict[str, int]:

@@ -26,7 +26,7 @@ from cfree import Boundary, boundary, load_scene
 from cfree.errors import InvalidPolygonError
 from cfree.io import scene_text
 from compared import plain_of, scene_of
-from compared_exactly import Undecided, differences, generic_differences, rational_angles
+from compared_exactly import Undecided, differences, rational_angles
 from shapes import PlainScene, Point, Shape, box, mapped, moved, quarter_turned, random_lattice_shape, scaled
 from strategies import convex_ring
 
@@ -44,15 +44,10 @@ def mistakes(plain: PlainScene, seed: str) -> tuple[list[str], int]:
     rng, compared = random.Random(seed), 0
     try:
         result = boundary(scene, threads=1, progress=_deadline())
-        for _ in range(2):
-            half_tangent = Fraction(rng.randint(-3 * PRIME, 3 * PRIME), PRIME)
-            wrong = generic_differences(result, half_tangent, plain)
-            compared += 1
-            if wrong:
-                return wrong, compared
-        for critical in _critical(result, rng):
+        generic = [Fraction(rng.randint(-3 * PRIME, 3 * PRIME), PRIME) for _ in range(2)]
+        for half_tangent in [*generic, *_critical(result, rng)]:
             try:
-                wrong = differences(result, critical, plain)
+                wrong = differences(result, half_tangent, plain)
             except Undecided:
                 continue
             compared += 1

@@ -4,10 +4,10 @@
 """
 
 import random
-from dataclasses import replace
+from dataclasses import fields, replace
 from fractions import Fraction
+from typing import Any, TypeVar
 
-import numpy as np
 import pytest
 from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
@@ -17,7 +17,7 @@ import oracles
 import strategies
 from cfree import Boundary, boundary
 from compared import scene_of
-from compared_exactly import Undecided, differences, generic_differences, rational_angles
+from compared_exactly import Undecided, differences, rational_angles
 from exact_slices import (
     ExactSlice,
     area,
@@ -32,8 +32,9 @@ from exact_slices import (
     without,
 )
 from exact_slices import _fractions as fractions_of
-from shapes import NAMED, PlainScene, box, frame, u_shape
+from shapes import NAMED, PlainScene, box, frame, random_scene, u_shape
 
+T = TypeVar("T")
 UNIT = box(0, 0, 1, 1)
 ZERO = Fraction(0)
 slow = settings(
@@ -135,7 +136,7 @@ def compare(plain: PlainScene, seed: int) -> None:
     result = boundary(scene_of(plain), threads=1)
     for _ in range(2):
         tau = Fraction(rng.randint(-3 * fuzz.PRIME, 3 * fuzz.PRIME), fuzz.PRIME)
-        assert not generic_differences(result, tau, plain)
+        assert not differences(result, tau, plain)
     angles = rational_angles(result)
     for critical in {*rng.sample(angles, min(4, len(angles))), rng.choice([None, ZERO, Fraction(1), Fraction(-1)])}:
         try:
@@ -169,11 +170,19 @@ def test_slices_of_the_kinds_that_are_fuzzed_are_exact(kind: str) -> None:
 # --- the comparison, and what fuzz does with a difference ---
 
 
+def rows(columns: T, kept: list[int]) -> T:
+    return replace(columns, **{field.name: getattr(columns, field.name)[kept] for field in fields(columns)})
+
+
+def with_parts(result: Boundary, trapezoids: Any = None, isolated: Any = None) -> Boundary:
+    contacts = result.contact_kind, result.contact_robot, result.contact_obstacle
+    parts = trapezoids or result.trapezoids, result.isolated if isolated is None else isolated
+    return Boundary(result.scene, result.features, *contacts, *parts, result.stats)
+
+
 def without_trapezoid(result: Boundary, k: int) -> Boundary:
-    columns = result.trapezoids
-    kept = replace(columns, **{name: np.delete(getattr(columns, name), k) for name in type(columns).__slots__})
-    parts = result.contact_kind, result.contact_robot, result.contact_obstacle
-    return Boundary(result.scene, result.features, *parts, kept, result.stats)
+    count = len(result.trapezoids)
+    return with_parts(result, trapezoids=rows(result.trapezoids, [*range(k), *range(k + 1, count)]))
 
 
 def test_every_trapezoid_is_missed() -> None:
@@ -183,9 +192,19 @@ def test_every_trapezoid_is_missed() -> None:
         columns = result.trapezoids
         middle = Fraction(float(columns.tau_from[k] + columns.tau_to[k]) / 2).limit_denominator(fuzz.PRIME)
         tau = -1 / middle if columns.chart[k] else middle
-        assert not generic_differences(result, tau)
-        assert generic_differences(without_trapezoid(result, k), tau)
+        assert not differences(result, tau)
         assert differences(without_trapezoid(result, k), tau)
+
+
+def test_every_isolated_part_is_missed() -> None:
+    for plain, tau in (
+        (PlainScene([UNIT], [frame(3, 1)]), None),
+        (PlainScene([UNIT], [u_shape(3, 3, 1)]), ZERO),
+        (random_scene(5, "bounds"), Fraction(2_225_278, 1_000_003)),  # a curve: in a corner of the bounds it may turn
+    ):
+        result = boundary(scene_of(plain), threads=1)
+        assert len(result.isolated) and not differences(result, tau)
+        assert differences(with_parts(result, isolated=rows(result.isolated, [])), tau)
 
 
 def test_a_forgotten_obstacle_is_noticed_and_a_wrong_scene_made_small(monkeypatch: pytest.MonkeyPatch) -> None:
