@@ -21,7 +21,6 @@ PINCHED = {
     "tangencies/hexagon_rolls_in_its_corridor",
     "tangencies/pinch_at_one_angle",
 }
-OPEN = pytest.mark.xfail(strict=True, reason="pinches inside a chart")
 HAIRS = ("hair", "1e-", "near", "sliver", "needle", "mixed", "miss")  # too fine for doubles
 
 
@@ -60,7 +59,8 @@ def test_cases_elsewhere_have_the_same_topology(name: str) -> None:
     plain, result = case(name)
     for variant in variants(plain):
         other = boundary(scene_of(variant.plain), threads=1)
-        assert topology(other) | {"euler": 0} == topology(result) | {"euler": 0}, variant.name
+        but = {"euler": None} if name in PINCHED else {}
+        assert topology(other) | but == topology(result) | but, variant.name
         if variant.same_axes:
             assert other.stats.live_patches == result.stats.live_patches, variant.name
             assert other.stats.trapezoids == result.stats.trapezoids, variant.name
@@ -69,8 +69,9 @@ def test_cases_elsewhere_have_the_same_topology(name: str) -> None:
             assert there == variant.image(slice_segments(result, tau)), (variant.name, tau)
 
 
-@pytest.mark.parametrize("name", [name if name not in PINCHED else pytest.param(name, marks=OPEN) for name in NAMES])
-def test_closed_surfaces_of_cases_have_the_same_euler_numbers_elsewhere(name: str) -> None:
+@pytest.mark.parametrize("name", sorted(PINCHED))
+@pytest.mark.xfail(strict=True, reason="pinches inside a chart")
+def test_pinched_surfaces_are_glued_alike_elsewhere(name: str) -> None:
     plain, result = case(name)
     for variant in variants(plain):
         other = boundary(scene_of(variant.plain), threads=1)
