@@ -4,6 +4,7 @@
 """
 
 import random
+from copy import copy
 from dataclasses import fields, replace
 from fractions import Fraction
 from typing import Any, TypeVar
@@ -174,10 +175,11 @@ def rows(columns: T, kept: list[int]) -> T:
     return replace(columns, **{field.name: getattr(columns, field.name)[kept] for field in fields(columns)})
 
 
-def with_parts(result: Boundary, trapezoids: Any = None, isolated: Any = None) -> Boundary:
-    contacts = result.contact_kind, result.contact_robot, result.contact_obstacle
-    parts = trapezoids or result.trapezoids, result.isolated if isolated is None else isolated
-    return Boundary(result.scene, result.features, *contacts, *parts, result.stats)
+def with_parts(result: Boundary, **parts: Any) -> Boundary:
+    other = copy(result)
+    for name, columns in parts.items():
+        setattr(other, name, columns)
+    return other
 
 
 def without_trapezoid(result: Boundary, k: int) -> Boundary:
