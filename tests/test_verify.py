@@ -129,7 +129,7 @@ def test_a_coordinate_that_changes_a_little_is_detected(name: str) -> None:
             moved[k] = ring[k][0] + Fraction(rng.choice([-1, 1]), 10 ** rng.randrange(2, 10)), ring[k][1]
             scene = scene_of(plain._replace(**{shapes: [(moved, holes), *others]}))
             columns = good.contact_kind, good.contact_robot, good.contact_obstacle
-            bad = Boundary(scene, good.features, *columns, good.trapezoids, good.isolated, good.stats)
+            bad = Boundary(scene, good.features, *columns, good.trapezoids, good.isolated, good.stats, good.trimmed)
             assert not cfree.verify.boundary(bad, slices=1).verified
 
 
