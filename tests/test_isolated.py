@@ -13,7 +13,7 @@ import oracles
 from cfree import Boundary, boundary, load_scene
 from cfree.patch import IsolatedPart
 from cfree.trapezoids import ISOLATED_COLUMNS
-from compared import cross, minus, placed, plain_of, rotation, scene_of
+from compared import cross, minus, placed, plain_of, rotation, scene_of, slit_length
 from shapes import PlainScene, box, mapped, moved, random_scene, rational_regular, scaled
 
 ROOT = Path(__file__).parents[1]
@@ -206,3 +206,21 @@ def test_the_same_bytes_for_any_number_of_threads() -> None:
     scene = load_scene(ROOT / "examples/scenes/flat.json")
     one, two = boundary(scene, threads=1).isolated, boundary(scene, threads=2).isolated
     assert all(np.array_equal(getattr(one, name), getattr(two, name)) for name in ISOLATED_COLUMNS)
+
+
+def test_regularized_leaves_out_what_has_no_width() -> None:
+    scene = load_scene(ROOT / "examples/scenes/flat.json")
+    whole = boundary(scene, threads=1)
+    view = whole.regularized
+    assert len(whole.isolated) == 6 and len(view.isolated) == 0
+    assert np.array_equal(view.trapezoids.lower, whole.trapezoids.lower)
+    # the reference point is a corner of the robot, a wall stands on a bound: a slit of no width
+    slit = boundary(scene_of(PlainScene([box(0, 0, 1, 1)], [box(-2, -1, 0, 3)], bounds=(-4, -4, 0, 4))), threads=1)
+    assert slit_length(slit.slice("-45deg").segments, 1e-12) > 0
+    assert slit_length(slit.regularized.slice("-45deg").segments, 1e-12) == 0
+    assert slit.complex.components > 0 and slit.regularized.complex.components > 0
+
+
+def test_regularized_boundaries_are_closed() -> None:
+    for seed in range(30):
+        assert np.all(boundary(scene_of(random_scene(seed, "bounds")), threads=1).regularized.complex.euler <= 2)

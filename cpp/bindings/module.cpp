@@ -88,9 +88,10 @@ NB_MODULE(_core, m) {
            "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a, "piece_vertex"_a, "piece_edge"_a,
            "piece_layer"_a);
     nb::class_<cfree::Job>(m, "Job")
-        .def("__init__", [](cfree::Job* job, const cfree::Shape& robot, const cfree::Shape& obstacles, int threads) {
-            new (job) cfree::Job(std::make_shared<cfree::Scene>(cfree::Scene{robot, obstacles}), threads);
-        }, "robot"_a, "obstacles"_a, "threads"_a)
+        .def("__init__", [](cfree::Job* job, const cfree::Shape& robot, const cfree::Shape& obstacles, int threads,
+                            bool regularized) {
+            new (job) cfree::Job(std::make_shared<cfree::Scene>(cfree::Scene{robot, obstacles}), threads, regularized);
+        }, "robot"_a, "obstacles"_a, "threads"_a, "regularized"_a)
         .def("wait", &cfree::Job::wait, "seconds"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("progress", &cfree::Job::progress)
         .def("cancel", &cfree::Job::cancel)

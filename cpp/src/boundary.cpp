@@ -162,7 +162,7 @@ public:
     const Groups robot_points, robot_lines, obstacle_points, obstacle_lines;
 };
 
-Job::Job(std::shared_ptr<const Scene> s, int threads) : scene(std::move(s)) {
+Job::Job(std::shared_ptr<const Scene> s, int threads, bool without_slits) : scene(std::move(s)), regularized(without_slits) {
     runner = std::thread([this, threads] { run(threads); });
 }
 
@@ -261,6 +261,13 @@ void Job::work() {
                                 if (shared.chart[s] == range.chart[r]) trimmer.cede(first, last, shared.from[s], shared.to[s]);
                         }
                     }
+                    if (regularized)
+                        for (const auto& [i2, j2] : opposite(contact)) {
+                            const Range shared = range_of(*scene, {contact.kind, i2, j2}, mine.decisions);
+                            const Feature first{Kind::vertex_vertex, i2, O.w[j2]}, last{Kind::vertex_vertex, i2, O.v[j2]};
+                            for (int s = 0; s < shared.count; ++s)
+                                if (shared.chart[s] == range.chart[r]) trimmer.cede(first, last, shared.from[s], shared.to[s]);
+                        }
                     for (Index p = 0; p < A.pieces() && !trimmer.empty(); ++p) {
                         const Box reachable = neighbours->swept(contact, p, range.chart[r], from.lo, to.hi);
                         for (const Index k : close) {
@@ -284,6 +291,23 @@ void Job::work() {
     }
     const std::lock_guard lock(mutex);
     tally.pairs += mine.pairs, tally.live_patches += mine.live_patches, tally.decisions += mine.decisions;
+}
+
+// Patches of the same surface with the other side forbidden: a robot vertex at the reference point, a wall on a bound.
+std::vector<std::pair<Index, Index>> Job::opposite(const Feature& contact) const {
+    const Shape &A = scene->robot, &O = scene->obstacles;
+    std::vector<std::pair<Index, Index>> result;
+    if (contact.kind != Kind::vertex_edge) return result;
+    const Index i = contact.robot, j = contact.obstacle;
+    for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
+        if (A.point[i2] != A.point[i] || A.layer[i2] == A.layer[i] || !A.convex[i2]) continue;
+        for (Index j2 = 0; j2 < O.ring_vertices; ++j2) {
+            if (O.layer[j2] != A.layer[i2] || O.direction[j2] != O.direction[j] || !O.emit[j2]) continue;
+            const auto E = edge<Int>(O, j), F = edge<Int>(O, j2);
+            if (dot(E, F).sign() < 0 && cross(E, difference<Int>(O, O.v[j2], O.v[j])).is_zero()) result.push_back({i2, j2});
+        }
+    }
+    return result;
 }
 
 void Trapezoids::reserve(std::size_t count) {

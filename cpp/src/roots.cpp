@@ -210,7 +210,7 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     Brackets found;
     if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
     for (; result.count < found.count; ++result.count)
-        result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1]};
+        result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1], -1, *sign == 0};
     return result;
 }
 
@@ -220,10 +220,17 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
     result.all_zero = p.empty();
     if (p.empty() || (p.size() == 3 && p[1] * p[1] < 4 * p[0] * p[2])) return result;
     const Poly simple = squarefree(p);
+    const auto is_touch = [&](const Dyadic& below, const Dyadic& above) {
+        if (simple.size() == p.size()) return false;
+        RealRoot root{simple, below, above};
+        return sign_before(p, root) == sign_after(p, root);
+    };
     Brackets found;
     if (isolate_around(Balls(simple), lo, hi, found)) {
-        for (; result.count < found.count; ++result.count)
-            result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1]};
+        for (; result.count < found.count; ++result.count) {
+            const auto [l, h] = found.at[result.count];
+            result.at[result.count] = {first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))};
+        }
         return result;
     }
     const Sturm sturm(simple);
@@ -239,7 +246,7 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
         // doubles around it, with no root at their ends; a finer interval if there is a second one between them
         while (sign(Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
         while (sign(Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
-        Event x{first, second, l, h};
+        Event x{first, second, l, h, -1, is_touch(below, above)};
         if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1) {
             x.fine = static_cast<Index>(fine.size());
             fine.push_back({below, above});

@@ -279,6 +279,8 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Spa
             continue;
         }
         if (at == 0) return Verdict::resample;
+        for (int r = 0; r < roots.count; ++r)
+            if (roots.at[r].is_touch && touches_along(state)) pinches.push_back(intern(roots.at[r]));
         for (int r = 0; r < roots.count; ++r) {
             if (decide.order(roots.at[r], sample) < 0) {
                 span.from = intern(roots.at[r]);
@@ -289,6 +291,16 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Spa
         }
     }
     return Verdict::holds;
+}
+
+// Whether the vertex nearest to the line is an end of an edge parallel to it at every angle.
+bool Trimmer::touches_along(const State& state) const {
+    if (state.meets == Meets::crosses) return false;
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const auto& direction = on_edge ? scene.obstacles.direction : scene.robot.direction;
+    const Index own = on_edge ? surface.contact.obstacle : surface.contact.robot;
+    const auto& around = on_edge ? state.obstacle_around : state.robot_around;
+    return std::any_of(around, around + 2, [&](Index e) { return e >= 0 && direction[e] == direction[own]; });
 }
 
 // --- curves ----------------------------------------------------------------------------------------------------------
@@ -445,15 +457,15 @@ void Trimmer::subtract(const Band& taken) {
         int position[4] = {0, 0, 0, 0};
         Area open[2];
         int open_count = 0;
-        const auto emit = [&](Index at, std::initializer_list<std::array<Index, 2>> parts) {
-            // go on with those that stay, close the rest
+        const auto emit = [&](Index at, std::initializer_list<std::array<Index, 2>> parts, bool is_tip = false) {
+            // go on with those that stay and keep some width there, close the rest
             Area kept[2];
             int kept_count = 0;
             bool stays[2] = {false, false};
             for (const auto& part : parts) {
                 Area piece{at, at, part[0], part[1], 0, 1};
                 for (int k = 0; k < open_count; ++k)
-                    if (open[k].lower == part[0] && open[k].upper == part[1]) piece.from = open[k].from, stays[k] = true;
+                    if (!is_tip && open[k].lower == part[0] && open[k].upper == part[1]) piece.from = open[k].from, stays[k] = true;
                 kept[kept_count++] = piece;
             }
             for (int k = 0; k < open_count; ++k) {
@@ -489,9 +501,10 @@ void Trimmer::subtract(const Band& taken) {
             const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
             const Cover cover{sign(0) < 0 && sign(1) > 0, sign(2) < 0, sign(3) > 0};
             if (!cover.all) emit(start, {{area.lower, area.upper}});
-            else if (sign(2) > 0 && sign(3) < 0) emit(start, {{area.lower, band.lower}, {band.upper, area.upper}});
-            else if (sign(2) > 0) emit(start, {{area.lower, band.lower}});
-            else if (sign(3) < 0) emit(start, {{band.upper, area.upper}});
+            else if (sign(2) > 0 && sign(3) < 0)
+                emit(start, {{area.lower, band.lower}, {band.upper, area.upper}}, low_meets || high_meets);
+            else if (sign(2) > 0) emit(start, {{area.lower, band.lower}}, low_meets);
+            else if (sign(3) < 0) emit(start, {{band.upper, area.upper}}, high_meets);
             else emit(start, {});
             if (taken.state != nullptr) {
                 if (cover.all && sign(2) == 0) add_thin(start, end, area.lower, area.lower);
@@ -578,12 +591,23 @@ void Trimmer::subtract_from_thin(const Band& taken) {
     thin.swap(fresh);
 }
 
+// Where free space is pinched between two surfaces, neither goes on.
+void Trimmer::cut_at(Index event) {
+    const std::size_t count = live.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!before(live[k].from, event) || !before(event, live[k].to)) continue;
+        Area rest = live[k];
+        rest.from = live[k].to = event;
+        live.push_back(rest);
+    }
+}
+
 void Trimmer::finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out) {
     // join neighbours along theta that have the same curves
     for (std::size_t k = 0; k < live.size(); ++k) {
         for (std::size_t l = 0; l < live.size();) {
             const bool same = l != k && live[l].lower == live[k].lower && live[l].upper == live[k].upper;
-            if (same && equal(live[k].to, live[l].from)) {
+            if (same && equal(live[k].to, live[l].from) && order_at(live[k].to, live[k].lower, live[k].upper) != 0) {
                 live[k].to = live[l].to;
                 live.erase(live.begin() + static_cast<std::ptrdiff_t>(l));
                 if (l < k) --k;
@@ -593,6 +617,7 @@ void Trimmer::finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trape
             }
         }
     }
+    for (const Index pinch : pinches) cut_at(pinch);
     // by angle, then upwards
     std::sort(live.begin(), live.end(), [&](const Area& x, const Area& y) {
         if (events[x.from].lo != events[y.from].lo) return events[x.from].lo < events[y.from].lo;

@@ -85,7 +85,7 @@ static void ties_of_small_integers_are_certain_in_balls() {
 static void a_cancelled_job_ends() {
     std::vector<Ring> many;
     for (long k = 0; k < 200; ++k) many.push_back({{2 * (k % 15), 2 * (k / 15)}, {2 * (k % 15) + 3, 2 * (k / 15)}, {2 * (k % 15), 2 * (k / 15) + 3}});
-    Job job(std::make_shared<const Scene>(Scene{shape_of({robot}), shape_of(many)}), 2);
+    Job job(std::make_shared<const Scene>(Scene{shape_of({robot}), shape_of(many)}), 2, false);
     job.cancel();
     while (!job.wait(1)) {}
     CHECK(job.progress() <= 1);

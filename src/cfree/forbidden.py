@@ -106,16 +106,27 @@ def boundary(
     >>> result.stats.patches, result.stats.live_patches
     (18, 18)
     """
-    from cfree import _core
-
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
+    return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
+
+
+def _computed(
+    scene: Scene,
+    regularized: bool,
+    threads: int,
+    max_seconds: float | None = None,
+    max_memory: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Boundary:
+    from cfree import _core
+
     start = time.perf_counter()
     with collection_paused():
         features = scene_features(scene)
         shapes = features.robot.core_shape(), features.obstacles.core_shape()
     prepared = time.perf_counter()
-    job = _core.Job(*shapes, threads=threads or os.cpu_count() or 1)
+    job = _core.Job(*shapes, threads=threads, regularized=regularized)
     try:
         while not _has_ended(job, scene):
             if progress is not None:
@@ -134,6 +145,8 @@ def boundary(
     trapezoids = Trapezoids(*job.trapezoids())
     columns, *others = job.isolated()
     isolated = IsolatedParts(*columns, *others)
+    if regularized:
+        isolated = isolated.rows(slice(0))
     for name in CODED:
         features.use_names(getattr(trapezoids, name))
         features.use_names(getattr(isolated, name))
@@ -244,6 +257,15 @@ class Boundary:
 
         self.require_complete()
         return glue(self)
+
+    @cached_property
+    def regularized(self) -> Boundary:
+        """The boundary of the interior of the closure of the forbidden space: without parts of no width.
+
+        Isolated parts are left out, and slits between bounds and a wall; computed again when first asked for.
+        """
+        self.require_complete()
+        return _computed(self.scene, True, os.cpu_count() or 1)
 
     def isolated_part(self, k: int) -> IsolatedPart:
         """Isolated part k with its curves and angles named."""

@@ -109,6 +109,10 @@ class IsolatedParts(Trapezoids):
         turns |= (self.from_place != self.to_place) | (self.from_patch != self.to_patch)
         return np.where(turns, CURVE, np.where(self.lower == self.upper, POINT, SEGMENT)).astype(np.uint8)
 
+    def rows(self, which: slice) -> IsolatedParts:
+        """Some of the parts."""
+        return IsolatedParts(*(getattr(self, name)[which] for name in ISOLATED_COLUMNS))
+
 
 COLUMNS = tuple(f.name for f in fields(Trapezoids))
 ISOLATED_COLUMNS = tuple(f.name for f in fields(IsolatedParts))

@@ -61,7 +61,8 @@ Patches list_patches(const Scene& scene);
 // A computation on threads of its own, to be watched and stopped from outside.
 class Job {
 public:
-    Job(std::shared_ptr<const Scene> scene, int threads);
+    // regularized: without slits, surfaces that coincide with opposite sides.
+    Job(std::shared_ptr<const Scene> scene, int threads, bool regularized);
     ~Job();
     Job(const Job&) = delete;
     Job& operator=(const Job&) = delete;
@@ -81,7 +82,10 @@ private:
     void run(int threads);
     void work();
 
+    std::vector<std::pair<Index, Index>> opposite(const Feature& contact) const;
+
     std::shared_ptr<const Scene> scene;
+    bool regularized;
     class Neighbours;
     std::unique_ptr<Neighbours> neighbours;
     std::vector<Index> first_patch;                     // of each obstacle ring vertex and the edge that starts there

@@ -53,6 +53,7 @@ struct Event {
     Feature first, second;
     double lo, hi;
     Index fine = -1;
+    bool is_touch = false;  // the polynomial does not change sign there
 };
 
 // A curve t(theta) = N / D on the surface, D > 0 where it is used.

@@ -81,6 +81,8 @@ private:
     bool covers_at(const Band& band, Index event);
     bool crosses_at(const Band& band, Index event);
     int order_at(Index event, Index p, Index q);
+    bool touches_along(const State& state) const;
+    void cut_at(Index event);
     Index curve_of(const Feature& feature, bool flipped);
     Feature normal_form(const Feature& feature) const;
     void bounds(Area& area) const;
@@ -97,6 +99,7 @@ private:
     std::vector<Curve> curves;
     std::vector<Area> live, next;
     std::vector<Area> thin, fresh;
+    std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
     std::vector<Span> todo;
     mutable std::vector<double> heights[2];  // scratch of state_at
     mutable std::vector<Int> exact_heights[2];
