@@ -5,7 +5,7 @@ from functools import cache
 
 import pytest
 
-from cfree import Boundary, boundary, load_scene
+from cfree import Boundary, UnsupportedError, boundary, load_scene
 from compared import mistakes, plain_of, scene_of
 from compared_exactly import AFTER, BEFORE, differences, slice_segments
 from expected import CASES, cases, half_tangent, slice_facts, topology
@@ -51,7 +51,11 @@ def test_slices_of_cases_are_those_of_shapely(name: str) -> None:
 def test_cases_elsewhere_have_the_same_topology(name: str) -> None:
     plain, result = case(name)
     for variant in variants(plain):
-        other = boundary(scene_of(variant.plain), threads=1)
+        try:
+            other = boundary(scene_of(variant.plain), threads=1)
+        except UnsupportedError:  # the scene is close to the largest there is
+            assert name == "beyond_doubles"
+            continue
         assert topology(other) == topology(result), variant.name
         if variant.same_axes:
             assert other.stats.live_patches == result.stats.live_patches, variant.name
