@@ -212,7 +212,7 @@ void Job::run(int threads) {
         if (!error && (!stop || early)) gather(found, trapezoids), gather(found_thin, thin);
         tally.collect_seconds = seconds(start);
         start = Clock::now();
-        if (!error && !stop) isolated = isolated_parts(*scene, patches, trapezoids, thin, stop);
+        if (!error && !stop) isolated = isolated_parts(*scene, patches, trapezoids, thin, threads, stop);
         tally.isolated_seconds = seconds(start);
     } catch (...) {
         const std::lock_guard lock(mutex);

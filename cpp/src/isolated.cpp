@@ -1,7 +1,9 @@
 #include "cfree/isolated.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "box_tree.hpp"
 #include "cfree/fingerprint.hpp"
@@ -44,13 +46,26 @@ public:
         for (std::size_t k = 1; k < first_live.size(); ++k) first_live[k] += first_live[k - 1];
     }
 
-    IsolatedParts run(const std::atomic<bool>& stop) {
-        for (Index k = 0; k < static_cast<Index>(thin.patch.size()) && !stop; ++k) {
-            const CriticalAngle from = angle_from(patches, thin, k), to = angle_to(patches, thin, k);
-            const Index patch = thin.patch[k];
-            if (order(scene, from, to) == 0) flats_of(patch, from, unpacked(thin.lower[k]), unpacked(thin.upper[k]));
-            else ridges_of({patch, unpacked(thin.lower[k]), from, to, patch, patch});
-        }
+    IsolatedParts run(int threads, const std::atomic<bool>& stop) {
+        const auto count = static_cast<Index>(thin.patch.size());
+        std::vector<std::vector<Flat>> found_flats(count);
+        std::vector<std::vector<Ridge>> found_ridges(count);
+        std::atomic<Index> next{0};
+        const auto work = [&] {
+            for (Index k = next++; k < count && !stop; k = next++) {
+                const CriticalAngle from = angle_from(patches, thin, k), to = angle_to(patches, thin, k);
+                const Index patch = thin.patch[k];
+                const Feature lower = unpacked(thin.lower[k]), upper = unpacked(thin.upper[k]);
+                if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, from, lower, upper);
+                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch});
+            }
+        };
+        std::vector<std::thread> pool;
+        for (int t = 1; t < std::min(threads, count / 64 + 1); ++t) pool.emplace_back(work);
+        work();
+        for (std::thread& t : pool) t.join();
+        for (const auto& found : found_flats) flats.insert(flats.end(), found.begin(), found.end());
+        for (const auto& found : found_ridges) ridges.insert(ridges.end(), found.begin(), found.end());
         unite_ridges();
         unite_flats();
         return list();
@@ -89,27 +104,26 @@ private:
     }
 
     // Whether a trapezoid reaches an angle, ends included; chart walls are in both charts.
+    bool may_reach(Index k, const CriticalAngle& at) const {
+        if (live.chart[k] == at.chart()) return live.to_hi[k] >= at.lo && live.from_lo[k] <= at.hi;
+        return at.is_wall() && (at.lo > 0 ? live.from_hi[k] == -1 : live.to_lo[k] == 1);
+    }
     bool reaches(Index k, const CriticalAngle& at) const {
-        const int chart = live.chart[k];
-        if (chart != at.chart()) {
-            if (!at.is_wall()) return false;
-            return at.lo > 0 ? live.from_hi[k] == -1 : live.to_lo[k] == 1;
-        }
-        if (live.to_hi[k] < at.lo || live.from_lo[k] > at.hi) return false;
-        if (live.from_hi[k] < at.lo && live.to_lo[k] > at.hi) return true;
+        if (!may_reach(k, at)) return false;
+        if (live.chart[k] != at.chart() || (live.from_hi[k] < at.lo && live.to_lo[k] > at.hi)) return true;
         return order(scene, angle_from(patches, live, k), at) <= 0 && order(scene, at, angle_to(patches, live, k)) <= 0;
     }
 
     // --- at one angle ---
 
-    void flats_of(Index patch, const CriticalAngle& angle, const Feature& lower, const Feature& upper) {
+    std::vector<Flat> flats_of(Index patch, const CriticalAngle& angle, const Feature& lower, const Feature& upper) const {
         Junction at = junction(angle);
         const Feature own = contact(patch);
         Spot low = at.spot(own, lower), high = at.spot(own, upper);
         const bool is_point = at.order(own, low, high) == 0;
         std::vector<Flat> left{{patch, angle, patch, {low, patch}, {high, patch}, is_point}}, next;
         for_each_near(patch, [&](Index p, Index k) {
-            if (left.empty()) return;
+            if (left.empty() || !may_reach(k, angle)) return;
             const Feature other = contact(p);
             const int along = at.parallel(own, other);
             if (along != 0 ? at.side(own, other) != 0 : !is_point || at.side(other, own, low) != 0) return;
@@ -135,16 +149,14 @@ private:
             }
             left.swap(next);
         });
-        for (const Flat& f : left) {
-            flats.push_back(f);
-            // the end of one chart is the start of the other
-            if (angle.is_wall() && angle.chart() == 1) flats.back().angle = CriticalAngle(0, angle.lo > 0 ? -1 : 1);
-        }
+        for (Flat& f : left)  // the end of one chart is the start of the other
+            if (angle.is_wall() && angle.chart() == 1) f.angle = CriticalAngle(0, angle.lo > 0 ? -1 : 1);
+        return left;
     }
 
     // --- along theta ---
 
-    void ridges_of(const Ridge& whole) {
+    std::vector<Ridge> ridges_of(const Ridge& whole) const {
         std::vector<Ridge> left{whole}, next;
         const NamedCurve curve{contact(whole.patch), whole.curve};
         const Fingerprint print = prints.of(curve);
@@ -166,7 +178,7 @@ private:
                 left.swap(next);
             }
         });
-        ridges.insert(ridges.end(), left.begin(), left.end());
+        return left;
     }
 
     // Between which angles a curve on the surface of trapezoid k is in it.
@@ -318,8 +330,8 @@ private:
 }  // namespace
 
 IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
-                             const std::atomic<bool>& stop) {
-    return Finder(scene, patches, live, thin).run(stop);
+                             int threads, const std::atomic<bool>& stop) {
+    return Finder(scene, patches, live, thin).run(threads, stop);
 }
 
 }  // namespace cfree

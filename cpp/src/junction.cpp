@@ -33,8 +33,12 @@ Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtere
 template <class F>
 int Junction::sign(const F& trig) const {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
-    RealRoot here = exact();
-    return sign_at(polynomial(trig(Int{})), here);
+    return sign_at(polynomial(trig(Int{})), here());
+}
+
+RealRoot& Junction::here() const {
+    if (!root) root = exact();
+    return *root;
 }
 
 // The surface's line is P + t U, U = E_j or -R E_i.
@@ -138,12 +142,12 @@ double Junction::value(const Feature& line, const Spot& p) const {
     }
     // lines nearly parallel: as a ratio of integers, much nearer to the angle
     const auto [N, D] = position<Int>(line, p);
-    RealRoot here = exact();
-    for (int k = 0; k < 160; ++k) here.halve();
+    RealRoot at_it = here();
+    for (int k = 0; k < 160; ++k) at_it.halve();
     const auto at = [&](const Trig<Int>& f) {
         const Poly q = polynomial(f);
         Int value = 0;
-        for (int k = q.size(); k-- > 0;) value = value * here.lo.n + (q[k] << (here.lo.k * static_cast<unsigned>(2 - k)));
+        for (int k = q.size(); k-- > 0;) value = value * at_it.lo.n + (q[k] << (at_it.lo.k * static_cast<unsigned>(2 - k)));
         return value;
     };
     return boost::multiprecision::cpp_rational(at(N), at(D)).convert_to<double>();
@@ -190,8 +194,7 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
     const auto [Np, Dp] = position<Int>(line, p);
     const auto [Nq, Dq] = position<Int>(line, q);
     const Poly np = polynomial(Np), dp = polynomial(Dp), nq = polynomial(Nq), dq = polynomial(Dq);
-    RealRoot here = exact();
-    return sign_at(difference(product(np, dq), product(nq, dp)), here) * sign_at(dp, here) * sign_at(dq, here);
+    return sign_at(difference(product(np, dq), product(nq, dp)), here()) * sign_at(dp, here()) * sign_at(dq, here());
 }
 
 int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
@@ -212,8 +215,7 @@ int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     const auto [N, D] = position<Int>(line, p);
     const Poly d = polynomial(D), offset = product(polynomial(on(x).offset_trig<Int>(a, b)), d);
     const Poly along_it = product(polynomial(N), polynomial(times(Int(-1), directions_cross<Int>(x, line))));
-    RealRoot here = exact();
-    return sign_at(difference(offset, along_it), here) * sign_at(d, here);
+    return sign_at(difference(offset, along_it), here()) * sign_at(d, here());
 }
 
 int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after) {
@@ -231,8 +233,7 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
     const Trig<Int> g = sum(times(at.d, on(y).offset_trig<Int>(a, b)), times(at.n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;
-    RealRoot here = exact();
-    return after ? sign_after(offset, here) : sign_before(offset, here);
+    return after ? sign_after(offset, here()) : sign_before(offset, here());
 }
 
 }  // namespace cfree

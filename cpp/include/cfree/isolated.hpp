@@ -8,6 +8,6 @@
 namespace cfree {
 
 IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
-                             const std::atomic<bool>& stop);
+                             int threads, const std::atomic<bool>& stop);
 
 }  // namespace cfree

@@ -56,6 +56,7 @@ private:
     Trig<T> directions_cross(const Feature& x, const Feature& y) const;
     template <class T>
     std::array<Trig<T>, 2> position(const Feature& line, const Spot& p) const;
+    RealRoot& here() const;
     bool is_known(const Feature& line, const Spot& p, const Spot& q) const;
     template <class F>
     int sign(const F& trig) const;
@@ -66,6 +67,7 @@ private:
     int chart;
     double lo, hi;
     std::function<RealRoot()> exact;
+    mutable std::optional<RealRoot> root;  // once needed
     std::set<std::array<Code, 3>> known;
 };
 
