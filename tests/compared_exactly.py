@@ -14,7 +14,7 @@ from cfree.features import ShapeFeatures, unpacked
 from cfree.forbidden import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
 from cfree.patch import contact
 from cfree.trapezoids import Trapezoids
-from compared import Point, cross, minus, placed, plain_of, rotation, turned
+from compared import Point, cross, minus, plain_of, rotation, turned
 from exact_slices import Segments, both, common, ends, exact_slice, on_some, oriented, united, without
 from shapes import PlainScene
 
@@ -117,7 +117,25 @@ def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> Point:
 
 @lru_cache(maxsize=10_000)
 def _placed(result: Boundary, code: int, at: Orientation) -> tuple[Point, Point]:
-    return placed(result.scene, contact(result, code), rotation(*at))
+    """A contact's point and direction in a slice: forbidden on its left. Frames have corners without a name."""
+    kind, i, j = unpacked(code)
+    turn, robot, obstacles = rotation(*at), result.features.robot, result.features.obstacles
+    a, b = (
+        (_corner(robot, robot.v[i]), _corner(obstacles, j))
+        if kind == EDGE_VERTEX
+        else (_corner(robot, i), _corner(obstacles, obstacles.v[j] if kind == VERTEX_EDGE else j))
+    )
+    direction: Point = Fraction(0), Fraction(0)
+    if kind == VERTEX_EDGE:
+        direction = minus(_corner(obstacles, obstacles.w[j]), b)
+    if kind == EDGE_VERTEX:
+        direction = turned(turn, minus(a, _corner(robot, robot.w[i])))
+    return minus(b, turned(turn, a)), direction
+
+
+def _corner(shape: ShapeFeatures, vertex: int) -> Point:
+    x, y = shape.vertices[vertex]
+    return Fraction(x, shape.scale), Fraction(y, shape.scale)
 
 
 def isolated_at(result: Boundary, half_tangent: Fraction | None) -> tuple[Segments, set[Point]]:
