@@ -18,8 +18,8 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 
 }  // namespace
 
-Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> root)
-    : scene(s), chart(in), lo(from), hi(to), exact(std::move(root)) {}
+Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number)
+    : scene(s), chart(in), lo(from), hi(to), exact(std::move(number)) {}
 
 Junction::Ends Junction::start(const Feature& x) const {
     if (is_on_edge(x)) return {x.robot, scene.obstacles.v[x.obstacle]};

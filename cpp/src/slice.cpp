@@ -89,13 +89,13 @@ Slicer::Meeting Slicer::meets(Index id, const Line& l, std::uint64_t curve, Turn
 }
 
 // Curves may have no value at the ends of a trapezoid: look at them a little inside.
-constexpr double inside = 1e-9;
+constexpr double a_little = 1e-9;
 
 void Slicer::limits(const Index* trapezoid, const int* charts, const double* tau, std::size_t count, double* low,
                     double* high) const {
     for (std::size_t k = 0; k < count; ++k) {
         const Index x = trapezoid[k], id = patch[x];
-        const double margin = inside * std::abs(tau_to[x] - tau_from[x]);
+        const double margin = a_little * std::abs(tau_to[x] - tau_from[x]);
         const double at = std::max(tau_from[x] + margin, std::min(tau[k], tau_to[x] - margin));
         const Turn r = turn(charts[k], at);
         const Line l = line(id, r);
