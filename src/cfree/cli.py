@@ -332,6 +332,12 @@ def _one_line_faults() -> Iterator[None]:
     except KeyboardInterrupt:
         _fail("interrupted; no file was left half-written", INTERRUPTED)
     except InvariantError as error:
+        from cfree.scene import Scene
+
+        if isinstance(error.state, Scene):
+            from cfree.io import scene_text
+
+            _fail(f"{error}, with this scene:\n{scene_text(error.state)}", BUG)
         _fail(str(error), BUG)
     except (CfreeError, ValueError) as error:
         _fail(str(error), BAD_INPUT)

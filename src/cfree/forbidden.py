@@ -91,7 +91,7 @@ def boundary(
     Raises
     ------
     InvariantError
-        If the computation contradicts itself: a fault of cfree.
+        If the computation contradicts itself: a fault of cfree. Its `state` is the smallest scene found that does.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -108,7 +108,20 @@ def boundary(
     """
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
-    return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
+    try:
+        return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
+    except InvariantError as error:
+        from cfree.shrink import smallest_scene
+
+        raise InvariantError(error.what, state=smallest_scene(scene, _contradicts_itself)) from error
+
+
+def _contradicts_itself(scene: Scene) -> bool:
+    try:
+        _computed(scene, False, 1)
+    except InvariantError:
+        return True
+    return False
 
 
 def _computed(
@@ -169,7 +182,7 @@ def _has_ended(job: Any, scene: Scene) -> bool:
     try:
         return bool(job.wait(0.1))
     except RuntimeError as error:
-        raise InvariantError(f"{error}: a fault of cfree; please report it with the scene", state=scene) from error
+        raise InvariantError(str(error), state=scene) from error
 
 
 class Boundary:

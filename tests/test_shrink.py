@@ -1,0 +1,55 @@
+"""The smallest scene of a fault, and who raises it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from typer.testing import CliRunner
+
+from cfree import Boundary, InvariantError, Scene, boundary, forbidden
+from cfree.cli import app
+from cfree.io import scene_from_text
+from cfree.shrink import smallest_scene
+from compared import scene_of
+from shapes import PlainScene, box, frame, random_scene
+
+
+def test_what_does_not_matter_is_left_out() -> None:
+    plain = PlainScene([box(0, 0, 1, 1), box(2, 0, 3, 1)], [frame(), box(9, 9, 10, 10)], bounds=(-9, -9, 20, 20))
+    scene = scene_of(plain._replace(workspace=box(-20, -20, 30, 30)))
+    smallest = smallest_scene(scene, lambda s: any(len(p.ring_offsets) == 3 for p in s.obstacles))  # a hole
+    assert [len(p) for p in smallest.robot] == [3]
+    assert [len(p) for p in smallest.obstacles] == [7]  # a square with a triangular hole
+    assert smallest.bounds is None and smallest.workspace is None
+
+
+def test_a_scene_that_is_already_smallest_stays() -> None:
+    scene = Scene([(0, 0), (1, 0), (0, 1)])
+    assert smallest_scene(scene, lambda s: True) == scene
+
+
+def broken(scene: Scene, *arguments: Any) -> Boundary:
+    if len(scene.obstacles) > 1:  # stands for a contradiction in the core
+        raise InvariantError("no sample decides", state=scene)
+    return original(scene, *arguments)
+
+
+original = forbidden._computed
+
+
+def test_a_contradiction_comes_with_its_smallest_scene(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
+    monkeypatch.setattr(forbidden, "_computed", broken)
+    scene = scene_of(random_scene(4, "nonconvex"))
+    with pytest.raises(InvariantError, match="no sample decides") as raised:
+        boundary(scene)
+    assert isinstance(raised.value.state, Scene) and len(raised.value.state.obstacles) == 2
+
+    from cfree.io import scene_text
+
+    file = tmp_path / "scene.json"
+    file.write_text(scene_text(scene))
+    result = CliRunner().invoke(app, ["boundary", str(file)])
+    assert result.exit_code == 4 and "please report" in result.stderr
+    printed = scene_from_text("printed", result.stderr.split("with this scene:\n")[1])
+    assert len(printed.obstacles) == 2
