@@ -12,7 +12,7 @@ using namespace cfree;
 static const Ring robot{{-1, -1}, {2, -1}, {0, 2}}, box{{5, 5}, {8, 5}, {8, 7}, {5, 7}};
 
 static std::unique_ptr<Job> run(const std::shared_ptr<const Scene>& scene, int threads = 1) {
-    auto job = std::make_unique<Job>(scene, threads);
+    auto job = std::make_unique<Job>(scene, threads, false);
     while (!job->wait(1)) {}
     return job;
 }

@@ -1,0 +1,54 @@
+#include "cfree/cell_complex.hpp"
+
+#include "check.hpp"
+#include "shapes.hpp"
+
+using namespace cfree;
+
+static Poly poly(std::initializer_list<Int> coefficients) { return Poly(coefficients); }
+static Dyadic dyadic(double x) { return Dyadic::from(x); }
+
+static void real_roots_are_compared_exactly() {
+    RealRoot root2{poly({-2, 0, 1}), dyadic(1), dyadic(2)}, same{poly({-4, 0, 0, 0, 1}), dyadic(1), dyadic(1.5)};
+    CHECK(compare(root2, same) == 0);  // x^2 - 2 and x^4 - 4
+    RealRoot close{poly({-Int("2000000000000000000000000000001"), 0, Int("1000000000000000000000000000000")}), dyadic(1), dyadic(2)};
+    CHECK(compare(root2, close) < 0 && compare(close, root2) > 0);
+    CHECK(sign_at(poly({-2, 0, 1}), root2) == 0);
+    CHECK(sign_at(poly({-7, 5}), root2) > 0 && sign_at(poly({-3, 2}), root2) < 0);  // 7/5 < root 2 < 3/2
+    const Poly squared = product(poly({-2, 0, 1}), poly({-2, 0, 1}));
+    CHECK(sign_after(squared, root2) > 0 && sign_before(squared, root2) > 0);
+    CHECK(sign_after(poly({-2, 0, 1}), root2) > 0 && sign_before(poly({-2, 0, 1}), root2) < 0);
+}
+
+static CellComplex complex_of(const std::vector<Ring>& robot, const std::vector<Ring>& obstacles) {
+    const auto scene = std::make_shared<const Scene>(Scene{shape_of(robot), shape_of(obstacles)});
+    Job job(scene, 1, false);
+    while (!job.wait(1)) {}
+    return glue(*scene, job.patches, job.trapezoids);
+}
+
+static int euler(const CellComplex& c) {
+    return c.vertices - static_cast<int>(c.twin.size() / 2) + static_cast<int>(c.component.size());
+}
+
+static void boundaries_are_closed() {
+    const CellComplex torus = complex_of({{{0, 0}, {2, 0}, {0, 1}}}, {{{5, 5}, {8, 5}, {6, 7}}});
+    CHECK(torus.components == 1 && euler(torus) == 0);
+    for (std::size_t h = 0; h < torus.twin.size(); ++h) CHECK(torus.twin[torus.twin[h]] == static_cast<Index>(h));
+    // squares side by side, sharing corners and edges, with a square robot
+    const Ring unit{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    std::vector<Ring> grid;
+    for (long x = 0; x < 3; ++x)
+        for (long y = 0; y < 3; ++y)
+            if ((x + y) % 2 == 0) {
+                grid.push_back(unit);
+                for (auto& p : grid.back()) p.first += x, p.second += y;
+            }
+    const CellComplex touching = complex_of({unit}, grid);
+    CHECK(euler(touching) % 2 == 0);
+}
+
+int main() {
+    real_roots_are_compared_exactly();
+    boundaries_are_closed();
+}
