@@ -1,43 +1,67 @@
-"""Real roots of integer polynomials, exactly: every critical angle is one of these numbers.
+"""Real algebraic numbers, exactly: roots of integer polynomials, and what can be computed from one of them.
 
 A root is known by its irreducible polynomial and its number among that polynomial's roots, so that equal numbers are
-equal keys, whatever names and intervals they came with. Python-flint factors and divides; the signs of Sturm chains
-are those of Python's integers.
+equal keys, whatever names and intervals they came with. Python-flint factors, divides and reduces; signs are those of
+Python's integers.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
-from functools import cmp_to_key, lru_cache
+from functools import cached_property, lru_cache, total_ordering
 from itertools import pairwise
+from typing import Any
 
 from flint import fmpq_poly, fmpz_poly
 
 Coefficients = tuple[int, ...]  # constant term first
-FIRST = Fraction(-2)  # roots are counted from here; charts are [-1, 1]
+Exact = Any  # int, Fraction or Number
+LEAST = Fraction(-2)  # roots are counted from here; charts are [-1, 1]
 
 
+@total_ordering
 class Root:
-    """An irreducible polynomial's only root in [lo, hi]; `narrow` halves the interval.
+    """An irreducible polynomial's only root in [lo, hi], which is within [-2, 2]; `narrow` halves the interval.
 
     Examples
     --------
     >>> (negative, _), (positive, _) = roots(fmpz_poly([-2, 0, 1]), Fraction(-2), Fraction(2))
-    >>> compare(negative, positive), positive.key
-    (-1, ((-2, 0, 1), 1))
+    >>> negative < positive, positive.key
+    (True, ((-2, 0, 1), 1))
     """
-
-    __slots__ = ("hi", "key", "lo", "poly")
 
     def __init__(self, poly: Coefficients, index: int, lo: Fraction, hi: Fraction) -> None:
         self.poly, self.lo, self.hi = poly, lo, hi
         self.key = poly, index
 
-    @property
-    def field(self) -> fmpq_poly:
-        """The polynomial, to compute modulo it."""
+    @classmethod
+    def of(cls, x: Fraction) -> Root:
+        return cls((-x.numerator, x.denominator), 0, x, x)
+
+    @cached_property
+    def value(self) -> Exact:
+        """To compute with."""
+        return self.lo if len(self.poly) == 2 else Number(self, fmpq_poly([0, 1]))
+
+    @cached_property
+    def modulus(self) -> fmpq_poly:
         return fmpq_poly(list(self.poly))
+
+    def __reduce__(self) -> Any:
+        return Root, (*self.key, self.lo, self.hi)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Root) and self.key == other.key
+
+    def __hash__(self) -> int:
+        return hash(self.key)
+
+    def __lt__(self, other: Root) -> bool:
+        if self.key == other.key:
+            return False
+        part(self, other)
+        return self.hi < other.lo
 
     def narrow(self) -> None:
         if self.lo < self.hi:  # else rational, and known
@@ -48,26 +72,125 @@ class Root:
                 self.hi = middle
 
 
-def compare(x: Root, y: Root) -> int:
-    """Sign of x - y."""
-    if x.key == y.key:
-        return 0
-    while x.lo <= y.hi and y.lo <= x.hi:  # different numbers: they part
+def part(x: Root, y: Root) -> None:
+    """Narrow the intervals of different numbers until they are apart."""
+    while x.lo <= y.hi and y.lo <= x.hi:
         x.narrow()
         y.narrow()
-    return -1 if x.hi < y.lo else 1
 
 
-in_order = cmp_to_key(compare)
+@total_ordering
+class Number:
+    """A polynomial in an irrational root, reduced, as a number: arithmetic with integers and its like, and order.
+
+    Examples
+    --------
+    >>> ((root, _),) = roots(fmpz_poly([-1, 0, 2]), Fraction(0), Fraction(1))
+    >>> x = root.value
+    >>> x * x * 2 == 1, 1 / x == 2 * x, 7 < 10 * x < 8
+    (True, True, True)
+    """
+
+    __slots__ = ("poly", "root")
+
+    def __init__(self, root: Root, poly: fmpq_poly) -> None:
+        self.root, self.poly = root, poly
+
+    def __reduce__(self) -> Any:
+        return _number, (self.root, *self._key())
+
+    def _key(self) -> tuple[list[int], int]:
+        return [int(c) for c in self.poly.numer().coeffs()], int(self.poly.denom())
+
+    def __repr__(self) -> str:
+        return str(self._key())
+
+    def __hash__(self) -> int:
+        return hash(repr(self))
+
+    def __add__(self, other: Number | int) -> Number:
+        return Number(self.root, self.poly + _poly(other))
+
+    def __sub__(self, other: Number | int) -> Number:
+        return Number(self.root, self.poly - _poly(other))
+
+    def __rsub__(self, other: int) -> Number:
+        return Number(self.root, other - self.poly)
+
+    def __neg__(self) -> Number:
+        return Number(self.root, -self.poly)
+
+    def __mul__(self, other: Number | int) -> Number:
+        if isinstance(other, int):
+            return Number(self.root, self.poly * other)
+        return Number(self.root, self.poly * other.poly % self.root.modulus)
+
+    def __truediv__(self, other: Number | int) -> Number:
+        if isinstance(other, int):
+            return Number(self.root, self.poly / other)
+        _, inverse, _ = other.poly.xgcd(self.root.modulus)  # the modulus is irreducible: their divisor is 1
+        return Number(self.root, self.poly * inverse % self.root.modulus)
+
+    def __rtruediv__(self, other: int) -> Number:
+        return Number(self.root, fmpq_poly([other])) / self
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __eq__(self, other: object) -> bool:
+        return bool(self.poly == _poly(other))
+
+    def __lt__(self, other: Number | int) -> bool:
+        difference = Number(self.root, self.poly - _poly(other))
+        return difference.poly != 0 and difference.rounded(None) < 0
+
+    def rounded(self, error: Fraction | None) -> Fraction:
+        """A rational number that differs by at most an error; if that is None, by so little that its sign is right."""
+        coefficients, denominator = self._key()
+        # in [lo, hi] the value differs by at most (hi - lo) times the derivative, and |x| <= 2
+        steepest = Fraction(sum(k * abs(c) << k - 1 for k, c in enumerate(coefficients) if k), denominator)
+        while True:
+            numerator, power = homogeneous(coefficients, self.root.lo)
+            value = Fraction(numerator, power * denominator)
+            width = steepest * (self.root.hi - self.root.lo)
+            if width < abs(value) if error is None else width <= error:
+                return value
+            for _ in range(8):
+                self.root.narrow()
+
+
+def _poly(other: Any) -> Any:
+    return other.poly if isinstance(other, Number) else other
+
+
+def _number(root: Root, coefficients: list[int], denominator: int) -> Number:
+    return Number(root, fmpq_poly(coefficients, denominator))
+
+
+def ratio(x: Exact, y: Exact) -> Exact:
+    return x / y if isinstance(x, Number) or isinstance(y, Number) else Fraction(x) / y
+
+
+def at(poly: fmpz_poly, x: Exact) -> Exact:
+    """Value of a polynomial."""
+    if isinstance(x, Number):
+        return Number(x.root, fmpq_poly(poly) % x.root.modulus)
+    return Fraction(*homogeneous([int(c) for c in poly.coeffs()], x))
+
+
+def homogeneous(poly: Sequence[int], x: Fraction) -> tuple[int, int]:
+    """Numerator and denominator, which is positive, of a polynomial's value."""
+    n, d = x.numerator, x.denominator
+    value, power = 0, 1
+    for k, coefficient in enumerate(reversed(poly)):
+        if k:
+            power *= d
+        value = value * n + coefficient * power
+    return value, power
 
 
 def sign(poly: Sequence[int], x: Fraction) -> int:
     """Sign of a polynomial at a rational."""
-    n, d = x.numerator, x.denominator
-    value, power = 0, 1
-    for coefficient in reversed(poly):
-        value = value * n + coefficient * power
-        power *= d
+    value, _ = homogeneous(poly, x)
     return (value > 0) - (value < 0)
 
 
@@ -93,16 +216,16 @@ def variations(poly: Coefficients, x: Fraction) -> int:
 
 
 def roots(poly: fmpz_poly, lo: Fraction, hi: Fraction) -> list[tuple[Root, int]]:
-    """Roots in the closed interval, each once, in order, with their multiplicities; FIRST < lo."""
+    """Roots in a closed interval within (-2, 2), each once, in order, with their multiplicities."""
     found: list[tuple[Root, int]] = []
     for factor, multiplicity in factors(tuple(map(int, poly.coeffs()))):
         if len(factor) == 2:
             x = Fraction(-factor[0], factor[1])
             if lo <= x <= hi:
-                found.append((Root(factor, 0, x, x), multiplicity))
+                found.append((Root.of(x), multiplicity))
         else:  # no rational roots: the ends of intervals are none
             found += [(root, multiplicity) for root in _isolated(factor, lo, hi)]
-    return sorted(found, key=lambda item: in_order(item[0]))
+    return sorted(found, key=lambda item: item[0])
 
 
 def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:
@@ -110,7 +233,7 @@ def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:
     while todo:
         a, b, at_a, at_b = todo.pop()
         if at_a - at_b == 1:
-            yield Root(poly, variations(poly, FIRST) - at_a, a, b)
+            yield Root(poly, variations(poly, LEAST) - at_a, a, b)
         elif at_a > at_b:
             middle = (a + b) / 2
             at_middle = variations(poly, middle)

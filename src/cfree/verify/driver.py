@@ -1,4 +1,4 @@
-"""The driver: blocks of trapezoids, and slices, in this process or in several; then what they add up to."""
+"""The driver: blocks of trapezoids, isolated parts, and slices, in this process or in several; then the whole."""
 
 from __future__ import annotations
 
@@ -7,45 +7,49 @@ import os
 import random
 import signal
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from cfree.storage import load_boundary
+from cfree.trapezoids import CURVE
+from cfree.verify.angles import orientation
+from cfree.verify.isolated import IsolatedPart
+from cfree.verify.matching import Matching, matched
+from cfree.verify.missing import compared
 from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
-from cfree.verify.slices import compared
 from cfree.verify.surfaces import Fault
-from cfree.verify.trapezoids import Contacts, Reader
+from cfree.verify.trapezoids import Reader, Side
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.scene import Scene
-    from cfree.trapezoids import Trapezoids
 
 BLOCK = 200  # trapezoids checked between two reports
 
 # names of the checks
-PIECES, ANGLES, DOMAINS = "convex pieces", "names and angles", "domains"
-FREE, CLOSED, MISSING = "not forbidden", "closed surface", "nothing missing"
+PIECES, ANGLES, DOMAINS, FREE = "convex pieces", "names and angles", "domains", "not forbidden"
+CLOSED, ISOLATED, MISSING = "closed surfaces", "isolated parts", "nothing missing"
 
 
 @dataclass
 class Part:
-    """What one block of trapezoids, or one slice, contributed."""
+    """What one block of trapezoids, one isolated part, or one slice contributed."""
 
     findings: list[Finding] = field(default_factory=list)
-    sides: dict[bytes, tuple[int, tuple[int, ...]]] = field(default_factory=dict)  # sum of an end, its trapezoids
+    loops: dict[int, list[Side | None]] = field(default_factory=dict)  # sides of trapezoids
     trapezoids: int = 0
     slices: int = 0
-    segments: int = 0
+    contacts: int = 0
 
 
 def boundary(
     boundary: Boundary | str | os.PathLike[str],
     scene: Scene | None = None,
     *,
-    slices: int = 8,
+    slices: int = 12,
     sample: int | None = None,
     seed: int = 0,
     workers: int = 1,
@@ -60,7 +64,7 @@ def boundary(
     scene : Scene, optional
         Has to be the scene in the file; if it is not, that is the only finding.
     slices : int
-        Orientations at which the whole slice is computed again, every second one next to a critical angle.
+        Orientations at which the whole slice is computed again: half of them critical angles.
     sample : int, optional
         Check that many trapezoids, chosen at random, and no sides; all by default.
     seed : int
@@ -88,24 +92,25 @@ def boundary(
     >>> import cfree, cfree.verify
     >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
     >>> result = cfree.verify.boundary(cfree.boundary(scene), scene, slices=2)
-    >>> result.verified, result.findings
-    (True, ())
+    >>> result.verified, result.findings, result.euler
+    (True, (), (0,))
     """
     begin = time.perf_counter()
     if slices < 0 or workers < 1 or (sample is not None and sample < 0):
         raise ValueError(f"slices {slices}, sample {sample}, workers {workers}; give counts, and at least one worker")
     given = load_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
-    if scene is not None and (differing := differences(scene, given.scene)):
-        text = f"not the scene of the boundary: {differing} differ"
-        return Verification((), (Finding("scene", differing, text),), time.perf_counter() - begin)
+    if (finding := _unfit(given, scene)) is not None:
+        return Verification((), (finding,), (), time.perf_counter() - begin)
 
     count = len(given.trapezoids)
     chosen: Sequence[int] = range(count)
     if sample is not None and sample < count:
         chosen = sorted(random.Random(seed).sample(chosen, sample))
     tasks: list[Task] = [("slice", [seed, k]) for k in range(slices)]
+    tasks += [("isolated", [k]) for k in range(len(given.isolated))]
     tasks += [("trapezoids", chosen[k : k + BLOCK]) for k in range(0, len(chosen), BLOCK)]
-    source = given.scene, (given.contact_kind, given.contact_robot, given.contact_obstacle), given.trapezoids
+    contacts = given.contact_kind, given.contact_robot, given.contact_obstacle
+    source = given.scene, contacts, given.trapezoids, given.isolated
     whole, reader = Part(), Reader(*source)
     with _mapping(reader, source, min(workers, len(tasks))) as work:
         for done, part in enumerate(work(tasks)):
@@ -115,10 +120,22 @@ def boundary(
 
     findings = [Finding(PIECES, name, "its convex pieces do not tile it") for name in reader.world.untiled]
     findings += sorted(whole.findings, key=str)
-    if len(chosen) == count:
-        findings += _unmatched(whole, reader)
-    checks = _checks(whole, reader, count, {finding.kind for finding in findings})
-    return Verification(checks, tuple(findings), time.perf_counter() - begin)
+    matching = matched(reader, whole.loops) if len(chosen) == count else None
+    if matching is not None:
+        findings += _unmatched(matching, reader)
+    checks = _checks(whole, reader, matching, {finding.kind for finding in findings})
+    euler = tuple(matching.euler) if matching is not None else ()
+    return Verification(checks, tuple(findings), euler, time.perf_counter() - begin)
+
+
+def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:
+    """Why there is nothing to check, if there is a reason."""
+    if scene is not None and (differing := differences(scene, boundary.scene)):
+        return Finding("scene", differing, f"not the scene of the boundary: {differing} differ")
+    if not boundary.complete:
+        done = f"{boundary.trimmed.sum():,} of {len(boundary.trimmed):,} patches trimmed"
+        return Finding("incomplete", done, "a limit stopped the computation; nothing is known about the others")
+    return None
 
 
 def differences(scene: Scene, other: Scene) -> str:
@@ -134,44 +151,55 @@ Task = tuple[str, Sequence[int]]
 
 def perform(reader: Reader, task: Task) -> Part:
     kind, numbers = task
-    return slice_part(reader, *numbers) if kind == "slice" else trapezoid_part(reader, numbers)
+    if kind == "slice":
+        return slice_part(reader, *numbers)
+    return isolated_part(reader, *numbers) if kind == "isolated" else trapezoid_part(reader, numbers)
 
 
 def trapezoid_part(reader: Reader, numbers: Sequence[int]) -> Part:
-    """Checks 1 to 4 of some trapezoids."""
+    """All about some trapezoids but how their sides match."""
     part = Part(trapezoids=len(numbers))
     for k in numbers:
         kind = ANGLES
         try:
             trapezoid = reader.trapezoid(k)
             turn = trapezoid.turn()
-            kind = CLOSED
-            for key, sign in trapezoid.ends():
-                total, members = part.sides.get(key, (0, ()))
-                part.sides[key] = total + sign, (*members, k)
             kind = DOMAINS
             trapezoid.check(turn)
+            part.loops[k] = trapezoid.sides()
             kind = FREE
             trapezoid.sample(reader.world, turn)
-        except Fault as fault:
-            part.findings.append(Finding(kind, _place(reader, [k]), str(fault)))
+        except (Fault, IndexError) as fault:
+            part.findings.append(Finding(kind, _place(reader, [k]), _text(fault)))
+    return part
+
+
+def isolated_part(reader: Reader, k: int) -> Part:
+    """All about an isolated part."""
+    part = Part()
+    try:
+        IsolatedPart(reader, k).check()
+    except (Fault, IndexError) as fault:
+        part.findings.append(Finding(ISOLATED, f"isolated part {k}", _text(fault)))
     return part
 
 
 def slice_part(reader: Reader, seed: int, number: int) -> Part:
     """One slice."""
-    _, segments, wrong = compared(reader, seed, number)
-    return Part([Finding(MISSING, where, text) for where, text in wrong], slices=1, segments=segments)
+    contacts, wrong = compared(reader, orientation(reader, seed, number))
+    return Part([Finding(MISSING, where, text) for where, text in wrong], slices=1, contacts=contacts)
+
+
+def _text(fault: Exception) -> str:
+    return str(fault) if isinstance(fault, Fault) else "it names a feature, or a patch, that does not exist"
 
 
 def _merge(whole: Part, part: Part) -> None:
     whole.findings += part.findings
+    whole.loops |= part.loops
     whole.trapezoids += part.trapezoids
     whole.slices += part.slices
-    whole.segments += part.segments
-    for key, (total, members) in part.sides.items():
-        before, others = whole.sides.get(key, (0, ()))
-        whole.sides[key] = before + total, others + members
+    whole.contacts += part.contacts
 
 
 @contextmanager
@@ -187,10 +215,10 @@ def _mapping(reader: Reader, source: Any, workers: int) -> Iterator[Callable[[li
 _reader: Any = None  # of a worker process
 
 
-def _begin(scene: Scene, contacts: Contacts, table: Trapezoids) -> None:
+def _begin(*source: Any) -> None:
     global _reader
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the process that started this one
-    _reader = Reader(scene, contacts, table)
+    _reader = Reader(*source)
 
 
 def _perform(task: Task) -> Part:
@@ -200,32 +228,11 @@ def _perform(task: Task) -> Part:
 # --- the result ---
 
 
-def _unmatched(whole: Part, reader: Reader) -> list[Finding]:
-    """Ends of sides that do not cancel, gathered by the trapezoids they belong to."""
-    open_ends: dict[tuple[int, ...], int] = {}
-    for total, members in whole.sides.values():
-        if total:
-            owners = tuple(sorted(set(members)))
-            open_ends[owners] = open_ends.get(owners, 0) + 1
+def _unmatched(matching: Matching, reader: Reader) -> list[Finding]:
     return [
-        Finding(CLOSED, _place(reader, owners), f"{number} ends of their sides find no partner")
-        for owners, number in sorted(open_ends.items())
+        Finding(CLOSED, _place(reader, owners), f"{number} edges of their sides find no partner")
+        for owners, number in sorted(matching.unmatched.items())
     ]
-
-
-def _parts(whole: Part, count: int) -> int:
-    """Into how many parts the ends in common join the trapezoids; pinched surfaces are joined, too."""
-    parent = list(range(count))
-
-    def root(k: int) -> int:
-        while parent[k] != k:
-            parent[k] = k = parent[parent[k]]
-        return k
-
-    for _, (first, *others) in whole.sides.values():
-        for k in others:
-            parent[root(k)] = root(first)
-    return sum(parent[k] == k for k in range(count))
 
 
 def _place(reader: Reader, numbers: Sequence[int]) -> str:
@@ -236,20 +243,24 @@ def _place(reader: Reader, numbers: Sequence[int]) -> str:
     return f"trapezoid {listed}{' ...' if len(numbers) > 4 else ''}"
 
 
-def _checks(whole: Part, reader: Reader, count: int, refuted: set[str]) -> tuple[Check, ...]:
-    world, n = reader.world, whole.trapezoids
-    all_of_them = n == count
-    every = f"{n:,} trapezoids" if all_of_them else f"{n:,} of {count:,} trapezoids"
-    proved = PROVED if all_of_them else SAMPLED
+def _checks(whole: Part, reader: Reader, matching: Matching | None, refuted: set[str]) -> tuple[Check, ...]:
+    world, n, count = reader.world, whole.trapezoids, len(reader.table)
+    every = f"{n:,} trapezoids" if n == count else f"{n:,} of {count:,} trapezoids"
+    proved = PROVED if n == count else SAMPLED
     closed = SKIPPED, "needs every trapezoid"
-    if all_of_them:
-        closed = PROVED, f"{len(whole.sides):,} ends of sides cancel; {_parts(whole, n):,} connected parts"
+    if matching is not None:
+        numbers = ", ".join(f"{times:,} of {euler}" for euler, times in sorted(Counter(matching.euler).items()))
+        pinched = f" ({matching.pinched:,} where more than two meet)" if matching.pinched else ""
+        surfaces = f"{len(matching.euler):,} surfaces; Euler numbers: {numbers or 'none'}"
+        closed = PROVED, f"{matching.edges:,} edges have partners{pinched}; {surfaces}"
+    parts = f"{len(reader.isolated):,} parts: free, of no width, on no trapezoid; curves at three angles"
     rows = (
         (PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles: convex, tiling them"),
         (ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order, in the chart"),
         (DOMAINS, proved, f"{every}: contact in range and 0 <= lower <= upper <= 1 from first to second angle"),
         (FREE, SAMPLED, f"{every}: on the contact, inside no obstacle, at one exact point each"),
         (CLOSED, *closed),
-        (MISSING, SAMPLED, f"{whole.slices} exact slices, {whole.segments:,} segments: computed anew, and the same"),
+        (ISOLATED, SAMPLED if (reader.isolated.kind == CURVE).any() else PROVED, parts),
+        (MISSING, SAMPLED, f"{whole.slices} exact slices, {whole.contacts:,} free contacts: computed anew, and the same"),
     )
     return tuple(Check(name, REFUTED if name in refuted else how, extent) for name, how, extent in rows)

@@ -48,11 +48,14 @@ class Verification:
         What was proved and what was sampled, with counts.
     findings : tuple of Finding
         What is wrong; empty if all is well.
+    euler : tuple of int
+        V - E + F of every closed surface, in order; empty if they were not matched.
     seconds : float
     """
 
     checks: tuple[Check, ...]
     findings: tuple[Finding, ...]
+    euler: tuple[int, ...]
     seconds: float
 
     @property

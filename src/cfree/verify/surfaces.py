@@ -13,10 +13,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
+from typing import Any
 
 from flint import fmpz_poly
 
-Vector = tuple[int, int]
+from cfree.verify.algebra import Exact, Root, at, ratio
+
+Vector = tuple[Exact, Exact]
+LineKey = tuple[Exact | None, Exact]  # slope, None if upright, and where the line meets an axis
 Form = tuple[int, int, int]
 ZERO = (0, 0)
 
@@ -25,11 +30,11 @@ class Fault(Exception):
     """What a file says does not make sense; the message says why."""
 
 
-def cross(u: Vector, v: Vector) -> int:
+def cross(u: Vector, v: Vector) -> Exact:
     return u[0] * v[1] - u[1] * v[0]
 
 
-def dot(u: Vector, v: Vector) -> int:
+def dot(u: Vector, v: Vector) -> Exact:
     return u[0] * v[0] + u[1] * v[1]
 
 
@@ -53,38 +58,93 @@ class Surface:
         return cross(q, beta) + cross(g, alpha), -cross(q, alpha) - cross(g, beta), dot(g, beta) - dot(q, alpha)
 
 
-@dataclass(frozen=True, slots=True)
 class Turn:
-    """The rotation of a rational tau in a chart: cos = c / w, sin = s / w, in integers."""
+    """The rotation at a critical or rational angle: cos = c / w, sin = s / w, in integers if tau is rational."""
 
-    chart: int
-    tau: Fraction
-    c: int
-    s: int
-    w: int
+    def __init__(self, chart: int, root: Root) -> None:
+        self.chart, self.root, self.tau = chart, root, root.value
+        p, q = (self.tau.numerator, self.tau.denominator) if isinstance(self.tau, Fraction) else (self.tau, 1)
+        half_turn = -1 if chart else 1
+        self.c, self.s, self.w = half_turn * (q * q - p * p), half_turn * 2 * p * q, q * q + p * p
 
     @classmethod
     def of(cls, chart: int, tau: Fraction) -> Turn:
-        p, q, half_turn = tau.numerator, tau.denominator, -1 if chart else 1
-        return cls(chart, tau, half_turn * (q * q - p * p), half_turn * 2 * p * q, q * q + p * p)
+        return cls(chart, Root.of(tau))
+
+    @cached_property
+    def key(self) -> tuple[Any, ...]:
+        """Equal for equal angles: the charts share their ends."""
+        if self.tau in (1, -1):
+            return ("wall", self.chart == (self.tau < 0))
+        return self.chart, *self.root.key
+
+    def in_charts(self) -> list[tuple[int, Root]]:
+        """The angle in its chart, or in both."""
+        other = [(1 - self.chart, Root.of(-self.tau))] if self.tau in (1, -1) else []
+        return [(self.chart, self.root), *other]
+
+    @cached_property
+    def rounded(self) -> Turn:
+        """A rational angle beside it: for looking around, never for a decision."""
+        while self.root.hi - self.root.lo > Fraction(1, 1 << 60):
+            self.root.narrow()
+        return Turn.of(self.chart, self.root.lo)
+
+    def __str__(self) -> str:
+        return f"tau {self.tau if isinstance(self.tau, Fraction) else float(self.root.lo)} in chart {self.chart}"
 
     def __call__(self, v: Vector) -> Vector:
         """w R v."""
         return self.c * v[0] - self.s * v[1], self.s * v[0] + self.c * v[1]
 
-    def value(self, form: Form) -> int:
+    def value(self, form: Form) -> Exact:
         """w times the form."""
         return form[0] * self.w + form[1] * self.c + form[2] * self.s
 
-    def start(self, surface: Surface) -> Vector:
-        """w S(0, theta)."""
-        (x, y), (bx, by) = self(surface.a), surface.b
-        return self.w * bx - x, self.w * by - y
+    def fixed(self, v: Vector) -> Vector:
+        """w v."""
+        return self.w * v[0], self.w * v[1]
 
-    def along(self, surface: Surface) -> Vector:
-        """w U."""
-        (x, y), (qx, qy) = self(surface.g), surface.q
-        return self.w * qx - x, self.w * qy - y
+    def line(self, surface: Surface) -> Line:
+        """From w S(0, theta) along w U."""
+        return Line(minus(self.fixed(surface.b), self(surface.a)), minus(self.fixed(surface.q), self(surface.g)))
+
+
+class Line:
+    """start + t along, both times w. A *position* on it is w x, or w y if it is upright."""
+
+    def __init__(self, start: Vector, along: Vector) -> None:
+        self.start, self.along = start, along
+        self.axis = 1 if along[0] == 0 else 0
+
+    @cached_property
+    def key(self) -> LineKey:
+        (x, y), (u, v) = self.start, self.along
+        slope = None if self.axis else ratio(v, u)
+        return slope, x if slope is None else y - slope * x
+
+    @property
+    def ascends(self) -> bool:
+        """Whether positions grow with t."""
+        return bool(self.along[self.axis] > 0)
+
+    def position(self, t: Exact) -> Exact:
+        return self.start[self.axis] + t * self.along[self.axis]
+
+    def point(self, t: Exact) -> Vector:
+        return self.start[0] + t * self.along[0], self.start[1] + t * self.along[1]
+
+
+def point_at(key: LineKey, position: Exact) -> Vector:
+    """w times the point of a line at a position."""
+    slope, offset = key
+    return (offset, position) if slope is None else (position, slope * position + offset)
+
+
+def position_of(key: LineKey, point: Vector) -> Exact | None:
+    """The position of a point on a line, None if it is beside it."""
+    position = point[1 if key[0] is None else 0]
+    return position if point_at(key, position) == point else None
 
 
 def polynomial(form: Form, chart: int) -> fmpz_poly:
@@ -114,9 +174,9 @@ def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
 
 
 class Curve:
-    """t = n / d on a surface in a chart, in lowest terms, and the reference points (x : y : z) along it."""
+    """t = n / d on a surface in a chart, in lowest terms; `key` is that of the reference points (x : y : z) along it."""
 
-    __slots__ = ("d", "key", "n", "x", "y", "z")
+    __slots__ = ("d", "key", "n")
 
     def __init__(self, surface: Surface, chart: int, t: tuple[Form, Form]) -> None:
         n, d = (polynomial(form, chart) for form in t)
@@ -129,12 +189,11 @@ class Curve:
         common = point[0].gcd(point[1]).gcd(point[2])
         if (point[2] // common).leading_coefficient() < 0:
             common = -common
-        self.x, self.y, self.z = (p // common for p in point)
-        self.key = chart, *(tuple(map(int, p.coeffs())) for p in (self.x, self.y, self.z))
+        self.key = chart, *(tuple(map(int, (p // common).coeffs())) for p in point)
 
-    def at(self, tau: Fraction) -> Fraction:
-        """t at a rational angle."""
-        n, d = (sum(int(k) * tau**power for power, k in enumerate(p.coeffs())) for p in (self.n, self.d))
+    def at(self, tau: Exact) -> Exact:
+        """t at an angle."""
+        d = at(self.d, tau)
         if d == 0:
             raise Fault("a curve leaves the surface's line to infinity")
-        return Fraction(n) / Fraction(d)
+        return at(self.n, tau) / d

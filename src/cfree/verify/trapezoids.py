@@ -1,40 +1,49 @@
-"""One trapezoid: its angles, its curves, a point of it, and its oriented sides.
+"""What a boundary file says, its names resolved in the scene; one trapezoid: its angles, curves, sides, and a point.
 
-A trapezoid is {lower(theta) <= t <= upper(theta), start <= theta <= stop} on a patch. Oriented like (t, theta), it is
-bounded by: start, from lower to upper; upper, from start to stop; stop, from upper to lower; lower, from stop to start.
-A segment of a curve, or of a line at one angle, enters a sum as its end minus its beginning: segments of one curve
-cancel if and only if their ends do. So a side is two signed ends, and a surface is closed if every end has the sum 0.
+A trapezoid is {lower(theta) <= t <= upper(theta), start <= theta <= stop} on a patch.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from hashlib import blake2b
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from flint import fmpq_poly, fmpz_poly
+from flint import fmpz_poly
 from numpy.typing import NDArray
 
-from cfree.verify.algebra import Root, between, compare, roots
-from cfree.verify.surfaces import Curve, Fault, Surface, Turn, polynomial
+from cfree.verify.algebra import Exact, Root, between, part, roots
+from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, polynomial
 from cfree.verify.world import World, name_of
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
-    from cfree.trapezoids import Trapezoids
+    from cfree.trapezoids import IsolatedParts, Trapezoids
 
-End = tuple[bytes, int]  # a point of a curve, or of a line at one angle, and its sign
 Contacts = tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.int32]]  # kind, robot and obstacle feature by patch
+Side = tuple[bytes, Exact, Exact]  # a curve, or a line at one angle; angles, or positions, where a side begins and ends
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A trapezoid, or an isolated part, at one angle: a closed segment or a point of a line."""
+
+    line: LineKey
+    lo: Exact
+    hi: Exact
+    owner: tuple[str, int]
+    facing: bool | None = None  # inside a trapezoid: whether positions grow with t
 
 
 class Reader:
-    """The trapezoids of a boundary with their names resolved in the scene."""
+    """The columns of a boundary."""
 
-    def __init__(self, scene: Scene, contacts: Contacts, table: Trapezoids) -> None:
-        self.world, self.contacts, self.table = World(scene), contacts, table
+    def __init__(self, scene: Scene, contacts: Contacts, table: Trapezoids, isolated: IsolatedParts) -> None:
+        self.world, self.contacts, self.table, self.isolated = World(scene), contacts, table, isolated
         self.surface = lru_cache(maxsize=64)(self._surface)
         self.curve = lru_cache(maxsize=4096)(self._curve)
 
@@ -48,37 +57,31 @@ class Reader:
 
     def trapezoid(self, k: int) -> Trapezoid:
         """Trapezoid k, its names resolved and its angles checked. Raises Fault."""
-        try:
-            return self._trapezoid(k)
-        except IndexError:
-            raise Fault("it names a feature that the scene does not have") from None
-
-    def _trapezoid(self, k: int) -> Trapezoid:
         t = self.table
         patch, chart = int(t.patch[k]), int(t.chart[k])
         surface = self.surface(patch)
-        start, stop = (self.angle(k, end, surface, chart) for end in ("from", "to"))
-        if compare(start, stop) >= 0:
+        start, stop = (self.angle(t, k, end, patch) for end in ("from", "to"))
+        if start >= stop:
             raise Fault("it does not end after it begins")
         lower, upper = (self.curve(patch, chart, int(code)) for code in (t.lower[k], t.upper[k]))
         return Trapezoid(surface, chart, lower, upper, start, stop)
 
-    def angle(self, k: int, end: str, surface: Surface, chart: int) -> Root:
-        """One of a trapezoid's critical angles, as the root that its names and interval define."""
+    def angle(self, columns: Trapezoids, k: int, end: str, patch: int) -> Root:
+        """A critical angle as the root that its names, on the surface of a patch, and its interval define."""
         names = ("first", "second", "lo", "hi", "place")
-        first, second, low, high, place = (getattr(self.table, f"{end}_{name}")[k].item() for name in names)
+        first, second, low, high, place = (getattr(columns, f"{end}_{name}")[k].item() for name in names)
+        chart, surface = int(columns.chart[k]), self.surface(patch)
         lo, hi = Fraction(low), Fraction(high)
         if not first:
             if lo != hi or abs(lo) != 1 or second or place:
                 raise Fault(f"its {end} angle has no name and is no chart wall")
-            return Root((int(-lo), 1), 0, lo, hi)
+            return Root.of(lo)
+        if not -1 <= lo <= hi <= 1:
+            raise Fault(f"its {end} angle is beyond the chart")
         found = [root for root, _ in roots(self.defining(first, second, surface, chart), lo, hi)]
         if place > len(found) or (len(found) != 1) == (place == 0):
             raise Fault(f"its {end} angle: {len(found)} roots in the interval, place {place}")
-        root: Root = found[max(place, 1) - 1]
-        if compare(root, wall(-1)) < 0 or compare(root, wall(1)) > 0:
-            raise Fault(f"its {end} angle is beyond the chart")
-        return root
+        return found[max(place, 1) - 1]
 
     def defining(self, first: int, second: int, surface: Surface, chart: int) -> fmpz_poly:
         """The polynomial that names define on a surface: one pair's condition, or that two curves meet."""
@@ -92,9 +95,34 @@ class Reader:
             raise Fault("an angle is named by what holds at every angle")
         return found
 
+    def pieces(self, turn: Turn) -> Iterator[Piece]:
+        """Trapezoids, ends included, at an angle. What is faulty is left out, and reported elsewhere."""
+        t = self.table
+        for chart, here in turn.in_charts():
+            reaches = (t.from_lo <= float(here.hi)) & (float(here.lo) <= t.to_hi)
+            for k in np.flatnonzero((t.chart == chart) & reaches).tolist():
+                try:
+                    patch = int(t.patch[k])
+                    order = [self._order(here, k, end) for end in ("from", "to")]
+                    if order[0] < 0 or order[1] > 0:
+                        continue
+                    line = turn.line(self.surface(patch))
+                    curves = (self.curve(patch, chart, int(code)) for code in (t.lower[k], t.upper[k]))
+                    lo, hi = (line.position(curve.at(here.value)) for curve in curves)
+                except (Fault, IndexError):
+                    continue
+                facing = line.ascends if order == [1, -1] else None
+                yield Piece(line.key, min(lo, hi), max(lo, hi), ("trapezoid", k), facing)
 
-def wall(side: int) -> Root:
-    return Root((-side, 1), 0, Fraction(side), Fraction(side))
+    def _order(self, here: Root, k: int, end: str) -> int:
+        """Is an angle before, at or after one end of a trapezoid?"""
+        t = self.table
+        if here.lo > Fraction(float(getattr(t, f"{end}_hi")[k])):
+            return 1
+        if here.hi < Fraction(float(getattr(t, f"{end}_lo")[k])):
+            return -1
+        angle = self.angle(t, k, end, int(t.patch[k]))
+        return (here > angle) - (here < angle)
 
 
 class Trapezoid:
@@ -109,9 +137,7 @@ class Trapezoid:
         """A rational angle strictly between start and stop where the curves, which may touch, do not."""
         if self._gap.degree() < 0:
             raise Fault("its two curves are one")
-        while self.start.hi >= self.stop.lo:
-            self.start.narrow()
-            self.stop.narrow()
+        part(self.start, self.stop)
         tau = between(self.start.hi, self.stop.lo)
         while self.lower.at(tau) == self.upper.at(tau):
             tau = between(self.start.hi, tau)
@@ -126,87 +152,50 @@ class Trapezoid:
             raise Fault(f"outside its patch's range at tau = {turn.tau}")
         if any(self._changes(polynomial(limit, self.chart)) for limit in self.surface.limits):
             raise Fault("it reaches beyond its patch's range")
-        if any(self._inside(curve.d, closed=True) for curve in (p, q)):
+        if any(has_root(curve.d, self.start, self.stop) for curve in (p, q)):
             raise Fault("a curve leaves the surface's line to infinity")
         for order in (p.n, q.d - q.n, self._gap):
             if self._changes(order):
                 raise Fault("its curves cross each other, or t = 0 or t = 1")
 
     def _changes(self, poly: fmpz_poly) -> bool:
-        return any(multiplicity % 2 for multiplicity in self._inside(poly))
-
-    def _inside(self, poly: fmpz_poly, closed: bool = False) -> list[int]:
-        """Multiplicities of the roots between start and stop."""
+        """Does a polynomial's sign change between start and stop?"""
         if poly.degree() < 1:
-            return []
-        return [
-            multiplicity
-            for root, multiplicity in roots(poly, self.start.lo, self.stop.hi)
-            if compare(self.start, root) < closed and compare(root, self.stop) < closed
-        ]
+            return False
+        found = roots(poly, self.start.lo, self.stop.hi)
+        return any(times % 2 and self.start < root < self.stop for root, times in found)
 
     def sample(self, world: World, turn: Turn) -> None:
         """A point of it, strictly between its curves, that nothing covers. Proved there, and only there."""
         t = between(self.lower.at(turn.tau), self.upper.at(turn.tau))
-        (x, y), (u, v), n, d = turn.start(self.surface), turn.along(self.surface), t.numerator, t.denominator
+        line, n, d = turn.line(self.surface), t.numerator, t.denominator
+        (x, y), (u, v) = line.start, line.along
         if world.is_forbidden(turn, ((d * x + n * u, d * y + n * v), d * turn.w)):
             raise Fault(f"forbidden at tau = {turn.tau}, t = {t}")
 
-    def ends(self) -> Iterator[End]:
-        """The ends of its sides."""
-        for curve, outwards in ((self.lower, -1), (self.upper, 1)):
-            for angle, forwards in ((self.start, -1), (self.stop, 1)):
-                yield digest(curve.key, angle_key(self.chart, angle)), outwards * forwards
-        for angle, forwards in ((self.start, 1), (self.stop, -1)):
-            points = [point(curve, angle) for curve in (self.lower, self.upper)]
-            if points[0] != points[1]:
-                line = self._line(angle, points[0])
-                for at, upwards in zip(points, (-1, 1), strict=True):
-                    yield digest(angle_key(self.chart, angle), line, at), forwards * upwards
+    def sides(self) -> list[Side | None]:
+        """Counter-clockwise in (t, theta): at start, upper, at stop, lower; None for a side of no length."""
+        return [
+            self._wall(self.start, self.lower, self.upper),
+            (digest(self.upper.key), self.start, self.stop),
+            self._wall(self.stop, self.upper, self.lower),
+            (digest(self.lower.key), self.stop, self.start),
+        ]
 
-    def _line(self, angle: Root, at: tuple[Any, Any]) -> tuple[Any, Any]:
-        """The line of the surface at an angle, through a point of it: its slope and where it meets an axis."""
-        s, m = self.surface, angle.field
-        u, v = (
-            fmpq_poly(polynomial(form, self.chart)) % m
-            for form in ((s.q[0], -s.g[0], s.g[1]), (s.q[1], -s.g[1], -s.g[0]))
-        )
-        if u.degree() < 0:
-            return None, at[0]
-        slope = v * inverse(u, m) % m
-        return slope, (at[1] - slope * at[0]) % m
+    def _wall(self, angle: Root, first: Curve, last: Curve) -> Side | None:
+        turn = Turn(self.chart, angle)
+        begin, end = first.at(turn.tau), last.at(turn.tau)
+        if begin == end:
+            return None
+        line = turn.line(self.surface)
+        return digest(turn.key, line.key), line.position(begin), line.position(end)
 
 
-def point(curve: Curve, angle: Root) -> tuple[Any, Any]:
-    """Where a curve is at an angle, as two elements of the field of that angle."""
-    m = angle.field
-    z = fmpq_poly(curve.z) % m
-    if z.degree() < 0:
-        raise Fault("a curve leaves the surface's line to infinity")
-    by = inverse(z, m)
-    return fmpq_poly(curve.x) * by % m, fmpq_poly(curve.y) * by % m
-
-
-def inverse(x: fmpq_poly, modulus: fmpq_poly) -> fmpq_poly:
-    one, factor, _ = x.xgcd(modulus)
-    assert one.degree() == 0  # the modulus is irreducible; the divisor is monic
-    return factor
-
-
-def angle_key(chart: int, angle: Root) -> tuple[Any, ...]:
-    """Equal for equal angles; the charts share their ends."""
-    poly, index = angle.key
-    if poly in ((-1, 1), (1, 1)):
-        return ("wall", chart == (poly == (1, 1)))
-    return chart, poly, index
+def has_root(poly: fmpz_poly, start: Root, stop: Root) -> bool:
+    """In the closed interval."""
+    return poly.degree() > 0 and any(start <= root <= stop for root, _ in roots(poly, start.lo, stop.hi))
 
 
 def digest(*key: Any) -> bytes:
     """32 bytes that stand for an exact key: different keys do not collide in practice, and travel cheaply."""
-
-    def plain(x: Any) -> Any:
-        if isinstance(x, fmpq_poly):
-            return str(x.numer().coeffs()), str(x.denom())
-        return tuple(map(plain, x)) if isinstance(x, tuple) else x
-
-    return blake2b(repr(plain(key)).encode(), digest_size=32).digest()
+    return blake2b(repr(key).encode(), digest_size=32).digest()

@@ -6,25 +6,20 @@ a number in the file means; whether two features make a contact is decided here,
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from itertools import pairwise
-from math import gcd, inf, nextafter
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from cfree.features import scene_features, unpacked
 from cfree.polygon import Polygon
+from cfree.verify.polygons import (
+    Corner, Ring, boxes, corners, frame, interiors_meet, is_convex, near, rectangle, rings_of, tile,
+)
 from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Turn, Vector, cross, cut, dot, helix, minus
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
 
-Ring = list[Vector]
-Corner = tuple[Vector, Vector, Vector]  # a vertex between its neighbours, the interior on the left
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
 Pose = tuple[Vector, int]  # reference point (x, y) / denominator
 
@@ -41,6 +36,8 @@ class World:
         What is outside the bounds, for the reference point.
     untiled : list of str
         Shapes whose pieces are not convex, or do not tile them.
+    unit : int
+        No vertex, and no reference point at a contact, has a larger coordinate.
     """
 
     scene: Scene
@@ -74,10 +71,11 @@ class World:
             obstacles.append([ring[::-1] for ring in workspace])
         self.robot_corners = [corner for rings in robot for ring in rings for corner in corners(ring)]
         self.obstacle_corners = [corner for rings in obstacles for ring in rings for corner in corners(ring)]
-        inner = rectangle(*bounds)[::-1] if bounds else []  # the complement is on the left
-        self.bound_edges = [(p, q) for _, p, q in corners(inner)]
+        # the complement is on the left
+        self.bound_corners = corners(rectangle(*bounds)[::-1]) if bounds else []
         self._contacts = {id(self.robot): set(self.robot_corners), id(self.obstacles): set(self.obstacle_corners)}
-        self.wall_boxes = boxes(self.walls, self.scale)
+        self.unit = max(map(abs, around))
+        self.wall_boxes = boxes(self.walls, self.unit)
 
     def _add_pieces(self, pieces: list[Ring], polygon: Polygon, name: str, scale: int = 0) -> None:
         factor = (scale or self.scale) // polygon.denominator
@@ -96,14 +94,13 @@ class World:
             yield from (vertex_edge(c, corner[1], corner[2]) for c in convex)
             if is_convex(corner):
                 yield from (edge_vertex(a, b, corner) for _, a, b in self.robot_corners)
-        for p, q in self.bound_edges:
-            yield Surface(ZERO, ZERO, p, minus(q, p))
+        yield from (Surface(ZERO, ZERO, p, minus(q, p)) for _, p, q in self.bound_corners)
 
     def contact(self, name: Name) -> Surface:
         """The contact surface that a patch of the file is part of."""
         kind, i, j = name
         a, b = corner_of(self.robot, i), corner_of(self.obstacles, j)
-        if kind == 1 and a == (ZERO, ZERO, ZERO) and b[1:] in self.bound_edges:
+        if kind == 1 and a == (ZERO, ZERO, ZERO) and b in self.bound_corners:
             return Surface(ZERO, ZERO, b[1], minus(b[2], b[1]))
         if a not in self._contacts[id(self.robot)] or b not in self._contacts[id(self.obstacles)]:
             raise Fault("its features are no features of one robot polygon and one obstacle")
@@ -138,7 +135,7 @@ class World:
     # --- what is forbidden ---
 
     def is_forbidden(self, turn: Turn, pose: Pose) -> bool:
-        """Is a pose forbidden, at which the robot touches an obstacle or the reference point the bounds?"""
+        """Is a pose forbidden? At a rational angle, by separating edges, apart from the pillars that slices use."""
         (x, y), d = pose
         if self.bounds:
             x0, y0, x1, y1 = (d * b for b in self.bounds)
@@ -147,7 +144,7 @@ class World:
         k = d // turn.w
         for part in self.parts:
             placed = [(x + k * u, y + k * v) for u, v in map(turn, part)]
-            (box,) = boxes([placed], d * self.scale)
+            (box,) = boxes([placed], d * self.unit)
             for wall in near(self.wall_boxes, box):
                 if interiors_meet(placed, [(u * d, v * d) for u, v in self.walls[wall]]):
                     return True
@@ -173,14 +170,6 @@ def edge_vertex(a: Vector, end: Vector, corner: Corner) -> Surface:
     return Surface(a, g, b, ZERO, limits)
 
 
-def corners(ring: Ring) -> list[Corner]:
-    return list(zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True))
-
-
-def is_convex(corner: Corner) -> bool:
-    return cross(minus(corner[1], corner[0]), minus(corner[2], corner[1])) > 0
-
-
 def corner_of(shape: Any, k: int) -> Corner:
     previous = shape.vertices[int(shape.previous[k])]
     return previous, shape.vertices[k], shape.vertices[int(shape.w[k])]
@@ -193,77 +182,3 @@ def edge_of(shape: Any, k: int) -> tuple[Vector, Vector]:
 def name_of(code: int) -> Name:
     kind, i, j = unpacked(code)
     return kind, i, j
-
-
-# --- convex pieces ---
-
-
-def rectangle(x0: int, y0: int, x1: int, y1: int) -> Ring:
-    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
-
-
-def frame(outer: Sequence[int], inner: Sequence[int]) -> list[Ring]:
-    """Four rectangles that cover what is between two."""
-    (X0, Y0, X1, Y1), (x0, y0, x1, y1) = outer, inner
-    return [rectangle(*side) for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1))]
-
-
-def rings_of(polygon: Polygon, scale: int) -> list[Ring]:
-    factor = scale // polygon.denominator
-    return [[(x * factor, y * factor) for x, y in polygon.numerators[i:j]] for i, j in pairwise(polygon.ring_offsets)]
-
-
-def tile(pieces: Iterable[Ring], rings: Iterable[Ring]) -> bool:
-    """Are the pieces convex, and do they cover the region of rings without overlap?
-
-    Notes
-    -----
-    On every line the pieces' directed edges have to add up to those of the rings: then the sum of the pieces'
-    indicators is the rings' winding number. A sum of directed segments of one line vanishes if their ends cancel.
-    """
-    ends: Counter[tuple[Vector, int, Vector]] = Counter()
-    for shapes, times in ((pieces, 1), (rings, -1)):
-        for ring in shapes:
-            around = corners(ring)
-            fan = [(ring[0], p, q) for _, p, q in around[1:-1]]
-            if times == 1 and not all(map(is_convex, around + fan)):
-                return False
-            for _, p, q in around:
-                u = primitive(minus(q, p))
-                ends[u, cross(u, p), q] += times
-                ends[u, cross(u, p), p] -= times
-    return not any(ends.values())
-
-
-def primitive(u: Vector) -> Vector:
-    """The shortest integer vector along a line, one of its two."""
-    k = gcd(*u) if u > (0, 0) else -gcd(*u)
-    return u[0] // k, u[1] // k
-
-
-def interiors_meet(first: Ring, second: Ring) -> bool:
-    """Do the interiors of two convex counter-clockwise polygons meet? If not, an edge of one separates them."""
-    for one, other in ((first, second), (second, first)):
-        for _, p, q in corners(one):
-            u = minus(q, p)
-            level = cross(u, p)
-            if all(cross(u, r) <= level for r in other):
-                return False
-    return True
-
-
-def boxes(rings: Sequence[Ring], scale: int) -> NDArray[np.float64]:
-    """Boxes around rings, rounded outwards: for looking around, never for a decision."""
-
-    def box(ring: Ring) -> list[float]:
-        bound: list[tuple[Callable[..., int], float]] = [(min, -inf), (max, inf)]
-        return [nextafter(of(axis) / scale, away) for of, away in bound for axis in zip(*ring, strict=True)]
-
-    return np.array([box(ring) for ring in rings]).reshape(-1, 4)
-
-
-def near(around: NDArray[np.float64], box: NDArray[np.float64]) -> list[int]:
-    """Which boxes meet a box."""
-    meets = (around[:, :2] <= box[2:]) & (box[:2] <= around[:, 2:])
-    found: list[int] = np.flatnonzero(meets.all(axis=1)).tolist()
-    return found

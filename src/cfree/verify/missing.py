@@ -1,0 +1,104 @@
+"""Is anything missing? All free contacts at one angle, computed from scratch, against the file's.
+
+What the open pillars leave of the closed contacts has to be what trapezoids, ends included, and isolated parts make at
+that angle. Both are compared as sets of points: segments on one line are united, and a point may lie on any of them.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+from decimal import Decimal
+from fractions import Fraction
+from itertools import pairwise
+
+from cfree.verify.algebra import Exact, Number
+from cfree.verify.isolated import pieces
+from cfree.verify.section import Interval, Section
+from cfree.verify.surfaces import LineKey, Turn, Vector, point_at, position_of
+from cfree.verify.trapezoids import Reader
+from cfree.verify.world import World
+
+Wrong = list[tuple[str, str]]  # where, what
+
+
+class Places:
+    """A set of points that consists of segments and points of lines."""
+
+    def __init__(self, found: Iterable[tuple[LineKey, Interval]]) -> None:
+        on: dict[LineKey, list[Interval]] = defaultdict(list)
+        self.points: set[Vector] = set()
+        for key, (lo, hi) in found:
+            if lo < hi:
+                on[key].append((lo, hi))
+            else:
+                self.points.add(point_at(key, lo))
+        self.segments = {key: united(intervals) for key, intervals in on.items()}
+        self._ends = {point_at(key, x) for key, them in self.segments.items() for interval in them for x in interval}
+
+    def has(self, point: Vector) -> bool:
+        if point in self._ends or point in self.points:
+            return True
+        found = ((position_of(key, point), intervals) for key, intervals in self.segments.items())
+        return any(x is not None and any(lo <= x <= hi for lo, hi in intervals) for x, intervals in found)
+
+
+def united(intervals: Iterable[Interval]) -> list[Interval]:
+    result: list[Interval] = []
+    for lo, hi in sorted(intervals):
+        if result and lo <= result[-1][1]:
+            result[-1] = result[-1][0], max(hi, result[-1][1])
+        else:
+            result.append((lo, hi))
+    return result
+
+
+def compared(reader: Reader, turn: Turn) -> tuple[int, Wrong]:
+    """Scene and file at one angle: how many segments and points there are, and where the two differ."""
+    there = list(pieces(reader, turn))
+    true, found = free_contacts(reader.world, turn), Places((piece.line, (piece.lo, piece.hi)) for piece in there)
+    wrong = []
+    for line in true.segments.keys() | found.segments.keys():
+        ours, theirs = true.segments.get(line, []), found.segments.get(line, [])
+        if ours != theirs:
+            sizes = (rounded(reader.world, turn, sum(q - p for p, q in them)) for them in (ours, theirs))
+            wrong.append((point_at(line, (ours or theirs)[0][0]), "free contacts of length {}, {} in the file".format(*sizes)))
+    wrong += [(point, "a free point is not in the file") for point in true.points if not found.has(point)]
+    wrong += [(point, "a point of the file is not free") for point in found.points if not true.has(point)]
+    sheets: dict[tuple[LineKey, bool], list[Interval]] = defaultdict(list)
+    for piece in there:
+        if piece.facing is not None:
+            sheets[piece.line, piece.facing].append((piece.lo, piece.hi))
+    for (line, _), intervals in sheets.items():
+        if any(p[1] > q[0] for p, q in pairwise(sorted(intervals))):
+            wrong.append((point_at(line, min(intervals)[0]), "trapezoids on one another"))
+    number = sum(map(len, true.segments.values())) + len(true.points)
+    return number, sorted((place(reader.world, turn, point), text) for point, text in wrong)
+
+
+def free_contacts(world: World, turn: Turn) -> Places:
+    """What open pillars leave of all contacts, their ends included."""
+    section = Section(world, turn)
+
+    def left() -> Iterator[tuple[LineKey, Interval]]:
+        for surface in world.contacts():
+            if all(turn.value(limit) <= 0 for limit in surface.limits):
+                line = turn.line(surface)
+                for interval in section.on_contact(surface):
+                    lo, hi = sorted(map(line.position, interval))
+                    yield line.key, (lo, hi)
+
+    return Places(left())
+
+
+def rounded(world: World, turn: Turn, x: Exact) -> str:
+    """A length, in the scene's coordinates."""
+    numbers = (n.rounded(Fraction(1, 10**9)) if isinstance(n, Number) else Fraction(n) for n in (x, turn.w))
+    value, w = numbers
+    value /= w * world.scale
+    return f"{Decimal(value.numerator) / Decimal(value.denominator):.6g}"
+
+
+def place(world: World, turn: Turn, point: Vector) -> str:
+    x, y = (rounded(world, turn, c) for c in point)
+    return f"{turn}, near ({x}, {y})"

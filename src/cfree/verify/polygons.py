@@ -1,0 +1,116 @@
+"""Rings of exact points, the interior on the left: convex pieces, sums, and boxes to look around with."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from math import gcd
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.polygon import Polygon
+from cfree.verify.surfaces import Vector, cross, minus
+
+Ring = list[Vector]
+Corner = tuple[Vector, Vector, Vector]  # a vertex between its neighbours
+
+
+def rings_of(polygon: Polygon, scale: int) -> list[Ring]:
+    factor = scale // polygon.denominator
+    return [[(x * factor, y * factor) for x, y in polygon.numerators[i:j]] for i, j in pairwise(polygon.ring_offsets)]
+
+
+def corners(ring: Ring) -> list[Corner]:
+    return list(zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True))
+
+
+def is_convex(corner: Corner) -> bool:
+    return bool(cross(minus(corner[1], corner[0]), minus(corner[2], corner[1])) > 0)
+
+
+def rectangle(x0: int, y0: int, x1: int, y1: int) -> Ring:
+    return [(x0, y0), (x1, y0), (x1, y1), (x0, y1)]
+
+
+def frame(outer: Sequence[int], inner: Sequence[int]) -> list[Ring]:
+    """Four rectangles that cover what is between two."""
+    (X0, Y0, X1, Y1), (x0, y0, x1, y1) = outer, inner
+    return [rectangle(*side) for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1))]
+
+
+def tile(pieces: Iterable[Ring], rings: Iterable[Ring]) -> bool:
+    """Are the pieces convex, and do they cover the region of rings without overlap?
+
+    Notes
+    -----
+    On every line the pieces' directed edges have to add up to those of the rings: then the sum of the pieces'
+    indicators is the rings' winding number. A sum of directed segments of one line vanishes if their ends cancel.
+    """
+    ends: Counter[tuple[Vector, int, Vector]] = Counter()
+    for shapes, times in ((pieces, 1), (rings, -1)):
+        for ring in shapes:
+            around = corners(ring)
+            fan = [(ring[0], p, q) for _, p, q in around[1:-1]]
+            if times == 1 and not all(map(is_convex, around + fan)):
+                return False
+            for _, p, q in around:
+                u = primitive(minus(q, p))
+                ends[u, cross(u, p), q] += times
+                ends[u, cross(u, p), p] -= times
+    return not any(ends.values())
+
+
+def primitive(u: Vector) -> Vector:
+    """The shortest integer vector along a line, one of its two."""
+    k = gcd(*u) if u > (0, 0) else -gcd(*u)
+    return u[0] // k, u[1] // k
+
+
+def interiors_meet(first: Ring, second: Ring) -> bool:
+    """Do the interiors of two convex counter-clockwise polygons meet? If not, an edge of one separates them."""
+    for one, other in ((first, second), (second, first)):
+        for _, p, q in corners(one):
+            u = minus(q, p)
+            level = cross(u, p)
+            if all(cross(u, r) <= level for r in other):
+                return False
+    return True
+
+
+def convex_sum(first: Ring, second: Ring) -> Ring:
+    """Minkowski sum of two convex polygons: their edges merged by direction."""
+    p, q = (_turned_to_lowest(ring) for ring in (first, second))
+    u, v = ([minus(end, start) for _, start, end in corners(ring)] for ring in (p, q))
+    i = j = 0
+    found = []
+    while i < len(u) or j < len(v):
+        x, y = p[i % len(p)], q[j % len(q)]
+        found.append((x[0] + y[0], x[1] + y[1]))
+        order = -1 if i == len(u) else 1 if j == len(v) else cross(u[i], v[j])
+        i, j = i + (order >= 0), j + (order <= 0)
+    return found
+
+
+def _turned_to_lowest(ring: Ring) -> Ring:
+    k = min(range(len(ring)), key=lambda k: (ring[k][1], ring[k][0]))
+    return ring[k:] + ring[:k]
+
+
+# --- looking around, in doubles ---
+
+Boxes = NDArray[np.float64]  # (n, 4): xmin, ymin, xmax, ymax
+
+
+def boxes(rings: Iterable[Ring], unit: int) -> Boxes:
+    """Boxes around rings of integers, in a unit as large as the scene; larger by more than what is rounded."""
+    found = [[of(p[k] / unit for p in ring) for of in (min, max) for k in (0, 1)] for ring in rings]
+    return np.array(found, float).reshape(-1, 4) + 2.0**-40 * np.array([-1, -1, 1, 1])
+
+
+def near(around: Boxes, box: Boxes) -> list[int]:
+    """Which boxes meet a box."""
+    meets = (around[:, :2] <= box[2:]) & (box[:2] <= around[:, 2:])
+    found: list[int] = np.flatnonzero(meets.all(axis=1)).tolist()
+    return found
