@@ -6,6 +6,7 @@ import multiprocessing
 import random
 import subprocess
 import sys
+from collections import Counter
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
@@ -19,10 +20,14 @@ import cfree.verify
 import oracles
 import strategies
 from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene
-from cfree.verify.algebra import between, compare, roots
-from cfree.verify.slices import Positions, crossing, pillar, segments_of_scene
-from cfree.verify.surfaces import Turn
-from cfree.verify.world import World, interiors_meet, tile
+from cfree.verify.algebra import Number, between, roots
+from cfree.verify.matching import matched
+from cfree.verify.missing import free_contacts
+from cfree.verify.polygons import convex_sum, tile
+from cfree.verify.section import Section, left_over
+from cfree.verify.surfaces import Line, Turn
+from cfree.verify.trapezoids import Reader
+from cfree.verify.world import World
 from compared import plain_of, scene_of
 from shapes import KINDS, PlainScene, random_scene
 
@@ -33,6 +38,15 @@ SMALL = [path for path in sorted(SCENES.glob("*.json")) if path.stem not in REAL
 CASES = sorted((TESTS / "cases").glob("*.json"))
 FLAT = SCENES / "flat.json"
 TAUS = [Fraction(1, 7), Fraction(-5, 9), Fraction(2, 3)]
+
+
+def euler_of(result: Boundary) -> list[int]:
+    """From the checker's own matching."""
+    columns = result.contact_kind, result.contact_robot, result.contact_obstacle
+    reader = Reader(result.scene, columns, result.trapezoids, result.isolated)
+    matching = matched(reader, {k: reader.trapezoid(k).sides() for k in range(len(result.trapezoids))})
+    assert not matching.unmatched and matching.pinched == len(result.complex.pinched)
+    return matching.euler
 
 
 def verified(scene: Scene, **options: object) -> cfree.verify.Verification:
@@ -63,8 +77,23 @@ def test_small_integer_scenes_verify(plain: PlainScene) -> None:
 def test_a_sample_of_the_warehouse_verifies() -> None:
     result = verified(load_scene(SCENES / "benchmr_warehouse.json"), sample=400, slices=1)
     assert not result.findings
-    assert [check.how for check in result.checks] == ["PROVED", "SAMPLED", "SAMPLED", "SAMPLED", "SKIPPED", "SAMPLED"]
+    assert [check.how for check in result.checks] == [
+        "PROVED", "SAMPLED", "SAMPLED", "SAMPLED", "SKIPPED", "PROVED", "SAMPLED",
+    ]  # fmt: skip
     assert result.checks[1].extent.startswith("400 of ")
+
+
+@pytest.mark.parametrize("path", [*SMALL, *CASES], ids=lambda path: path.stem)
+def test_euler_numbers_are_those_of_the_cell_complex(path: Path) -> None:
+    result = boundary(load_scene(path), threads=1)
+    assert euler_of(result) == sorted(result.complex.euler.tolist())
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_euler_numbers_of_random_scenes_are_those_of_the_cell_complex(kind: str) -> None:
+    for seed in range(100, 108):
+        result = boundary(scene_of(random_scene(seed, kind)), threads=1)
+        assert euler_of(result) == sorted(result.complex.euler.tolist()), seed
 
 
 # --- the interface ---
@@ -101,6 +130,17 @@ def test_the_core_is_not_used(flat: Path) -> None:
     )
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stdout == "True\n", done.stderr
+
+
+def test_an_incomplete_boundary_is_not_verified(tmp_path: Path) -> None:
+    part = boundary(load_scene(FLAT))
+    part.trimmed = np.arange(len(part.trimmed)) > 0  # all but one
+    part.save(tmp_path / "part.npz")
+    for source in (part, tmp_path / "part.npz"):
+        result = cfree.verify.boundary(source, part.scene)
+        assert not result.verified and "REFUTED" in result.verdict
+        assert [finding.kind for finding in result.findings] == ["incomplete"]
+        assert f"{len(part.trimmed) - 1:,} of {len(part.trimmed):,} patches trimmed" in str(result)
 
 
 def test_another_scene_is_a_finding(flat: Path) -> None:
@@ -144,7 +184,7 @@ def test_roots_are_counted_compared_and_known_under_every_name() -> None:
         assert float(root.lo) <= x <= float(root.hi)
     ((again, _),) = roots(fmpz_poly([-1, 0, 2]) * fmpz_poly([5, 1]), Fraction(7, 10), Fraction(8, 10))
     assert again.key == found[2][0].key != found[0][0].key
-    assert compare(found[0][0], found[2][0]) == -1 and compare(again, found[2][0]) == 0
+    assert found[0][0] < found[2][0] and again == found[2][0] and not again < found[2][0]
     assert not roots(p, Fraction(9, 10), Fraction(1))
 
 
@@ -185,41 +225,35 @@ def test_tiling_is_judged_exactly() -> None:
     assert not tile([star], [star])  # not convex
 
 
-def test_overlap_agrees_with_the_oracle() -> None:
-    rng = random.Random(0)
-    for _ in range(300):
-        first, second = (
-            strategies.convex_ring([(rng.randrange(5) + d, rng.randrange(5)) for _ in range(6)]) for d in (0, 3)
-        )
-        if min(len(first), len(second)) > 2:
-            assert interiors_meet(first, second) == oracles.interiors_meet(tuple(first), tuple(second))
-
-
 @pytest.mark.parametrize("name", ["degenerate_workspace", "sofa_corner", "degenerate_bounds_on_walls"])
-def test_forbidden_poses_agree_with_the_oracle(name: str) -> None:
+def test_free_contacts_agree_with_the_oracle(name: str) -> None:
+    """Between and beside the free intervals of contacts."""
     scene = load_scene(SCENES / f"{name}.json")
-    world, plain, rng, answers = World(scene), plain_of(scene), random.Random(0), set()
-    shapes = [*plain.obstacles, *([plain.workspace] if plain.workspace else [])]
-    x0, y0, x1, y1 = (round(12 * c) for c in oracles.box_of(shapes))
-    for _ in range(100):
-        x, y, d = rng.randint(x0, x1), rng.randint(y0, y1), 12
-        turn = Turn.of(0, rng.choice(TAUS))
-        pose = (x * world.scale * turn.w, y * world.scale * turn.w), d * turn.w
-        expected = oracles.exact_is_forbidden(
-            plain.robot, plain.obstacles, Fraction(x, d), Fraction(y, d), turn.tau, plain.bounds, plain.workspace
-        )
-        answers.add(expected)
-        assert world.is_forbidden(turn, pose) == expected
-    assert answers == {True, False}
+    world, plain, answers = World(scene), plain_of(scene), Counter[bool]()
+    for tau in TAUS:
+        turn = Turn.of(0, tau)
+        section = Section(world, turn)
+        for surface in list(world.contacts())[::7]:
+            if any(turn.value(limit) > 0 for limit in surface.limits):
+                continue
+            free, line = section.on_contact(surface), turn.line(surface)
+            for t in (Fraction(k, 6) for k in range(7)):
+                x, y = (Fraction(c) / (turn.w * world.scale) for c in line.point(t))
+                expected = oracles.exact_is_forbidden(
+                    plain.robot, plain.obstacles, x, y, tau, plain.bounds, plain.workspace
+                )
+                assert any(lo <= t <= hi for lo, hi in free) != expected
+                answers[expected] += 1
+    assert min(answers[True], answers[False]) > 10
 
 
-def test_pillars_are_the_oracles_hulls() -> None:
+def test_sums_are_the_oracles_hulls() -> None:
     scene = load_scene(SCENES / "five_convex.json")
     world, plain = World(scene), plain_of(scene)
     for tau in TAUS:
         turn = Turn.of(0, tau)
         (part,) = ([(-x, -y) for x, y in map(turn, part)] for part in world.parts)
-        mine = [pillar([(turn.w * x, turn.w * y) for x, y in wall], part) for wall in world.walls]
+        mine = [convex_sum([turn.fixed(p) for p in wall], part) for wall in world.walls]
         size = turn.w * world.scale
         area = sum(oracles.ring_area([(Fraction(x, size), Fraction(y, size)) for x, y in ring]) for ring in mine)
         hulls = [
@@ -230,13 +264,16 @@ def test_pillars_are_the_oracles_hulls() -> None:
         assert area == sum(map(oracles.ring_area, hulls))
 
 
-def test_a_line_crosses_a_square() -> None:
+def test_what_squares_leave_of_a_line() -> None:
     square = [(0, 0), (4, 0), (4, 4), (0, 4)]
-    half = Fraction(1, 2)
-    assert list(crossing(square, (-4, 1), (8, 0))) == [(half, Fraction(1))]
-    assert not list(crossing(square, (0, 0), (4, 0)))  # along an edge
-    assert not list(crossing(square, (-4, 1), (4, 0)))  # up to it
-    assert Positions((0, 1), (6, -3)).key == ((2, -1), 2)
+    beside = [(4, 0), (8, 0), (8, 4), (4, 4)]
+    half, third = Fraction(1, 2), Fraction(1, 3)
+    assert left_over([square], Line((-4, 1), (8, 0))) == [(0, half), (1, 1)]
+    assert left_over([square], Line((0, 0), (4, 0))) == [(0, 1)]  # along an edge
+    assert left_over([square], Line((-4, 1), (4, 0))) == [(0, 1)]  # up to it
+    assert left_over([square, beside], Line((-4, 1), (12, 0))) == [(0, third), (2 * third, 2 * third), (1, 1)]
+    assert left_over([square, beside], Line((1, 1), (7, 0))) == [(Fraction(3, 7), Fraction(3, 7)), (1, 1)]
+    assert Line((0, 1), (6, -3)).key == Line((4, -1), (-2, 1)).key == (-half, 1)
 
 
 @pytest.mark.parametrize("name", ["sofa_corner", "flat", "degenerate_overlapping"])
@@ -245,14 +282,49 @@ def test_slices_have_the_oracles_perimeter(name: str) -> None:
     world, plain = World(scene), plain_of(scene)
     for tau in TAUS:
         turn = Turn.of(0, tau)
-        found = segments_of_scene(world, turn)
-        assert found is not None
-        total = sum(float(q - p) / np.hypot(*line[0]) for line, parts in found.items() for p, q in parts)
+        found = free_contacts(world, turn).segments
+        total = sum(
+            float(q - p) * (np.hypot(1, float(slope)) if slope is not None else 1)
+            for (slope, _), parts in found.items()
+            for p, q in parts
+        )
         theta = 2 * np.arctan(float(tau))
         oracle = oracles.forbidden_slice(plain.robot, plain.obstacles, theta, plain.bounds, plain.workspace)
         if plain.bounds or plain.workspace:
             oracle = oracles.free_slice(plain.robot, plain.obstacles, theta, plain.bounds, plain.workspace)
         assert total / (turn.w * world.scale) == pytest.approx(oracle.length, rel=1e-9)
+
+
+def test_an_irrational_angle_is_as_good_as_a_rational_one() -> None:
+    """At tan(theta / 2) = sqrt(2) - 1, a turn by 45 degrees, against doubles."""
+    scene = load_scene(SCENES / "degenerate_hexagons.json")
+    world = World(scene)
+    ((root, _),) = roots(fmpz_poly([-1, 2, 1]), Fraction(0), Fraction(1))
+    exact, rounded = Turn(0, root), Turn.of(0, Fraction(2**0.5 - 1))
+    assert exact.c == exact.s and (exact.c * exact.c * 2 == exact.w * exact.w)
+    one, other = free_contacts(world, exact), free_contacts(world, rounded)
+    sizes = []
+    for turn, places in ((exact, one), (rounded, other)):
+        lengths = [q - p for parts in places.segments.values() for p, q in parts]
+        approx = [float(x.rounded(Fraction(1, 10**12)) if isinstance(x, Number) else x) for x in [*lengths, turn.w]]
+        sizes.append(sorted(x / approx[-1] for x in approx[:-1]))
+    assert len(sizes[0]) > 10 and sizes[0] == pytest.approx(sizes[1], rel=1e-9)
+
+
+def test_a_point_is_enclosed_if_pillars_take_every_direction() -> None:
+    """A robot of no size to speak of, between boxes; its reference point at their corners and in gaps."""
+    robot = Polygon([(0, 0), (1, 0), (0, 1)])
+    rim = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
+    section = Section(World(Scene(robot, [Polygon(rim, [[(0, 0), (0, 1), (1, 0)]])])), Turn.of(0, Fraction(0)))
+    assert section.encloses((0, 0))  # in its hole
+    assert not section.encloses((0, -1))  # forbidden
+    slot = [(-9, 0), (9, 0), (9, 1), (-9, 1)]
+    walls = [[(-9, -1), (9, -1), (9, 0), (-9, 0)], [(-9, 1), (9, 1), (9, 2), (-9, 2)]]
+    section = Section(World(Scene(robot, walls)), Turn.of(0, Fraction(0)))
+    assert slot and section.encloses((0, 0), along=(1, 0)) and not section.encloses((0, 0))
+    assert not section.encloses((0, 0), along=(0, 1))
+    section = Section(World(Scene(robot, walls[:1])), Turn.of(0, Fraction(0)))
+    assert not section.encloses((0, 0), along=(1, 0))  # nothing above
 
 
 def test_a_polygon_whose_pieces_do_not_tile_is_a_finding(monkeypatch: pytest.MonkeyPatch) -> None:

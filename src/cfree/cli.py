@@ -206,7 +206,7 @@ def verify(
         int | None,
         typer.Option(metavar="N", min=0, help="Check N trapezoids, and not their sides.", show_default="all"),
     ] = None,
-    slices: Annotated[int, typer.Option(metavar="N", min=0, help="Orientations to compute again.")] = 8,
+    slices: Annotated[int, typer.Option(metavar="N", min=0, help="Orientations to compute again.")] = 12,
     seed: Annotated[int, typer.Option(metavar="N", help="Of the random choices.")] = 0,
     threads: ThreadsOption = None,
     as_json: JsonOption = False,

@@ -141,7 +141,7 @@ class Number:
 
     def __lt__(self, other: Number | int) -> bool:
         difference = Number(self.root, self.poly - _poly(other))
-        return difference.poly != 0 and difference.rounded(None) < 0
+        return bool(difference.poly) and difference.rounded(None) < 0
 
     def rounded(self, error: Fraction | None) -> Fraction:
         """A rational number that differs by at most an error; if that is None, by so little that its sign is right."""

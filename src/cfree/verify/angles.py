@@ -102,7 +102,7 @@ def facing(world: World, rng: random.Random) -> list[Form]:
     return [first.form(minus(second.b, first.b), minus(second.a, first.a)) for first, second in pairs]
 
 
-def opposite(edges: list[Corner], others: list[Corner], rng: random.Random) -> list[Any]:
+def opposite(edges: list[Corner], others: list[Corner], rng: random.Random) -> Sequence[Any]:
     """An edge, the start of one that runs the other way, and two vertices of the others."""
     directed: dict[Vector, list[Corner]] = defaultdict(list)
     for edge in edges:

@@ -244,23 +244,26 @@ def _place(reader: Reader, numbers: Sequence[int]) -> str:
 
 
 def _checks(whole: Part, reader: Reader, matching: Matching | None, refuted: set[str]) -> tuple[Check, ...]:
-    world, n, count = reader.world, whole.trapezoids, len(reader.table)
-    every = f"{n:,} trapezoids" if n == count else f"{n:,} of {count:,} trapezoids"
-    proved = PROVED if n == count else SAMPLED
+    world, count, total = reader.world, whole.trapezoids, len(reader.table)
+    every = f"{count:,} trapezoids" if count == total else f"{count:,} of {total:,} trapezoids"
+    proved = PROVED if count == total else SAMPLED
     closed = SKIPPED, "needs every trapezoid"
     if matching is not None:
         numbers = ", ".join(f"{times:,} of {euler}" for euler, times in sorted(Counter(matching.euler).items()))
         pinched = f" ({matching.pinched:,} where more than two meet)" if matching.pinched else ""
         surfaces = f"{len(matching.euler):,} surfaces; Euler numbers: {numbers or 'none'}"
         closed = PROVED, f"{matching.edges:,} edges have partners{pinched}; {surfaces}"
-    parts = f"{len(reader.isolated):,} parts: free, of no width, on no trapezoid; curves at three angles"
+    curves = int((reader.isolated.kind == CURVE).sum())
+    parts = f"{len(reader.isolated):,} parts: free, of no width, on no trapezoid"
+    parts += f"; {curves:,} are curves, looked at three angles each" if curves else ""
+    slices = f"{whole.slices} exact slices, {whole.contacts:,} free contacts"
     rows = (
         (PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles: convex, tiling them"),
         (ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order, in the chart"),
         (DOMAINS, proved, f"{every}: contact in range and 0 <= lower <= upper <= 1 from first to second angle"),
-        (FREE, SAMPLED, f"{every}: on the contact, inside no obstacle, at one exact point each"),
+        (FREE, SAMPLED, f"{every}: nothing covers any of it at one exact angle each"),
         (CLOSED, *closed),
-        (ISOLATED, SAMPLED if (reader.isolated.kind == CURVE).any() else PROVED, parts),
-        (MISSING, SAMPLED, f"{whole.slices} exact slices, {whole.contacts:,} free contacts: computed anew, and the same"),
+        (ISOLATED, SAMPLED if curves else PROVED, parts),
+        (MISSING, SAMPLED, f"{slices}: computed anew, and the same"),
     )
     return tuple(Check(name, REFUTED if name in refuted else how, extent) for name, how, extent in rows)

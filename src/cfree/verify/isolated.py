@@ -47,9 +47,10 @@ class IsolatedPart:
             if chart == self.chart and self.start <= here <= self.stop:
                 line = turn.line(self.reader.surface(int(self._columns.patch[self.index])))
                 ends = [position_of(line.key, self.end(turn, here, c)[1]) for c in (self.lower, self.upper)]
-                if None in ends:
+                lo, hi = ends if ends[0] is None or ends[1] is None or ends[0] < ends[1] else ends[::-1]
+                if lo is None or hi is None:
                     raise Fault("its ends are not on the line of its patch")
-                return Piece(line.key, min(ends), max(ends), ("isolated part", self.index))
+                return Piece(line.key, lo, hi, ("isolated part", self.index))
         return None
 
     def check(self) -> None:

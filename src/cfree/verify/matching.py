@@ -1,9 +1,9 @@
 """Is the surface closed? The sides of all trapezoids are matched; what that makes is counted: V - E + F.
 
-Sides lie on curves, or on lines at critical angles. There the ends of all sides on one of them cut each into *edges*, and
-along every edge as many run one way as the other. The forbidden side is on the left of a patch, so that going round an
-edge, sheets at which free space begins and sheets at which it ends take turns: the two that bound one free sector are
-partners. Then every edge has one partner, and every component is a closed surface.
+Sides lie on curves, or on lines at critical angles. The ends of all sides on one of them cut each into *edges*. The
+forbidden side of a patch is on its left, so that going round an edge, sheets after which space is free and sheets
+before which it is take turns, and run opposite ways: two that bound one free sector are partners. If every edge has
+one, what they make are closed surfaces.
 """
 
 from __future__ import annotations
@@ -116,10 +116,8 @@ def _compare(x: tuple[int, Any], y: tuple[int, Any]) -> int:
     """Half turns, then directions in them, vectors or slopes."""
     if x[0] != y[0]:
         return x[0] - y[0]
-    if isinstance(x[1], tuple):
-        turned = cross(x[1], y[1])
-        return (turned < 0) - (turned > 0)
-    return (x[1] > y[1]) - (x[1] < y[1])
+    first, second = (0, cross(x[1], y[1])) if isinstance(x[1], tuple) else (x[1], y[1])
+    return int(first > second) - int(first < second)
 
 
 def _ray(reader: Reader, sheet: Sheet, tau: Fraction) -> tuple[int, Vector]:
@@ -137,10 +135,10 @@ def _slope(reader: Reader, sheet: Sheet, position: Exact) -> tuple[int, Exact]:
 
     Notes
     -----
-    Across the line and theta are the axes here. The line is where h = U x (P - b + R a) vanishes, and J D to the left of
-    its own direction D: it moves at the rate -h' / (U . D), where h' = -R' g x (P - b + R a) + U x R' a, R' = J R.
-    Sheets after the wall have falling rates as one goes round, those before it, too. Different surfaces whose rates are
-    the same on a whole edge coincide, see theory.md.
+    The line of a surface is where h = U x (P - b + R a) vanishes. It moves to the left of the wall's direction D at the
+    rate -h' / (U . D), where h' = -R' g x (P - b + R a) + U x R' a and R' = J R. Going round, rates fall among sheets
+    after the wall, and among those before it. If rates are equal the surfaces are: two of one kind belong to one vertex
+    then, and those of a v-e and an e-v contact differ but at one position, where a vertex of the boundary would be.
     """
     k, number = sheet
     t = reader.table

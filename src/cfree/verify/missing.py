@@ -12,7 +12,7 @@ from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 
-from cfree.verify.algebra import Exact, Number
+from cfree.verify.algebra import Number
 from cfree.verify.isolated import pieces
 from cfree.verify.section import Interval, Section
 from cfree.verify.surfaces import LineKey, Turn, Vector, point_at, position_of
@@ -55,18 +55,18 @@ def united(intervals: Iterable[Interval]) -> list[Interval]:
 
 def compared(reader: Reader, turn: Turn) -> tuple[int, Wrong]:
     """Scene and file at one angle: how many segments and points there are, and where the two differ."""
-    there = list(pieces(reader, turn))
-    true, found = free_contacts(reader.world, turn), Places((piece.line, (piece.lo, piece.hi)) for piece in there)
+    listed = list(pieces(reader, turn))
+    true, found = free_contacts(reader.world, turn), Places((piece.line, (piece.lo, piece.hi)) for piece in listed)
     wrong = []
     for line in true.segments.keys() | found.segments.keys():
         ours, theirs = true.segments.get(line, []), found.segments.get(line, [])
         if ours != theirs:
-            sizes = (rounded(reader.world, turn, sum(q - p for p, q in them)) for them in (ours, theirs))
-            wrong.append((point_at(line, (ours or theirs)[0][0]), "free contacts of length {}, {} in the file".format(*sizes)))
+            text = "on this line other contacts are free" if ours else "a contact of the file is not free"
+            wrong.append((point_at(line, (ours or theirs)[0][0]), text))
     wrong += [(point, "a free point is not in the file") for point in true.points if not found.has(point)]
     wrong += [(point, "a point of the file is not free") for point in found.points if not true.has(point)]
     sheets: dict[tuple[LineKey, bool], list[Interval]] = defaultdict(list)
-    for piece in there:
+    for piece in listed:
         if piece.facing is not None:
             sheets[piece.line, piece.facing].append((piece.lo, piece.hi))
     for (line, _), intervals in sheets.items():
@@ -91,14 +91,9 @@ def free_contacts(world: World, turn: Turn) -> Places:
     return Places(left())
 
 
-def rounded(world: World, turn: Turn, x: Exact) -> str:
-    """A length, in the scene's coordinates."""
-    numbers = (n.rounded(Fraction(1, 10**9)) if isinstance(n, Number) else Fraction(n) for n in (x, turn.w))
-    value, w = numbers
-    value /= w * world.scale
-    return f"{Decimal(value.numerator) / Decimal(value.denominator):.6g}"
-
-
 def place(world: World, turn: Turn, point: Vector) -> str:
-    x, y = (rounded(world, turn, c) for c in point)
-    return f"{turn}, near ({x}, {y})"
+    """In the scene's coordinates, rounded; they may be beyond doubles."""
+    x, y, w = (n.rounded(Fraction(1, 10**9)) if isinstance(n, Number) else Fraction(n) for n in (*point, turn.w))
+    true = (c / w / world.scale for c in (x, y))
+    shown = (f"{Decimal(c.numerator) / Decimal(c.denominator):.6g}" for c in true)
+    return f"{turn}, near ({', '.join(shown)})"

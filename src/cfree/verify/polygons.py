@@ -68,17 +68,6 @@ def primitive(u: Vector) -> Vector:
     return u[0] // k, u[1] // k
 
 
-def interiors_meet(first: Ring, second: Ring) -> bool:
-    """Do the interiors of two convex counter-clockwise polygons meet? If not, an edge of one separates them."""
-    for one, other in ((first, second), (second, first)):
-        for _, p, q in corners(one):
-            u = minus(q, p)
-            level = cross(u, p)
-            if all(cross(u, r) <= level for r in other):
-                return False
-    return True
-
-
 def convex_sum(first: Ring, second: Ring) -> Ring:
     """Minkowski sum of two convex polygons: their edges merged by direction."""
     p, q = (_turned_to_lowest(ring) for ring in (first, second))

@@ -174,7 +174,7 @@ def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
 
 
 class Curve:
-    """t = n / d on a surface in a chart, in lowest terms; `key` is that of the reference points (x : y : z) along it."""
+    """t = n / d on a surface in a chart, in lowest terms; `key` is made of its reference points (x : y : z)."""
 
     __slots__ = ("d", "key", "n")
 

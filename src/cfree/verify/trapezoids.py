@@ -17,6 +17,7 @@ from flint import fmpz_poly
 from numpy.typing import NDArray
 
 from cfree.verify.algebra import Exact, Root, between, part, roots
+from cfree.verify.section import Section
 from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, polynomial
 from cfree.verify.world import World, name_of
 
@@ -76,12 +77,15 @@ class Reader:
             if lo != hi or abs(lo) != 1 or second or place:
                 raise Fault(f"its {end} angle has no name and is no chart wall")
             return Root.of(lo)
-        if not -1 <= lo <= hi <= 1:
+        if not -2 < lo <= hi < 2:
             raise Fault(f"its {end} angle is beyond the chart")
         found = [root for root, _ in roots(self.defining(first, second, surface, chart), lo, hi)]
         if place > len(found) or (len(found) != 1) == (place == 0):
             raise Fault(f"its {end} angle: {len(found)} roots in the interval, place {place}")
-        return found[max(place, 1) - 1]
+        root: Root = found[max(place, 1) - 1]
+        if not Root.of(Fraction(-1)) <= root <= Root.of(Fraction(1)):
+            raise Fault(f"its {end} angle is beyond the chart")
+        return root
 
     def defining(self, first: int, second: int, surface: Surface, chart: int) -> fmpz_poly:
         """The polynomial that names define on a surface: one pair's condition, or that two curves meet."""
@@ -166,12 +170,10 @@ class Trapezoid:
         return any(times % 2 and self.start < root < self.stop for root, times in found)
 
     def sample(self, world: World, turn: Turn) -> None:
-        """A point of it, strictly between its curves, that nothing covers. Proved there, and only there."""
-        t = between(self.lower.at(turn.tau), self.upper.at(turn.tau))
-        line, n, d = turn.line(self.surface), t.numerator, t.denominator
-        (x, y), (u, v) = line.start, line.along
-        if world.is_forbidden(turn, ((d * x + n * u, d * y + n * v), d * turn.w)):
-            raise Fault(f"forbidden at tau = {turn.tau}, t = {t}")
+        """Nothing covers any of it at an angle. Proved there, and only there."""
+        lower, upper = self.lower.at(turn.tau), self.upper.at(turn.tau)
+        if not any(lo <= lower and upper <= hi for lo, hi in Section(world, turn).on_contact(self.surface)):
+            raise Fault(f"forbidden at tau = {turn.tau}, somewhere from t = {lower} to {upper}")
 
     def sides(self) -> list[Side | None]:
         """Counter-clockwise in (t, theta): at start, upper, at stop, lower; None for a side of no length."""

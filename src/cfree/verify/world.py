@@ -13,15 +13,22 @@ from typing import TYPE_CHECKING, Any
 from cfree.features import scene_features, unpacked
 from cfree.polygon import Polygon
 from cfree.verify.polygons import (
-    Corner, Ring, boxes, corners, frame, interiors_meet, is_convex, near, rectangle, rings_of, tile,
+    Corner,
+    Ring,
+    boxes,
+    corners,
+    frame,
+    is_convex,
+    rectangle,
+    rings_of,
+    tile,
 )
-from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Turn, Vector, cross, cut, dot, helix, minus
+from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Vector, cross, cut, dot, helix, minus
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
 
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
-Pose = tuple[Vector, int]  # reference point (x, y) / denominator
 
 
 @dataclass
@@ -63,7 +70,7 @@ class World:
         margin = 1 + 4 * max(abs(c) for ring in robot for p in ring[0] for c in p)
         (x0, *_, x1), (y0, *_, y1) = (sorted(axis) for axis in zip(*points, *[ZERO] * 2, strict=True))
         around = x0 - margin, y0 - margin, x1 + margin, y1 + margin  # holds the robot at every contact
-        self.bounds, self.beyond = (tuple(bounds), frame(around, bounds)) if bounds else ((), [])
+        self.beyond = frame(around, bounds) if bounds else []
         if workspace:
             outer, *holes = workspace
             for k, polygon in enumerate([Polygon(rectangle(*around), [outer]), *map(Polygon, holes)]):
@@ -131,27 +138,6 @@ class World:
         (a, a_end), (b, b_end) = edge_of(self.robot, i), edge_of(self.obstacles, j)
         g, f = minus(a_end, a), minus(b_end, b)
         return 0, cross(g, f), -dot(g, f)
-
-    # --- what is forbidden ---
-
-    def is_forbidden(self, turn: Turn, pose: Pose) -> bool:
-        """Is a pose forbidden? At a rational angle, by separating edges, apart from the pillars that slices use."""
-        (x, y), d = pose
-        if self.bounds:
-            x0, y0, x1, y1 = (d * b for b in self.bounds)
-            if not (x0 <= x <= x1 and y0 <= y <= y1):
-                return True
-        k = d // turn.w
-        for part in self.parts:
-            placed = [(x + k * u, y + k * v) for u, v in map(turn, part)]
-            (box,) = boxes([placed], d * self.unit)
-            for wall in near(self.wall_boxes, box):
-                if interiors_meet(placed, [(u * d, v * d) for u, v in self.walls[wall]]):
-                    return True
-        return False
-
-
-# --- contacts ---
 
 
 def vertex_edge(corner: Corner, b: Vector, end: Vector) -> Surface:
