@@ -13,7 +13,7 @@ from functools import cached_property, lru_cache, total_ordering
 from itertools import pairwise
 from typing import Any
 
-from flint import fmpq_poly, fmpz_poly
+from flint import fmpq, fmpq_poly, fmpz_poly
 
 Coefficients = tuple[int, ...]  # constant term first
 Exact = Any  # int, Fraction or Number
@@ -81,7 +81,7 @@ def part(x: Root, y: Root) -> None:
 
 @total_ordering
 class Number:
-    """A polynomial in an irrational root, reduced, as a number: arithmetic with integers and its like, and order.
+    """A polynomial in an irrational root, reduced, as a number: arithmetic with rationals and its like, and order.
 
     Examples
     --------
@@ -108,38 +108,36 @@ class Number:
     def __hash__(self) -> int:
         return hash(repr(self))
 
-    def __add__(self, other: Number | int) -> Number:
+    def __add__(self, other: Number | Fraction | int) -> Number:
         return Number(self.root, self.poly + _poly(other))
 
-    def __sub__(self, other: Number | int) -> Number:
+    def __sub__(self, other: Number | Fraction | int) -> Number:
         return Number(self.root, self.poly - _poly(other))
 
-    def __rsub__(self, other: int) -> Number:
-        return Number(self.root, other - self.poly)
+    def __rsub__(self, other: Fraction | int) -> Number:
+        return Number(self.root, _poly(other) - self.poly)
 
     def __neg__(self) -> Number:
         return Number(self.root, -self.poly)
 
-    def __mul__(self, other: Number | int) -> Number:
-        if isinstance(other, int):
-            return Number(self.root, self.poly * other)
-        return Number(self.root, self.poly * other.poly % self.root.modulus)
+    def __mul__(self, other: Number | Fraction | int) -> Number:
+        return Number(self.root, self.poly * _poly(other) % self.root.modulus)
 
-    def __truediv__(self, other: Number | int) -> Number:
-        if isinstance(other, int):
-            return Number(self.root, self.poly / other)
+    def __truediv__(self, other: Number | Fraction | int) -> Number:
+        if not isinstance(other, Number):
+            return Number(self.root, self.poly / _poly(other))
         _, inverse, _ = other.poly.xgcd(self.root.modulus)  # the modulus is irreducible: their divisor is 1
         return Number(self.root, self.poly * inverse % self.root.modulus)
 
-    def __rtruediv__(self, other: int) -> Number:
-        return Number(self.root, fmpq_poly([other])) / self
+    def __rtruediv__(self, other: Fraction | int) -> Number:
+        return Number(self.root, fmpq_poly([_poly(other)])) / self
 
     __radd__, __rmul__ = __add__, __mul__
 
     def __eq__(self, other: object) -> bool:
         return bool(self.poly == _poly(other))
 
-    def __lt__(self, other: Number | int) -> bool:
+    def __lt__(self, other: Number | Fraction | int) -> bool:
         difference = Number(self.root, self.poly - _poly(other))
         return bool(difference.poly) and difference.rounded(None) < 0
 
@@ -159,7 +157,9 @@ class Number:
 
 
 def _poly(other: Any) -> Any:
-    return other.poly if isinstance(other, Number) else other
+    if isinstance(other, Number):
+        return other.poly
+    return fmpq(other.numerator, other.denominator) if isinstance(other, Fraction) else other
 
 
 def _number(root: Root, coefficients: list[int], denominator: int) -> Number:
