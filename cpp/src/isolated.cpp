@@ -281,8 +281,10 @@ private:
             const Spot here = place_on(other);
             if (at.order(other, kept[k].low.spot, here) <= 0 && at.order(other, here, kept[k].high.spot) <= 0) return true;
         }
+        const CriticalAngle& angle = point.angle;
         for (const Ridge& r : ridges) {
-            if (r.from.chart() != point.angle.chart() || order(scene, point.angle, r.from) < 0 || order(scene, r.to, point.angle) < 0)
+            if (r.from.chart() == angle.chart() ? order(scene, angle, r.from) < 0 || order(scene, r.to, angle) < 0
+                                                : !angle.is_wall() || (angle.lo > 0 ? r.from.hi != -1 : r.to.lo != 1))
                 continue;
             const Feature other = contact(r.patch);
             if (at.side(other, own, p) == 0 && at.order(other, place_on(other), at.spot(other, r.curve)) == 0) return true;
