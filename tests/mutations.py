@@ -6,8 +6,9 @@ import random
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import fields
+from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -17,8 +18,10 @@ from rich.table import Table
 import cfree.verify
 from cfree import Boundary, boundary, load_scene
 from cfree.features import unpacked
-from cfree.trapezoids import Trapezoids
+from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 from cfree.verify import Verification
+from cfree.verify.algebra import Exact, Number
+from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader
 
 Columns = dict[str, Any]
@@ -29,19 +32,21 @@ ANGLE = ("first", "second", "lo", "hi", "place")
 
 
 def columns_of(good: Boundary) -> Columns:
-    columns = {f.name: getattr(good.trapezoids, f.name).copy() for f in fields(Trapezoids)}
-    return columns | {name: getattr(good, name).copy() for name in CONTACT}
+    """Copies; the columns of isolated parts are one of them."""
+    columns = {name: getattr(good.trapezoids, name).copy() for name in COLUMNS}
+    columns |= {name: getattr(good, name).copy() for name in CONTACT}
+    return columns | {"isolated": {name: getattr(good.isolated, name).copy() for name in ISOLATED_COLUMNS}}
 
 
 def with_columns(good: Boundary, columns: Columns) -> Boundary:
-    trapezoids = Trapezoids(**{f.name: columns[f.name] for f in fields(Trapezoids)})
-    contacts = (columns[name] for name in CONTACT)
-    return Boundary(good.scene, good.features, *contacts, trapezoids, good.isolated, good.stats, good.trimmed)
+    trapezoids = Trapezoids(**{name: columns[name] for name in COLUMNS})
+    contacts, isolated = (columns[name] for name in CONTACT), IsolatedParts(**columns["isolated"])
+    return Boundary(good.scene, good.features, *contacts, trapezoids, isolated, good.stats, good.trimmed)
 
 
 def keep(columns: Columns, rows: Any) -> bool:
-    for f in fields(Trapezoids):
-        columns[f.name] = columns[f.name][rows]
+    for name in COLUMNS:
+        columns[name] = columns[name][rows]
     return True
 
 
@@ -225,12 +230,146 @@ def change_a_patchs_kind(rng: random.Random, good: Boundary, columns: Columns) -
     return True
 
 
-MUTATIONS: tuple[Mutation, ...] = (
+# --- isolated parts ---
+
+
+def drop_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    if not len(good.isolated):
+        return False
+    rows = np.arange(len(good.isolated)) != rng.randrange(len(good.isolated))
+    columns["isolated"] = {name: column[rows] for name, column in columns["isolated"].items()}
+    return True
+
+
+def duplicate_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    if not len(good.isolated):
+        return False
+    k = rng.randrange(len(good.isolated))
+    return add(columns, {name: column[k] for name, column in columns["isolated"].items()})
+
+
+def invent_a_point(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """Of a trapezoid: its corner; below, one of its walls, or one of its curves."""
+    if (part := part_of(good, rng)) is None:
+        return False
+    part |= {f"to_{name}": part[f"from_{name}"] for name in (*ANGLE, "patch")} | {"upper": part["lower"]}
+    return add(columns, with_ends(good, part))
+
+
+def invent_a_segment(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    if (part := part_of(good, rng)) is None:
+        return False
+    part |= {f"to_{name}": part[f"from_{name}"] for name in (*ANGLE, "patch")}
+    return add(columns, with_ends(good, part))
+
+
+def invent_a_curve(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    part = part_of(good, rng)
+    return part is not None and add(columns, with_ends(good, part | {"upper": part["lower"]}))
+
+
+def lengthen_or_shorten_a_segment(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """To another curve of its patch: one of the lengths of a v-e, e-v or v-v pair of the scene."""
+    if not len(good.isolated):
+        return False
+    isolated, t = columns["isolated"], good.trapezoids
+    k, (side, end) = rng.randrange(len(good.isolated)), rng.choice([("lower", "first"), ("upper", "last")])
+    part = {name: column[k] for name, column in isolated.items()}
+    curves = np.concatenate([t.lower, t.upper, isolated["lower"], isolated["upper"]])
+    changed = with_ends(good, part | {side: rng.choice(curves.tolist())})
+    if changed is None or abs(changed[f"{end}_t"] - part[f"{end}_t"]) < 1e-9:
+        return False
+    for name, column in isolated.items():
+        column[k] = changed[name]
+    return True
+
+
+def turn_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """To another critical angle, of a trapezoid or of another part; its curves stay."""
+    if not len(good.isolated):
+        return False
+    isolated = columns["isolated"]
+    k = rng.randrange(len(good.isolated))
+    part = {name: column[k] for name, column in isolated.items()}
+    other = part_of(good, rng)
+    if other is None or rng.random() < 0.2:
+        taken = rng.randrange(len(good.isolated))
+        other = {name: column[taken] for name, column in isolated.items()}
+    for name in (*ANGLE, "patch"):
+        part[f"from_{name}"] = part[f"to_{name}"] = other[f"from_{name}"]
+    same = part["from_lo"] == isolated["from_lo"][k] and part["chart"] == other["chart"]
+    changed = with_ends(good, part | {"chart": other["chart"]})
+    if same or changed is None:
+        return False
+    for name, column in isolated.items():
+        column[k] = changed[name]
+    return True
+
+
+def change_an_isolated_parts_patch(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+    """To one of another line."""
+    if not len(good.isolated):
+        return False
+    patch, k = columns["isolated"]["patch"], rng.randrange(len(good.isolated))
+    old, patch[k] = patch[k], rng.randrange(len(good.contact_kind))
+    reader = reader_of(good)
+    return reader.surface(int(old)) != reader.surface(int(patch[k]))
+
+
+def reader_of(good: Boundary) -> Reader:
+    columns = good.contact_kind, good.contact_robot, good.contact_obstacle
+    return Reader(good.scene, columns, good.trapezoids, good.isolated)
+
+
+def part_of(good: Boundary, rng: random.Random) -> dict[str, Any] | None:
+    """A trapezoid as an isolated part."""
+    if not len(good.trapezoids):
+        return None
+    k = pick(rng, good)
+    part = {name: getattr(good.trapezoids, name)[k] for name in COLUMNS}
+    return part | {f"{of}_patch": part["patch"] for of in ("lower", "upper", "from", "to")}
+
+
+def with_ends(good: Boundary, part: dict[str, Any]) -> dict[str, Any] | None:
+    """The rounded t of its ends made right; None if there are none."""
+    reader = reader_of(good)
+    # a table of one row, for the reader
+    row: Any = SimpleNamespace(**{name: np.array([value]) for name, value in part.items()})
+    try:
+        for side, end, t in (("lower", "from", "first_t"), ("upper", "to", "last_t")):
+            angle = reader.angle(row, 0, end, int(part[f"{end}_patch"]))
+            curve = reader.curve(int(part[f"{side}_patch"]), int(part["chart"]), int(part[side]))
+            part[t] = rounded(curve.at(angle.value))
+    except (Fault, IndexError):
+        return None
+    return part
+
+
+def rounded(x: Exact) -> float:
+    return float(x.rounded(Fraction(1, 10**12)) if isinstance(x, Number) else x)
+
+
+def add(columns: Columns, part: dict[str, Any] | None) -> bool:
+    if part is None:
+        return False
+    isolated = columns["isolated"]
+    columns["isolated"] = {
+        name: np.append(column, np.array([part[name]], column.dtype)) for name, column in isolated.items()
+    }
+    return True
+
+
+OF_TRAPEZOIDS: tuple[Mutation, ...] = (
     drop_one, drop_all, duplicate_one, duplicate_all, move_to_another_patch, change_the_chart,
     swap_lower_and_upper, swap_curves_of_two, swap_curves_of_two_patches, change_a_curves_feature, change_a_curves_kind,
     forget_a_curve, swap_from_and_to, take_another_angle, move_an_interval, narrow_an_interval, widen_an_interval,
     change_a_place, change_an_angles_feature, forget_an_angles_name, change_a_patchs_feature, change_a_patchs_kind,
 )  # fmt: skip
+OF_ISOLATED_PARTS: tuple[Mutation, ...] = (
+    drop_an_isolated_part, duplicate_an_isolated_part, invent_a_point, invent_a_segment, invent_a_curve,
+    lengthen_or_shorten_a_segment, turn_an_isolated_part, change_an_isolated_parts_patch,
+)  # fmt: skip
+MUTATIONS = OF_TRAPEZOIDS + OF_ISOLATED_PARTS
 
 
 def roots_in_chart(good: Boundary, k: int, end: str) -> int:
@@ -239,7 +378,7 @@ def roots_in_chart(good: Boundary, k: int, end: str) -> int:
     first, second = (int(getattr(t, f"{end}_{name}")[k]) for name in ("first", "second"))
     if not first:
         return 0
-    reader = Reader(good.scene, (good.contact_kind, good.contact_robot, good.contact_obstacle), t)
+    reader = reader_of(good)
     defining = reader.defining(first, second, reader.surface(int(t.patch[k])), int(t.chart[k]))
     found = np.roots([float(c) for c in reversed(defining.coeffs())])
     return int(np.sum((abs(found.imag) < 1e-9) & (abs(found.real) < 1)))
@@ -260,22 +399,30 @@ def mutants(good: Boundary, mutate: Mutation, count: int, seed: int = 0) -> Iter
             return
 
 
-def detected(bad: Boundary) -> Verification:
-    return cfree.verify.boundary(bad, slices=2)
+def detected(bad: Boundary, slices: int = 2) -> Verification:
+    return cfree.verify.boundary(bad, slices=slices)
 
 
 def says_the_same(good: Boundary, bad: Boundary) -> bool:
-    """Other names for the same curves and angles: limits of t agree everywhere, angles too. Judged by the core."""
-    t, s = good.trapezoids, bad.trapezoids
-    if len(t) != len(s) or any(np.any(getattr(t, f.name) != getattr(s, f.name)) for f in fields(Trapezoids)[:2]):
-        return False
-    if any(np.any(abs(getattr(t, name) - getattr(s, name)) > 1e-12) for name in ("tau_from", "tau_to")):
-        return False
+    """Other names for the same curves, angles and, of isolated parts, contacts: it is in the same places everywhere.
+
+    Judged by the core.
+    """
     if any(np.any(getattr(good, name) != getattr(bad, name)) for name in CONTACT):
         return False
-    rows = np.arange(len(t))
+    for t, s in ((good.trapezoids, bad.trapezoids), (good.isolated, bad.isolated)):
+        if len(t) != len(s) or np.any(t.chart != s.chart):
+            return False
+        if any(np.any(abs(getattr(t, name) - getattr(s, name)) > 1e-12) for name in ("tau_from", "tau_to")):
+            return False
+    if np.any(good.trapezoids.patch != bad.trapezoids.patch):
+        return False
+    ends = [[b.isolated_part(k).ends for k in range(len(b.isolated))] for b in (good, bad)]
+    if ends[0] and np.any(abs(np.array(ends[0]) - np.array(ends[1])) > 1e-9):
+        return False
+    rows = np.arange(len(good.trapezoids))
     for share in (0.1, 0.37, 0.62, 0.9):
-        theta = (1 - share) * t.theta_from + share * t.theta_to
+        theta = (1 - share) * good.trapezoids.theta_from + share * good.trapezoids.theta_to
         for mine, theirs in zip(good.limits(rows, theta), bad.limits(rows, theta), strict=True):
             if np.any(abs(mine - theirs) > 1e-9):
                 return False
@@ -292,7 +439,7 @@ def main(paths: list[str], count: int = 10) -> None:
         for mutate in MUTATIONS:
             name = mutate.__name__.replace("_", " ")
             for bad in mutants(good, mutate, count):
-                result = detected(bad)
+                result = detected(bad, 12 if mutate in OF_ISOLATED_PARTS else 2)
                 tried[name] += 1
                 if not result.verified:
                     found[name] += 1

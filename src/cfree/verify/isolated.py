@@ -87,6 +87,10 @@ class IsolatedPart:
 
     def _check_at(self, turn: Turn, piece: Piece) -> None:
         """All of a point; all of a segment but finitely many points of its sides, where a free part may end."""
+        surface = self.reader.surface(int(self._columns.patch[self.index]))
+        patch = sorted(map(turn.line(surface).position, (0, 1)))
+        if any(turn.value(limit) > 0 for limit in surface.limits) or piece.hi < patch[0] or patch[1] < piece.lo:
+            raise Fault(f"the contact of its patch does not hold anywhere on it at {turn}")
         section = Section(self.reader.world, turn)
         begin, end = (point_at(piece.line, position) for position in (piece.lo, piece.hi))
         along = None
