@@ -166,6 +166,35 @@ def test_three_feet_that_slide_on_three_walls() -> None:
     assert len(at_zero) == 1
 
 
+def test_a_segment_whose_ends_are_named_alike_on_two_surfaces_is_no_point() -> None:
+    robot = [(Fraction(6, 5), Fraction(8, 5)), (Fraction(18, 5), -Fraction(1, 5)), (Fraction(13, 5), Fraction(9, 5))]
+    walls = [
+        ([(-1, 0), (-4, -1), (0, -3)], []),
+        ([(-7, 1), (-4, 2), (-4, 3)], []),
+        ([(-1, -1), (4, -1), (4, 4)], [[(2, 1), (2, 0), (0, 0)]]),
+        ([(1, 4), (-3, 4), (-3, -1), (1, -1)], [[(-2, 3), (0, 3), (0, 0), (-2, 0)]]),
+    ]
+    found = parts(PlainScene([(robot, [])], walls))
+    assert kinds(found) == ["segment", "segment"]
+    (alike,) = (part for part in found if part.lower == part.upper)
+    assert [tuple(round(c, 9) for c in end[:2]) for end in alike.ends] == [(-6, 4), (-6, 3)]
+
+
+def test_a_curve_that_ends_at_a_chart_wall_ends_in_no_point_of_the_other_chart() -> None:
+    # two feet turn about a vertex, free but without room, up to a right angle
+    third, sixth = Fraction(1, 3), Fraction(1, 6)
+    feet = [
+        ([(2 * third, 0), (1, 0), (2 * third, sixth)], []),
+        ([(2 * third, third), (2 * third, sixth), (1, third)], []),
+    ]
+    walls = [
+        ([(1, 2 * third), (2 * third, 1), (2 * third, 2 * third)], []),
+        ([(2 * third, 2 * third), (third, -2 * third), (2 * third, -2 * third)], []),
+    ]
+    (found,) = parts(PlainScene(feet, walls))
+    assert found.kind == "curve" and found.stop.kind == "wall"
+
+
 def test_isolated_parts_reach_from_room_to_room() -> None:
     # two rooms joined by a slot as wide as the robot: the segment ends on the boundary of both
     half = Fraction(1, 2)

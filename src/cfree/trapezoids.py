@@ -107,7 +107,8 @@ class IsolatedParts(Trapezoids):
         """1: a curve over an interval of orientations; 2: a segment at one orientation; 3: a point."""
         turns = (self.from_first != self.to_first) | (self.from_second != self.to_second) | (self.from_lo != self.to_lo)
         turns |= (self.from_place != self.to_place) | (self.from_patch != self.to_patch)
-        return np.where(turns, CURVE, np.where(self.lower == self.upper, POINT, SEGMENT)).astype(np.uint8)
+        is_point = (self.lower == self.upper) & (self.lower_patch == self.upper_patch)
+        return np.where(turns, CURVE, np.where(is_point, POINT, SEGMENT)).astype(np.uint8)
 
     def rows(self, which: slice) -> IsolatedParts:
         """Some of the parts."""
