@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import random
 import subprocess
 import sys
@@ -106,20 +105,11 @@ def flat(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_processes_find_the_same(flat: Path) -> None:
+def test_progress_is_reported(flat: Path) -> None:
     shares: list[float] = []
-    one, two = cfree.verify.boundary(flat), cfree.verify.boundary(flat, workers=2, progress=shares.append)
+    one, two = cfree.verify.boundary(flat), cfree.verify.boundary(flat, progress=shares.append)
     assert one.verified and replace(one, seconds=0) == replace(two, seconds=0)
-    assert shares == sorted(shares) and shares[-1] == 1
-
-
-def test_an_interruption_leaves_no_process(flat: Path) -> None:
-    def interrupt(share: float) -> None:
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        cfree.verify.boundary(flat, workers=2, progress=interrupt)
-    assert not multiprocessing.active_children()
+    assert shares == sorted(shares) and shares[-1] == 1 and len(shares) > 20
 
 
 def test_the_core_is_not_used(flat: Path) -> None:
@@ -152,8 +142,8 @@ def test_another_scene_is_a_finding(flat: Path) -> None:
 
 
 def test_bad_arguments_and_files_are_refused(flat: Path) -> None:
-    with pytest.raises(ValueError, match="workers 0"):
-        cfree.verify.boundary(flat, workers=0)
+    with pytest.raises(ValueError, match="slices -1"):
+        cfree.verify.boundary(flat, slices=-1)
     with pytest.raises(FormatError):
         cfree.verify.boundary(FLAT)
 

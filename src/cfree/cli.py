@@ -208,7 +208,6 @@ def verify(
     ] = None,
     slices: Annotated[int, typer.Option(metavar="N", min=0, help="Orientations to compute again.")] = 12,
     seed: Annotated[int, typer.Option(metavar="N", help="Of the random choices.")] = 0,
-    threads: ThreadsOption = None,
     as_json: JsonOption = False,
 ) -> None:
     """Check a boundary by independent exact code, and say what is proved and what is sampled."""
@@ -218,13 +217,8 @@ def verify(
         from cfree.storage import load_boundary
 
         given, found = load_scene(scene), load_boundary(file)
-        workers = threads or os.cpu_count() or 1
-        if len(found.trapezoids) < 2000:
-            workers = 1  # other processes would take longer to start
         with _bar("verify") as progress:
-            result = cfree.verify.boundary(
-                found, given, sample=sample, slices=slices, seed=seed, workers=workers, progress=progress
-            )
+            result = cfree.verify.boundary(found, given, sample=sample, slices=slices, seed=seed, progress=progress)
         if as_json:
             _print_json({"file": str(file), "verified": result.verified, **asdict(result)})
         else:
@@ -272,9 +266,7 @@ def _boundary_of(
         return load_boundary(source)
     scene = load_scene(source)
     with _bar("boundary") as progress:
-        return boundary(
-            scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress
-        )
+        return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
 
 
 @contextmanager

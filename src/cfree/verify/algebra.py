@@ -48,9 +48,6 @@ class Root:
     def modulus(self) -> fmpq_poly:
         return fmpq_poly(list(self.poly))
 
-    def __reduce__(self) -> Any:
-        return Root, (*self.key, self.lo, self.hi)
-
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Root) and self.key == other.key
 
@@ -95,9 +92,6 @@ class Number:
 
     def __init__(self, root: Root, poly: fmpq_poly) -> None:
         self.root, self.poly = root, poly
-
-    def __reduce__(self) -> Any:
-        return _number, (self.root, *self._key())
 
     def _key(self) -> tuple[list[int], int]:
         return [int(c) for c in self.poly.numer().coeffs()], int(self.poly.denom())
@@ -160,10 +154,6 @@ def _poly(other: Any) -> Any:
     if isinstance(other, Number):
         return other.poly
     return fmpq(other.numerator, other.denominator) if isinstance(other, Fraction) else other
-
-
-def _number(root: Root, coefficients: list[int], denominator: int) -> Number:
-    return Number(root, fmpq_poly(coefficients, denominator))
 
 
 def ratio(x: Exact, y: Exact) -> Exact:

@@ -8,7 +8,9 @@ rational ones.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
 from fractions import Fraction
+from functools import lru_cache
 from itertools import pairwise
 
 from cfree.trapezoids import CURVE, POINT, SEGMENT
@@ -30,11 +32,12 @@ class IsolatedPart:
         self.stop = reader.angle(p, k, "to", int(p.to_patch[k]))
         if self.start > self.stop:
             raise Fault("it ends before it begins")
-        self.lower, self.upper = (self._curve(f"{side}er", f"{side}er_patch") for side in ("low", "upp"))
+        self.lower, self.upper = (self._curve(side) for side in ("lower", "upper"))
 
-    def _curve(self, code: str, patch: str) -> tuple[int, Curve]:
-        number = int(getattr(self._columns, patch)[self.index])
-        return number, self.reader.curve(number, self.chart, int(getattr(self._columns, code)[self.index]))
+    def _curve(self, side: str) -> tuple[int, Curve]:
+        """A curve, and the patch on whose surface it is named."""
+        code, patch = (int(getattr(self._columns, name)[self.index]) for name in (side, f"{side}_patch"))
+        return patch, self.reader.curve(patch, self.chart, code)
 
     def end(self, turn: Turn, root: Root, curve: tuple[int, Curve]) -> tuple[Exact, Vector]:
         """t and the point, times w, of one of its curves at an angle."""
@@ -46,10 +49,12 @@ class IsolatedPart:
         for chart, here in turn.in_charts():
             if chart == self.chart and self.start <= here <= self.stop:
                 line = turn.line(self.reader.surface(int(self._columns.patch[self.index])))
-                ends = [position_of(line.key, self.end(turn, here, c)[1]) for c in (self.lower, self.upper)]
-                lo, hi = ends if ends[0] is None or ends[1] is None or ends[0] < ends[1] else ends[::-1]
-                if lo is None or hi is None:
+                ends: list[Exact] = [
+                    position_of(line.key, self.end(turn, here, c)[1]) for c in (self.lower, self.upper)
+                ]
+                if None in ends:
                     raise Fault("its ends are not on the line of its patch")
+                lo, hi = sorted(ends)
                 return Piece(line.key, lo, hi, ("isolated part", self.index))
         return None
 
@@ -111,13 +116,23 @@ class IsolatedPart:
 def pieces(reader: Reader, turn: Turn) -> Iterator[Piece]:
     """Trapezoids and isolated parts at an angle."""
     yield from reader.pieces(turn)
-    for k in range(len(reader.isolated)):
+    for isolated in resolved(reader):
         try:
-            piece = IsolatedPart(reader, k).piece(turn)
-        except (Fault, IndexError):
-            continue  # reported where it is checked
+            piece = isolated.piece(turn)
+        except Fault:
+            continue
         if piece is not None:
             yield piece
+
+
+@lru_cache(maxsize=1)
+def resolved(reader: Reader) -> list[IsolatedPart]:
+    """All isolated parts. What is faulty is left out, and reported where it is checked."""
+    found = []
+    for k in range(len(reader.isolated)):
+        with suppress(Fault, IndexError):
+            found.append(IsolatedPart(reader, k))
+    return found
 
 
 def _overlap(mine: Piece, other: Piece) -> bool:

@@ -199,5 +199,5 @@ def has_root(poly: fmpz_poly, start: Root, stop: Root) -> bool:
 
 
 def digest(*key: Any) -> bytes:
-    """32 bytes that stand for an exact key: different keys do not collide in practice, and travel cheaply."""
+    """32 bytes that stand for an exact key: different keys do not collide in practice."""
     return blake2b(repr(key).encode(), digest_size=32).digest()
