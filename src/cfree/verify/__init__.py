@@ -10,20 +10,22 @@ names and angles, PROVED
 domains, PROVED
     From the first angle to the second the contact is in its range, the curves have no pole, 0 <= lower <= upper <= 1.
 not forbidden, SAMPLED
-    At one exact point inside every trapezoid no pair of pieces overlaps, and bounds are kept.
-closed surface, PROVED
-    The oriented boundary of the sum of all trapezoids is zero: on every curve, and on every line at every critical
-    angle, what ends there begins there.
+    At one exact angle in every trapezoid nothing covers any of it, from lower to upper.
+closed surfaces, PROVED
+    Along every edge the sides of trapezoids are partners across free space; V - E + F of what that makes is counted.
+isolated parts, PROVED but for curves
+    Each is free, is on no trapezoid and no other part, and next to it nothing is free at its angle. Of a curve this is
+    SAMPLED at three angles.
 nothing missing, SAMPLED
-    At some exact angles the boundary of the forbidden slice, computed from scratch, is the file's slice.
+    At some exact angles, critical ones among them, all free contacts computed from scratch are those of the file.
 
-"Not forbidden" says nothing of the rest of a trapezoid, "nothing missing" nothing of other angles. Curves are told
-apart by their equations, angles by irreducible polynomials, points by elements of the angle's number field; 32-byte
-hashes stand for them when they are counted. Only `features` is believed: that it numbers features as the file does.
-Isolated parts, at which the robot fits exactly, and the cell complex are not looked at.
+"Not forbidden" says nothing of other angles, nor does "nothing missing". Curves are told apart by their equations,
+angles by irreducible polynomials, positions by elements of the angle's number field; 32-byte hashes stand for curves
+and lines when sides are gathered. Only `features` is believed: that it numbers features as the file does.
 
-Each file imports only from those before it: `algebra` (roots), `surfaces` (contacts and curves), `world` (the scene),
-`trapezoids`, `slices`, `result`, `driver`.
+Each file imports only from those before it: `algebra` (roots, numbers), `surfaces` (contacts, curves, lines),
+`polygons`, `world` (the scene), `section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`,
+`missing`, `angles`, `result`, `driver`.
 """
 
 from cfree.verify.driver import boundary as boundary
