@@ -133,21 +133,29 @@ class Number:
 
     def __lt__(self, other: Number | Fraction | int) -> bool:
         difference = Number(self.root, self.poly - _poly(other))
-        return bool(difference.poly) and difference.rounded(None) < 0
+        value, error, _ = difference._enclosed()
+        while abs(value) <= error and difference.poly:
+            self.root.narrow()
+            value, error, _ = difference._enclosed()
+        return value < 0
 
-    def rounded(self, error: Fraction | None) -> Fraction:
-        """A rational number that differs by at most an error; if that is None, by so little that its sign is right."""
+    def rounded(self, error: Fraction) -> Fraction:
+        """A rational number that differs by at most an error."""
+        value, by, unit = self._enclosed()
+        while by > error * unit:
+            self.root.narrow()
+            value, by, unit = self._enclosed()
+        return Fraction(value, unit)
+
+    def _enclosed(self) -> tuple[int, int, int]:
+        """Its value at the lower end of the root's interval, and by how much it may differ; in what unit."""
         coefficients, denominator = self._key()
-        # in [lo, hi] the value differs by at most (hi - lo) times the derivative, and |x| <= 2
-        steepest = Fraction(sum(k * abs(c) << k - 1 for k, c in enumerate(coefficients) if k), denominator)
-        while True:
-            numerator, power = homogeneous(coefficients, self.root.lo)
-            value = Fraction(numerator, power * denominator)
-            width = steepest * (self.root.hi - self.root.lo)
-            if width < abs(value) if error is None else width <= error:
-                return value
-            for _ in range(8):
-                self.root.narrow()
+        root = self.root
+        value, power = homogeneous(coefficients, root.lo)
+        width = root.hi - root.lo
+        # (hi - lo) times the derivative, |x| <= 2
+        steepest = sum(k * abs(c) << k - 1 for k, c in enumerate(coefficients) if k)
+        return value * width.denominator, width.numerator * steepest * power, power * denominator * width.denominator
 
 
 def _poly(other: Any) -> Any:
