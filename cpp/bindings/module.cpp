@@ -67,6 +67,7 @@ static std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> integers(cons
 void bind_predicates(nb::module_& m);
 
 NB_MODULE(_core, m) {
+    nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
     bind_predicates(m);
     nb::class_<cfree::Shape>(m, "Shape")
         .def("__init__", [](cfree::Shape* s, Limbs coordinates, int shift, Column<int> point, Column<int> v, Column<int> w,
@@ -91,7 +92,7 @@ NB_MODULE(_core, m) {
         .def("__init__", [](cfree::Job* job, const cfree::Shape& robot, const cfree::Shape& obstacles, int threads,
                             bool regularized) {
             new (job) cfree::Job(std::make_shared<cfree::Scene>(cfree::Scene{robot, obstacles}), threads, regularized);
-        }, "robot"_a, "obstacles"_a, "threads"_a, "regularized"_a)
+        }, "robot"_a, "obstacles"_a, "threads"_a, "regularized"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("wait", &cfree::Job::wait, "seconds"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("progress", &cfree::Job::progress)
         .def("cancel", &cfree::Job::cancel)
@@ -115,7 +116,7 @@ NB_MODULE(_core, m) {
             d["pairs"] = t.pairs, d["live_patches"] = t.live_patches;
             d["decided_by_identity"] = t.decisions.identity, d["decided_by_filter"] = t.decisions.filter;
             d["decided_by_intervals"] = t.decisions.interval, d["decided_exactly"] = t.decisions.exact;
-            d["setup_seconds"] = t.setup_seconds, d["trim_seconds"] = t.trim_seconds;
+            d["trim_seconds"] = t.trim_seconds;
             d["collect_seconds"] = t.collect_seconds, d["isolated_seconds"] = t.isolated_seconds;
             d["intervals_seconds"] = t.decisions.interval_seconds, d["exact_seconds"] = t.decisions.exact_seconds;
             return d;

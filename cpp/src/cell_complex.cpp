@@ -314,9 +314,8 @@ void Gluer::place_vertex(const Start& start, CellComplex& result) const {
     const auto placed = [&](Index a, Index b) {
         return Vec<double>{O.x[b] - (c * A.x[a] - n * A.y[a]), O.y[b] - (n * A.x[a] + c * A.y[a])};
     };
-    const bool on_edge = on.contact.kind == Kind::vertex_edge;
-    const Index i = on.contact.robot, j = on.contact.obstacle;
-    const auto p = placed(on_edge ? i : A.v[i], on_edge ? O.v[j] : j), q = placed(on_edge ? i : A.w[i], on_edge ? O.w[j] : j);
+    const Feature first = end_helix(scene, on.contact, 0), last = end_helix(scene, on.contact, 1);
+    const auto p = placed(first.robot, first.obstacle), q = placed(last.robot, last.obstacle);
     result.x.push_back(p.x + t * (q.x - p.x)), result.y.push_back(p.y + t * (q.y - p.y));
     result.theta.push_back(2 * std::atan(tau) + on.chart * std::numbers::pi);
 }

@@ -44,12 +44,8 @@ Fingerprints::Point Fingerprints::placed(Index a, Index b) const {
 }
 
 std::array<Fingerprints::Point, 2> Fingerprints::line(const Feature& f) const {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    if (f.kind == Kind::vertex_edge) {
-        const Point p = placed(f.robot, O.v[f.obstacle]), q = placed(f.robot, O.w[f.obstacle]);
-        return {p, {minus(q.x, p.x), minus(q.y, p.y)}};
-    }
-    const Point p = placed(A.v[f.robot], f.obstacle), q = placed(A.w[f.robot], f.obstacle);
+    const Feature first = end_helix(scene, f, 0), last = end_helix(scene, f, 1);
+    const Point p = placed(first.robot, first.obstacle), q = placed(last.robot, last.obstacle);
     return {p, {minus(q.x, p.x), minus(q.y, p.y)}};
 }
 

@@ -111,6 +111,13 @@ struct Predicates::Form : Terms<Filtered> {
         const double err = bernstein(lo, hi, c);
         for (int i = 0; i <= degree; ++i) sign[i] = c[i] > err ? 1 : c[i] < -err ? -1 : 0;
     }
+    // Its sign on the whole closed interval, 0 if not certain
+    int sign_on(double lo, double hi) const {
+        int each[5], sum = 0;
+        signs(lo, hi, each);
+        for (int i = 0; i <= degree; ++i) sum += each[i];
+        return std::abs(sum) < degree + 1 ? 0 : sum > 0 ? 1 : -1;
+    }
     // Whether its two roots may be one, so that halving would not part them.
     bool may_touch() const {
         if (degree != 2) return false;

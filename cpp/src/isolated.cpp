@@ -1,13 +1,14 @@
 #include "cfree/isolated.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <thread>
+#include <numeric>
 
 #include "box_tree.hpp"
+#include "cfree/critical_angle.hpp"
 #include "cfree/fingerprint.hpp"
 #include "cfree/junction.hpp"
+#include "parallel.hpp"
 
 namespace cfree {
 
@@ -40,13 +41,13 @@ public:
         : scene(s), patches(p), live(l), thin(t), prints(s), tree(boxes()) {
         first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
         for (const Index j : p.obstacle) ++first_patch[j + 1];
-        for (std::size_t j = 1; j < first_patch.size(); ++j) first_patch[j] += first_patch[j - 1];
+        std::partial_sum(first_patch.begin(), first_patch.end(), first_patch.begin());
         first_live.assign(p.kind.size() + 1, 0);
         for (const Index k : l.patch) ++first_live[k + 1];
-        for (std::size_t k = 1; k < first_live.size(); ++k) first_live[k] += first_live[k - 1];
+        std::partial_sum(first_live.begin(), first_live.end(), first_live.begin());
     }
 
-    IsolatedParts run(int threads, const std::atomic<bool>& stop) {
+    IsolatedParts run(int threads, std::atomic<bool>& stop) {
         const auto count = static_cast<Index>(thin.patch.size());
         std::vector<std::vector<Flat>> found_flats(count);
         std::vector<std::vector<Ridge>> found_ridges(count);
@@ -60,10 +61,7 @@ public:
                 else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch});
             }
         };
-        std::vector<std::thread> pool;
-        for (int t = 1; t < std::min(threads, count / 64 + 1); ++t) pool.emplace_back(work);
-        work();
-        for (std::thread& t : pool) t.join();
+        in_parallel(std::min(threads, count / 64 + 1), stop, work);
         for (const auto& found : found_flats) flats.insert(flats.end(), found.begin(), found.end());
         for (const auto& found : found_ridges) ridges.insert(ridges.end(), found.begin(), found.end());
         unite_ridges();
@@ -332,7 +330,7 @@ private:
 }  // namespace
 
 IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
-                             int threads, const std::atomic<bool>& stop) {
+                             int threads, std::atomic<bool>& stop) {
     return Finder(scene, patches, live, thin).run(threads, stop);
 }
 

@@ -21,11 +21,6 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number)
     : scene(s), chart(in), lo(from), hi(to), exact(std::move(number)) {}
 
-Junction::Ends Junction::start(const Feature& x) const {
-    if (is_on_edge(x)) return {x.robot, scene.obstacles.v[x.obstacle]};
-    return {scene.robot.v[x.robot], x.obstacle};
-}
-
 Poly Junction::polynomial(const Trig<Int>& f) const { return on({}).polynomial(f); }
 Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtered(f); }
 
@@ -44,7 +39,7 @@ RealRoot& Junction::here() const {
 // The surface's line is P + t U, U = E_j or -R E_i.
 template <class T>
 Trig<T> Junction::along(const Feature& x, Index a, Index b) const {
-    const auto [a0, b0] = start(x);
+    const auto [kind, a0, b0] = end_helix(scene, x, 0);
     const auto w = difference<T>(scene.obstacles, b, b0), d = difference<T>(scene.robot, a, a0);
     if (is_on_edge(x)) {
         const auto E = edge<T>(scene.obstacles, x.obstacle);
@@ -55,22 +50,21 @@ Trig<T> Junction::along(const Feature& x, Index a, Index b) const {
 }
 
 template <class T>
+Vec<T> Junction::direction(const Feature& x) const {
+    return is_on_edge(x) ? edge<T>(scene.obstacles, x.obstacle) : edge<T>(scene.robot, x.robot);
+}
+
+template <class T>
 Trig<T> Junction::directions_dot(const Feature& x, const Feature& y) const {
-    const auto direction = [&](const Feature& f) {
-        return is_on_edge(f) ? edge<T>(scene.obstacles, f.obstacle) : edge<T>(scene.robot, f.robot);
-    };
-    const auto E = direction(x), F = direction(y);
+    const auto E = direction<T>(x), F = direction<T>(y);
     if (x.kind == y.kind) return {dot(E, F), T{}, T{}};
-    const auto &G = is_on_edge(x) ? F : E, &fixed = is_on_edge(x) ? E : F;
-    return {T{}, -dot(G, fixed), -cross(G, fixed)};
+    if (is_on_edge(x)) return {T{}, -dot(E, F), cross(E, F)};  // E . -R F
+    return {T{}, -dot(E, F), -cross(E, F)};                    // -R E . F
 }
 
 template <class T>
 Trig<T> Junction::directions_cross(const Feature& x, const Feature& y) const {
-    const auto direction = [&](const Feature& f) {
-        return is_on_edge(f) ? edge<T>(scene.obstacles, f.obstacle) : edge<T>(scene.robot, f.robot);
-    };
-    const auto E = direction(x), F = direction(y);
+    const auto E = direction<T>(x), F = direction<T>(y);
     if (x.kind == y.kind) return {cross(E, F), T{}, T{}};
     if (is_on_edge(x)) return {T{}, -cross(E, F), -dot(E, F)};  // E x -R F
     return {T{}, -cross(E, F), dot(E, F)};                      // -R E x F
@@ -89,7 +83,7 @@ int Junction::parallel(const Feature& x, const Feature& y) {
 
 int Junction::side(const Feature& x, const Feature& y) {
     if (code(scene, x) == code(scene, y)) return 0;
-    const auto [a, b] = start(y);
+    const auto [kind, a, b] = end_helix(scene, y, 0);
     return side(x, a, b);
 }
 
@@ -125,7 +119,7 @@ template <class T>
 std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) const {
     if constexpr (std::is_same_v<T, Int>) {
         if (p.is_given) {
-            const auto [a, b] = start(p.on);
+            const auto [kind, a, b] = end_helix(scene, p.on, 0);
             const Trig<Int> N = sum(times(p.d, along<Int>(line, a, b)), times(p.n, directions_dot<Int>(line, p.on)));
             return {N, times(p.d, directions_dot<Int>(line, line))};
         }
@@ -164,11 +158,8 @@ bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) const
     const Code own = code(scene, line);
     if (knows(own, p.code, q.code) || knows(p.code, q.code, 0)) return true;
     const auto helices = [&](const Feature& f) -> std::array<Code, 2> {
-        const auto helix = [&](Index a, Index b) { return code(scene, {Kind::vertex_vertex, a, b}); };
-        const Shape &A = scene.robot, &O = scene.obstacles;
-        if (f.kind == Kind::vertex_edge) return {helix(f.robot, O.v[f.obstacle]), helix(f.robot, O.w[f.obstacle])};
-        if (f.kind == Kind::edge_vertex) return {helix(A.v[f.robot], f.obstacle), helix(A.w[f.robot], f.obstacle)};
-        return {code(scene, f), code(scene, f)};
+        if (f.kind == Kind::vertex_vertex) return {code(scene, f), code(scene, f)};
+        return {code(scene, end_helix(scene, f, 0)), code(scene, end_helix(scene, f, 1))};
     };
     for (const Code x : helices(p.curve))
         for (const Code y : helices(q.curve))
@@ -183,12 +174,7 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
         const auto [Nq, Dq] = position<Approx>(line, q);
         const Predicates::Form form{{4, filtered(Np), filtered(Dq), filtered(Nq), filtered(Dp)}};
         const int signs = Predicates::sign_on(form.q, lo, hi) * Predicates::sign_on(form.s, lo, hi);
-        double c[5];
-        const double err = form.bernstein(lo, hi, c);
-        int positive = 0, negative = 0;
-        for (const double x : c) positive += x > err, negative += x < -err;
-        if (signs != 0 && positive == 5) return signs;
-        if (signs != 0 && negative == 5) return -signs;
+        if (const int s = form.sign_on(lo, hi); signs * s != 0) return signs * s;
         if (is_known(line, p, q)) return 0;
     }
     const auto [Np, Dp] = position<Int>(line, p);
@@ -199,18 +185,12 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
 
 int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     // U_x x (P + t U - P_x) = offset of the line's start + t U_x x U, with t = N / D
-    const auto [a, b] = start(line);
+    const auto [kind, a, b] = end_helix(scene, line, 0);
     if (!p.is_given) {
         const auto [N, D] = position<Approx>(line, p);
         const Predicates::Form form{{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
                                     -filtered(directions_cross<Approx>(x, line))}};
-        double c[5];
-        const double err = form.bernstein(lo, hi, c);
-        int positive = 0, negative = 0;
-        for (const double v : c) positive += v > err, negative += v < -err;
-        if (positive == 5 || negative == 5) {
-            if (const int s = Predicates::sign_on(form.q, lo, hi); s != 0) return positive == 5 ? s : -s;
-        }
+        if (const int s = form.sign_on(lo, hi) * Predicates::sign_on(form.q, lo, hi); s != 0) return s;
     }
     const auto [N, D] = position<Int>(line, p);
     const Poly d = polynomial(D), offset = product(polynomial(on(x).offset_trig<Int>(a, b)), d);
@@ -229,7 +209,7 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
         if (above && below) break;
         (above ? high : low) = at.n;
     }
-    const auto [a, b] = start(x);
+    const auto [kind, a, b] = end_helix(scene, x, 0);
     const Trig<Int> g = sum(times(at.d, on(y).offset_trig<Int>(a, b)), times(at.n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;

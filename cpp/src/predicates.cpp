@@ -15,6 +15,13 @@ Code code(const Scene& scene, const Feature& f) {
     return static_cast<Code>(f.kind) << 61 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
 }
 
+Feature end_helix(const Scene& scene, const Feature& contact, int end) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    if (contact.kind == Kind::vertex_edge) return {Kind::vertex_vertex, i, end ? O.w[j] : O.v[j]};
+    return {Kind::vertex_vertex, end ? A.w[i] : A.v[i], j};
+}
+
 // --- the quadratics, one formula for every number type ---------------------------------------------------------------
 
 template <class T>

@@ -330,11 +330,9 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     };
     if (p.code == q.code) return ++counters.identity, constant(0);
     const Form f = form(p, q);
-    int signs[5], sum = 0;
-    f.signs(from.lo, to.hi, signs);
-    for (int i = 0; i <= f.degree; ++i) sum += signs[i];
-    result.strict = std::abs(sum) == f.degree + 1;
-    if (result.strict) return ++counters.filter, constant(sum > 0 ? 1 : -1);
+    const int everywhere = f.sign_on(from.lo, to.hi);
+    result.strict = everywhere != 0;
+    if (result.strict) return ++counters.filter, constant(everywhere);
     const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
     const int flip = p.flipped != q.flipped ? -1 : 1;

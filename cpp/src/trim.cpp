@@ -12,11 +12,7 @@ namespace cfree {
 Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
     : decide(s, on), scene(s), surface(on) {
     events = {from, to};
-    const bool on_edge = on.contact.kind == Kind::vertex_edge;
-    const Index i = on.contact.robot, j = on.contact.obstacle;
-    const Feature first{Kind::vertex_vertex, on_edge ? i : s.robot.v[i], on_edge ? s.obstacles.v[j] : j};
-    const Feature last{Kind::vertex_vertex, on_edge ? i : s.robot.w[i], on_edge ? s.obstacles.w[j] : j};
-    const Index t0 = curve_of(first, false), t1 = curve_of(last, false);
+    const Index t0 = curve_of(end_helix(s, on.contact, 0), false), t1 = curve_of(end_helix(s, on.contact, 1), false);
     live.push_back({0, 1, t0, t1, 0, 1});
 }
 
@@ -30,16 +26,15 @@ Index Trimmer::intern(const Event& event) {
 // A curve that is an end of the surface, t = 0 or t = 1, by identity of features, is named as that helix.
 Feature Trimmer::normal_form(const Feature& f) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
-    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
-    const Index i = surface.contact.robot, j = surface.contact.obstacle;
     const auto touches = [](const Shape& s, Index e, Index v) {
         return s.point[s.v[e]] == s.point[v] || s.point[s.w[e]] == s.point[v];
     };
     for (const int end : {0, 1}) {
-        const Index a = on_edge ? i : end ? A.w[i] : A.v[i], b = on_edge ? (end ? O.w[j] : O.v[j]) : j;
-        const bool through = f.kind == Kind::vertex_edge ? A.point[f.robot] == A.point[a] && touches(O, f.obstacle, b)
-                                                         : O.point[f.obstacle] == O.point[b] && touches(A, f.robot, a);
-        if (through) return {Kind::vertex_vertex, a, b};
+        const Feature helix = end_helix(scene, surface.contact, end);
+        const bool through = f.kind == Kind::vertex_edge
+                                 ? A.point[f.robot] == A.point[helix.robot] && touches(O, f.obstacle, helix.obstacle)
+                                 : O.point[f.obstacle] == O.point[helix.obstacle] && touches(A, f.robot, helix.robot);
+        if (through) return helix;
     }
     return f;
 }
@@ -83,10 +78,13 @@ void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
     subtract({band, p, k, &state});
 }
 
-void Trimmer::cede(const Feature& first, const Feature& last, const Event& from, const Event& to) {
+void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
     const auto tighter = [&](Index own, const Event& other, int later) {
         return decide.order(other, events[own]) * later > 0 ? intern(other) : own;
     };
+    const auto& line = scene.obstacles.line;
+    const bool backwards = owner.kind == Kind::vertex_edge && line[owner.obstacle] != line[surface.contact.obstacle];
+    const Feature first = end_helix(scene, owner, backwards ? 1 : 0), last = end_helix(scene, owner, backwards ? 0 : 1);
     Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
     if (!before(band.from, band.to)) return;
     bounds(band);
@@ -130,124 +128,115 @@ int Trimmer::order_at(Index event, Index p, Index q) {
 // --- live region -----------------------------------------------------------------------------------------------------
 
 void Trimmer::subtract(const Band& taken) {
-    const Area& band = taken.area;
     if (!thin.empty()) subtract_from_thin(taken);
     next.clear(), fresh.clear();
-    for (const Area& area : live) {
-        if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi ||
-            band.t_max < area.t_min || band.t_min > area.t_max) {
-            next.push_back(area);
-            continue;
-        }
-        const Index from = before(area.from, band.from) ? band.from : area.from;
-        const Index to = before(band.to, area.to) ? band.to : area.to;
-        if (!before(from, to)) {
-            next.push_back(area);
-            continue;
-        }
-        // where the band lies against the area: four orders, their changes in one list
-        const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[from], events[to]); };
-        Predicates::Order orders[4];
-        orders[0] = order(band.lower, area.upper);
-        if (orders[0].count == 0 && orders[0].sign[0] >= 0) {
-            next.push_back(area);
-            continue;
-        }
-        orders[1] = order(band.upper, area.lower);
-        if (orders[1].count == 0 && orders[1].sign[0] <= 0) {
-            next.push_back(area);
-            continue;
-        }
-        orders[2] = order(band.lower, area.lower);
-        orders[3] = order(band.upper, area.upper);
-
-        struct Cut {
-            Index event;
-            int which;
-        };
-        Cut cuts[16];
-        int count = 0;
-        for (int w = 0; w < 4; ++w) {
-            for (int r = 0; r < orders[w].count; ++r) {
-                Cut cut{intern(orders[w].at[r]), w};
-                int k = count++;
-                for (; k > 0 && before(cut.event, cuts[k - 1].event); --k) cuts[k] = cuts[k - 1];
-                cuts[k] = cut;
-            }
-        }
-        // between cuts the order is constant: keep the area, or what is below and above the band
-        int position[4] = {0, 0, 0, 0};
-        Area open[2];
-        int open_count = 0;
-        const auto emit = [&](Index at, std::initializer_list<std::array<Index, 2>> parts, bool is_tip = false) {
-            // go on with those that stay and keep some width there, close the rest
-            Area kept[2];
-            int kept_count = 0;
-            bool stays[2] = {false, false};
-            for (const auto& part : parts) {
-                Area piece{at, at, part[0], part[1], 0, 1};
-                for (int k = 0; k < open_count; ++k)
-                    if (!is_tip && open[k].lower == part[0] && open[k].upper == part[1]) piece.from = open[k].from, stays[k] = true;
-                kept[kept_count++] = piece;
-            }
-            for (int k = 0; k < open_count; ++k) {
-                if (stays[k]) continue;
-                open[k].to = at;
-                bounds(open[k]);
-                next.push_back(open[k]);
-            }
-            open_count = kept_count;
-            for (int k = 0; k < kept_count; ++k) open[k] = kept[k];
-        };
-        // what the band leaves of the area without width, at an angle between two parts (or one, or none, of them covered)
-        struct Cover {
-            bool all, low, high;  // some of the area's inside; its lower, its upper curve
-        };
-        const auto leave = [&](Index at, const Cover* before_it, const Cover* after_it, bool low_meets, bool high_meets) {
-            for (const Cover* c : {before_it, after_it})
-                if (c != nullptr && !c->all) return;
-            const auto both = [&](bool Cover::*which) {
-                return (before_it == nullptr || before_it->*which) && (after_it == nullptr || after_it->*which);
-            };
-            if (!covers_at(taken, at)) return add_thin(at, at, area.lower, area.upper);
-            const bool is_end = before_it == nullptr || after_it == nullptr;
-            const auto meets = [&](int w, Index p, Index q) { return is_end && !orders[w].strict && order_at(at, p, q) == 0; };
-            if (both(&Cover::low) && (low_meets || meets(2, band.lower, area.lower))) add_thin(at, at, area.lower, area.lower);
-            if (both(&Cover::high) && (high_meets || meets(3, band.upper, area.upper))) add_thin(at, at, area.upper, area.upper);
-        };
-        if (from != area.from) emit(area.from, {{area.lower, area.upper}});
-        Cover last{};
-        bool low_meets = false, high_meets = false;
-        for (int k = 0;;) {
-            const Index start = k == 0 ? from : cuts[k - 1].event, end = k == count ? to : cuts[k].event;
-            const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
-            const Cover cover{sign(0) < 0 && sign(1) > 0, sign(2) < 0, sign(3) > 0};
-            if (!cover.all) emit(start, {{area.lower, area.upper}});
-            else if (sign(2) > 0 && sign(3) < 0)
-                emit(start, {{area.lower, band.lower}, {band.upper, area.upper}}, low_meets || high_meets);
-            else if (sign(2) > 0) emit(start, {{area.lower, band.lower}}, low_meets);
-            else if (sign(3) < 0) emit(start, {{band.upper, area.upper}}, high_meets);
-            else emit(start, {});
-            if (taken.state != nullptr) {
-                if (cover.all && sign(2) == 0) add_thin(start, end, area.lower, area.lower);
-                if (cover.all && sign(3) == 0) add_thin(start, end, area.upper, area.upper);
-                if (k > 0) leave(start, &last, &cover, low_meets, high_meets);
-                else if (from == area.from) leave(start, nullptr, &cover, false, false);
-                if (k == count && to == area.to) leave(to, &cover, nullptr, false, false);
-            }
-            last = cover;
-            if (k == count) break;
-            low_meets = high_meets = false;
-            do {
-                low_meets |= cuts[k].which == 2, high_meets |= cuts[k].which == 3;
-                ++position[cuts[k].which], ++k;
-            } while (k < count && equal(cuts[k].event, cuts[k - 1].event));
-        }
-        if (to != area.to) emit(to, {{area.lower, area.upper}});
-        emit(area.to, {});
-    }
+    for (const Area& area : live)
+        if (!subtract_from(area, taken)) next.push_back(area);
     live.swap(next);
     thin.insert(thin.end(), fresh.begin(), fresh.end());
+}
+
+// Areas that are open end at an angle, but for those that stay; the others begin there. After a tip, where the width is zero, all
+// are new.
+void Trimmer::go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip) {
+    const std::size_t old = open.size();
+    for (const auto& [lower, upper] : parts) {
+        Area part{at, at, lower, upper, 0, 1};
+        for (std::size_t k = 0; k < old && !after_tip; ++k)
+            if (open[k].lower == lower && open[k].upper == upper) part.from = open[k].from, open[k].from = -1;
+        open.push_back(part);
+    }
+    for (std::size_t k = 0; k < old; ++k) {
+        if (open[k].from < 0) continue;
+        open[k].to = at;
+        bounds(open[k]);
+        next.push_back(open[k]);
+    }
+    open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(old));
+}
+
+// False if nothing is taken away.
+bool Trimmer::subtract_from(const Area& area, const Band& taken) {
+    const Area& band = taken.area;
+    if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi || band.t_max < area.t_min ||
+        band.t_min > area.t_max)
+        return false;
+    const Index from = before(area.from, band.from) ? band.from : area.from;
+    const Index to = before(band.to, area.to) ? band.to : area.to;
+    if (!before(from, to)) return false;
+    // where the band lies against the area: four orders, their changes in one list
+    const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[from], events[to]); };
+    Predicates::Order orders[4];
+    orders[0] = order(band.lower, area.upper);
+    if (orders[0].count == 0 && orders[0].sign[0] >= 0) return false;
+    orders[1] = order(band.upper, area.lower);
+    if (orders[1].count == 0 && orders[1].sign[0] <= 0) return false;
+    orders[2] = order(band.lower, area.lower);
+    orders[3] = order(band.upper, area.upper);
+    struct Cut {
+        Index event;
+        int which;
+    };
+    Cut cuts[16];
+    int count = 0;
+    for (int w = 0; w < 4; ++w) {
+        for (int r = 0; r < orders[w].count; ++r) {
+            Cut cut{intern(orders[w].at[r]), w};
+            int k = count++;
+            for (; k > 0 && before(cut.event, cuts[k - 1].event); --k) cuts[k] = cuts[k - 1];
+            cuts[k] = cut;
+        }
+    }
+    // what the band leaves of the area without width, at an angle between two parts (or one, or none, of them covered)
+    struct Cover {
+        bool all, low, high;  // some of the area's inside; its lower, its upper curve
+    };
+    const auto leave = [&](Index at, const Cover* before_it, const Cover* after_it, bool low_meets, bool high_meets) {
+        for (const Cover* c : {before_it, after_it})
+            if (c != nullptr && !c->all) return;
+        const auto both = [&](bool Cover::*which) {
+            return (before_it == nullptr || before_it->*which) && (after_it == nullptr || after_it->*which);
+        };
+        if (!covers_at(taken, at)) return add_thin(at, at, area.lower, area.upper);
+        const bool is_end = before_it == nullptr || after_it == nullptr;
+        const auto meets = [&](int w, Index p, Index q) { return is_end && !orders[w].strict && order_at(at, p, q) == 0; };
+        if (both(&Cover::low) && (low_meets || meets(2, band.lower, area.lower))) add_thin(at, at, area.lower, area.lower);
+        if (both(&Cover::high) && (high_meets || meets(3, band.upper, area.upper))) add_thin(at, at, area.upper, area.upper);
+    };
+    // between cuts the order is constant: keep the area, or what is below and above the band
+    open.clear();
+    if (from != area.from) go_on(area.from, {{area.lower, area.upper}}, false);
+    int position[4] = {0, 0, 0, 0};
+    Cover last{};
+    bool low_meets = false, high_meets = false;
+    for (int k = 0;;) {
+        const Index start = k == 0 ? from : cuts[k - 1].event, end = k == count ? to : cuts[k].event;
+        const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
+        const Cover cover{sign(0) < 0 && sign(1) > 0, sign(2) < 0, sign(3) > 0};
+        const bool below = sign(2) > 0, above = sign(3) < 0;
+        if (!cover.all) go_on(start, {{area.lower, area.upper}}, false);
+        else if (below && above) go_on(start, {{area.lower, band.lower}, {band.upper, area.upper}}, low_meets || high_meets);
+        else if (below) go_on(start, {{area.lower, band.lower}}, low_meets);
+        else if (above) go_on(start, {{band.upper, area.upper}}, high_meets);
+        else go_on(start, {}, false);
+        if (taken.state != nullptr) {
+            if (cover.all && sign(2) == 0) add_thin(start, end, area.lower, area.lower);
+            if (cover.all && sign(3) == 0) add_thin(start, end, area.upper, area.upper);
+            if (k > 0) leave(start, &last, &cover, low_meets, high_meets);
+            else if (from == area.from) leave(start, nullptr, &cover, false, false);
+            if (k == count && to == area.to) leave(to, &cover, nullptr, false, false);
+        }
+        last = cover;
+        if (k == count) break;
+        low_meets = high_meets = false;
+        do {
+            low_meets |= cuts[k].which == 2, high_meets |= cuts[k].which == 3;
+            ++position[cuts[k].which], ++k;
+        } while (k < count && equal(cuts[k].event, cuts[k - 1].event));
+    }
+    if (to != area.to) go_on(to, {{area.lower, area.upper}}, false);
+    go_on(area.to, {}, false);
+    return true;
 }
 
 void Trimmer::subtract_from_thin(const Band& taken) {

@@ -1,3 +1,4 @@
+#include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
 
 #include "check.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 #include <memory>
 
-#include "cfree/boundary.hpp"
+#include "cfree/trapezoids.hpp"
 
 namespace cfree {
 

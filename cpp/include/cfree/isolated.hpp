@@ -3,11 +3,13 @@
 // Trimming leaves parts without width on each patch. Most of them lie on trapezoids of other patches; what is left when those
 // have been taken away is isolated, and is listed once.
 #pragma once
-#include "cfree/critical_angle.hpp"
+#include <atomic>
+
+#include "cfree/trapezoids.hpp"
 
 namespace cfree {
 
 IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
-                             int threads, const std::atomic<bool>& stop);
+                             int threads, std::atomic<bool>& stop);
 
 }  // namespace cfree

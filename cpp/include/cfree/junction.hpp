@@ -43,13 +43,11 @@ public:
     int across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after);
 
 private:
-    struct Ends {
-        Index a, b;  // the surface's line starts at b_b - R a_a
-    };
-    Ends start(const Feature& x) const;
     Predicates on(const Feature& x) const { return {scene, {x, chart}}; }
     template <class T>
     Trig<T> along(const Feature& x, Index a, Index b) const;  // U . (b_b - R a_a - P)
+    template <class T>
+    Vec<T> direction(const Feature& x) const;  // U, or -U turned back for an edge of the robot
     template <class T>
     Trig<T> directions_dot(const Feature& x, const Feature& y) const;
     template <class T>

@@ -26,6 +26,8 @@ struct Feature {
 // Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
 using Code = std::uint64_t;
 Code code(const Scene& scene, const Feature& f);
+// Of a surface: the helix at t = 0 or t = 1.
+Feature end_helix(const Scene& scene, const Feature& contact, int end);
 
 // The contact surface under study, in one chart.
 struct Surface {

@@ -31,6 +31,7 @@ struct Shape {
     std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
 
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
+    bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
     // Sets X and Y and what is derived from them. Both shapes of a scene have the same shift: 0, or enough to keep products
     // of four doubles finite.
     void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0);

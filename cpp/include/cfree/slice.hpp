@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "cfree/boundary.hpp"
+#include "cfree/trapezoids.hpp"
 
 namespace cfree {
 

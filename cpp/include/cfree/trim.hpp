@@ -5,6 +5,7 @@
 // bounded by two angles and two curves. Areas are closed and bands are open, so that parts of no width can remain: a curve, a
 // piece of the line at one angle, a point. Those are `thin`.
 #pragma once
+#include <initializer_list>
 #include <vector>
 
 #include "cfree/predicates.hpp"
@@ -26,8 +27,8 @@ public:
 
     // Take away robot piece p against obstacle piece k.
     void cover(Index p, Index k);
-    // Take away what another patch of the same surface owns: the edge between two vertices on this one's line.
-    void cede(const Feature& first, const Feature& last, const Event& from, const Event& to);
+    // Take away what another patch of the same surface owns, between two angles.
+    void cede(const Feature& owner, const Event& from, const Event& to);
     bool empty() const { return live.empty() && thin.empty(); }
     // What is left, in order, neighbours with the same curves joined; and what is left without width: lower = upper or from = to.
     void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
@@ -87,6 +88,8 @@ private:
     Feature normal_form(const Feature& feature) const;
     void bounds(Area& area) const;
     void subtract(const Band& band);
+    bool subtract_from(const Area& area, const Band& band);
+    void go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip);
     void subtract_from_thin(const Band& band);
     void add_thin(Index from, Index to, Index lower, Index upper) { fresh.push_back({from, to, lower, upper, 0, 1}); }
     Index intern(const Event& event);
@@ -97,7 +100,7 @@ private:
     Surface surface;
     std::vector<Event> events;
     std::vector<Curve> curves;
-    std::vector<Area> live, next;
+    std::vector<Area> live, next, open;  // what there is, what will be there, and of that what has no end yet
     std::vector<Area> thin, fresh;
     std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
     std::vector<Span> todo;
