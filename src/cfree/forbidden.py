@@ -47,7 +47,7 @@ class Stats:
         Signs and orders, by the rung that decided them: equal features; doubles with an error bound; intervals in
         twice their precision; exact integers.
     seconds : dict of str to float
-        By phase: features, setup, trim, collect, and total, of all. `intervals` and `exact` are the parts of
+        By phase: features, trim, collect, isolated, and total, of all. `intervals` and `exact` are the parts of
         `trim` that those two rungs took, summed over threads. Empty for a boundary read from a file.
     """
 
