@@ -129,11 +129,11 @@ def change_a_feature(rng: random.Random, good: Boundary, column: Any) -> bool:
     return int(column[k]) != old
 
 
-def change_a_curves_feature(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def change_the_feature_of_a_curve(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     return change_a_feature(rng, good, columns[rng.choice(["lower", "upper"])])
 
 
-def change_a_curves_kind(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def change_the_kind_of_a_curve(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     k, side = pick(rng, good), columns[rng.choice(["lower", "upper"])]
     kind, i, j = map(int, unpacked(int(side[k])))
     side[k] = (kind % 3 + 1) << 61 | i << 31 | j
@@ -201,11 +201,11 @@ def change_a_place(rng: random.Random, good: Boundary, columns: Columns) -> bool
     return True
 
 
-def change_an_angles_feature(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def change_the_feature_of_an_angle(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     return change_a_feature(rng, good, columns[rng.choice([f"{e}_{n}" for e in ("from", "to") for n in ANGLE[:2]])])
 
 
-def forget_an_angles_name(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def forget_the_name_of_an_angle(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     name, k = rng.choice(["from_first", "to_first"]), pick(rng, good)
     had_one = bool(columns[name][k])
     columns[name][k] = 0
@@ -215,7 +215,7 @@ def forget_an_angles_name(rng: random.Random, good: Boundary, columns: Columns) 
 # --- patches ---
 
 
-def change_a_patchs_feature(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def change_the_feature_of_a_patch(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     k = int(columns["patch"][pick(rng, good)])
     kind, i, j = (int(columns[name][k]) for name in CONTACT)
     old = kind << 61 | i << 31 | j
@@ -224,7 +224,7 @@ def change_a_patchs_feature(rng: random.Random, good: Boundary, columns: Columns
     return new != old
 
 
-def change_a_patchs_kind(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def change_the_kind_of_a_patch(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     columns["contact_kind"][columns["patch"][pick(rng, good)]] ^= 3
     return True
 
@@ -305,7 +305,7 @@ def turn_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) 
     return True
 
 
-def change_an_isolated_parts_patch(rng: random.Random, good: Boundary, columns: Columns) -> bool:
+def change_the_patch_of_an_isolated_part(rng: random.Random, good: Boundary, columns: Columns) -> bool:
     """To one of another line."""
     if not len(good.isolated):
         return False
@@ -359,14 +359,15 @@ def add(columns: Columns, part: dict[str, Any] | None) -> bool:
 
 
 OF_TRAPEZOIDS: tuple[Mutation, ...] = (
-    drop_one, drop_all, duplicate_one, duplicate_all, move_to_another_patch, change_the_chart,
-    swap_lower_and_upper, swap_curves_of_two, swap_curves_of_two_patches, change_a_curves_feature, change_a_curves_kind,
+    drop_one, drop_all, duplicate_one, duplicate_all, move_to_another_patch, change_the_chart, swap_lower_and_upper,
+    swap_curves_of_two, swap_curves_of_two_patches, change_the_feature_of_a_curve, change_the_kind_of_a_curve,
     forget_a_curve, swap_from_and_to, take_another_angle, move_an_interval, narrow_an_interval, widen_an_interval,
-    change_a_place, change_an_angles_feature, forget_an_angles_name, change_a_patchs_feature, change_a_patchs_kind,
+    change_a_place, change_the_feature_of_an_angle, forget_the_name_of_an_angle, change_the_feature_of_a_patch,
+    change_the_kind_of_a_patch,
 )  # fmt: skip
 OF_ISOLATED_PARTS: tuple[Mutation, ...] = (
     drop_an_isolated_part, duplicate_an_isolated_part, invent_a_point, invent_a_segment, invent_a_curve,
-    lengthen_or_shorten_a_segment, turn_an_isolated_part, change_an_isolated_parts_patch,
+    lengthen_or_shorten_a_segment, turn_an_isolated_part, change_the_patch_of_an_isolated_part,
 )  # fmt: skip
 MUTATIONS = OF_TRAPEZOIDS + OF_ISOLATED_PARTS
 
