@@ -5,7 +5,7 @@ SANITIZED := $(addprefix tests/test_,core.py patch.py slice.py storage.py mesh.p
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
-.PHONY: demo test ctest ctest-sanitize sanitize fuzz lint bench dev stub clean
+.PHONY: demo test ctest ctest-sanitize sanitize fuzz lint bench docs dev stub clean
 
 demo: $(INSTALLED)  ## the boundary of the forbidden space of a car park, into demo/
 	$(BIN)/cfree boundary examples/scenes/benchmr_parking1.json \
@@ -42,6 +42,13 @@ lint: $(INSTALLED)
 
 bench: $(INSTALLED)  ## figures against baselines measured in the same run
 	$(BIN)/python benchmarks/run.py
+
+docs: .venv/documented  ## the documentation as pages, into docs/_build/html
+	$(BIN)/python -m sphinx -W --keep-going -q docs docs/_build/html
+
+.venv/documented: $(INSTALLED)
+	$(BIN)/pip install -q --disable-pip-version-check -e '.[test,docs]'
+	touch $@
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
 	$(BIN)/pip install -q scikit-build-core nanobind boost-headers cmake ninja

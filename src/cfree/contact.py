@@ -181,8 +181,8 @@ def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tup
 
     Notes
     -----
-    Section 3.3.2: with L = |E_i| / |E_j|, a_i is at b_j + t E_j and a_{i+1} at b_j + (t - L) E_j. The edges overlap
-    for 0 < t < 1 + L; beyond a reflex end vertex the interiors do.
+    Section 3.3.2: with L the length of E_i over that of E_j, a_i is at b_j + t E_j and a_{i+1} at b_j + (t - L) E_j.
+    The edges overlap for 0 < t < 1 + L; beyond a reflex end vertex the interiors do.
 
     Examples
     --------

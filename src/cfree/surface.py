@@ -105,7 +105,7 @@ class Helix:
     centre : pair of Fraction
         P in the plane.
     fixed : pair of Fraction
-        a in the robot's own coordinates; the radius of the helix is |a|.
+        a in the robot's own coordinates; its length is the radius of the helix.
 
     Examples
     --------
