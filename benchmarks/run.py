@@ -1,6 +1,6 @@
 """Benchmarks of cfree against baselines measured in the same run; see README.md beside this file.
 
-    python benchmarks/run.py [NAME ...] [--quick] [--json FILE]
+python benchmarks/run.py [NAME ...] [--quick] [--json FILE]
 """
 
 from __future__ import annotations

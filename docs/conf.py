@@ -19,7 +19,8 @@ source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 exclude_patterns = ["_build", "gallery/GALLERY_HEADER.rst", "sg_execution_times.rst"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
-suppress_warnings = ["myst.xref_missing", "ref.python", "config.cache"]  # links to files that are no pages; names in types
+# links to files of the repository that are no pages; names of arguments taken for types
+suppress_warnings = ["myst.xref_missing", "ref.python", "config.cache"]
 autodoc_typehints = "none"
 autodoc_member_order = "bysource"
 autosummary_generate = True

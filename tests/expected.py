@@ -1,8 +1,8 @@
 """What is known of the scenes in `cases`, and its update.
 
-    python tests/expected.py                    what differs from the files
-    python tests/expected.py --write            fill in what the files do not say yet
-    python tests/expected.py --write --force    replace what differs; review the difference
+python tests/expected.py                    what differs from the files
+python tests/expected.py --write            fill in what the files do not say yet
+python tests/expected.py --write --force    replace what differs; review the difference
 """
 
 from __future__ import annotations

@@ -114,9 +114,7 @@ def boundary_contact_distance(
     return min(distances, default=math.inf)
 
 
-def pairwise_sums(
-    robot: Sequence[Polygon], obstacles: Sequence[Polygon], theta: float
-) -> list[shapely.Geometry]:
+def pairwise_sums(robot: Sequence[Polygon], obstacles: Sequence[Polygon], theta: float) -> list[shapely.Geometry]:
     """Convex hulls of the vertex sums O_k (+) -R A_p, one for each pair of convex pieces."""
     c, s = math.cos(theta), math.sin(theta)
     turned = [-piece @ np.array([[c, s], [-s, c]]) for piece in convex_pieces(robot)]

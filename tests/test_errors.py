@@ -13,9 +13,7 @@ from cfree import errors
         (errors.InvariantError, RuntimeError),
     ],
 )
-def test_every_error_is_a_cfree_error_and_a_builtin_one(
-    kind: type[Exception], builtin: type[Exception]
-) -> None:
+def test_every_error_is_a_cfree_error_and_a_builtin_one(kind: type[Exception], builtin: type[Exception]) -> None:
     assert issubclass(kind, errors.CfreeError)
     assert issubclass(kind, builtin)
 

@@ -93,9 +93,7 @@ def test_convex_pieces_tile(name: str) -> None:
 def test_convex_pieces_tile_any_polygon(shape: strategies.Shape) -> None:
     pieces = convex_pieces(fractions_of(shape))
     assert sum(map(oracles.ring_area, pieces)) == oracles.exact_area([shape])
-    assert not any(
-        oracles.interiors_meet(tuple(p), tuple(q)) for k, p in enumerate(pieces) for q in pieces[:k]
-    )
+    assert not any(oracles.interiors_meet(tuple(p), tuple(q)) for k, p in enumerate(pieces) for q in pieces[:k])
 
 
 @settings(deadline=None)

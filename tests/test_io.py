@@ -177,7 +177,7 @@ def test_the_error_carries_its_problems(tmp_path: Path) -> None:
         ('{"robot": {"outer": [[0, 0], "1/', "1:30 the file ends in the middle of a value; is it complete?"),
         (f'{{"robot": {TRIANGLE},}}', '1:47 expected a "key", got }; remove the comma before it'),
         ('{"robot": {"outer": [[0, .5]]}}', "1:26 expected a value, got .5; write a digit before the point"),
-        ("{'robot': 1}", "expected a \"key\", got 'robot':; use double quotes \""),
+        ("{'robot': 1}", 'expected a "key", got \'robot\':; use double quotes "'),
         ("// scene\n{}", "1:1 expected a value, got //; JSON has no comments, use the note"),
         ('{"robot" 1}', "1:10 expected ':' delimiter, got 1"),
         (f'{{"robot": {TRIANGLE}}} x', "1:48 expected the end of the file, got x"),
@@ -408,26 +408,21 @@ def test_faults_of_geojson_are_placed(tmp_path: Path) -> None:
  {"type": "Polygon"}, {"type": ["a"]}, 7, {"type": "FeatureCollection"}, {"type": "Feature"}
 ]}"""
     assert faults(tmp_path, text, "map.geojson") == [
-        "map.geojson:2:45 features[0].properties.role: "
-        'expected one of robot, obstacle, workspace, got "robto"',
+        'map.geojson:2:45 features[0].properties.role: expected one of robot, obstacle, workspace, got "robto"',
         "map.geojson:2:62 features[0].properties.name: expected text in quotes, got 5",
-        "map.geojson:3:69 features[0].geometry.coordinates[0][2][0]: "
-        'expected a number or "p/q", got "a"',
+        'map.geojson:3:69 features[0].geometry.coordinates[0][2][0]: expected a number or "p/q", got "a"',
         "map.geojson:4:54 features[1].geometry: LineString: shapes are closures of their interiors: "
         "a segment or a point forbids nothing; give it width",
-        "map.geojson:5:54 features[2].geometry: "
-        "expected a GeoJSON feature or geometry with polygons, got null",
+        "map.geojson:5:54 features[2].geometry: expected a GeoJSON feature or geometry with polygons, got null",
         "map.geojson:7:46 features[3].coordinates[0][1]: "
         "hole 0: it lies outside the outer ring; move it, or leave it out",
         "map.geojson:7:74 features[3].coordinates[1][0]: outer ring: 2 points; give at least 3: "
         "shapes are closures of their interiors: a segment or a point forbids nothing",
         'map.geojson:8:2 features[4]: a Polygon needs "coordinates"',
-        "map.geojson:8:23 features[5]: "
-        'expected a GeoJSON feature or geometry with polygons, got {"type": ["a"]}',
+        'map.geojson:8:23 features[5]: expected a GeoJSON feature or geometry with polygons, got {"type": ["a"]}',
         "map.geojson:8:40 features[6]: expected a GeoJSON feature or geometry with polygons, got 7",
         'map.geojson:8:43 features[7]: a FeatureCollection needs a list "features"',
-        "map.geojson:8:74 features[8]: "
-        'expected a GeoJSON feature or geometry with polygons, got {"type": "Feature"}',
+        'map.geojson:8:74 features[8]: expected a GeoJSON feature or geometry with polygons, got {"type": "Feature"}',
     ]
 
 

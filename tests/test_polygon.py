@@ -27,9 +27,7 @@ SQUARE = [(0, 0), (6, 0), (6, 6), (0, 6)]
 def star(n: int, seed: int = 1) -> list[tuple[float, float]]:
     """Star-shaped ring with random radii in [0.2, 1]."""
     radii = np.random.default_rng(seed).uniform(0.2, 1, n)
-    return [
-        (r * math.cos(2 * math.pi * k / n), r * math.sin(2 * math.pi * k / n)) for k, r in enumerate(radii)
-    ]
+    return [(r * math.cos(2 * math.pi * k / n), r * math.sin(2 * math.pi * k / n)) for k, r in enumerate(radii)]
 
 
 # examples
@@ -62,9 +60,7 @@ def test_rings_are_turned_so_that_the_interior_is_on_the_left() -> None:
     assert polygon.next.tolist() == [1, 2, 3, 0, 5, 6, 4]
     assert polygon.exact_area == Fraction(71, 2)
     assert not polygon.convex[4:].any()
-    np.testing.assert_allclose(
-        polygon.interior_angles[4:], [3 * math.pi / 2, 7 * math.pi / 4, 7 * math.pi / 4]
-    )
+    np.testing.assert_allclose(polygon.interior_angles[4:], [3 * math.pi / 2, 7 * math.pi / 4, 7 * math.pi / 4])
     assert polygon == Polygon(SQUARE[::-1], [hole[:1] + hole[:0:-1]])
 
 
@@ -218,12 +214,8 @@ def test_direction_of_the_rings_given_does_not_matter(shape: Shape, random: Any)
     assert polygon.exact_area > 0
 
 
-@given(
-    strategies.polygons(), st.fractions(-5, 5).filter(bool), strategies.fractions(), strategies.fractions()
-)
-def test_moving_and_scaling_change_measures_accordingly(
-    shape: Shape, f: Fraction, dx: Fraction, dy: Fraction
-) -> None:
+@given(strategies.polygons(), st.fractions(-5, 5).filter(bool), strategies.fractions(), strategies.fractions())
+def test_moving_and_scaling_change_measures_accordingly(shape: Shape, f: Fraction, dx: Fraction, dy: Fraction) -> None:
     polygon = Polygon(*shape)
     outer, *holes = (
         [(f * x + dx, f * y + dy) for x, y in polygon.exact_vertices[first:end]]

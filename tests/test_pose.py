@@ -69,9 +69,7 @@ def test_a_half_angle_tangent_is_kept_and_its_angle_given() -> None:
 
 def test_degrees_are_degrees() -> None:
     for degrees in range(-720, 1000, 7):
-        assert math.isclose(
-            math.cos(Pose(0, 0, f"{degrees}deg").theta), math.cos(math.radians(degrees)), abs_tol=3e-15
-        )
+        assert math.isclose(math.cos(Pose(0, 0, f"{degrees}deg").theta), math.cos(math.radians(degrees)), abs_tol=3e-15)
     assert Pose(0, 0, "1e300deg").theta_error < 1e-15
 
 

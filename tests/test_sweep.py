@@ -61,9 +61,7 @@ def do_cross(shapes: Shapes) -> bool:
 
 
 small = st.tuples(st.integers(0, 5), st.integers(0, 5))
-rings = (
-    st.lists(small, min_size=3, max_size=7).map(without_straight_vertices).filter(lambda ring: len(ring) > 2)
-)
+rings = st.lists(small, min_size=3, max_size=7).map(without_straight_vertices).filter(lambda ring: len(ring) > 2)
 
 
 def test_the_first_fault_of_a_bow_tie_is_its_crossing() -> None:

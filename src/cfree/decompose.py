@@ -121,9 +121,7 @@ def _delaunay(v: Sequence[IntPoint], rings: Sequence[Ring]) -> list[Triangle]:
     return [(a, b, c) if orient(v[a], v[b], v[c]) is Orientation.LEFT else (a, c, b) for a, b, c in triangles]
 
 
-def _merge(
-    v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Triangle]
-) -> list[tuple[int, ...]]:
+def _merge(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Triangle]) -> list[tuple[int, ...]]:
     """Faces left after removing diagonals while both their ends stay convex."""
     # half-edge 3k + m runs from corner m of triangle k to its next corner
     origin = [k for triangle in triangles for k in triangle]
@@ -137,9 +135,7 @@ def _merge(
         before, after = origin[preceding[h]], origin[following[following[back]]]
         return orient(v[before], v[origin[h]], v[after]) is not Orientation.RIGHT
 
-    for a, b in _least_useful_first(
-        v, rings, [(a, b) for a, b in half_edge if a < b and (b, a) in half_edge]
-    ):
+    for a, b in _least_useful_first(v, rings, [(a, b) for a, b in half_edge if a < b and (b, a) in half_edge]):
         h, back = half_edge[a, b], half_edge[b, a]
         if is_convex_without(h, back) and is_convex_without(back, h):
             for one, other in ((h, back), (back, h)):

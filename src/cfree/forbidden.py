@@ -394,5 +394,3 @@ class Boundary:
         from cfree.storage import save_boundary
 
         save_boundary(self, path)
-
-

@@ -102,9 +102,7 @@ class Scene:
         check: Mapping[str, object] | None = None,
         version: int = 1,
     ) -> None:
-        robot_parts = [
-            polygon for k, item in enumerate(_items(robot)) for polygon in _polygons(item, f"robot[{k}]")
-        ]
+        robot_parts = [polygon for k, item in enumerate(_items(robot)) for polygon in _polygons(item, f"robot[{k}]")]
         if not robot_parts:
             raise InvalidPolygonError("the robot is empty; give at least one polygon")
         items = _items(obstacles)

@@ -115,9 +115,7 @@ def sweep(points: Sequence[IntPoint], offsets: Sequence[int]) -> EdgesMeet | Nes
     return nesting
 
 
-def _count_below(
-    point: IntPoint, active: Sequence[int], start: Sequence[IntPoint], end: Sequence[IntPoint]
-) -> int:
+def _count_below(point: IntPoint, active: Sequence[int], start: Sequence[IntPoint], end: Sequence[IntPoint]) -> int:
     """Number of active edges that pass below a point."""
     low, high = 0, len(active)
     while low < high:

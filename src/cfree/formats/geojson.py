@@ -18,9 +18,7 @@ from cfree.polygon import Polygon
 from cfree.scene import explained, flat_shape
 
 # further coordinates, such as heights, are ignored as the RFC allows
-_RINGS = TypeAdapter(
-    list[list[Annotated[Point, BeforeValidator(lambda p: p[:2] if isinstance(p, list) else p)]]]
-)
+_RINGS = TypeAdapter(list[list[Annotated[Point, BeforeValidator(lambda p: p[:2] if isinstance(p, list) else p)]]])
 _CHILDREN = {"FeatureCollection": "features", "GeometryCollection": "geometries"}
 _FLAT = ("Point", "MultiPoint", "LineString", "MultiLineString")
 
