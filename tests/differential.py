@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 import random
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import cmp_to_key
@@ -23,6 +24,7 @@ from reference import (
     VERTEX_VERTEX,
     Angle,
     Feature,
+    Junction,
     Predicates,
     Shape,
     rational,
@@ -314,6 +316,80 @@ def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
                 asked += 1
             assert surface.core.vanishes(pack(p), pack(q)) == (surface.reference.polynomial(p, q) == 0)
         events = [*rng.sample(events, min(len(events), 14)), FIRST_WALL, LAST_WALL]
+    return asked
+
+
+def ask_junctions(surface: Surface, rng: random.Random, queries: int = 20) -> Counter[str]:
+    """Ask about several lines at some critical angles of a surface; how often each was asked, and how often they tie."""
+    A, O = surface.shapes
+    vertices, edges = (range(len(A.vertices)), range(len(O.vertices))), (range(len(A.edges)), range(len(O.edges)))
+    asked: Counter[str] = Counter()
+
+    def any_line() -> Feature:
+        if rng.random() < 0.5:
+            return Feature(VERTEX_EDGE, rng.choice(vertices[0]), rng.choice(edges[1]))
+        return Feature(EDGE_VERTEX, rng.choice(edges[0]), rng.choice(vertices[1]))
+
+    def curve_on(s: Feature) -> Feature:
+        """Another surface, or one of the two helices at its ends."""
+        if rng.random() < 0.6:
+            return any_line()
+        if s.kind == VERTEX_EDGE:
+            return Feature(VERTEX_VERTEX, s.robot, rng.choice(O.edges[s.obstacle]))
+        return Feature(VERTEX_VERTEX, rng.choice(A.edges[s.robot]), s.obstacle)
+
+    events = [FIRST_WALL, LAST_WALL]
+    events += surface.core.offset_roots(rng.choice(vertices[0]), rng.choice(vertices[1]), FIRST_WALL, LAST_WALL)[0]
+    g, f = rng.choice(edges[0]), rng.choice(edges[1])
+    meet = [Feature(VERTEX_EDGE, A.edges[g][0], f), Feature(EDGE_VERTEX, g, O.edges[f][0])]  # one line where parallel
+    events += surface.core.parallel_roots(g, f, FIRST_WALL, LAST_WALL)[0] * 3
+    for _ in range(6):
+        p, q = curve_on(surface.contact), curve_on(surface.contact)
+        for span in surface.spans(p, q):
+            events += surface.check_compare(p, q, *span)
+    for event in rng.sample(events, min(len(events), 3)):
+        true = Junction(*surface.shapes, surface.chart, surface.angle(event))
+        core = _core.Junction(surface.core, event, rng.random() < 0.5)
+        lines = [surface.contact, *meet, any_line(), any_line()]
+
+        def check(name: str, mine: int, expected: int, *about: object, where: Event = event) -> int:
+            assert mine == expected, (name, where, *about, mine, expected)
+            asked[f"{name} {expected}"] += 1
+            return expected
+
+        beside = Surface(surface.rings, rng.choice(lines), surface.chart)
+        other = beside.core.offset_roots(rng.choice(vertices[0]), rng.choice(vertices[1]), FIRST_WALL, LAST_WALL)[0]
+        for another in [*other, *beside.core.parallel_roots(g, f, FIRST_WALL, LAST_WALL)[0], LAST_WALL]:
+            expected = surface.angle(event).compare(beside.angle(another))
+            check("order of angles", _core.order(surface.core, event, beside.core, another), expected, beside, another)
+        for _ in range(queries):
+            x, y = rng.choice(lines), rng.choice([*lines, any_line()])
+            one_line = False
+            if check("parallel", core.parallel(pack(x), pack(y)), true.parallel(x, y), x, y):
+                one_line = check("side", core.side(pack(x), pack(y)), true.side(x, y), x, y) == 0
+            a, b = rng.choice(vertices[0]), rng.choice(vertices[1])
+            check("side_of_helix", core.side_of_helix(pack(x), a, b), true.side_of_helix(x, a, b), x, a, b)
+            c, d = curve_on(x), curve_on(x)
+            p, q = true.place(x, c), true.place(x, d)
+            if p is None or q is None:
+                continue
+            first, last = (pack(x), pack(c)), (pack(x), pack(d))
+            z = rng.choice(lines)
+            same = true.same_place(p, q)
+            check("is_same_curve", _core.is_same_curve(surface.core, first, last), same, x, c, d)
+            check("lies_on", _core.lies_on(surface.core, first, pack(z)), true.lies_on(p, z), x, c, z)
+            check("side_of_place", core.side_of_place(pack(z), first), true.side_of_place(z, p), z, x, c)
+            order = check("order", core.order(pack(x), first, last), true.order(x, p, q), x, c, d)
+            value = true.value(x, p)
+            if abs(value) < 2:  # on the patch, and a little beyond
+                error = abs(Fraction(core.value(pack(x), first)) - value)
+                assert error < Fraction(1, 2**30), ("value", event, x, c)
+            if one_line:
+                check("order", core.order(pack(y), first, last), true.order(y, p, q), y, x, c, d)
+                if order and true.is_on_patch(x, p) and true.is_on_patch(x, q):
+                    for after in (False, True):
+                        mine = core.across(pack(x), pack(y), first, last, after)
+                        check("across", mine, true.across(x, y, p, q, after), x, y, c, d, after)
     return asked
 
 

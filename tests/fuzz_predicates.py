@@ -13,7 +13,7 @@ import time
 import traceback
 from collections import Counter
 
-from differential import FAMILIES, ask, distinct, random_surface
+from differential import FAMILIES, ask, ask_junctions, distinct, random_surface
 
 
 def fuzz(seconds: float, seed: int, families: list[str]) -> int:
@@ -25,7 +25,7 @@ def fuzz(seconds: float, seed: int, families: list[str]) -> int:
             rng = random.Random(f"{name} {number}")
             surface = random_surface(distinct(FAMILIES[name](rng)), rng)
             try:
-                asked[name] += ask(surface, rng)
+                asked[name] += ask(surface, rng) + ask_junctions(surface, rng).total()
             except Exception:
                 traceback.print_exc(file=sys.stdout)
                 print(f"family {name}, seed {number}: {surface}")

@@ -127,9 +127,8 @@ def sign_before(polynomial: fmpz_poly, x: Angle) -> int:
 
 
 def sign_at(polynomial: fmpz_poly, x: Angle) -> int:
-    if polynomial == 0 or any(root.angle == x for root in real_roots(polynomial)):
-        return 0
-    return sign_after(polynomial, x)
+    rest = (fmpq_poly(polynomial) % fmpq_poly(x.polynomial)).numer()  # over a positive denominator
+    return 0 if rest == 0 else sign_after(rest, x)
 
 
 class Root(NamedTuple):
@@ -351,6 +350,114 @@ class Predicates:
         # sin(theta) x = cos(theta) y
         polynomial = fmpz_poly([0, 2]) * x - fmpz_poly([1, 0, -1]) * y
         return chart, Predicates.roots(polynomial, FIRST, LAST)[0]
+
+
+# --- several surfaces at one critical angle ---
+
+Place = tuple[fmpz_poly, fmpz_poly, fmpz_poly]  # x and y over a denominator that is not zero at the angle
+
+
+class Junction:
+    """What contact lines look like at one critical angle, and just before and after it."""
+
+    def __init__(self, robot: Shape, obstacles: Shape, chart: int, angle: Angle) -> None:
+        self.angle = angle
+        self.on = lru_cache(maxsize=None)(lambda contact: Predicates(robot, obstacles, contact, chart))
+
+    def sign(self, polynomial: fmpz_poly) -> int:
+        return sign_at(polynomial, self.angle)
+
+    def parallel(self, x: Feature, y: Feature) -> int:
+        """1 the same direction, -1 the opposite, 0 not parallel."""
+        U, V = self.on(x).U, self.on(y).U
+        return 0 if self.sign(cross(U, V)) else self.sign(dot(U, V))
+
+    def side(self, x: Feature, y: Feature) -> int:
+        """Of parallel lines: y is left of x (1), right of it (-1), or on it."""
+        return self.side_of_place(x, (*self.on(y).P, fmpz_poly([1])))
+
+    def side_of_helix(self, x: Feature, a: int, b: int) -> int:
+        return self.sign(self.on(x).offset(a, b))
+
+    def place(self, surface: Feature, curve: Feature) -> Place | None:
+        """Where a curve on a surface arrives, by continuity; None if that is at infinity."""
+        on = self.on(surface)
+        N, D = on.curve(curve)
+        if D == 0:
+            return None
+        common = N.gcd(D)
+        N, D = N // common, D // common
+        return None if self.sign(D) == 0 else (on.P[0] * D + on.U[0] * N, on.P[1] * D + on.U[1] * N, D)
+
+    @staticmethod
+    def same_place(p: Place, q: Place) -> bool:
+        """At every angle: the curves are one."""
+        return all(p[k] * q[2] == q[k] * p[2] for k in (0, 1))
+
+    def lies_on(self, place: Place, surface: Feature) -> bool:
+        """At every angle: the curve is on a surface."""
+        (X, Y, D), on = place, self.on(surface)
+        return bool(cross(on.U, (X - on.P[0] * D, Y - on.P[1] * D)) == 0)
+
+    def side_of_place(self, x: Feature, place: Place) -> int:
+        (X, Y, D), on = place, self.on(x)
+        return self.sign(cross(on.U, (X - on.P[0] * D, Y - on.P[1] * D))) * self.sign(D)
+
+    def along(self, line: Feature, place: Place) -> tuple[fmpz_poly, fmpz_poly]:
+        """Numerator and denominator of t on a line through a place."""
+        (X, Y, D), on = place, self.on(line)
+        return dot(on.U, (X - on.P[0] * D, Y - on.P[1] * D)), dot(on.U, on.U) * D
+
+    def order(self, line: Feature, p: Place, q: Place) -> int:
+        (n, d), (m, e) = self.along(line, p), self.along(line, q)
+        return self.sign(n * e - m * d) * self.sign(d) * self.sign(e)
+
+    def is_on_patch(self, line: Feature, place: Place) -> bool:
+        n, d = self.along(line, place)
+        return self.sign(n) * self.sign(d) >= 0 and self.sign(d - n) * self.sign(d) >= 0
+
+    def across(self, x: Feature, y: Feature, p: Place, q: Place, after: bool) -> int:
+        """Of two surfaces with one line here: is x left of y between two places, just after the angle or before it?"""
+        t = self.rational_between(x, p, q)
+        u, v = self.on(x), self.on(y)
+        point = [c * t.denominator + t.numerator * d for c, d in zip(u.P, u.U, strict=True)]
+        offset = cross(v.U, tuple(c - t.denominator * d for c, d in zip(point, v.P, strict=True)))
+        if offset == 0:
+            return 0
+        return sign_after(offset, self.angle) if after else sign_before(offset, self.angle)
+
+    def rational_between(self, line: Feature, p: Place, q: Place) -> Fraction:
+        """A rational t strictly between two different places on a line."""
+
+        def orders(t: Fraction) -> list[int]:
+            pairs = (self.along(line, place) for place in (p, q))
+            return [self.sign(n * t.denominator - t.numerator * d) * self.sign(d) for n, d in pairs]
+
+        hi = Fraction(1)
+        while sum(orders(hi)) > -2 or sum(orders(-hi)) < 2:
+            hi *= 2
+        lo = -hi
+        while True:
+            mid = (lo + hi) / 2
+            both = orders(mid)
+            if 0 not in both and sum(both) == 0:
+                return mid
+            lo, hi = (mid, hi) if sum(both) > 0 else (lo, mid)
+
+    def value(self, line: Feature, place: Place) -> Fraction:
+        """About t."""
+        n, d = self.along(line, place)
+        x = Angle(self.angle.polynomial, self.angle.lo, self.angle.hi)
+
+        def at(tau: Fraction) -> Fraction | None:
+            below = d(rational(tau))
+            t = n(rational(tau)) / below if below else fmpq(0)
+            return Fraction(int(t.p), int(t.q)) if below else None
+
+        while (lo := at(x.lo)) is None or (hi := at(x.hi)) is None or abs(hi - lo) * 2**40 > 1 + abs(lo):
+            for _ in range(32):
+                x.halve()
+        return lo
 
 
 def exact_quotient(polynomial: fmpz_poly) -> fmpz_poly:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+from collections import Counter
 from fractions import Fraction
 from typing import Any
 
@@ -22,6 +23,7 @@ from differential import (
     Rings,
     Surface,
     ask,
+    ask_junctions,
     distinct,
     pack,
     random_surface,
@@ -142,6 +144,15 @@ def test_the_core_and_the_reference_agree(family: str) -> None:
     for number in range(8):
         rng = random.Random(f"{family} {number}")
         assert ask(random_surface(distinct(FAMILIES[family](rng)), rng), rng, 6) > 100
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+def test_the_core_and_the_reference_agree_where_several_surfaces_meet(family: str) -> None:
+    asked: Counter[str] = Counter()
+    for number in range(3):
+        rng = random.Random(f"{family} {number}")
+        asked += ask_junctions(random_surface(distinct(FAMILIES[family](rng)), rng), rng)
+    assert asked["side 0"] and asked["order 0"] + asked["side_of_place 0"]
 
 
 @st.composite

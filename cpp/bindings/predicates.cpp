@@ -7,7 +7,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include "cfree/boundary.hpp"
+#include "cfree/critical_angle.hpp"
+#include "cfree/fingerprint.hpp"
+#include "cfree/junction.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -78,15 +80,38 @@ namespace {
 
 struct OnScene {  // owns what it decides about
     cfree::Scene scene;
+    cfree::Surface surface;
     cfree::Predicates decide;
-    OnScene(const cfree::Shape& robot, const cfree::Shape& obstacles, const cfree::Surface& surface)
-        : scene{robot, obstacles}, decide(scene, surface) {}
+    OnScene(const cfree::Shape& robot, const cfree::Shape& obstacles, const cfree::Surface& on)
+        : scene{robot, obstacles}, surface(on), decide(scene, surface) {}
     OnScene(const OnScene&) = delete;
+    cfree::CriticalAngle angle(const EventTuple& x) const {
+        const cfree::Event e = event(x);
+        return {surface, e, decide.place(e)};
+    }
     cfree::Curve curve(Code code, bool flipped) const {
         cfree::Curve c = decide.curve(cfree::unpacked(code));
         if (flipped) c.N = -c.N, c.D = -c.D, c.flipped = true;
         return c;
     }
+};
+
+using PlaceTuple = std::pair<Code, Code>;  // a surface, and the curve on it that arrives there
+
+class AtAngle {  // a junction at a critical angle of a surface
+public:
+    AtAngle(const OnScene& on, const EventTuple& x, bool knows)
+        : exact(on.angle(x)), at(on.scene, on.surface.chart, exact.lo, exact.hi, [this, &on] { return exact.exact(on.scene); }) {
+        if (knows) at.know(exact.name(on.scene));
+    }
+    AtAngle(const AtAngle&) = delete;
+    cfree::Spot spot(const PlaceTuple& x) const { return at.spot(cfree::unpacked(x.first), cfree::unpacked(x.second)); }
+
+private:
+    cfree::CriticalAngle exact;
+
+public:
+    cfree::Junction at;
 };
 
 }  // namespace
@@ -152,6 +177,41 @@ void bind_predicates(nb::module_& m) {
         .def("counters", [](const OnScene& p) {
             return std::pair(p.decide.counters.filter, p.decide.counters.exact);
         });
+    nb::class_<AtAngle>(m, "Junction")
+        .def("__init__", [](AtAngle* j, const OnScene& on, const EventTuple& x, bool knows) {
+            new (j) AtAngle(on, x, knows);
+        }, "on"_a, "angle"_a, "knows"_a, nb::keep_alive<1, 2>())
+        .def("parallel", [](AtAngle& j, Code x, Code y) {
+            return j.at.parallel(cfree::unpacked(x), cfree::unpacked(y));
+        }, "x"_a, "y"_a)
+        .def("side", [](AtAngle& j, Code x, Code y) {
+            return j.at.side(cfree::unpacked(x), cfree::unpacked(y));
+        }, "x"_a, "y"_a)
+        .def("side_of_helix", [](AtAngle& j, Code x, Index a, Index b) {
+            return j.at.side(cfree::unpacked(x), a, b);
+        }, "x"_a, "a"_a, "b"_a)
+        .def("side_of_place", [](AtAngle& j, Code x, const PlaceTuple& p) {
+            return j.at.side(cfree::unpacked(x), cfree::unpacked(p.first), j.spot(p));
+        }, "x"_a, "place"_a)
+        .def("order", [](AtAngle& j, Code line, const PlaceTuple& p, const PlaceTuple& q) {
+            return j.at.order(cfree::unpacked(line), j.spot(p), j.spot(q));
+        }, "line"_a, "p"_a, "q"_a)
+        .def("across", [](AtAngle& j, Code x, Code y, const PlaceTuple& p, const PlaceTuple& q, bool after) {
+            return j.at.across(cfree::unpacked(x), cfree::unpacked(y), j.spot(p), j.spot(q), after);
+        }, "x"_a, "y"_a, "p"_a, "q"_a, "after"_a)
+        .def("value", [](AtAngle& j, Code line, const PlaceTuple& p) {
+            return j.at.value(cfree::unpacked(line), j.spot(p));
+        }, "line"_a, "place"_a);
+    m.def("order", [](const OnScene& on_x, const EventTuple& x, const OnScene& on_y, const EventTuple& y) {
+        return cfree::order(on_x.scene, on_x.angle(x), on_y.angle(y));
+    }, "on_x"_a, "x"_a, "on_y"_a, "y"_a);
+    m.def("lies_on", [](const OnScene& p, const PlaceTuple& curve, Code surface) {
+        return cfree::lies_on(p.scene, {cfree::unpacked(curve.first), cfree::unpacked(curve.second)}, cfree::unpacked(surface));
+    }, "on"_a, "curve"_a, "surface"_a);
+    m.def("is_same_curve", [](const OnScene& p, const PlaceTuple& x, const PlaceTuple& y) {
+        return cfree::is_same_curve(p.scene, {cfree::unpacked(x.first), cfree::unpacked(x.second)},
+                                    {cfree::unpacked(y.first), cfree::unpacked(y.second)});
+    }, "on"_a, "x"_a, "y"_a);
     m.def("sign_at", [](const Coefficients& p, const DyadicPair& at) {
         return cfree::sign_at(polynomial(p), dyadic(at));
     }, "p"_a, "at"_a);

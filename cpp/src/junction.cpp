@@ -1,6 +1,8 @@
 #include "cfree/junction.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "form.hpp"
@@ -131,20 +133,29 @@ std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) co
 double Junction::value(const Feature& line, const Spot& p) const {
     if (!p.is_given) {
         const auto [N, D] = position<Approx>(line, p);
-        const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau);
-        if (std::abs(d) > 0x1p20 * filtered(D).err) return filtered(N).polar(tau, tau) / d;
+        const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau), t = filtered(N).polar(tau, tau) / d;
+        if (filtered(N).err + std::abs(t) * filtered(D).err < 0x1p-32 * std::abs(d)) return t;
     }
-    // lines nearly parallel: as a ratio of integers, much nearer to the angle
+    // as a ratio of integers, at both ends of an interval that shrinks until it makes no difference
     const auto [N, D] = position<Int>(line, p);
-    RealRoot at_it = here();
-    for (int k = 0; k < 160; ++k) at_it.halve();
-    const auto at = [&](const Trig<Int>& f) {
-        const Poly q = polynomial(f);
+    const auto at = [](const Poly& f, const Dyadic& tau) {
         Int value = 0;
-        for (int k = q.size(); k-- > 0;) value = value * at_it.lo.n + (q[k] << (at_it.lo.k * static_cast<unsigned>(2 - k)));
+        for (int k = f.size(); k-- > 0;) value = value * tau.n + (f[k] << (tau.k * static_cast<unsigned>(2 - k)));
         return value;
     };
-    return boost::multiprecision::cpp_rational(at(N), at(D)).convert_to<double>();
+    const Poly n = polynomial(N), d = polynomial(D);
+    const auto ratio = [&](const Dyadic& tau) {
+        const Int below = at(d, tau);
+        if (below.is_zero()) return std::numeric_limits<double>::quiet_NaN();
+        return boost::multiprecision::cpp_rational(at(n, tau), below).convert_to<double>();
+    };
+    RealRoot near = here();
+    for (int halvings = 64;; halvings *= 2) {
+        const double first = ratio(near.lo), last = ratio(near.hi);
+        if (first == last || std::abs(first - last) <= 0x1p-40 * (1 + std::abs(first))) return first;
+        if (halvings > (1 << 14)) throw std::logic_error("a place is at infinity");
+        for (int k = 0; k < halvings; ++k) near.halve();
+    }
 }
 
 // Whether what is known to meet here says that two places are one: the two curves and the line's surface, or a helix that both

@@ -38,8 +38,8 @@ public:
     int side(const Feature& x, const Feature& line, const Spot& p);
     // Order of two places along a line, that of a surface through both.
     int order(const Feature& line, const Spot& p, const Spot& q);
-    // Two surfaces with one line here: whether, just after this angle or before it and between two places on the line, x is left
-    // of y (1) or right (-1); 0: they are one surface.
+    // Two surfaces with one line here: whether, just after this angle or before it and between two places on the patch of x,
+    // x is left of y (1) or right (-1); 0: they are one surface.
     int across(const Feature& x, const Feature& y, const Spot& p, const Spot& q, bool after);
 
 private:
