@@ -320,7 +320,7 @@ def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
 
 
 def ask_junctions(surface: Surface, rng: random.Random, queries: int = 20) -> Counter[str]:
-    """Ask about several lines at some critical angles of a surface; how often each was asked, and how often they tie."""
+    """Ask about several lines at some critical angles of a surface; how often each question had which answer."""
     A, O = surface.shapes
     vertices, edges = (range(len(A.vertices)), range(len(O.vertices))), (range(len(A.edges)), range(len(O.edges)))
     asked: Counter[str] = Counter()
