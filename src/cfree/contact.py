@@ -169,11 +169,33 @@ def angle_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> AngleRan
     >>> angle_range(square, square, VertexEdge(0, 0)).domain == ((math.pi, 1.5 * math.pi),)
     True
     """
-    if not _occurs(robot, obstacle, contact):
-        raise ValueError(f"{contact} is never a contact: its corners leave no angle; see contacts()")
-    start, end = _ends(robot, obstacle, contact)
+    start, end = end_directions(robot, obstacle, contact)
     phi_min, phi_range = normalize_angles(angle(*start)), _angle_between(start, end) % (2 * math.pi)
     return AngleRange(float(phi_min), phi_range, start, end)
+
+
+def end_directions(robot: Polygon, obstacle: Polygon, contact: Contact) -> tuple[IntPoint, IntPoint]:
+    """Exact directions (cos, sin), up to length, of phi_min and phi_max; they are equal for an e-e contact only.
+
+    Raises
+    ------
+    ValueError
+        As `angle_range` does.
+
+    Notes
+    -----
+    Sums of products of the input, as eq. (7) solved for (x_0, y_0) is but for one square root: no function of an
+    angle occurs (Remark 4).
+
+    Examples
+    --------
+    >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
+    >>> end_directions(square, square, VertexEdge(0, 0))
+    ((-1, 0), (0, -1))
+    """
+    if not _occurs(robot, obstacle, contact):
+        raise ValueError(f"{contact} is never a contact: its corners leave no angle; see contacts()")
+    return _ends(robot, obstacle, contact)
 
 
 def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[float, float] | None:

@@ -23,8 +23,8 @@ from cfree.exact import ExactPoint, Number, simplest_between, to_fraction
 from cfree.predicates import Vector
 
 Floats = NDArray[np.float64]
-# radians; degrees as in "90deg"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}
-Angle = Number | Mapping[str, Number]
+# radians; degrees as in "90deg"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}, {"tau": None}
+Angle = Number | Mapping[str, Number | None]
 
 
 @dataclass(frozen=True, slots=True, init=False)
@@ -106,9 +106,7 @@ class Pose:
         >>> Pose(0, 0, "180deg").chart, Pose(0, 0, {"tau": 2}).chart
         ((1, Fraction(0, 1)), (1, Fraction(-1, 2)))
         """
-        if self.tau is None:
-            return 1, Fraction(0)
-        return (0, self.tau) if abs(self.tau) <= 1 else (1, -1 / self.tau)
+        return _to_chart(self.tau)
 
     def apply(self, points: ArrayLike) -> Floats:
         """Points of the robot, (..., 2) floats, where this pose puts them.
@@ -237,6 +235,104 @@ def half_angle_rotation(tau: Fraction | None) -> tuple[int, int, int]:
     return q * q - p * p, 2 * p * q, q * q + p * p
 
 
+def rational_rotation(tau: ArrayLike) -> tuple[Floats, Floats]:
+    """Cosine and sine of the rotation by 2 atan(tau), in doubles; both infinities are the half turn.
+
+    Examples
+    --------
+    >>> rational_rotation([0.5, math.inf])
+    (array([ 0.6, -1. ]), array([0.8, 0. ]))
+    """
+    chart, local = _split_tau(tau)
+    base, w = 1.0 - 2 * chart, 1 + local * local
+    return base * (1 - local * local) / w, base * 2 * local / w + 0.0
+
+
+def tau_of(theta: ArrayLike) -> Floats:
+    """Half-angle tangent of angles in radians, in doubles; the half turn is inf.
+
+    Examples
+    --------
+    >>> tau_of([0, math.pi / 2, math.pi])
+    array([ 0.,  1., inf])
+    """
+    chart, local = chart_of(theta)
+    with np.errstate(divide="ignore"):
+        return np.where(chart == 0, local, np.where(local == 0, np.inf, -1 / local))
+
+
+def theta_of_tau(tau: ArrayLike) -> Floats:
+    """Angle in [0, 2 pi) of half-angle tangents, in doubles.
+
+    Examples
+    --------
+    >>> theta_of_tau([0, 1, math.inf, -1]) / math.pi
+    array([0. , 0.5, 1. , 1.5])
+    """
+    return theta_of(*_split_tau(tau))
+
+
+def half_tangent(tau: Number | None) -> Fraction | None:
+    """Exact half-angle tangent of what stands for one; None, inf, -inf and "1/0" are the half turn.
+
+    Raises
+    ------
+    InvalidPoseError
+        If it is no number.
+
+    Examples
+    --------
+    >>> half_tangent("0.5"), half_tangent("inf")
+    (Fraction(1, 2), None)
+    """
+    return None if tau in (None, "inf", "-inf", "1/0", math.inf, -math.inf) else _finite("tau", tau)
+
+
+def chart_of_direction(x: int, y: int) -> tuple[int, tuple[int, int]]:
+    """Chart of a direction (cos, sin) up to length, and the direction seen in it: at most a right angle from (1, 0).
+
+    Examples
+    --------
+    >>> chart_of_direction(-3, 4)
+    (1, (3, -4))
+    """
+    return (0, (x, y)) if x >= 0 else (1, (-x, -y))
+
+
+def tau_in_chart(chart: int, local: Fraction) -> Fraction | None:
+    """Half-angle tangent of an exact coordinate in a chart.
+
+    Examples
+    --------
+    >>> tau_in_chart(1, Fraction(-1, 2)), tau_in_chart(1, Fraction(0))
+    (Fraction(2, 1), None)
+    """
+    if chart == 0:
+        return local
+    return -1 / local if local else None
+
+
+def chart_intervals(start: Fraction | None, stop: Fraction | None) -> tuple[tuple[int, Fraction, Fraction], ...]:
+    """Parts (chart, from, to) of the angles from 2 atan(start) counter-clockwise to 2 atan(stop), which differ.
+
+    Examples
+    --------
+    >>> chart_intervals(Fraction(1, 2), None) == ((0, Fraction(1, 2), 1), (1, -1, 0))
+    True
+    """
+    chart, low = _to_chart(start)
+    last, high = _to_chart(stop)
+    if low == 1:
+        chart, low = 1 - chart, Fraction(-1)
+    if high == -1:
+        last, high = 1 - last, Fraction(1)
+    parts = []
+    while chart != last or low >= high:
+        parts.append((chart, low, Fraction(1)))
+        chart, low = 1 - chart, Fraction(-1)
+    return *parts, (chart, low, high)
+
+
 def chart_of(theta: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
     """Chart and coordinate of angles in radians, in doubles; see `Pose.chart` for the exact twin.
 
@@ -299,6 +395,23 @@ def normalize_angles(theta: ArrayLike) -> Floats:
     return np.where(angles < math.tau, angles, 0.0)
 
 
+def _to_chart(tau: Fraction | None) -> tuple[int, Fraction]:
+    if tau is None:
+        return 1, Fraction(0)
+    return (0, tau) if abs(tau) <= 1 else (1, -1 / tau)
+
+
+def _split_tau(tau: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
+    """Charts and coordinates of half-angle tangents, in doubles."""
+    tangent = np.asarray(tau, dtype=np.float64)
+    if np.isnan(tangent).any():
+        raise InvalidPoseError("tau: nan is no number; give a number, or inf for the half turn")
+    chart = np.abs(tangent) > 1
+    with np.errstate(divide="ignore"):
+        local = np.where(chart, -1 / tangent, tangent)
+    return chart.astype(np.int64), local
+
+
 # reading an angle
 
 
@@ -324,13 +437,10 @@ def _read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     return _rationalize(quarter_turns, rest if abs(rest) > ulp else Fraction(0))
 
 
-def _read_tau(theta: Mapping[str, Number]) -> Fraction | None:
+def _read_tau(theta: Mapping[str, Number | None]) -> Fraction | None:
     if set(theta) != {"tau"}:
         raise InvalidPoseError(f'theta: {dict(theta)!r:.60} is no angle; give {{"tau": "p/q"}} or radians')
-    value = theta["tau"]
-    if value in ("inf", "-inf", "1/0", math.inf, -math.inf):
-        return None
-    return _finite("tau", value)
+    return half_tangent(theta["tau"])
 
 
 def _rationalize(quarter_turns: int, rest: Fraction) -> tuple[Fraction | None, float, float]:
@@ -374,7 +484,7 @@ def _angle_of(tau: Fraction | None) -> float:
 
 
 def _pose(x: Fraction, y: Fraction, tau: Fraction | None, theta_error: float) -> Pose:
-    pose = Pose(x, y, {"tau": "inf" if tau is None else tau})
+    pose = Pose(x, y, {"tau": tau})
     object.__setattr__(pose, "theta_error", theta_error)
     return pose
 

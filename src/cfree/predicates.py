@@ -116,6 +116,20 @@ def compare_lengths(u: Vector, v: Vector) -> Order:
     return Order.SAME if d == 0 else Order.BEFORE if d < 0 else Order.AFTER
 
 
+def compare_with_surd(x: Exact, p: Exact, q: Exact, n: int) -> Order:
+    """Order of a number and p + q sqrt(n), n >= 0.
+
+    Examples
+    --------
+    >>> compare_with_surd(Fraction(17, 12), 0, 1, 2), compare_with_surd(3, 1, 1, 4)
+    (<Order.AFTER: 'after'>, <Order.SAME: 'same'>)
+    """
+    # the sign of r - s where r = x - p and s = q sqrt(n), from those of r, s and r^2 - s^2
+    r, s = x - p, q * q * n if q >= 0 else -q * q * n
+    d = (r * r if r >= 0 else -r * r) - s
+    return Order.SAME if d == 0 else Order.BEFORE if d < 0 else Order.AFTER
+
+
 def is_upper(u: Vector) -> bool:
     """Is the angle of a direction in [0, pi)?
 

@@ -1,0 +1,189 @@
+"""Numbers p + q sqrt(n), and angles given by exact directions: the ends of contact patches are of this kind.
+
+An angle whose (cos, sin) is (c, s) up to length, c and s integers, has the half-angle tangent
+
+    tan(phi / 2) = s / (w + c) = (w - c) / s,    w = sqrt(n),    n = c^2 + s^2:
+
+one square root, and no function of an angle.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from cfree.exact import Number, angle, to_fraction
+from cfree.pose import chart_of_direction, tau_in_chart
+from cfree.predicates import Order, compare_with_surd
+
+
+@dataclass(frozen=True, slots=True, init=False, eq=False)
+class Surd:
+    """The number p + q sqrt(n).
+
+    Parameters
+    ----------
+    p, q : int, float, Fraction, Decimal or str
+        Kept as fractions.
+    n : int
+        At least 0. If it is a square, the root goes into `p`; other square factors stay where they are.
+
+    Notes
+    -----
+    Equality compares the numbers, not how they are written.
+
+    Examples
+    --------
+    >>> x = Surd(Fraction(-1), Fraction(1), 2)
+    >>> print(x, float(x), x.compare("0.414"))
+    -1 + sqrt(2) 0.41421356237309503 Order.AFTER
+    >>> Surd(0, 1, 8) == Surd(0, 2, 2), Surd(1, 2, 9)
+    (True, Surd(p=Fraction(7, 1), q=Fraction(0, 1), n=0))
+    """
+
+    p: Fraction
+    q: Fraction
+    n: int
+
+    def __init__(self, p: Number, q: Number = 0, n: int = 0) -> None:
+        rational, factor, root = to_fraction(p), to_fraction(q), math.isqrt(n)
+        if root * root == n or factor == 0:
+            rational, factor, n = rational + factor * root, Fraction(0), 0
+        for name, value in (("p", rational), ("q", factor), ("n", n)):
+            object.__setattr__(self, name, value)
+
+    def __str__(self) -> str:
+        if self.q == 0:
+            return str(self.p)
+        root = f"sqrt({self.n})" if abs(self.q) == 1 else f"{abs(self.q)} sqrt({self.n})"
+        before = str(self.p) if self.p else ""
+        return f"{before} {'-' if self.q < 0 else '+'} {root}".removeprefix(" + ").strip()
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Surd):
+            return NotImplemented
+        return self._key == other._key
+
+    def __hash__(self) -> int:
+        return hash(self._key)
+
+    def __float__(self) -> float:
+        """The nearest double."""
+        bits = 64
+        while True:
+            low, high = map(float, self.neighbours(bits))
+            if low == high:
+                return low
+            bits *= 2
+
+    def compare(self, x: Number) -> Order:
+        """Order of this number and a rational one."""
+        order = compare_with_surd(to_fraction(x), self.p, self.q, self.n)
+        return {Order.BEFORE: Order.AFTER, Order.SAME: Order.SAME, Order.AFTER: Order.BEFORE}[order]
+
+    def neighbours(self, bits: int) -> tuple[Fraction, Fraction]:
+        """The multiples of 2^-bits next below and above; the number itself, twice, if it is rational.
+
+        Examples
+        --------
+        >>> Surd(0, 1, 2).neighbours(3), Surd("1/3").neighbours(3)
+        ((Fraction(11, 8), Fraction(3, 2)), (Fraction(1, 3), Fraction(1, 3)))
+        """
+        if self.q == 0:
+            return self.p, self.p
+        d = math.lcm(self.p.denominator, self.q.denominator)
+        whole, factor = int(self.p * d) << bits, int(self.q * d) << bits
+        root = math.isqrt(factor * factor * self.n)
+        low = (whole + root if factor > 0 else whole - root - 1) // d
+        return Fraction(low, 1 << bits), Fraction(low + 1, 1 << bits)
+
+    @property
+    def _key(self) -> tuple[Fraction, bool, Fraction]:
+        return self.p, self.q > 0, self.q * self.q * self.n
+
+
+@dataclass(frozen=True, slots=True, init=False)
+class ExactAngle:
+    """The angle of a direction with integer coordinates.
+
+    Parameters
+    ----------
+    c, s : int
+        (cos, sin) times any positive number; not both 0. Kept without common divisors, so that equal angles are
+        equal.
+
+    Examples
+    --------
+    >>> phi = ExactAngle(2, 2)
+    >>> phi, phi.n, str(phi.tau), str(phi.cos)
+    (ExactAngle(c=1, s=1), 2, '-1 + sqrt(2)', '1/2 sqrt(2)')
+    >>> print(ExactAngle(-3, 4).tau, ExactAngle(-1, 0).tau)
+    2 None
+    """
+
+    c: int
+    s: int
+
+    def __init__(self, c: int, s: int) -> None:
+        divisor = math.gcd(c, s)
+        if divisor == 0:
+            raise ValueError("the direction (0, 0) has no angle; give another")
+        object.__setattr__(self, "c", c // divisor)
+        object.__setattr__(self, "s", s // divisor)
+
+    @property
+    def n(self) -> int:
+        """c^2 + s^2."""
+        return self.c * self.c + self.s * self.s
+
+    @property
+    def cos(self) -> Surd:
+        """c / sqrt(n)."""
+        return Surd(0, Fraction(self.c, self.n), self.n)
+
+    @property
+    def sin(self) -> Surd:
+        """s / sqrt(n)."""
+        return Surd(0, Fraction(self.s, self.n), self.n)
+
+    @property
+    def tau(self) -> Surd | None:
+        """Half-angle tangent, None at the half turn; a root of s tau^2 + 2 c tau - s."""
+        return _half_tangent(self.c, self.s)
+
+    @property
+    def theta(self) -> float:
+        """In radians, in (-pi, pi]."""
+        return angle(self.c, self.s)
+
+    def neighbours(self, bits: int) -> tuple[Fraction | None, Fraction | None]:
+        """Rational half-angle tangents next to this angle, clockwise and counter-clockwise.
+
+        Parameters
+        ----------
+        bits : int
+            tau is a multiple of 2^-bits where it is in [-1, 1], else 1 / tau is: each is at most 2^(1 - bits) radians
+            away.
+
+        Returns
+        -------
+        pair of Fraction or None
+            Both are the angle itself if that is rational. None is the half turn.
+
+        Examples
+        --------
+        >>> ExactAngle(1, 1).neighbours(4), ExactAngle(-100, 1).neighbours(4)
+        ((Fraction(3, 8), Fraction(7, 16)), (Fraction(16, 1), None))
+        """
+        chart, (c, s) = chart_of_direction(self.c, self.s)
+        local = _half_tangent(c, s)
+        assert local is not None  # at most a right angle
+        low, high = local.neighbours(bits)
+        return tau_in_chart(chart, low), tau_in_chart(chart, high)
+
+
+def _half_tangent(c: int, s: int) -> Surd | None:
+    if s == 0:
+        return Surd(0) if c > 0 else None
+    return Surd(Fraction(-c, s), Fraction(1, s), c * c + s * s)
