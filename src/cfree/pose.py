@@ -299,6 +299,17 @@ def chart_of_direction(x: int, y: int) -> tuple[int, tuple[int, int]]:
     return (0, (x, y)) if x >= 0 else (1, (-x, -y))
 
 
+def seen_in_chart(chart: int, a: ExactPoint) -> ExactPoint:
+    """A point of the robot after the rotation from which a chart counts its angles.
+
+    Examples
+    --------
+    >>> seen_in_chart(1, (Fraction(2), Fraction(0))) == (-2, 0)
+    True
+    """
+    return a if chart == 0 else (-a[0], -a[1])
+
+
 def tau_in_chart(chart: int, local: Fraction) -> Fraction | None:
     """Half-angle tangent of an exact coordinate in a chart.
 
