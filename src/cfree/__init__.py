@@ -4,6 +4,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from cfree.bezier import BezierPatch as BezierPatch
+    from cfree.bezier import bezier_patch as bezier_patch
+    from cfree.bezier import bezier_patches as bezier_patches
+    from cfree.bezier import save_bezier as save_bezier
     from cfree.cell_complex import CellComplex as CellComplex
     from cfree.contact import AngleRange as AngleRange
     from cfree.contact import EdgeEdge as EdgeEdge
@@ -32,12 +36,25 @@ if TYPE_CHECKING:
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
     from cfree.plot import plot_workspace as plot_workspace
+    from cfree.plot_rational import plot_models as plot_models
     from cfree.polygon import Polygon as Polygon
     from cfree.pose import Pose as Pose
     from cfree.pose import Poses as Poses
+    from cfree.rational import RationalHelix as RationalHelix
+    from cfree.rational import RationalRange as RationalRange
+    from cfree.rational import RationalSegment as RationalSegment
+    from cfree.rational import RationalSurface as RationalSurface
+    from cfree.rational import rational_helix as rational_helix
+    from cfree.rational import rational_range as rational_range
+    from cfree.rational import rational_segment as rational_segment
+    from cfree.rational import rational_surface as rational_surface
+    from cfree.rational import to_geometrical as to_geometrical
+    from cfree.rational import to_rational as to_rational
     from cfree.scene import Scene as Scene
     from cfree.slice import Slice as Slice
     from cfree.storage import load_boundary as load_boundary
+    from cfree.surd import ExactAngle as ExactAngle
+    from cfree.surd import Surd as Surd
     from cfree.surface import EdgeEdgeSegment as EdgeEdgeSegment
     from cfree.surface import Helix as Helix
     from cfree.surface import Surface as Surface
@@ -55,6 +72,7 @@ __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
+    "bezier": "BezierPatch bezier_patch bezier_patches save_bezier",
     "cell_complex": "CellComplex",
     "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
     "edge_edge_range",
@@ -64,11 +82,15 @@ _HOMES = {
     "io": "load_polygons load_scene",
     "mesh": "Mesh boundary_mesh save_mesh",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
+    "plot_rational": "plot_models",
     "polygon": "Polygon",
     "pose": "Pose Poses",
+    "rational": "RationalHelix RationalRange RationalSegment RationalSurface rational_helix rational_range "
+    "rational_segment rational_surface to_geometrical to_rational",
     "scene": "Scene",
     "slice": "Slice",
     "storage": "load_boundary",
+    "surd": "ExactAngle Surd",
     "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface rotation_about "
     "rotation_of_combination",
     "touch": "contact_features is_contact is_forbidden is_pseudo_contact",

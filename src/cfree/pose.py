@@ -257,8 +257,8 @@ def tau_of(theta: ArrayLike) -> Floats:
     array([ 0.,  1., inf])
     """
     chart, local = chart_of(theta)
-    with np.errstate(divide="ignore"):
-        return np.where(chart == 0, local, np.where(local == 0, np.inf, -1 / local))
+    tau = np.where((chart == 1) & (local == 0), np.inf, local)
+    return np.divide(-1, local, out=tau, where=(chart == 1) & (local != 0))
 
 
 def theta_of_tau(tau: ArrayLike) -> Floats:
@@ -418,9 +418,7 @@ def _split_tau(tau: ArrayLike) -> tuple[NDArray[np.int64], Floats]:
     if np.isnan(tangent).any():
         raise InvalidPoseError("tau: nan is no number; give a number, or inf for the half turn")
     chart = np.abs(tangent) > 1
-    with np.errstate(divide="ignore"):
-        local = np.where(chart, -1 / tangent, tangent)
-    return chart.astype(np.int64), local
+    return chart.astype(np.int64), np.divide(-1, tangent, out=tangent.copy(), where=chart)
 
 
 # reading an angle

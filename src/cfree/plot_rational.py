@@ -65,7 +65,8 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     corners, on_patch = _cells(S, 180)
     _draw(geometrical, corners * (1, 1, 180 / math.pi), np.where(on_patch, colour, PSEUDO), 180)
     geometrical.set_zticks(range(-180, 181, 90), labels=[f"{angle}°" for angle in range(-180, 181, 90)])
-    geometrical.set_zlabel("θ", labelpad=8)
+    geometrical.tick_params(axis="z", pad=7)
+    geometrical.set_zlabel("θ", labelpad=10)
 
     corners, on_patch = _cells(S, math.degrees(2 * math.atan(SHOWN)))
     _draw(rational, to_rational(corners), np.where(on_patch, colour, PSEUDO), SHOWN)
@@ -103,14 +104,16 @@ def _draw(space: Any, outlines: Floats, colours: NDArray[np.str_], height: float
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     low, high = outlines.min(axis=(0, 1)), outlines.max(axis=(0, 1))
-    width, depth, _ = high - low
+    margin = 0.04 * (high - low)[:2].max()
+    width, depth, _ = high - low + (2 * margin, 2 * margin, 0)
     tall = 1.25 * max(width, depth)
     scaled = outlines * (1, 1, tall / (2 * height))
     normal = np.cross(scaled[:, SIDE] - scaled[:, 0], scaled[:, -1] - scaled[:, SIDE - 1])
     lit = np.abs(normal @ LIGHT) / (np.linalg.norm(normal, axis=1) * np.linalg.norm(LIGHT) + 1e-300)
     rgb = to_rgba_array(colours)[:, :3] * (0.7 + 0.3 * lit)[:, None]
     space.add_collection3d(Poly3DCollection(outlines, facecolors=rgb, edgecolors=GRID, linewidths=0.35))
-    space.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(-height, height), xlabel="x", ylabel="y")
+    (x0, y0), (x1, y1) = low[:2] - margin, high[:2] + margin
+    space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(-height, height), xlabel="x", ylabel="y")
     space.set_box_aspect((width, depth, tall), zoom=0.92)
     for axis in (space.xaxis, space.yaxis):
         axis.set_major_locator(MaxNLocator(5))
