@@ -62,13 +62,13 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
         rational: Any = figure.add_axes((0.48, 0.09, 0.46, 0.85), projection="3d")
     colour = COLOURS[1] if isinstance(contact, VertexEdge) else COLOURS[2]
 
-    corners, on_patch = _cells(S, 180)
+    corners, on_patch = cells(S, 180)
     _draw(geometrical, corners * (1, 1, 180 / math.pi), np.where(on_patch, colour, PSEUDO), 180)
     geometrical.set_zticks(range(-180, 181, 90), labels=[f"{angle}°" for angle in range(-180, 181, 90)])
     geometrical.tick_params(axis="z", pad=7)
     geometrical.set_zlabel("θ", labelpad=10)
 
-    corners, on_patch = _cells(S, math.degrees(2 * math.atan(SHOWN)))
+    corners, on_patch = cells(S, math.degrees(2 * math.atan(SHOWN)))
     _draw(rational, to_rational(corners), np.where(on_patch, colour, PSEUDO), SHOWN)
     rational.set_zticks(TICKS, labels=[f"{tau} ({math.degrees(2 * math.atan(tau)):.0f}°)" for tau in TICKS])
     rational.tick_params(axis="z", pad=15)
@@ -83,7 +83,7 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     return figure
 
 
-def _cells(S: RationalSurface, limit: float) -> tuple[Floats, NDArray[np.bool_]]:
+def cells(S: RationalSurface, limit: float) -> tuple[Floats, NDArray[np.bool_]]:
     """Outlines (n, 2 SIDE, 3) of cells between helices and rulings, theta in [-pi, pi], and which are of the patch."""
     ends = [math.degrees(S.Phi.start.theta), math.degrees(S.Phi.end.theta)]
     even = range(-180, 181, STEP)

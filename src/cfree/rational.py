@@ -326,9 +326,10 @@ def to_rational(points: ArrayLike) -> Floats:
 
     Notes
     -----
-    There and back, theta returns up to a few units in its last place. Near the half turn tau is large and has no more
-    digits than pi - theta has: back and there, tau returns with a relative error of about 2^-51 / |sin theta|, and is
-    inf beyond about 1e15. Whole turns are lost. For one exact pose: `Pose` with `tau`, `theta` and `theta_error`.
+    Measured on random points: there and back, theta returns within one unit in its last place. Near the half turn tau is
+    large and has no more digits than pi - theta: back and there, tau returns with a relative error of at most
+    2^-50 / |sin theta|, and as inf from about 1e16 on. Whole turns are lost. One exact pose in both models is a `Pose`,
+    with `tau`, `theta` and `theta_error`.
 
     Examples
     --------
