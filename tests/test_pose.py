@@ -60,7 +60,7 @@ def test_an_angle_of_a_pythagorean_triangle_is_recognised() -> None:
 def test_a_half_angle_tangent_is_kept_and_its_angle_given() -> None:
     assert Pose(0, 0, {"tau": "2/6"}).tau == Fraction(1, 3)
     assert math.isclose(Pose(0, 0, {"tau": -3}).theta, 2 * math.pi - 2 * math.atan(3), rel_tol=1e-15)
-    for half_turn in ("inf", "1/0", math.inf):
+    for half_turn in ("inf", "1/0", math.inf, None):
         assert Pose(0, 0, {"tau": half_turn}).tau is None
         assert Pose(0, 0, {"tau": half_turn}).theta == math.pi
     assert Pose(0, 0, {"tau": "1e-900"}).theta == 0.0

@@ -37,7 +37,7 @@ class Pose:
         Position, in the scene's unit of length.
     theta : the same in radians, or "90deg", or {"tau": "p/q"}
         Any value, normalised to [0, 2 pi). Radians within one ulp of a multiple of pi/2 mean that multiple,
-        and multiples of 90 degrees are exact. The half turn is {"tau": "inf"} or {"tau": "1/0"}. Other angles
+        and multiples of 90 degrees are exact. The half turn is {"tau": "inf"} or {"tau": None}. Other angles
         have no rational cosine: they are replaced by the simplest tau within rounding of the tangent of
         their half.
 
@@ -273,7 +273,7 @@ def theta_of_tau(tau: ArrayLike) -> Floats:
 
 
 def half_tangent(tau: Number | None) -> Fraction | None:
-    """Exact half-angle tangent of what stands for one; None, inf, -inf and "1/0" are the half turn.
+    """Exact half-angle tangent of what stands for one; None, inf, -inf, "inf", "-inf" and "1/0" are the half turn.
 
     Raises
     ------
