@@ -104,6 +104,14 @@ def test_unnamed_obstacles_are_numbered_and_others_keep_their_names(tmp_path: Pa
 # what is wrong with them
 
 
+def test_the_half_turn_is_written_inf_in_files(tmp_path: Path) -> None:
+    text = f'{{"robot": {TRIANGLE}, "start": [0, 0, {{"tau": null}}]}}'
+    (fault,) = faults(tmp_path, text)
+    assert 'expected radians, "90deg" or {"tau": "p/q"}' in fault
+    start = read(tmp_path, text.replace("null", '"inf"')).start
+    assert start is not None and start.tau is None
+
+
 def test_all_problems_are_told_at_once_with_their_places(tmp_path: Path) -> None:
     text = """{
   "version": 2, "bunds": [0, 0, 1, 1], "name": 12,

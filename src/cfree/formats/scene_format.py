@@ -67,7 +67,7 @@ def _list_of(length: int, form: str) -> Callable[[object], object]:
 
 def _angle(value: Any) -> Any:
     """What `Pose` takes as an angle; checked alone, so that a fault in it is found where it stands."""
-    if isinstance(value, (int, Decimal, str, dict)) and not isinstance(value, bool):
+    if isinstance(value, (int, Decimal, str, dict)) and not isinstance(value, bool) and value != {"tau": None}:
         try:
             Pose(0, 0, value)
             return value
