@@ -80,14 +80,14 @@ def test_pieces_of_one_convex_pair_are_those_of_the_paper() -> None:
     assert pieces.corners[..., 2].min() == 0 and pieces.corners[..., 2].max() == pytest.approx(360)
     curves = {
         colour: (pieces.sort == plot3d.CURVE) & (pieces.rgb == to_rgb(colour)).all(axis=1)
-        for colour in (plot3d.HELIX, plot3d.EDGE_EDGE)
+        for colour in (plot3d.Colours.helix, plot3d.Colours.edge_edge)
     }
     # n m = 9 e-e lines, each made of the ends of two v-e patches, level
-    lines = pieces.corners[curves[plot3d.EDGE_EDGE]]
+    lines = pieces.corners[curves[plot3d.Colours.edge_edge]]
     assert len(lines) == 18
     assert np.ptp(lines[..., 2], axis=1).max() == 0
     # n m helices, 2 pi - rho - omega high, each between two patches
-    heights = np.ptp(pieces.corners[curves[plot3d.HELIX]][..., 2], axis=1).sum()
+    heights = np.ptp(pieces.corners[curves[plot3d.Colours.helix]][..., 2], axis=1).sum()
     angles = np.add.outer(scene.robot[0].interior_angles, scene.obstacles[0].interior_angles)
     assert heights == pytest.approx(2 * np.degrees(2 * np.pi - angles).sum(), rel=1e-9)
 

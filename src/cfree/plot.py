@@ -16,9 +16,10 @@ import numpy as np
 
 from cfree.errors import UnsupportedError
 from cfree.files import replacing
+from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at
 from cfree.mesh import COLOURS, KINDS
 from cfree.outlines import ROBOT, Window, draw_robots, path_of, rings_of, rings_of_geometry
-from cfree.strips import strips
+from cfree.strips import THIN, strips
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -98,6 +99,10 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
             ax.add_collection(
                 LineCollection(chosen, colors=_line_colour(kind), linewidths=width, linestyles=[style], label=name)
             )
+    for k, points in enumerate(isolated_at(boundary, cut.theta)):
+        look: Any = {"color": ISOLATED_COLOUR, "zorder": 3, "label": "exact fit" if k == 0 else None}
+        is_point = len(points) == 1 or bool(np.hypot(*np.ptp(points, axis=0)) < THIN)
+        ax.plot(*points.T, "o-", markersize=5 if is_point else 0, linewidth=2.2, **look)
     _set_window(ax, extent(boundary), boundary.scene.units)
     ax.set_title(f"slice at θ = {math.degrees(cut.theta):.4g}°")
     _legend(ax)
@@ -120,7 +125,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     from matplotlib.patches import Patch
     from matplotlib.ticker import MaxNLocator
 
-    from cfree.plot3d import CUT, EDGE_EDGE, HELIX, SECTION_COLOUR, Painting, pieces_of
+    from cfree.plot3d import CUT, SECTION_COLOUR, Colours, Painting, pieces_of
 
     if ax is None:
         ax = _new_space(_new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
@@ -141,13 +146,15 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
     handles = [
         *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (1, 2)),
-        Line2D([], [], color=HELIX, label="v-v helix"),
-        Line2D([], [], color=EDGE_EDGE, label="e-e line"),
+        Line2D([], [], color=Colours.helix, label="v-v helix"),
+        Line2D([], [], color=Colours.edge_edge, label="e-e line"),
         Patch(facecolor=COLOURS[3], edgecolor=CUT, alpha=0.4, label="bounds"),
         Patch(facecolor=SECTION_COLOUR, edgecolor=CUT, label="section at 360°"),
     ]
+    if len(boundary.isolated):
+        handles.append(Line2D([], [], color=ISOLATED_COLOUR, linewidth=2.2, label="exact fit"))
     space.legend(
-        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=6,
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=len(handles),
         frameon=False, handlelength=1.4, columnspacing=1.4,
     )  # fmt: skip
     return space
@@ -256,7 +263,7 @@ def _line_colour(kind: int) -> str:
 
 
 def _legend(ax: Axes) -> None:
-    ax.legend(loc="upper left", bbox_to_anchor=(0, -0.08), ncols=4, frameon=False)
+    ax.legend(loc="upper left", bbox_to_anchor=(0, -0.08), ncols=5, frameon=False)
 
 
 def _around(boxes: Iterable[Window]) -> Window:

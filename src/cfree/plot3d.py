@@ -2,7 +2,8 @@
 
 Faces and curves go into one list, sorted by depth each time the view changes. The free side of a patch is
 shaded and opaque; the forbidden side is a ghost, so that one looks through the near walls into the free space,
-as into a doll's house. At theta = 360 degrees the forbidden space is cut: the section is grey.
+as into a doll's house. At theta = 360 degrees the forbidden space is cut: the section is grey. Exact fits, which
+have no free side, are drawn above all else.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d import proj3d
 from numpy.typing import NDArray
 
+from cfree.isolated_lines import ISOLATED_COLOUR, isolated_lines
 from cfree.mesh import COLOURS, robot_radius
 from cfree.strips import Strips, step_for, strips
 
@@ -31,11 +33,21 @@ STEPS = math.radians(1.5), math.radians(15)
 ROWS = 25_000  # the steps are as small as this many rows allow
 CELLS = 70  # a face is at most this part of the window wide, so that its middle stands for its depth
 CROWDED = 100_000  # curves of more trapezoids would hide the patches
-HELIX, EDGE_EDGE, SECTION_COLOUR = "#1f3fbf", "#f5c518", "#d9d9de"
-CUT = "#7a808c"
+SECTION_COLOUR, CUT = "#d9d9de", "#7a808c"
 LIGHT = np.array([-0.55, -0.65, 0.52])
 GLASS, GHOST = 0.3, 0.06
-SURFACE, WALL, SECTION, CURVE = 0, 1, 2, 3
+SURFACE, WALL, SECTION, CURVE, ISOLATED = 0, 1, 2, 3, 4
+
+
+@dataclass(frozen=True)
+class Colours:
+    """Colours of patches and curves: the paper's unless others are given."""
+
+    vertex_edge: str = COLOURS[1]
+    edge_vertex: str = COLOURS[2]
+    helix: str = "#1f3fbf"
+    edge_edge: str = "#f5c518"
+    isolated: str = ISOLATED_COLOUR
 
 
 @dataclass(frozen=True)
@@ -46,26 +58,34 @@ class Pieces:
     ----------
     corners : (n, 4, 3) float64, theta in degrees
     rgb : (n, 3) float64
-    sort : (n,) int, SURFACE, WALL, SECTION or CURVE
+    sort : (n,) int, SURFACE, WALL, SECTION, CURVE or ISOLATED
     owner : (n,) int
         The face whose border a curve is, or -1 if it is always seen; itself for a face.
+    width : (n,) float64
+        Of curves, in typographic points.
     """
 
     corners: Floats
     rgb: Floats
     sort: Ints
     owner: Ints
+    width: Floats
 
 
 class Painting(PolyCollection):
-    """The pieces on axes with three dimensions."""
+    """The pieces on axes with three dimensions.
 
-    def __init__(self, pieces: Pieces) -> None:
-        super().__init__([], closed=True)
+    Parameters
+    ----------
+    pieces : Pieces
+    ghost : float
+        Opacity of the side of a face that is turned away.
+    """
+
+    def __init__(self, pieces: Pieces, ghost: float = GHOST) -> None:
+        super().__init__([], closed=True, joinstyle="round")
         self._pieces = pieces
-        # the more there are the thinner, or else they hide the patches
-        curves = max(1, int(np.count_nonzero(pieces.sort == CURVE)))
-        self._line_width = 1.3 * min(1.0, max(0.25, math.sqrt(3000 / curves)))
+        self._ghost = ghost
 
     def do_3d_projection(self) -> float:
         """Project, choose what is seen, sort by depth; called before each drawing."""
@@ -80,14 +100,15 @@ class Painting(PolyCollection):
         p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
         front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
 
-        fog = np.where(pieces.sort == SECTION, 0.0, 0.25 * (depth - near) / max(far - near, 1e-300))
+        fog = np.where((pieces.sort == SECTION) | (pieces.sort == ISOLATED), 0.0, 0.25 * (depth - near) / max(far - near, 1e-300))
         rgb = pieces.rgb + (1 - pieces.rgb) * fog[:, None]
-        alpha = np.where(front, 1.0, GHOST)
+        alpha = np.where(front, 1.0, self._ghost)
         alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)
         alpha[(pieces.sort == CURVE) & ~front] = 0
-        is_curve = pieces.sort == CURVE
+        is_curve = pieces.sort >= CURVE
         rank = depth - 0.004 * (far - near) * is_curve
         rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
+        rank[pieces.sort == ISOLATED] -= 20 * (far - near)
         order = np.argsort(-rank)
         order = order[alpha[order] > 0]
 
@@ -99,19 +120,35 @@ class Painting(PolyCollection):
         self.set_verts(flat[order], closed=True)
         self.set_facecolor(inside[order])
         self.set_edgecolor(rim[order])
-        self.set_linewidth(np.where(is_curve, self._line_width, 0.4)[order].tolist())
+        self.set_linewidth(np.where(is_curve, pieces.width, 0.4)[order].tolist())
         return float(near)
 
 
-def pieces_of(boundary: Boundary, window: Window) -> Pieces:
-    """Everything there is to draw of a boundary: patches, section, helices and e-e segments."""
+def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
+    """Everything there is to draw of a boundary: patches, section, helices and e-e segments, exact fits.
+
+    Curves are `line` points wide, or less where there are so many that they would hide the patches.
+    """
+    colours = colours or Colours()
     rows = strips(boundary, step_for(boundary, ROWS, STEPS))
     corners, kind, cell = _faces(boundary, rows, window)
-    table = np.array([(0.0, 0.0, 0.0), *(to_rgb(COLOURS[k]) for k in (1, 2, 3))])
-    rgb = _shaded(table[kind], corners, robot_radius(boundary.scene))
-    faces = Pieces(corners, rgb, np.where(kind == 3, WALL, SURFACE), np.arange(len(corners)))
-    curves = _curves(boundary, rows, cell) if len(boundary.trapezoids) <= CROWDED else []
-    return _joined([faces, _section(boundary, window, len(corners)), *curves])
+    table = np.array([(0.0, 0.0, 0.0), *map(to_rgb, (colours.vertex_edge, colours.edge_vertex, COLOURS[3]))])
+    rgb = shaded(table[kind], corners, robot_radius(boundary.scene))
+    n = len(corners)
+    faces = Pieces(corners, rgb, np.where(kind == 3, WALL, SURFACE), np.arange(n), np.zeros(n))
+    curves = _curves(boundary, rows, cell, colours) if len(boundary.trapezoids) <= CROWDED else []
+    thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
+    for part in curves:
+        part.width[:] = line * thinner
+    fits = [of_line(points, colours.isolated, 2.2, ISOLATED) for points in isolated_lines(boundary)]
+    return joined([faces, _section(boundary, window, len(corners)), *curves, *fits])
+
+
+def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:
+    """A polyline, (k, 3) with theta in degrees, that is seen from all sides; a point is a line of length 0."""
+    start, stop = points[:-1], points[1:]
+    corners = np.stack((start, stop, stop, start), axis=1)
+    return of_one_colour(corners, colour, sort, np.full(len(corners), -1), width)
 
 
 def _faces(boundary: Boundary, rows: Strips, window: Window) -> tuple[Floats, NDArray[np.uint8], Ints]:
@@ -147,10 +184,10 @@ def _section(boundary: Boundary, window: Window, first: int) -> Pieces:
         clockwise = x[0] * y[1] - x[1] * y[0] < 0
         xy[clockwise] = xy[clockwise][:, ::-1]
         corners[:, :3, :2], corners[:, 3, :2] = xy, xy[:, 2]
-    return _pieces(corners, SECTION_COLOUR, SECTION, first + np.arange(len(corners)))
+    return of_one_colour(corners, SECTION_COLOUR, SECTION, first + np.arange(len(corners)))
 
 
-def _curves(boundary: Boundary, rows: Strips, cell: Ints) -> list[Pieces]:
+def _curves(boundary: Boundary, rows: Strips, cell: Ints, colours: Colours) -> list[Pieces]:
     """Sides of trapezoids: v-v helices, e-e lines at a v-e patch's own ends, and where the bounds cut the patches."""
     ends, of = _with_degrees(rows.points, rows.theta), rows.trapezoid[rows.joined]
     table = boundary.trapezoids
@@ -159,18 +196,18 @@ def _curves(boundary: Boundary, rows: Strips, cell: Ints) -> list[Pieces]:
 
     def add(strip: Ints, start: Floats, stop: Floats, colour: str, owner: Ints) -> None:
         corners = np.stack((start[strip], stop[strip], stop[strip], start[strip]), axis=1)
-        found.append(_pieces(corners, colour, CURVE, owner))
+        found.append(of_one_colour(corners, colour, CURVE, owner))
 
     for side, curve in enumerate((table.lower_kind, table.upper_kind)):
         here, after, on_wall = ends[rows.joined, side], ends[rows.joined + 1, side], kind[of] == 3
         helix, cut = ((curve[of] == 3) & ~on_wall).nonzero()[0], ((curve[of] != 3) & on_wall).nonzero()[0]
-        add(helix, here, after, HELIX, cell[helix])
+        add(helix, here, after, colours.helix, cell[helix])
         add(cut, here, after, CUT, np.full(len(cut), -1))
     phi_min, phi_max = boundary.phi_min, boundary.phi_min + boundary.phi_range
     for row, angle, phi in ((rows.joined, table.theta_from, phi_min), (rows.joined + 1, table.theta_to, phi_max)):
         own_end = (kind == 1) & _same_angle(angle, phi[table.patch])
         (strip,) = np.nonzero(own_end[of] & _same_angle(angle[of], rows.theta[row]))
-        add(strip, ends[row, 0], ends[row, 1], EDGE_EDGE, cell[strip])
+        add(strip, ends[row, 0], ends[row, 1], colours.edge_edge, cell[strip])
     return found
 
 
@@ -179,9 +216,10 @@ def _same_angle(first: Floats, second: Floats) -> NDArray[np.bool_]:
     return np.abs(np.mod(first - second + math.pi, math.tau) - math.pi) < 1e-9
 
 
-def _pieces(corners: Floats, colour: str, sort: int, owner: Ints) -> Pieces:
+def of_one_colour(corners: Floats, colour: str, sort: int, owner: Ints, width: float = 0.0) -> Pieces:
+    """Pieces of one colour, not shaded."""
     n = len(corners)
-    return Pieces(corners, np.tile(to_rgb(colour), (n, 1)), np.full(n, sort), owner)
+    return Pieces(corners, np.tile(to_rgb(colour), (n, 1)), np.full(n, sort), owner, np.full(n, width))
 
 
 def _with_degrees(points: Floats, theta: Floats) -> Floats:
@@ -189,7 +227,7 @@ def _with_degrees(points: Floats, theta: Floats) -> Floats:
     return np.concatenate((points, degrees), axis=-1)
 
 
-def _shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
+def shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
     """Colours as the light leaves them: darker away from it, a little lighter towards it."""
     scaled = corners * (1.0, 1.0, math.radians(angle_scale))
     normal = np.cross(scaled[:, 2] - scaled[:, 0], scaled[:, 3] - scaled[:, 1])
@@ -200,10 +238,12 @@ def _shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
     return shaded.clip(0, 1)
 
 
-def _joined(parts: list[Pieces]) -> Pieces:
+def joined(parts: list[Pieces]) -> Pieces:
+    """Pieces as one; owners are counted in the whole already."""
     return Pieces(
         np.concatenate([part.corners for part in parts]),
         np.concatenate([part.rgb for part in parts]),
         np.concatenate([part.sort for part in parts]),
         np.concatenate([part.owner for part in parts]),
+        np.concatenate([part.width for part in parts]),
     )

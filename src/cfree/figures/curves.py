@@ -42,12 +42,12 @@ def vertex_vertex(palette: Palette) -> Figure:
     start = math.atan2(low[1], low[0])
     arc(ax, b[0], math.hypot(*low[:2]), (start, start + width), palette.helix, fill=False, tip=True, width=1.8)
     label(ax, on_arc(b[0], 1.62, start + 0.47 * width), r"$C(\phi)$", colour=palette.helix, size=14)
-    for q, name, way in ((low, r"$C(\phi_{\min})$", (25, 10)), (high, r"$C(\phi_{\max})$", (-6, -12))):
+    for q, name, way in ((low, r"$C(\phi_{\min})$", (25, 10)), (high, r"$C(\phi_{\max})$", (-27, -6))):
         dot(ax, q[:2], palette.helix, 6)
         label(ax, q[:2], name, way, palette.helix, 12)
     dot(ax, b[0], INK, 6.5)
     for corners, k, name, point in (
-        (first, 1, r"$a_{i+1}$", (16, 6)), (first, 3, r"$a_{i-1}$", (18, 7)),
+        (first, 1, r"$a_{i+1}$", (16, 6)), (first, 3, r"$a_{i-1}$", (6, -13)),
         (last, 1, r"$a_{i+1}$", (-8, 11)), (last, 3, r"$a_{i-1}$", (4, -13)),
         (b, 0, "$a_i = b_j$", (-2, 15)), (b, 3, "$b_{j-1}$", (14, -6)), (b, 1, "$b_{j+1}$", (-12, -10)),
     ):  # fmt: skip
@@ -60,7 +60,7 @@ def edge_edge(palette: Palette) -> Figure:
     """Figure 6: E_i slides along E_j; at t = 1 the vertex a_i has reached its end, and the contact goes on."""
     C = contact_segment(SLIDER, GROUND, EdgeEdge(0, 0))
     end = C.t_range[1]
-    ax = new_plane((-2.6, -2.1, 5.2, 1.75))
+    ax = new_plane((-2.6, -1.9, 4.9, 1.85))
     b, E = GROUND.vertices, GROUND.edge(0)
     shape(ax, b, palette.obstacle)
     for t, name in ((0.0, "$C(0)$"), (1.0, "$C(1)$"), (end, "")):
@@ -75,7 +75,7 @@ def edge_edge(palette: Palette) -> Figure:
     line(ax, one, high, palette.edge_edge, width=3.5, dashes=True)
     for point in (low, one, high):
         dot(ax, point, INK, 6)
-    label(ax, high, r"$C(1 + \|E_i^A\| / \|E_j^O\|)$", (-4, 40), size=12)
+    label(ax, high, r"$C(1 + \|E_i^A\| / \|E_j^O\|)$", (-4, 62), size=12)
     label(ax, b[0], "$b_j$", (-11, -10))
     label(ax, b[1], "$b_{j+1}$", (19, -10))
     label(ax, (1.5, -0.22), "$E_j^O$")

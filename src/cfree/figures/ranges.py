@@ -45,7 +45,7 @@ def vertex_edge(palette: Palette) -> Figure:
     dot(ax, P, INK, 6.5)
     label(ax, P, r"$P = a_i$", (4, -13))
     for corners, k, name, way in (
-        (first, 1, r"$a_{i+1}$", (2, -13)), (first, 3, r"$a_{i-1}$", (13, 11)),
+        (first, 1, r"$a_{i+1}$", (2, -13)), (first, 3, r"$a_{i-1}$", (7, -11)),
         (last, 1, r"$a_{i+1}$", (-4, 12)), (last, 3, r"$a_{i-1}$", (0, -13)),
         (b, 0, "$b_j$", (10, -10)), (b, 1, "$b_{j+1}$", (-14, -8)),
     ):  # fmt: skip
@@ -115,4 +115,4 @@ def _turn(ax: Axes, palette: Palette, centre: Floats, low: Floats, high: Floats,
         line(ax, q[:2], q[:2] + (0.75, 0), GREY, dashes=True)
         frame(ax, q, 0.55, palette.frame)
         arc(ax, q[:2], 0.38, (0, turn), palette.frame)
-        label(ax, on_arc(q[:2], 0.6, turn / 2), name, colour=palette.frame, size=12)
+        label(ax, on_arc(q[:2], 0.85 if turn < 1 else 0.58, turn / 2), name, colour=palette.frame, size=12)

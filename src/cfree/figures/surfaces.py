@@ -1,0 +1,62 @@
+"""Figures 7 to 9: whole contact surfaces of both kinds, and all contact patches of two triangles."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cfree.contact import EdgeVertex, VertexEdge
+from cfree.figures.space import curve, draw_frame, new_space, paint, sheet
+from cfree.figures.style import Palette, new_figure
+from cfree.forbidden import boundary
+from cfree.plot3d import Colours, pieces_of
+from cfree.polygon import Polygon
+from cfree.scene import Scene
+from cfree.surface import Surface, contact_surface
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+ROBOT = Polygon([(-1, "-0.6"), ("1.2", "-0.4"), ("-0.3", 1)])
+OBSTACLE = Polygon([("-1.5", -1), ("1.6", "-0.7"), ("0.2", "1.4")])
+ANGLE_SCALE = 0.8
+VIEW = (24.0, -58.0)
+
+
+def vertex_edge(palette: Palette) -> Figure:
+    """Figure 7: a v-e contact surface; its helices are congruent."""
+    return _surface(contact_surface(ROBOT, OBSTACLE, VertexEdge(1, 0)), palette.vertex_edge, palette)
+
+
+def edge_vertex(palette: Palette) -> Figure:
+    """Figure 8: an e-v contact surface; its helices have different radii."""
+    return _surface(contact_surface(ROBOT, OBSTACLE, EdgeVertex(0, 1)), palette.edge_vertex, palette)
+
+
+def _surface(S: Surface, colour: str, palette: Palette) -> Figure:
+    t, phi = np.linspace(0, 1, 25), np.linspace(0, math.tau, 241)
+    points = S(t[None, :], phi[:, None])
+    x, y = points[..., 0], points[..., 1]
+    margin = 0.25
+    window = (x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin)
+    figure = new_figure(6.2, 6.2)
+    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=ANGLE_SCALE, view=VIEW, zoom=1.15)
+    draw_frame(ax, range(-5, 6))
+    helices = [curve(S(s, phi), "black", 1.3) for s in np.linspace(0, 1, 5)]
+    rulings = [curve(S(t, angle), palette.edge_edge, 1.5) for angle in np.linspace(0, math.tau, 25)]
+    paint(ax, [sheet(points, colour, ANGLE_SCALE), *rulings, *helices])
+    return figure
+
+
+def pillar(palette: Palette) -> Figure:
+    """Figure 9: all contact patches of two triangles, v-v helices and e-e segments."""
+    found = boundary(Scene(robot=ROBOT, obstacles=OBSTACLE), threads=1)
+    colours = Colours(palette.vertex_edge, palette.edge_vertex, palette.helix, palette.edge_edge)
+    window = (-3.2, -2.8, 3.2, 3.0)
+    figure = new_figure(6.2, 7)
+    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=1.1, view=VIEW, zoom=1.1)
+    draw_frame(ax, range(-5, 6))
+    paint(ax, [pieces_of(found, window, colours, 3.0)])
+    return figure

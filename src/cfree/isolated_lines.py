@@ -1,0 +1,79 @@
+"""Exact fits as lines to draw: curves, segments at one orientation, and points (lines of length 0)."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.pose import tau_in
+from cfree.trapezoids import CURVE
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+Floats = NDArray[np.float64]
+
+ISOLATED_COLOUR = "#d6008f"
+STEP = math.radians(2)
+SAME = 1e-9  # radians; for the eye only
+
+
+def isolated_lines(boundary: Boundary) -> list[Floats]:
+    """Lines of all isolated parts, (k, 3) each: x, y and theta in degrees, in [0, 360].
+
+    A curve across theta = 0 is cut there.
+    """
+    parts, lines = boundary.isolated, []
+    for k, (kind, first, last) in enumerate(zip(parts.kind, parts.theta_from, parts.theta_to, strict=True)):
+        if kind != CURVE:
+            theta = np.array([first, last])
+            patch, t = [parts.lower_patch[k], parts.upper_patch[k]], [parts.first_t[k], parts.last_t[k]]
+            lines.append(_raised(boundary.evaluate(patch, t, theta), theta))
+            continue
+        pieces = [(first, last)] if first >= 0 or last <= 0 else [(first, 0.0), (0.0, last)]
+        for start, stop in pieces:
+            theta = np.linspace(start, stop, 2 + int((stop - start) / STEP))
+            lines.append(_raised(_on_curve(boundary, k, theta), theta))
+    return lines
+
+
+def isolated_at(boundary: Boundary, theta: float) -> list[Floats]:
+    """What of the isolated parts is at one orientation: points (1, 2) of curves, segments and points (2, 2)."""
+    parts, found = boundary.isolated, []
+    for k, (kind, first, last) in enumerate(zip(parts.kind, parts.theta_from, parts.theta_to, strict=True)):
+        turned = first + (theta - first + SAME) % math.tau - SAME
+        if turned > last + SAME:
+            continue
+        if kind == CURVE:
+            found.append(_on_curve(boundary, k, np.array([turned])))
+        else:
+            patch, t = [parts.lower_patch[k], parts.upper_patch[k]], [parts.first_t[k], parts.last_t[k]]
+            found.append(boundary.evaluate(patch, t, [turned, turned]))
+    return found
+
+
+def _on_curve(boundary: Boundary, k: int, theta: Floats) -> Floats:
+    """Points of the isolated curve k, (n, 2): where the curve that names it meets its patch's line."""
+    from cfree import _core
+
+    a, b, p = boundary.features.robot, boundary.features.obstacles, boundary.isolated
+    one = slice(k, k + 1)
+    at = _core.Slicer(
+        a.core_shape(), b.core_shape(), a.xy.ravel(), b.xy.ravel(),
+        boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
+        p.lower_patch[one], p.chart[one], p.lower[one], p.lower[one], p.tau_from[one], p.tau_to[one],
+    )  # fmt: skip
+    n = len(theta)
+    chart = np.full(n, p.chart[k])
+    lower, upper = np.empty(n), np.empty(n)
+    at.limits(np.zeros(n, np.int32), chart.astype(np.int32), tau_in(chart, theta), lower, upper)
+    return boundary.evaluate(np.full(n, p.lower_patch[k]), lower, theta)
+
+
+def _raised(xy: Floats, theta: Floats) -> Floats:
+    """x, y and degrees in [0, 360]: what is below 0 is raised by a turn."""
+    turn = 360.0 if theta.mean() < -SAME else 0.0
+    return np.column_stack((xy, np.degrees(theta) + turn))
