@@ -82,10 +82,11 @@ def test_pieces_of_one_convex_pair_are_those_of_the_paper() -> None:
         colour: (pieces.sort == plot3d.CURVE) & (pieces.rgb == to_rgb(colour)).all(axis=1)
         for colour in (plot3d.Colours.helix, plot3d.Colours.edge_edge)
     }
-    # n m = 9 e-e lines, each made of the ends of two v-e patches, level
+    # n m = 9 e-e lines, |E_i| + |E_j| long, level, each between the ends of patches above and below it
     lines = pieces.corners[curves[plot3d.Colours.edge_edge]]
-    assert len(lines) == 18
-    assert np.ptp(lines[..., 2], axis=1).max() == 0
+    assert np.ptp(lines[..., 2], axis=1).max() < 1e-12
+    lengths = np.add.outer(*(np.hypot(*shape.edges.T) for shape in (scene.robot[0], scene.obstacles[0])))
+    assert np.hypot(*(lines[:, 1] - lines[:, 0])[:, :2].T).sum() == pytest.approx(2 * lengths.sum(), rel=1e-9)
     # n m helices, 2 pi - rho - omega high, each between two patches
     heights = np.ptp(pieces.corners[curves[plot3d.Colours.helix]][..., 2], axis=1).sum()
     angles = np.add.outer(scene.robot[0].interior_angles, scene.obstacles[0].interior_angles)

@@ -9,7 +9,7 @@ have no free side, are drawn above all else.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +23,8 @@ from cfree.mesh import COLOURS, robot_radius
 from cfree.strips import Strips, step_for, strips
 
 if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
     from cfree.forbidden import Boundary
 
 Floats = NDArray[np.float64]
@@ -34,6 +36,7 @@ ROWS = 25_000  # the steps are as small as this many rows allow
 CELLS = 70  # a face is at most this part of the window wide, so that its middle stands for its depth
 CROWDED = 100_000  # curves of more trapezoids would hide the patches
 SECTION_COLOUR, CUT = "#d9d9de", "#7a808c"
+AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
 LIGHT = np.array([-0.55, -0.65, 0.52])
 GLASS, GHOST = 0.3, 0.06
 SURFACE, WALL, SECTION, CURVE, ISOLATED = 0, 1, 2, 3, 4
@@ -106,7 +109,7 @@ class Painting(PolyCollection):
         alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)
         alpha[(pieces.sort == CURVE) & ~front] = 0
         is_curve = pieces.sort >= CURVE
-        rank = depth - 0.004 * (far - near) * is_curve
+        rank = depth - AHEAD * (far - near) * is_curve
         rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
         rank[pieces.sort == ISOLATED] -= 20 * (far - near)
         order = np.argsort(-rank)
@@ -138,10 +141,9 @@ def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None
     faces = Pieces(corners, rgb, np.where(kind == 3, WALL, SURFACE), np.arange(n), np.zeros(n))
     curves = _curves(boundary, rows, cell, colours) if len(boundary.trapezoids) <= CROWDED else []
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
-    for part in curves:
-        part.width[:] = line * thinner
+    split = [_split(replace(part, width=part.width + line * thinner), _widest(window)) for part in curves]
     fits = [of_line(points, colours.isolated, 2.2, ISOLATED) for points in isolated_lines(boundary)]
-    return joined([faces, _section(boundary, window, len(corners)), *curves, *fits])
+    return joined([faces, _section(boundary, window, len(corners)), *split, *fits])
 
 
 def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:
@@ -156,8 +158,7 @@ def _faces(boundary: Boundary, rows: Strips, window: Window) -> tuple[Floats, ND
     ends = _with_degrees(rows.points, rows.theta)
     here, after = ends[rows.joined], ends[rows.joined + 1]
     width = np.hypot(*(here[:, 1] - here[:, 0])[:, :2].T), np.hypot(*(after[:, 1] - after[:, 0])[:, :2].T)
-    widest = math.hypot(window[2] - window[0], window[3] - window[1]) / CELLS
-    count = np.maximum(1, np.ceil(np.maximum(*width) / widest)).astype(np.int64)
+    count = np.maximum(1, np.ceil(np.maximum(*width) / _widest(window))).astype(np.int64)
     strip = np.repeat(np.arange(len(count)), count)
     first = np.cumsum(count) - count
     s = ((np.arange(len(strip)) - first[strip]) / count[strip])[:, None]
@@ -170,13 +171,37 @@ def _faces(boundary: Boundary, rows: Strips, window: Window) -> tuple[Floats, ND
     return corners, kind[strip], first
 
 
+def _widest(window: Window) -> float:
+    return math.hypot(window[2] - window[0], window[3] - window[1]) / CELLS
+
+
+def _split(curves: Pieces, widest: float) -> Pieces:
+    """Curves in parts as short as faces are wide: a part's middle must stand for its depth, too."""
+    start, stop = curves.corners[:, 0], curves.corners[:, 1]
+    count = np.maximum(1, np.ceil(np.hypot(*(stop - start)[:, :2].T) / widest)).astype(np.int64)
+    of = np.repeat(np.arange(len(count)), count)
+    s = ((np.arange(len(of)) - (np.cumsum(count) - count)[of]) / count[of])[:, None]
+    e = s + 1 / count[of][:, None]
+    here, after = ((1 - k) * start[of] + k * stop[of] for k in (s, e))
+    corners = np.stack((here, after, after, here), axis=1)
+    return Pieces(corners, curves.rgb[of], curves.sort[of], curves.owner[of], curves.width[of])
+
+
 def _section(boundary: Boundary, window: Window, first: int) -> Pieces:
-    """The forbidden region at theta = 360 degrees, in triangles."""
+    """The forbidden region at theta = 360 degrees."""
     import shapely
 
     region = shapely.intersection(boundary.slice(-1e-6).forbidden, shapely.box(*window))
+    corners = level(region, 360.0)
+    return of_one_colour(corners, SECTION_COLOUR, SECTION, first + np.arange(len(corners)))
+
+
+def level(region: BaseGeometry, degrees: float) -> Floats:
+    """Triangles of a region of the plane at one height, (n, 4, 3), the last corner twice."""
+    import shapely
+
     triangles = shapely.constrained_delaunay_triangles(region)
-    corners = np.full((shapely.get_num_geometries(triangles), 4, 3), 360.0)
+    corners = np.full((shapely.get_num_geometries(triangles), 4, 3), degrees)
     if len(corners):
         rings = shapely.get_exterior_ring(shapely.get_parts(triangles))
         xy = shapely.get_coordinates(rings).reshape(-1, 4, 2)[:, :3]
@@ -184,11 +209,11 @@ def _section(boundary: Boundary, window: Window, first: int) -> Pieces:
         clockwise = x[0] * y[1] - x[1] * y[0] < 0
         xy[clockwise] = xy[clockwise][:, ::-1]
         corners[:, :3, :2], corners[:, 3, :2] = xy, xy[:, 2]
-    return of_one_colour(corners, SECTION_COLOUR, SECTION, first + np.arange(len(corners)))
+    return corners
 
 
 def _curves(boundary: Boundary, rows: Strips, cell: Ints, colours: Colours) -> list[Pieces]:
-    """Sides of trapezoids: v-v helices, e-e lines at a v-e patch's own ends, and where the bounds cut the patches."""
+    """Sides of trapezoids: v-v helices, e-e lines at the patches' own ends, and where the bounds cut the patches."""
     ends, of = _with_degrees(rows.points, rows.theta), rows.trapezoid[rows.joined]
     table = boundary.trapezoids
     kind = boundary.patch_kind[table.patch]
@@ -205,7 +230,7 @@ def _curves(boundary: Boundary, rows: Strips, cell: Ints, colours: Colours) -> l
         add(cut, here, after, CUT, np.full(len(cut), -1))
     phi_min, phi_max = boundary.phi_min, boundary.phi_min + boundary.phi_range
     for row, angle, phi in ((rows.joined, table.theta_from, phi_min), (rows.joined + 1, table.theta_to, phi_max)):
-        own_end = (kind == 1) & _same_angle(angle, phi[table.patch])
+        own_end = (kind != 3) & _same_angle(angle, phi[table.patch])
         (strip,) = np.nonzero(own_end[of] & _same_angle(angle[of], rows.theta[row]))
         add(strip, ends[row, 0], ends[row, 1], colours.edge_edge, cell[strip])
     return found

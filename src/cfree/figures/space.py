@@ -68,18 +68,33 @@ def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -
         if z0 <= z <= z1:
             ax.text(x0 - dx, y0 - dy, z, name, **{**center, "fontsize": 13})
     named = {**center, "fontsize": 15, "color": "black"}
-    ax.text((x0 + x1) / 2, y0 - 2.6 * dy, z0, "$x$", **named)
-    ax.text(x1 + 2.6 * dx, (y0 + y1) / 2, z0, "$y$", **named)
+    ax.text((x0 + x1) / 2, y0 - 3.6 * dy, z0, "$x$", **named)
+    ax.text(x1 + 3.6 * dx, (y0 + y1) / 2, z0, "$y$", **named)
     ax.text(x0 - 2.6 * dx, y0 - 2.6 * dy, (z0 + z1) / 2, r"$\theta$", **named)
 
 
-def paint(ax: Any, parts: list[Pieces], ghost: float = 0.0) -> None:
+def paint(ax: Any, parts: list[Pieces], z: float = 1) -> None:
     """Pieces from back to front; as pixels in vector formats, where thousands of faces are slow and have seams."""
-    from matplotlib import rcParams
+    painting = Painting(joined(parts), ghost=0)
+    painting.set(rasterized=True, zorder=z)
+    ax.add_collection(painting, autolim=False)
 
-    assert rcParams["svg.hashsalt"], "draw within styled()"
-    ax.add_collection(Painting(joined(parts), ghost), autolim=False)
-    ax.collections[-1].set_rasterized(True)
+
+def legend(figure: Figure, names: Sequence[tuple[str, str]], height: float = 0.035) -> None:
+    """A row of colours and what they mean, below; lines are named by a colour that begins with a dash."""
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles = [
+        Line2D([], [], color=colour[1:], linewidth=2.5, label=name)
+        if colour.startswith("-")
+        else Patch(color=colour, label=name)
+        for colour, name in names
+    ]
+    figure.legend(
+        handles=handles, loc="center", bbox_to_anchor=(0.5, height), ncols=len(handles), handlelength=1.3,
+        columnspacing=1.6, fontsize=12,
+    )  # fmt: skip
 
 
 def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cfree.contact import EdgeVertex, VertexEdge
-from cfree.figures.space import curve, draw_frame, new_space, paint, sheet
+from cfree.figures.space import curve, draw_frame, legend, new_space, paint, sheet
 from cfree.figures.style import Palette, new_figure
 from cfree.forbidden import boundary
 from cfree.plot3d import Colours, pieces_of
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
 ROBOT = Polygon([(-1, "-0.6"), ("1.2", "-0.4"), ("-0.3", 1)])
 OBSTACLE = Polygon([("-1.5", -1), ("1.6", "-0.7"), ("0.2", "1.4")])
-ANGLE_SCALE = 0.8
 VIEW = (24.0, -58.0)
 
 
@@ -36,17 +35,17 @@ def edge_vertex(palette: Palette) -> Figure:
 
 
 def _surface(S: Surface, colour: str, palette: Palette) -> Figure:
-    t, phi = np.linspace(0, 1, 25), np.linspace(0, math.tau, 241)
+    t, phi = np.linspace(0, 1, 41), np.linspace(0, math.tau, 301)
     points = S(t[None, :], phi[:, None])
-    x, y = points[..., 0], points[..., 1]
-    margin = 0.25
-    window = (x.min() - margin, y.min() - margin, x.max() + margin, y.max() + margin)
-    figure = new_figure(6.2, 6.2)
-    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=ANGLE_SCALE, view=VIEW, zoom=1.15)
+    (x0, y0), (x1, y1) = points[..., :2].min(axis=(0, 1)) - 0.3, points[..., :2].max(axis=(0, 1)) + 0.3
+    figure = new_figure(6.2, 6.4)
+    scale = 0.16 * (x1 - x0 + y1 - y0) / 2
+    ax = new_space(figure, (0.02, 0.05, 0.96, 0.95), (x0, y0, x1, y1), angle_scale=scale, view=VIEW, zoom=0.98)
     draw_frame(ax, range(-5, 6))
-    helices = [curve(S(s, phi), "black", 1.3) for s in np.linspace(0, 1, 5)]
-    rulings = [curve(S(t, angle), palette.edge_edge, 1.5) for angle in np.linspace(0, math.tau, 25)]
-    paint(ax, [sheet(points, colour, ANGLE_SCALE), *rulings, *helices])
+    helices = [curve(S(s, phi), "black", 1.4) for s in np.linspace(0, 1, 5)]
+    rulings = [curve(S(t, angle), palette.edge_edge, 1.6) for angle in np.linspace(0, math.tau, 25)]
+    paint(ax, [sheet(points, colour, scale), *rulings, *helices])
+    legend(figure, [("-black", r"helices $\phi \mapsto S(t, \phi)$"), ("-" + palette.edge_edge, r"rulings $t \mapsto S(t, \phi)$")])
     return figure
 
 
@@ -56,7 +55,10 @@ def pillar(palette: Palette) -> Figure:
     colours = Colours(palette.vertex_edge, palette.edge_vertex, palette.helix, palette.edge_edge)
     window = (-3.2, -2.8, 3.2, 3.0)
     figure = new_figure(6.2, 7)
-    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=1.1, view=VIEW, zoom=1.1)
+    ax = new_space(figure, (0.02, 0.05, 0.96, 0.95), window, angle_scale=1.1, view=VIEW, zoom=1.02)
     draw_frame(ax, range(-5, 6))
     paint(ax, [pieces_of(found, window, colours, 3.0)])
+    names = ("v-e patches", "e-v patches", "v-v helices", "e-e segments")
+    shown = (palette.vertex_edge, palette.edge_vertex, "-" + palette.helix, "-" + palette.edge_edge)
+    legend(figure, list(zip(shown, names, strict=True)))
     return figure
