@@ -136,7 +136,7 @@ def gaussian(palette: Palette) -> Figure:
     rim = [curve(SURFACE(s, phi), INK, 1.0) for s in (0.0, 1.0)]
     paint(ax, [sheet(points, colours, 0.7), *rim, curve(SURFACE(star, phi), "white", 2.2)])
     bar = figure.colorbar(ScalarMappable(norm, scale), cax=figure.add_axes((0.6, 0.2, 0.015, 0.6)))
-    bar.set_label("$K$", rotation=0, labelpad=8)
+    bar.ax.set_title("$K$", fontsize=13)
     graph = figure.add_axes((0.74, 0.2, 0.23, 0.6))
     fine = np.linspace(0, 1, 401)
     graph.plot(fine, FORMS.K(fine), color=INK, label="$K(t)$")

@@ -31,7 +31,7 @@ FIVE = Scene(
     goal=(11, "4.3", "120deg"),
 )
 """The obstacles of `examples/scenes/five_convex.json`, which is not installed."""
-SLICES = 25
+SLICES = 37
 
 
 def five_obstacles(palette: Palette) -> Figure:
@@ -41,15 +41,16 @@ def five_obstacles(palette: Palette) -> Figure:
     plane = figure.add_axes((0.01, 0.17, 0.35, 0.76))
     plane.set(xlim=(0, 12), ylim=(-0.2, 9), aspect="equal")
     plane.set_axis_off()
-    for obstacle in FIVE.obstacles:
+    for k, obstacle in enumerate(FIVE.obstacles):
         shape(plane, obstacle.vertices, palette.obstacle)
+        label(plane, obstacle.vertices.mean(axis=0), f"$O_{k + 1}$", colour=palette.obstacle)
     for pose, name, tint in ((FIVE.start, "start", 0.6), (FIVE.goal, "goal", 0.3)):
         if pose is not None:
             q = (float(pose.x), float(pose.y), pose.theta)
             shape(plane, placed(FIVE.robot[0].vertices, q), palette.robot, alpha=tint)
-            label(plane, q[:2], name, (0, -32), GREY, 11)
+            label(plane, q[:2], name, (0, -26), GREY, 11)
     window = (-0.6, -0.8, 12.6, 9.6)
-    ax = new_space(figure, (0.36, 0.06, 0.64, 0.94), window, angle_scale=1.3, view=(36.0, -62.0), zoom=1.0)
+    ax = new_space(figure, (0.36, 0.06, 0.64, 0.94), window, angle_scale=1.3, view=(36.0, -62.0), zoom=1.08)
     draw_frame(ax, range(0, 13, 3))
     paint(ax, [pieces_of(found, window, _colours(palette), 1.6)])
     _legend(figure, palette)
@@ -62,7 +63,7 @@ def slices(palette: Palette) -> Figure:
     figure = new_figure(10.4, 5.6)
     window = (-3.2, -2.8, 3.2, 3.0)
     axes: list[Any] = [
-        new_space(figure, (left, 0.06, 0.5, 0.94), window, angle_scale=1.1, view=VIEW, zoom=1.02) for left in (0, 0.5)
+        new_space(figure, (left, 0.06, 0.48, 0.94), window, angle_scale=1.1, view=VIEW, zoom=1.0) for left in (0.025, 0.515)
     ]
     for ax in axes:
         draw_frame(ax, range(-5, 6))
@@ -80,7 +81,7 @@ def slice_pieces(found: Boundary, degrees: float, palette: Palette) -> list[Piec
     inside = level(cut.forbidden, degrees)
     colours = {1: palette.vertex_edge, 2: palette.edge_vertex}
     rim = [
-        of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 2.2, ISOLATED)
+        of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 1.5, ISOLATED)
         for segment, kind in zip(cut.segments, found.patch_kind[cut.patches].tolist(), strict=True)
     ]
     return [of_one_colour(inside, "#e9ebef", SURFACE, np.full(len(inside), -1)), *rim]
