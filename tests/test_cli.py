@@ -46,6 +46,7 @@ def test_help_has_examples(run: Run) -> None:
         assert result.exit_code == 0
         assert f"cfree {command} scene.json" in " ".join(result.stdout.split())
         assert "--json" in result.stdout
+    assert "cfree figures -o pictures" in " ".join(run("figures", "--help").stdout.split())
 
 
 def test_no_arguments_mean_help(run: Run) -> None:
@@ -383,3 +384,37 @@ def test_a_limit_of_time_or_memory_has_exit_code_3_and_a_marked_file(run: Run, t
         file.unlink()
     result = run("boundary", scene, "--max-memory", "a lot")
     assert result.exit_code == 2 and '"500MB"' in result.stderr
+
+
+# figures
+
+
+def test_figures_are_written_as_asked(run: Run, tmp_path: Path) -> None:
+    result = run("figures", "-o", tmp_path / "new", "--only", "6,2", "--format", "svg,png", "--json")
+    assert result.exit_code == 0
+    names = [Path(file).name for file in json.loads(result.stdout)["files"]]
+    assert names == ["06-edge-edge.svg", "06-edge-edge.png", "02-contacts.svg", "02-contacts.png"]
+    assert sorted(names) == sorted(file.name for file in (tmp_path / "new").iterdir())
+    assert "figure 6" in run("figures", "-o", tmp_path, "--only", "6", "--format", "png").stdout
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--only", "14"), "there are the figures 1 to 13"),
+        (("--only", "6,x"), 'as in "7" or "7,9"'),
+        (("--format", "png,gif"), "format 'gif'"),
+        (("--only", ""), "give numbers of figures"),
+    ],
+)
+def test_bad_wishes_for_figures_write_nothing(options: tuple[str, str], message: str, run: Run, tmp_path: Path) -> None:
+    result = run("figures", "-o", tmp_path / "new", *options)
+    assert result.exit_code == 2 and message in result.stderr
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_figures_need_a_directory(run: Run, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("mine")
+    result = run("figures", "-o", tmp_path / "file", "--only", "6")
+    assert result.exit_code == 2 and "give a directory" in result.stderr
+    assert (tmp_path / "file").read_text() == "mine"

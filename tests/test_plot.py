@@ -2,7 +2,9 @@
 
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,9 +16,13 @@ from cfree import plot3d
 from cfree.errors import UnsupportedError
 from cfree.forbidden import Boundary, boundary
 from cfree.io import load_scene
+from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.mesh import COLOURS
 from cfree.plot import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
+from cfree.pose import Pose
 from cfree.scene import Scene
+from compared import scene_of
+from shapes import PlainScene, box
 
 SCENES = Path("examples/scenes")
 TRIANGLE = [(0, 0), (1, 0), (0, 1)]
@@ -187,3 +193,130 @@ def test_no_global_state_of_pyplot_is_touched() -> None:
         "assert 'matplotlib.pyplot' not in sys.modules\n"
     )
     subprocess.run([sys.executable, "-c", program], check=True)
+
+
+# exact fits
+
+
+MAGENTA = to_rgb(ISOLATED_COLOUR)
+
+# three vertices stay on three walls while the robot turns: free is one point at each angle
+HALF, THIRD = Fraction(1, 2), Fraction(1, 3)
+THREE_FEET = PlainScene(
+    [
+        ([(4, 8), (5, 8 - HALF), (5, 8 + HALF)], []),
+        ([(4, 0), (4 + HALF, 1), (4 - HALF, 1)], []),
+        ([(0, 4), (-1, 4 - HALF), (-HALF, 3)], []),
+    ],
+    [box(-1, 6, 0, 10), box(-2, -1, 2, 0), ([(-6, 6), (-2, 2), (-1, 3), (-5, 7)], [])],
+)
+# two feet turn about a vertex
+TWO_FEET = PlainScene(
+    [
+        ([(2 * THIRD, 0), (1, 0), (2 * THIRD, THIRD / 2)], []),
+        ([(2 * THIRD, THIRD), (2 * THIRD, THIRD / 2), (1, THIRD)], []),
+    ],
+    [
+        ([(1, 2 * THIRD), (2 * THIRD, 1), (2 * THIRD, 2 * THIRD)], []),
+        ([(2 * THIRD, 2 * THIRD), (THIRD, -2 * THIRD), (2 * THIRD, -2 * THIRD)], []),
+    ],
+)
+
+
+def legend_of(ax: Any) -> list[str]:
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+@pytest.mark.parametrize(
+    "file",
+    [
+        "examples/scenes/degenerate_exact_fit.json",
+        "tests/cases/fits/square_in_crossing_corridors.json",
+        "tests/cases/fits/plus_peg.json",
+    ],
+)
+def test_exact_fits_are_drawn_above_the_rest_and_named(file: str) -> None:
+    found = boundary(load_scene(file))
+    assert len(found.isolated)
+    space = plot_boundary(found)
+    assert legend_of(space)[-1] == "exact fit"
+    space.get_legend().remove()
+    assert magenta(pixels(space.figure)) > 20
+    (painting,) = space.collections
+    last = painting.get_edgecolor()[-1]
+    assert tuple(last[:3]) == MAGENTA
+    plane = plot_slice(found.slice(float(found.isolated.theta_from[0])))
+    assert "exact fit" in legend_of(plane)
+    plane.get_legend().remove()
+    assert magenta(pixels(plane.figure)) > 20
+
+
+def test_without_exact_fits_there_is_no_legend_of_them(fig9: Boundary) -> None:
+    assert "exact fit" not in legend_of(plot_boundary(fig9)) + legend_of(plot_slice(fig9.slice(0)))
+    fits = boundary(load_scene(SCENES / "degenerate_exact_fit.json"))
+    assert "exact fit" not in legend_of(plot_slice(fits.slice(0.1)))
+
+
+def magenta(image: np.ndarray) -> int:
+    return int(np.count_nonzero(np.abs(image - MAGENTA).max(axis=-1) < 0.02))
+
+
+@pytest.mark.parametrize(
+    "folder", ["tests/cases/fits", "tests/cases/bounds", "tests/cases/tangencies", "tests/cases/flats"]
+)
+def test_lines_of_exact_fits_run_between_their_ends(folder: str) -> None:
+    count = 0
+    for file in sorted(Path(folder).glob("*.json")):
+        found = boundary(load_scene(file), threads=1)
+        for k, line in enumerate(isolated_lines(found)):
+            part = found.isolated_part(k)
+            assert line[[0, -1], :2] == pytest.approx(np.array(part.ends)[:, :2], abs=1e-9)
+            turned = (np.degrees(np.array(part.ends)[:, 2]) - line[[0, -1], 2]) / 360
+            assert turned == pytest.approx(np.round(turned), abs=1e-9)
+            check_slices(found, line)
+            count += 1
+    assert count or folder.endswith("flats")
+
+
+@pytest.mark.parametrize("plain", [THREE_FEET, TWO_FEET], ids=["three feet", "two feet"])
+def test_curves_of_exact_fits_are_in_the_slices_they_pass(plain: PlainScene) -> None:
+    found = boundary(scene_of(plain), threads=1)
+    curves = [k for k in range(len(found.isolated)) if found.isolated_part(k).kind == "curve"]
+    lines = [line for line in isolated_lines(found) if np.ptp(line[:, 2]) > 0]
+    # one that crosses theta = 0 is drawn in two
+    assert len(curves) <= len(lines) <= len(curves) + 1
+    drawn = sum(float(np.ptp(line[:, 2])) for line in lines)
+    assert drawn == pytest.approx(np.degrees(found.isolated.theta_to - found.isolated.theta_from).sum())
+    for line in lines:
+        assert line[:, 2].min() >= 0 and line[:, 2].max() <= 360
+        check_slices(found, line)
+        check_free(plain, line[len(line) // 2])
+
+
+def check_slices(found: Boundary, line: np.ndarray) -> None:
+    """Each point of a line is at the isolated parts of its own orientation."""
+    for x, y, degrees in line:
+        near = np.concatenate(isolated_at(found, np.radians(degrees)))
+        assert np.hypot(*(near - (x, y)).T).min() < 1e-6
+
+
+def check_free(plain: PlainScene, pose: np.ndarray) -> None:
+    """The robot overlaps nothing there, up to rounding; a little aside it does."""
+    import shapely
+
+    def overlap(dx: float, dy: float) -> float:
+        x, y, degrees = pose
+        turned = [shapely.Polygon(Pose(x + dx, y + dy, f"{degrees}deg").apply(part)) for part, _ in floats(plain.robot)]
+        walls = shapely.union_all([shapely.Polygon(outer, holes) for outer, holes in floats(plain.obstacles)])
+        return float(shapely.intersection(shapely.union_all(turned), walls).area)
+
+    assert overlap(0, 0) < 1e-9
+    aside = [overlap(0.01 * np.cos(turn), 0.01 * np.sin(turn)) for turn in np.linspace(0, 6, 12)]
+    assert min(aside) > 1e-8
+
+
+def floats(shapes: Any) -> list[tuple[Any, Any]]:
+    return [
+        ([(float(x), float(y)) for x, y in outer], [[(float(x), float(y)) for x, y in hole] for hole in holes])
+        for outer, holes in shapes
+    ]

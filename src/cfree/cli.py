@@ -229,7 +229,42 @@ def verify(
         raise typer.Exit(REFUTED)
 
 
+@app.command(epilog="Examples: `cfree figures -o pictures`; `cfree figures -o pictures --only 7,9 --format svg --safe`")
+def figures(
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="DIR", help="Where to write, made if missing.", show_default=False)
+    ],
+    only: Annotated[
+        str | None, typer.Option(metavar="NUMBERS", help='Some of them: "7" or "7,9".', show_default="all")
+    ] = None,
+    formats: Annotated[str, typer.Option("--format", metavar="FORMATS", help="Of svg, pdf and png.")] = "svg,pdf,png",
+    safe: Annotated[bool, typer.Option("--safe", help="Colours for readers who do not tell red from green.")] = False,
+    as_json: JsonOption = False,
+) -> None:
+    """Draw the figures of the paper, from computed data, and three more."""
+    with _one_line_faults():
+        from cfree.figures import FIGURES, draw_all
+
+        numbers = None if only is None else _read_numbers(only)
+        with _bar("figures") as progress:
+            files = draw_all(output, only=numbers, formats=formats.split(","), safe=safe, progress=progress)
+        if as_json:
+            _print_json({"files": [str(file) for file in files]})
+        else:
+            for entry in FIGURES:
+                written = [str(file) for file in files if file.stem == entry.stem]
+                if written:
+                    print(f"figure {entry.number}: {entry.caption} {' '.join(written)}")
+
+
 # input
+
+
+def _read_numbers(text: str) -> list[int]:
+    try:
+        return [int(number) for number in text.split(",")]
+    except ValueError:
+        raise ValueError(f'--only: {text!r}; give numbers of figures, as in "7" or "7,9"') from None
 
 
 def _read_angle(text: str) -> Angle:

@@ -33,7 +33,7 @@ Window = tuple[float, float, float, float]
 
 STEPS = math.radians(1.5), math.radians(15)
 ROWS = 25_000  # the steps are as small as this many rows allow
-CELLS = 70  # a face is at most this part of the window wide, so that its middle stands for its depth
+CELLS = 100  # a face is at most this part of the window wide, so that its middle stands for its depth
 CROWDED = 100_000  # curves of more trapezoids would hide the patches
 SECTION_COLOUR, CUT = "#d9d9de", "#7a808c"
 AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
@@ -103,7 +103,8 @@ class Painting(PolyCollection):
         p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
         front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
 
-        fog = np.where((pieces.sort == SECTION) | (pieces.sort == ISOLATED), 0.0, 0.25 * (depth - near) / max(far - near, 1e-300))
+        clear = (pieces.sort == SECTION) | (pieces.sort == ISOLATED)
+        fog = np.where(clear, 0.0, 0.25 * (depth - near) / max(far - near, 1e-300))
         rgb = pieces.rgb + (1 - pieces.rgb) * fog[:, None]
         alpha = np.where(front, 1.0, self._ghost)
         alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)

@@ -36,7 +36,9 @@ class Entry:
 
 
 FIGURES = (
-    Entry(1, "rest-and-moved", "The robot at rest and in a pose q = (r, theta), and an obstacle.", "poses.rest_and_moved"),
+    Entry(
+        1, "rest-and-moved", "The robot at rest and in a pose q = (r, theta), and an obstacle.", "poses.rest_and_moved"
+    ),
     Entry(2, "contacts", "A contact with O1, a pseudo contact with O2, three contacts with O3.", "poses.contacts"),
     Entry(3, "vertex-edge-range", "The orientations of a v-e contact.", "ranges.vertex_edge"),
     Entry(4, "edge-vertex-range", "The orientations of an e-v contact.", "ranges.edge_vertex"),
@@ -105,7 +107,11 @@ def draw_all(
         ...
     ValueError: figure 14: there are the figures 1 to 13
     """
-    folder, chosen, suffixes = Path(directory), [e.number for e in FIGURES] if only is None else list(only), list(formats)
+    folder, chosen, suffixes = (
+        Path(directory),
+        [e.number for e in FIGURES] if only is None else list(only),
+        list(formats),
+    )
     entries = [_entry(number) for number in dict.fromkeys(chosen)]
     for suffix in suffixes:
         if suffix not in FORMATS:

@@ -54,7 +54,7 @@ class Forms:
     def v(self, t: ArrayLike) -> Floats:
         point = self.a + np.asarray(t, float)[..., None] * self.edge
         G = 1 + (point**2).sum(axis=-1)
-        return np.sqrt(self.E * G - self.F**2)
+        return np.asarray(np.sqrt(self.E * G - self.F**2))
 
     def K(self, t: ArrayLike) -> Floats:
         """Gaussian curvature, Lemma 2."""
@@ -77,7 +77,7 @@ class Forms:
 
 FORMS = Forms(ROBOT.vertices[0], ROBOT.edge(0))
 POINT = (0.5, math.radians(40))
-REACH = 0.55
+REACH = 0.5
 """Length of the directions drawn, on both sides of the point."""
 
 
@@ -92,7 +92,7 @@ def directions(palette: Palette) -> Figure:
     figure = new_figure(6.4, 5.6)
     window = (low[0], low[1], high[0], high[1])
     degrees = (math.degrees(low[2]), math.degrees(high[2]))
-    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.3)
+    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22)
     asymptotic, principal = FORMS.directions(t0)
     parts = [sheet(points, "#dfe6ee", 1.0)]
     parts += [curve(SURFACE(s, phi), "#9aa4b2", 0.7) for s in np.linspace(t[0], t[-1], 9)]
@@ -143,7 +143,7 @@ def gaussian(palette: Palette) -> Figure:
     graph.plot(fine, FORMS.H(fine), color=INK, linestyle="--", label="$H(t)$")
     graph.axvline(star, color=GREY, linewidth=0.8, linestyle=":")
     graph.text(star, 1.02, "$t_*$", ha="center", va="bottom", transform=graph.get_xaxis_transform())
-    graph.set(xlabel="$t$", xlim=(0, 1))
+    graph.set(xlabel="$t$", xlim=(0, 1), ylim=(-1.05, 0.32), yticks=np.arange(-1, 0.3, 0.2))
     graph.spines[["top", "right"]].set_visible(False)
     graph.legend(loc="best")
     return figure

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -109,8 +109,7 @@ def arc(
     px, py = x + radius * np.cos(turn), y + radius * np.sin(turn)
     ax.plot(px, py, color=colour, linewidth=width, linestyle=(0, (1, 2)) if dotted else "-", zorder=4)
     if tip:
-        ends = [(x + radius * math.cos(a), y + radius * math.sin(a)) for a in (stop - head, stop)]
-        arrow(ax, *ends, colour, width=width)
+        arrow(ax, on_arc(centre, radius, stop - head), on_arc(centre, radius, stop), colour, width=width)
 
 
 def on_arc(centre: ArrayLike, radius: float, angle: float) -> Floats:

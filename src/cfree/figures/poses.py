@@ -6,9 +6,20 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from cfree.figures.plane import arc, arrow, corner_labels, dot, edge_label, frame, label, line, new_plane, on_arc
-from cfree.figures.plane import placed as moved
-from cfree.figures.plane import shape
+from cfree.figures.plane import (
+    arc,
+    arrow,
+    corner_labels,
+    dot,
+    edge_label,
+    frame,
+    label,
+    line,
+    new_plane,
+    on_arc,
+    placed,
+    shape,
+)  # fmt: skip
 from cfree.figures.style import GREY, INK, Palette
 from cfree.polygon import Polygon
 from cfree.pose import Pose
@@ -24,7 +35,7 @@ MOVED = (4.35, 2.1, math.radians(50))
 def rest_and_moved(palette: Palette) -> Figure:
     """Figure 1: the robot at rest and in a pose q = (r, theta), its local frame, one obstacle."""
     ax = new_plane((-1.9, -2.4, 6.2, 4.0))
-    a, b, q = ROBOT.vertices, OBSTACLE.vertices, moved(ROBOT.vertices, MOVED)
+    a, b, q = ROBOT.vertices, OBSTACLE.vertices, placed(ROBOT.vertices, MOVED)
     shape(ax, a, palette.robot, alpha=0.55)
     shape(ax, q, palette.robot, palette.robot_moved, alpha=0.55)
     shape(ax, b, palette.obstacle)
@@ -57,7 +68,7 @@ def rest_and_moved(palette: Palette) -> Figure:
     label(ax, (0, 0), "$R_0$", (-11, -8), palette.frame)
     label(ax, (x, y), r"$R_0(\mathbf{q})$", (17, -11), palette.frame)
     label(ax, (0.45, -0.55), r"$A(\mathbf{0})$", size=16, colour=palette.robot)
-    label(ax, (4.6, 1.35), r"$A(\mathbf{q})$", size=16, colour=palette.robot)
+    label(ax, (4.3, 1.4), r"$A(\mathbf{q})$", size=16, colour=palette.robot)
     label(ax, (4.05, -1.05), "$O_1$", size=16, colour=palette.obstacle)
     return ax.figure.figure
 
@@ -106,6 +117,6 @@ def contacts(palette: Palette) -> Figure:
         label(ax, place, title, colour=GREY, size=11)
         for k, text in enumerate(types):
             label(ax, place, text, (0, -16 - 17 * k), size=14)
-        if start is not None:
+        if start is not None and target is not None:
             line(ax, start, target, GREY)
     return ax.figure.figure

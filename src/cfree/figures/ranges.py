@@ -112,7 +112,7 @@ def _turn(ax: Axes, palette: Palette, centre: Floats, low: Floats, high: Floats,
     arc(ax, centre, radius, (start, start + found.phi_range), GREY, fill=False, tip=True, dotted=True)
     for q, name in ((low, r"$\phi_{\min}$"), (high, r"$\phi_{\max}$")):
         turn = float(q[2]) % math.tau
-        line(ax, q[:2], q[:2] + (0.75, 0), GREY, dashes=True)
+        line(ax, q[:2], np.add(q[:2], (0.75, 0)), GREY, dashes=True)
         frame(ax, q, 0.55, palette.frame)
         arc(ax, q[:2], 0.38, (0, turn), palette.frame)
         label(ax, on_arc(q[:2], 0.85 if turn < 1 else 0.58, turn / 2), name, colour=palette.frame, size=12)

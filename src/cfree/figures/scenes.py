@@ -63,7 +63,8 @@ def slices(palette: Palette) -> Figure:
     figure = new_figure(10.4, 5.6)
     window = (-3.2, -2.8, 3.2, 3.0)
     axes: list[Any] = [
-        new_space(figure, (left, 0.06, 0.48, 0.94), window, angle_scale=1.1, view=VIEW, zoom=1.0) for left in (0.025, 0.515)
+        new_space(figure, (left, 0.06, 0.48, 0.94), window, angle_scale=1.1, view=VIEW, zoom=1.0)
+        for left in (0.025, 0.515)
     ]
     for ax in axes:
         draw_frame(ax, range(-5, 6))

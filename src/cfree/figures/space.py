@@ -49,7 +49,9 @@ def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -
         [(x0, y0, z0), (x0, y1, z0), (x0, y1, z1), (x0, y0, z1)],
         [(x0, y1, z0), (x1, y1, z0), (x1, y1, z1), (x0, y1, z1)],
     ]
-    ax.add_collection3d(Poly3DCollection(walls, facecolor="#f6f7f9", edgecolor=FAINT, linewidth=0.7, zorder=-2))
+    ax.add_collection3d(
+        Poly3DCollection(walls, facecolor="#f6f7f9", edgecolor=FAINT, linewidth=0.7, zorder=-2, clip_on=False)
+    )
     xs, ys = ([t for t in ticks if low < t < high] for low, high in ((x0, x1), (y0, y1)))
     zs = [z for z in turns if z0 < z < z1]
     grid = [
@@ -57,7 +59,7 @@ def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -
         *([(x1, y, z0), (x0, y, z0), (x0, y, z1)] for y in ys),
         *([(x0, y0, z), (x0, y1, z), (x1, y1, z)] for z in zs),
     ]
-    ax.add_collection3d(Line3DCollection(grid, colors=FAINT, linewidths=0.6, zorder=-1))
+    ax.add_collection3d(Line3DCollection(grid, colors=FAINT, linewidths=0.6, zorder=-1, clip_on=False))
     dx, dy = 0.05 * (x1 - x0), 0.05 * (y1 - y0)
     center: Any = {"ha": "center", "va": "center", "fontsize": 11, "color": GREY}
     for x in xs:
@@ -70,13 +72,13 @@ def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -
     named = {**center, "fontsize": 15, "color": "black"}
     ax.text((x0 + x1) / 2, y0 - 3.6 * dy, z0, "$x$", **named)
     ax.text(x1 + 3.6 * dx, (y0 + y1) / 2, z0, "$y$", **named)
-    ax.text(x0 - 2.6 * dx, y0 - 2.6 * dy, (z0 + z1) / 2, r"$\theta$", **named)
+    ax.text(x0 - 2.2 * dx, y0 - 2.2 * dy, (z0 + z1) / 2, r"$\theta$", **named)
 
 
 def paint(ax: Any, parts: list[Pieces], z: float = 1) -> None:
     """Pieces from back to front; as pixels in vector formats, where thousands of faces are slow and have seams."""
     painting = Painting(joined(parts), ghost=0)
-    painting.set(rasterized=True, zorder=z)
+    painting.set(rasterized=True, zorder=z, clip_on=False)
     ax.add_collection(painting, autolim=False)
 
 

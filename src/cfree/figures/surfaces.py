@@ -45,7 +45,10 @@ def _surface(S: Surface, colour: str, palette: Palette) -> Figure:
     helices = [curve(S(s, phi), "black", 1.4) for s in np.linspace(0, 1, 5)]
     rulings = [curve(S(t, angle), palette.edge_edge, 1.6) for angle in np.linspace(0, math.tau, 25)]
     paint(ax, [sheet(points, colour, scale), *rulings, *helices])
-    names = ("-black", r"helices $\phi \mapsto S(t, \phi)$"), ("-" + palette.edge_edge, r"rulings $t \mapsto S(t, \phi)$")
+    names = (
+        ("-black", r"helices $\phi \mapsto S(t, \phi)$"),
+        ("-" + palette.edge_edge, r"rulings $t \mapsto S(t, \phi)$"),
+    )
     legend(figure, names)
     return figure
 
