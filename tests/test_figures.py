@@ -23,7 +23,7 @@ from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_
 from cfree.figures import FIGURES, curvature, curves, draw, draw_all, plane, poses, ranges, scenes, surfaces
 from cfree.figures.style import FORMATS, PAPER, SAFE, Palette, styled, write
 from cfree.forbidden import boundary
-from cfree.plot3d import ISOLATED, SURFACE
+from cfree.plot3d import ON_TOP, SURFACE
 from cfree.scene import Scene
 from cfree.surface import contact_helix, contact_segment, contact_surface
 
@@ -303,7 +303,7 @@ def test_slices_are_drawn_at_their_height_with_closed_rims() -> None:
     inside, *rim = scenes.slice_pieces(found, 70.0, PAPER)
     assert (inside.sort == SURFACE).all() and len(rim) == 6  # a hexagon
     points = np.concatenate([part.corners for part in rim])
-    assert (points[..., 2] == 70).all() and all((part.sort == ISOLATED).all() for part in rim)
+    assert (points[..., 2] == 70).all() and all((part.sort == ON_TOP).all() for part in rim)
     assert np.abs((points[:, 1] - points[:, 0]).sum(axis=0)).max() < 1e-12
     cut = found.slice("70deg")
     p, q, r = (inside.corners[:, k, :2] for k in range(3))

@@ -16,7 +16,9 @@ def test_the_code_prints_what_it_shows(request: pytest.FixtureRequest, monkeypat
     assert result.failed == 0
 
 
-@pytest.mark.parametrize("page", ["README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/boundary-format.md", "docs/figures.md"])
+@pytest.mark.parametrize(
+    "page", ["README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/boundary-format.md", "docs/figures.md"]
+)
 def test_links_lead_to_files(request: pytest.FixtureRequest, page: str) -> None:
     file = request.config.rootpath / page
     links = re.findall(r"\]\(([^)#]+)\)", file.read_text())

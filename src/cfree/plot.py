@@ -13,10 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cfree.errors import UnsupportedError
 from cfree.files import replacing
-from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at
+from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.mesh import COLOURS, KINDS
 from cfree.outlines import ROBOT, Window, draw_robots, path_of, rings_of, rings_of_geometry
 from cfree.strips import THIN, strips
@@ -99,10 +100,10 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
             ax.add_collection(
                 LineCollection(chosen, colors=_line_colour(kind), linewidths=width, linestyles=[style], label=name)
             )
-    for k, points in enumerate(isolated_at(boundary, cut.theta)):
-        look: Any = {"color": ISOLATED_COLOUR, "zorder": 3, "label": "exact fit" if k == 0 else None}
-        is_point = len(points) == 1 or bool(np.hypot(*np.ptp(points, axis=0)) < THIN)
-        ax.plot(*points.T, "o-", markersize=5 if is_point else 0, linewidth=2.2, **look)
+    fits = isolated_at(boundary, cut.theta)
+    _draw_fits(ax, fits)
+    if fits:
+        ax.lines[-1].set_label("exact fit")
     _set_window(ax, extent(boundary), boundary.scene.units)
     ax.set_title(f"slice at θ = {math.degrees(cut.theta):.4g}°")
     _legend(ax)
@@ -136,6 +137,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     x0, y0, x1, y1 = window
     space.add_collection(Painting(pieces_of(boundary, window)), autolim=False)
     space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360))
+    _draw_fits(space, isolated_lines(boundary))
     space.set_box_aspect((x1 - x0, y1 - y0, 0.75 * max(x1 - x0, y1 - y0)), zoom=1.08)
     space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
     for axis, name, side in ((space.xaxis, "x", x1 - x0), (space.yaxis, "y", y1 - y0)):
@@ -152,9 +154,9 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
         Patch(facecolor=SECTION_COLOUR, edgecolor=CUT, label="section at 360°"),
     ]
     if len(boundary.isolated):
-        handles.append(Line2D([], [], color=ISOLATED_COLOUR, linewidth=2.2, label="exact fit"))
+        handles.append(Line2D([], [], color=ISOLATED_COLOUR, label="exact fit"))
     space.legend(
-        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=len(handles),
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=6 if len(handles) <= 6 else 4,
         frameon=False, handlelength=1.4, columnspacing=1.4,
     )  # fmt: skip
     return space
@@ -243,7 +245,7 @@ def _new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes
 
 
 def _new_axes(size: tuple[float, float]) -> Axes:
-    return _new_figure(size).add_axes((0.1, 0.1, 0.86, 0.8))
+    return _new_figure(size).add_axes((0.1, 0.15, 0.86, 0.77))
 
 
 def _set_window(ax: Axes, window: Window, units: str) -> None:
@@ -262,8 +264,20 @@ def _line_colour(kind: int) -> str:
     return BOUNDS if KINDS[kind] == "bound" else COLOURS[kind]
 
 
+def _draw_fits(ax: Any, lines: list[NDArray[np.float64]]) -> None:
+    """Exact fits, above all else: those without length are dots."""
+    for points in lines:
+        is_dot = bool(np.ptp(points, axis=0).max() < THIN)
+        ax.plot(*points.T, "o" if is_dot else "-", color=ISOLATED_COLOUR, markersize=5, linewidth=2.2, zorder=20)
+
+
 def _legend(ax: Axes) -> None:
-    ax.legend(loc="upper left", bbox_to_anchor=(0, -0.08), ncols=5, frameon=False)
+    """Below the axis label, however high the axes are."""
+    from matplotlib.transforms import ScaledTranslation
+
+    figure: Any = ax.figure
+    below = ax.transAxes + ScaledTranslation(0, -0.5, figure.dpi_scale_trans)
+    ax.legend(loc="upper left", bbox_to_anchor=(0, 0), bbox_transform=below, ncols=5, frameon=False)
 
 
 def _around(boxes: Iterable[Window]) -> Window:

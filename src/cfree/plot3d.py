@@ -2,8 +2,7 @@
 
 Faces and curves go into one list, sorted by depth each time the view changes. The free side of a patch is
 shaded and opaque; the forbidden side is a ghost, so that one looks through the near walls into the free space,
-as into a doll's house. At theta = 360 degrees the forbidden space is cut: the section is grey. Exact fits, which
-have no free side, are drawn above all else.
+as into a doll's house. At theta = 360 degrees the forbidden space is cut: the section is grey.
 """
 
 from __future__ import annotations
@@ -18,7 +17,6 @@ from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d import proj3d
 from numpy.typing import NDArray
 
-from cfree.isolated_lines import ISOLATED_COLOUR, isolated_lines
 from cfree.mesh import COLOURS, robot_radius
 from cfree.strips import Strips, step_for, strips
 
@@ -39,7 +37,7 @@ SECTION_COLOUR, CUT = "#d9d9de", "#7a808c"
 AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
 LIGHT = np.array([-0.55, -0.65, 0.52])
 GLASS, GHOST = 0.3, 0.06
-SURFACE, WALL, SECTION, CURVE, ISOLATED = 0, 1, 2, 3, 4
+SURFACE, WALL, SECTION, CURVE, ON_TOP = 0, 1, 2, 3, 4
 
 
 @dataclass(frozen=True)
@@ -50,7 +48,6 @@ class Colours:
     edge_vertex: str = COLOURS[2]
     helix: str = "#1f3fbf"
     edge_edge: str = "#f5c518"
-    isolated: str = ISOLATED_COLOUR
 
 
 @dataclass(frozen=True)
@@ -61,7 +58,7 @@ class Pieces:
     ----------
     corners : (n, 4, 3) float64, theta in degrees
     rgb : (n, 3) float64
-    sort : (n,) int, SURFACE, WALL, SECTION, CURVE or ISOLATED
+    sort : (n,) int, SURFACE, WALL, SECTION, CURVE, or ON_TOP: a curve that nothing hides
     owner : (n,) int
         The face whose border a curve is, or -1 if it is always seen; itself for a face.
     width : (n,) float64
@@ -103,7 +100,7 @@ class Painting(PolyCollection):
         p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
         front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
 
-        clear = (pieces.sort == SECTION) | (pieces.sort == ISOLATED)
+        clear = (pieces.sort == SECTION) | (pieces.sort == ON_TOP)
         fog = np.where(clear, 0.0, 0.25 * (depth - near) / max(far - near, 1e-300))
         rgb = pieces.rgb + (1 - pieces.rgb) * fog[:, None]
         alpha = np.where(front, 1.0, self._ghost)
@@ -112,7 +109,7 @@ class Painting(PolyCollection):
         is_curve = pieces.sort >= CURVE
         rank = depth - AHEAD * (far - near) * is_curve
         rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
-        rank[pieces.sort == ISOLATED] -= 20 * (far - near)
+        rank[pieces.sort == ON_TOP] -= 20 * (far - near)
         order = np.argsort(-rank)
         order = order[alpha[order] > 0]
 
@@ -129,7 +126,7 @@ class Painting(PolyCollection):
 
 
 def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
-    """Everything there is to draw of a boundary: patches, section, helices and e-e segments, exact fits.
+    """Everything there is to draw of a boundary: patches, section, helices and e-e segments.
 
     Curves are `line` points wide, or less where there are so many that they would hide the patches.
     """
@@ -143,12 +140,11 @@ def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None
     curves = _curves(boundary, rows, cell, colours) if len(boundary.trapezoids) <= CROWDED else []
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
     split = [_split(replace(part, width=part.width + line * thinner), _widest(window)) for part in curves]
-    fits = [of_line(points, colours.isolated, 2.2, ISOLATED) for points in isolated_lines(boundary)]
-    return joined([faces, _section(boundary, window, len(corners)), *split, *fits])
+    return joined([faces, _section(boundary, window, len(corners)), *split])
 
 
 def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:
-    """A polyline, (k, 3) with theta in degrees, that is seen from all sides; a point is a line of length 0."""
+    """A polyline, (k, 3) with theta in degrees, that is seen from all sides."""
     start, stop = points[:-1], points[1:]
     corners = np.stack((start, stop, stop, start), axis=1)
     return of_one_colour(corners, colour, sort, np.full(len(corners), -1), width)

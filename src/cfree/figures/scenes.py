@@ -11,7 +11,7 @@ from cfree.figures.space import draw_frame, legend, new_space, paint
 from cfree.figures.style import GREY, Palette, new_figure
 from cfree.figures.surfaces import OBSTACLE, ROBOT, VIEW
 from cfree.forbidden import Boundary, boundary
-from cfree.plot3d import ISOLATED, SURFACE, Colours, Pieces, level, of_line, of_one_colour, pieces_of
+from cfree.plot3d import ON_TOP, SURFACE, Colours, Pieces, level, of_line, of_one_colour, pieces_of
 from cfree.scene import Scene
 
 if TYPE_CHECKING:
@@ -82,7 +82,7 @@ def slice_pieces(found: Boundary, degrees: float, palette: Palette) -> list[Piec
     inside = level(cut.forbidden, degrees)
     colours = {1: palette.vertex_edge, 2: palette.edge_vertex}
     rim = [
-        of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 1.5, ISOLATED)
+        of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 1.5, ON_TOP)
         for segment, kind in zip(cut.segments, found.patch_kind[cut.patches].tolist(), strict=True)
     ]
     return [of_one_colour(inside, "#e9ebef", SURFACE, np.full(len(inside), -1)), *rim]
