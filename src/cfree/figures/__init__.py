@@ -80,7 +80,7 @@ def draw_all(
     only : numbers of figures, optional
         All if not given.
     formats : of "svg", "pdf", "png"
-        Faces in space are pixels in all three; lines and letters are not.
+        Surfaces in space, and the curves on them, are pixels in all three; other lines and letters are not.
     safe : bool
         Colours after Okabe and Ito instead of red and green.
     progress : callable, optional

@@ -92,7 +92,9 @@ def directions(palette: Palette) -> Figure:
     figure = new_figure(6.4, 5.6)
     window = (low[0], low[1], high[0], high[1])
     degrees = (math.degrees(low[2]), math.degrees(high[2]))
-    ax = new_space(figure, (0, 0, 1, 1), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22)
+    ax = new_space(
+        figure, (-0.06, -0.04, 1.06, 1.08), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22
+    )
     asymptotic, principal = FORMS.directions(t0)
     parts = [sheet(points, "#dfe6ee", 1.0)]
     parts += [curve(SURFACE(s, phi), "#9aa4b2", 0.7) for s in np.linspace(t[0], t[-1], 9)]
