@@ -68,7 +68,7 @@ def edge_edge(palette: Palette) -> Figure:
         shape(ax, q, palette.robot, palette.robot_moved, alpha=0.5 if t <= 1 else 0.2)
         dot(ax, q[0], INK, 6)
         label(ax, C(t)[:2], name, (0, 14), size=12)
-        label(ax, q[0], "$a_i$", (9 if t < 1 else 10, 11))
+        label(ax, q[0], "$a_i$", (9, 11))
         label(ax, q[1], r"$a_{i+1}$", (-15, 11))
     low, one, high = C(0.0)[:2], C(1.0)[:2], C(end)[:2]
     line(ax, low, one, palette.edge_edge, width=3.5)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cfree.figures.plane import label, placed, shape
-from cfree.figures.space import draw_frame, legend, new_space, paint
+from cfree.figures.space import draw_frame, new_space, paint
 from cfree.figures.style import GREY, Palette, new_figure
-from cfree.figures.surfaces import OBSTACLE, ROBOT, VIEW
+from cfree.figures.surfaces import OBSTACLE, ROBOT, VIEW, colours_of, patch_legend
 from cfree.forbidden import Boundary, boundary
-from cfree.plot3d import ON_TOP, SURFACE, Colours, Pieces, level, of_line, of_one_colour, pieces_of
+from cfree.plot3d import ON_TOP, SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
 from cfree.scene import Scene
 
 if TYPE_CHECKING:
@@ -26,17 +26,16 @@ FIVE = Scene(
         [(8, "0.9"), ("9.5", "0.6"), ("10.6", "1.7"), ("10.2", "3.1"), ("8.8", "3.5"), ("7.7", "2.4")],
         [("9.3", 6), (11, "5.4"), ("11.4", "7.3"), ("9.9", "8.1")],
     ],
-    bounds=(0, 0, 12, 9),
     start=(1, "1.2", 0),
     goal=(11, "4.3", "120deg"),
 )
-"""The obstacles of `examples/scenes/five_convex.json`, which is not installed."""
+"""`examples/scenes/five_convex.json`, which is not installed, without its bounds."""
 SLICES = 37
 
 
 def five_obstacles(palette: Palette) -> Figure:
     """Figure 12: five obstacles in the plane, and all of the boundary they make without bounds."""
-    found = boundary(Scene(robot=FIVE.robot, obstacles=FIVE.obstacles), threads=1)
+    found = boundary(FIVE, threads=1)
     figure = new_figure(10.4, 5.8)
     plane = figure.add_axes((0.01, 0.17, 0.35, 0.76))
     plane.set(xlim=(0, 12), ylim=(-0.2, 9), aspect="equal")
@@ -52,8 +51,8 @@ def five_obstacles(palette: Palette) -> Figure:
     window = (-0.6, -0.8, 12.6, 9.6)
     ax = new_space(figure, (0.36, 0.06, 0.64, 0.94), window, angle_scale=1.3, view=(36.0, -62.0), zoom=1.08)
     draw_frame(ax, range(0, 13, 3))
-    paint(ax, [pieces_of(found, window, _colours(palette), 1.6)])
-    _legend(figure, palette)
+    paint(ax, [pieces_of(found, window, colours_of(palette), 1.6)])
+    patch_legend(figure, palette)
     return figure
 
 
@@ -71,8 +70,8 @@ def slices(palette: Palette) -> Figure:
     # seen from above, no slice hides one above it
     for k, degrees in enumerate(np.linspace(0, 360, SLICES).tolist()):
         paint(axes[0], slice_pieces(found, degrees, palette), 1 + k)
-    paint(axes[1], [pieces_of(found, window, _colours(palette), 2.4)])
-    _legend(figure, palette)
+    paint(axes[1], [pieces_of(found, window, colours_of(palette), 2.4)])
+    patch_legend(figure, palette)
     return figure
 
 
@@ -86,13 +85,3 @@ def slice_pieces(found: Boundary, degrees: float, palette: Palette) -> list[Piec
         for segment, kind in zip(cut.segments, found.patch_kind[cut.patches].tolist(), strict=True)
     ]
     return [of_one_colour(inside, "#e9ebef", SURFACE, np.full(len(inside), -1)), *rim]
-
-
-def _colours(palette: Palette) -> Colours:
-    return Colours(palette.vertex_edge, palette.edge_vertex, palette.helix, palette.edge_edge)
-
-
-def _legend(figure: Figure, palette: Palette) -> None:
-    names = ("v-e patches", "e-v patches", "v-v helices", "e-e segments")
-    shown = (palette.vertex_edge, palette.edge_vertex, "-" + palette.helix, "-" + palette.edge_edge)
-    legend(figure, list(zip(shown, names, strict=True)))

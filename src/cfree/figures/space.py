@@ -39,7 +39,7 @@ def new_space(
     return ax
 
 
-def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -> None:
+def draw_frame(ax: Any, ticks: Sequence[float]) -> None:
     """Floor and two back walls with a faint grid, and numbers along three edges; for views from -90 to 0 degrees."""
     from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
@@ -53,7 +53,7 @@ def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -
         Poly3DCollection(walls, facecolor="#f6f7f9", edgecolor=FAINT, linewidth=0.7, zorder=-2, clip_on=False)
     )
     xs, ys = ([t for t in ticks if low < t < high] for low, high in ((x0, x1), (y0, y1)))
-    zs = [z for z in turns if z0 < z < z1]
+    zs = [z for z in TURNS if z0 < z < z1]
     grid = [
         *([(x, y0, z0), (x, y1, z0), (x, y1, z1)] for x in xs),
         *([(x1, y, z0), (x0, y, z0), (x0, y, z1)] for y in ys),
@@ -66,7 +66,7 @@ def draw_frame(ax: Any, ticks: Sequence[float], turns: dict[int, str] = TURNS) -
         ax.text(x, y0 - dy, z0, f"{x:g}", **center)
     for y in ys:
         ax.text(x1 + dx, y, z0, f"{y:g}", **center)
-    for z, name in turns.items():
+    for z, name in TURNS.items():
         if z0 <= z <= z1:
             ax.text(x0 - dx, y0 - dy, z, name, **{**center, "fontsize": 13})
     named = {**center, "fontsize": 15, "color": "black"}

@@ -56,13 +56,22 @@ def _surface(S: Surface, colour: str, palette: Palette) -> Figure:
 def pillar(palette: Palette) -> Figure:
     """Figure 9: all contact patches of two triangles, v-v helices and e-e segments."""
     found = boundary(Scene(robot=ROBOT, obstacles=OBSTACLE), threads=1)
-    colours = Colours(palette.vertex_edge, palette.edge_vertex, palette.helix, palette.edge_edge)
     window = (-3.2, -2.8, 3.2, 3.0)
     figure = new_figure(6.2, 7)
     ax = new_space(figure, (0.02, 0.05, 0.96, 0.95), window, angle_scale=1.1, view=VIEW, zoom=1.02)
     draw_frame(ax, range(-5, 6))
-    paint(ax, [pieces_of(found, window, colours, 3.0)])
+    paint(ax, [pieces_of(found, window, colours_of(palette), 3.0)])
+    patch_legend(figure, palette)
+    return figure
+
+
+def colours_of(palette: Palette) -> Colours:
+    """The colours of patches and curves."""
+    return Colours(palette.vertex_edge, palette.edge_vertex, palette.helix, palette.edge_edge)
+
+
+def patch_legend(figure: Figure, palette: Palette) -> None:
+    """What the colours of patches and curves mean."""
     names = ("v-e patches", "e-v patches", "v-v helices", "e-e segments")
     shown = (palette.vertex_edge, palette.edge_vertex, "-" + palette.helix, "-" + palette.edge_edge)
     legend(figure, list(zip(shown, names, strict=True)))
-    return figure
