@@ -89,11 +89,11 @@ def directions(palette: Palette) -> Figure:
     t, phi = np.linspace(0.15, 0.85, 71), phi0 + np.linspace(-0.62, 0.62, 71)
     points = SURFACE(t[None, :], phi[:, None])
     low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
-    figure = new_figure(6.4, 5.6)
+    figure = new_figure(6.4, 4.2)
     window = (low[0], low[1], high[0], high[1])
     degrees = (math.degrees(low[2]), math.degrees(high[2]))
     ax = new_space(
-        figure, (-0.06, -0.04, 1.06, 1.08), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22
+        figure, (-0.03, -0.4, 1.06, 1.46), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22
     )
     asymptotic, principal = FORMS.directions(t0)
     parts = [sheet(points, "#dfe6ee", 1.0)]
