@@ -1,6 +1,9 @@
 """How the documentation is built: `make docs`."""
 
 from importlib.metadata import version as version_of
+from typing import Any
+
+from sphinx_gallery.scrapers import figure_rst
 
 project = "cfree"
 author = "The cfree developers"
@@ -26,7 +29,20 @@ autodoc_member_order = "bysource"
 autosummary_generate = True
 napoleon_google_docstring = False
 
+
+
+def scrape_figure(block: Any, block_vars: Any, gallery_conf: Any) -> str:
+    """The picture of a block of a tutorial: what it calls `figure`."""
+    figure = block_vars["example_globals"].pop("figure", None)
+    if figure is None:
+        return ""
+    path = next(block_vars["image_path_iterator"])
+    figure.savefig(path, dpi=110)
+    return str(figure_rst([path], gallery_conf["src_dir"]))
+
+
 sphinx_gallery_conf = {
+    "image_scrapers": [scrape_figure],
     "examples_dirs": ["../examples/gallery"],
     "gallery_dirs": ["gallery"],
     "filename_pattern": r"\.py$",

@@ -199,8 +199,8 @@ class Surface:
         expected = self.reference.order(self.angle(x), value(at))
         assert self.core.order(x, at) == expected, ("order", x, at, expected)
 
-    def check_between(self, x: Event, y: Event, part: float) -> Sample:
-        at = self.core.between(x, y, part)
+    def check_between(self, x: Event, y: Event, attempt: int) -> Sample:
+        at = self.core.between(x, y, attempt)
         tau = value(at)
         assert self.angle(x).compare(Angle.of(tau)) < 0 < self.angle(y).compare(Angle.of(tau)), ("between", x, y, at)
         return at
@@ -217,7 +217,7 @@ class Surface:
         if strict:  # at the ends, too
             difference = self.reference.polynomial(p, q)
             assert sign_at(difference, start) != 0 != sign_at(difference, end), ("strict", p, q, from_, to)
-        at = self.core.between(from_, to, 0.4)
+        at = self.core.between(from_, to, 1)
         assert self.core.order_at(pack(p), pack(q), at) == self.reference.order_at(p, q, value(at)), (
             "order_at",
             p,
@@ -305,7 +305,7 @@ def ask(surface: Surface, rng: random.Random, queries: int = 12) -> int:
                 y = rng.choice(near)
             order = surface.check_order(x, y)
             if order:
-                surface.check_between(*((x, y) if order < 0 else (y, x)), rng.random())
+                surface.check_between(*((x, y) if order < 0 else (y, x)), rng.randrange(40))
         asked += 3 * len(at) + 25
         for _ in range(2):
             p, q = any_curve(), any_curve()

@@ -71,7 +71,9 @@ def test_a_double_root_moved_by_nearly_nothing_is_two_or_none(epsilon: Fraction)
     close = epsilon < Fraction(1, 2**106)
     assert (surface.core.place(first), surface.core.place(second)) == ((1, 2) if close else (0, 0))
     assert surface.check_order(first, second) == -1
-    at = surface.check_between(first, second, 0.5)
+    at = surface.check_between(first, second, 0)
+    others = [surface.check_between(first, second, attempt) for attempt in range(40)]
+    assert len(set(others)) == 40
     assert (at[1] is not None) == close
     surface.check_offset(1, 2, [at], FIRST_WALL, LAST_WALL)
     surface.check_order_at(first, at)

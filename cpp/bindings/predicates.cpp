@@ -146,9 +146,9 @@ void bind_predicates(nb::module_& m) {
         .def("order", [](OnScene& p, const EventTuple& x, const SampleTuple& at) {
             return p.decide.order(event(x), sample(at));
         }, "x"_a, "at"_a)
-        .def("between", [](OnScene& p, const EventTuple& x, const EventTuple& y, double part) {
-            return sample(p.decide.between(event(x), event(y), part));
-        }, "x"_a, "y"_a, "part"_a)
+        .def("between", [](OnScene& p, const EventTuple& x, const EventTuple& y, int attempt) {
+            return sample(p.decide.between(event(x), event(y), attempt));
+        }, "x"_a, "y"_a, "attempt"_a)
         .def("offset_roots", [](OnScene& p, Index s, Index v, const EventTuple& from, const EventTuple& to) {
             return roots(p.decide.offset_roots(s, v, p.decide.offset(s, v), event(from), event(to)));
         }, "s"_a, "v"_a, "from_"_a, "to"_a)

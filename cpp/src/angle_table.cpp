@@ -81,7 +81,7 @@ const RealRoot& AngleTable::exact(Index rank, int chart) {
 }
 
 Sample AngleTable::between(Index first, Index second, int chart) {
-    if (hi(first, chart) < lo(second, chart)) return Predicates::within(hi(first, chart), lo(second, chart), 0.5);
+    if (hi(first, chart) < lo(second, chart)) return Predicates::within(hi(first, chart), lo(second, chart));
     RealRoot p = exact(first, chart), q = exact(second, chart);
     while (compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
     const Dyadic at = Dyadic::middle(p.hi, q.lo);

@@ -277,40 +277,49 @@ int Predicates::order(const Event& x, const Sample& at) {
     });
 }
 
-Sample Predicates::between(const Event& x, const Event& y, double part) {
-    double lo = x.hi, hi = y.lo;
-    if (!(lo < hi)) {  // intervals that overlap: narrow them until they part
-        if (double_only) return {0.25 * (x.lo + x.hi + y.lo + y.hi), {}};
-        const auto [below, above] = settled(counters, [&]<class T>() -> std::optional<std::array<Dyadic, 2>> {
-            if constexpr (std::is_same_v<T, Ball>) {
-                const auto p = narrowed(x), q = narrowed(y);
-                if (!p || !q || !is_below((*p)[1], (*q)[0])) return {};
-                return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
-            } else {
-                RealRoot p = root_of(x), q = root_of(y);
-                while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
-                return {{p.hi, q.lo}};
-            }
-        });
-        lo = below.rounded_up(), hi = above.rounded_down();
-        if (!(std::nextafter(lo, hi) < hi)) {
-            Dyadic at = Dyadic::middle(below, above);
-            for (int steps = 0; steps < static_cast<int>(8 * (1 - part)); ++steps) at = Dyadic::middle(below, at);
-            return {at.rounded_down(), at};
-        }
-    }
-    return within(lo, hi, part);
+namespace {
+
+// The part of an interval after which a sample lies, over 2^16: 1/2, then the golden section again and again.
+unsigned part(int attempt) { return (32768u + 40503u * static_cast<unsigned>(attempt)) & 0xffffu; }
+
+Sample finely(const Dyadic& lo, const Dyadic& hi, int attempt) {
+    const unsigned k = std::max(lo.k, hi.k);
+    const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
+    const Dyadic at{(from << 16) + width * part(attempt), k + 16};
+    return {at.rounded_down(), at};
 }
 
-Sample Predicates::within(double lo, double hi, double part) {
-    const double mid = lo + part * (hi - lo);
-    if (!(lo < mid && mid < hi)) {  // neighbouring doubles
-        const Dyadic at = Dyadic::middle(Dyadic::from(lo), Dyadic::from(hi));
-        return {lo, at};
+}  // namespace
+
+Sample Predicates::between(const Event& x, const Event& y, int attempt) {
+    if (x.hi < y.lo) return within(x.hi, y.lo, attempt);
+    // intervals that overlap: narrow them until they part
+    if (double_only) return {0.25 * (x.lo + x.hi + y.lo + y.hi), {}};
+    const auto [below, above] = settled(counters, [&]<class T>() -> std::optional<std::array<Dyadic, 2>> {
+        if constexpr (std::is_same_v<T, Ball>) {
+            const auto p = narrowed(x), q = narrowed(y);
+            if (!p || !q || !is_below((*p)[1], (*q)[0])) return {};
+            return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
+        } else {
+            RealRoot p = root_of(x), q = root_of(y);
+            while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+            return {{p.hi, q.lo}};
+        }
+    });
+    const double lo = below.rounded_up(), hi = above.rounded_down();
+    return lo < hi ? within(lo, hi, attempt) : finely(below, above, attempt);
+}
+
+Sample Predicates::within(double lo, double hi, int attempt) {
+    if (!(hi - lo > std::max(0x1p-36 * std::max(std::abs(lo), std::abs(hi)), tiny))) {  // few doubles, or none
+        if (const double mid = 0.5 * (lo + hi); attempt == 0 && lo < mid && mid < hi) return {mid, {}};
+        return finely(Dyadic::from(lo), Dyadic::from(hi), attempt);
     }
-    // |mid| is below 2^53 (hi - lo), so that its leading digits fit a machine integer
-    const double scale = 32 * power_below(hi - lo), few = static_cast<double>(static_cast<std::int64_t>(mid * scale)) / scale;
-    return {lo < few && few < hi ? few : mid, {}};
+    const double at = lo + part(attempt) * 0x1p-16 * (hi - lo);
+    if (attempt > 0) return {at, {}};
+    // |at| is below 2^36 (hi - lo), so that its leading digits fit a machine integer
+    const double scale = 32 * power_below(hi - lo), few = static_cast<double>(static_cast<std::int64_t>(at * scale)) / scale;
+    return {lo < few && few < hi ? few : at, {}};
 }
 
 Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters) {

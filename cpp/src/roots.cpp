@@ -342,8 +342,8 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
         const Event &before = k == 0 ? from : r.at[k - 1], &after = k == r.count ? to : r.at[k];
         result.sign[k] = 0;
         for (int attempt = 0; result.sign[k] == 0; ++attempt) {  // a sample may be where the curves touch
-            if (attempt == 20) throw std::logic_error("two different curves are equal at twenty samples");
-            const Sample at = between(before, after, (attempt + 10) / 30.0 + (attempt == 0 ? 1 / 6.0 : 0));
+            if (attempt == most_attempts) throw std::logic_error("two different curves are equal at every sample");
+            const Sample at = between(before, after, attempt);
             const auto value = f.at(at.tau);
             result.sign[k] = flip * sign_at(flip * value.v, value.err, p.feature, q.feature, at);
         }

@@ -18,9 +18,9 @@ void Trimmer::cover(Index p, Index k) {
         State state = at.fine ? state_at<Int>(p, k, at) : state_at<double>(p, k, at);
         Verdict verdict = lifetime(state, at, span);
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
-            if (attempt == 20) throw std::logic_error("no sample decides a pillar's state");
+            if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
             if (verdict == Verdict::resample)  // the sample is itself a critical angle
-                at = decide.between(events[whole.from], events[whole.to], (attempt + 1) / 23.0);
+                at = decide.between(events[whole.from], events[whole.to], attempt + 1);
             span = whole;
             state = state_at<Int>(p, k, at);
             verdict = lifetime(state, at, span);

@@ -106,9 +106,10 @@ public:
     // Sign of x - y: 0 if they are one angle.
     int order(const Event& x, const Event& y);
     int order(const Event& x, const Sample& at);
-    // A sample strictly between two angles, with few digits, after about that part of the way.
-    Sample between(const Event& x, const Event& y, double part = 0.5);
-    static Sample within(double lo, double hi, double part);
+    // A sample strictly between two angles: the first about half way and of few digits, others for further attempts.
+    static constexpr int most_attempts = 1000;
+    Sample between(const Event& x, const Event& y, int attempt = 0);
+    static Sample within(double lo, double hi, int attempt = 0);
 
     // Roots strictly between two angles, in order, those without a change of sign among them.
     // all_zero: the polynomial vanishes identically.
