@@ -56,13 +56,18 @@ class Surface:
     a: ExactPoint
     g: ExactPoint
 
+    @property
+    def ruled(self) -> Floats:
+        """p, q, a, g as doubles, (8,): a row as of `Boundary.ruled`."""
+        return np.array([float(c) for point in (self.p, self.q, self.a, self.g) for c in point])
+
     def __call__(self, t: ArrayLike, phi: ArrayLike) -> Floats:
         """Points (x, y, phi) at t and phi in radians, broadcast against each other: (..., 3)."""
         from cfree import _core
 
         t, phi = np.broadcast_arrays(np.asarray(t, dtype=np.float64), np.asarray(phi, dtype=np.float64))
         xy = np.empty((t.size, 2))
-        _core.evaluate_points(self._coefficients(), np.ravel(t), np.ravel(phi), xy)
+        _core.evaluate_points(self.ruled, np.ravel(t), np.ravel(phi), xy)
         return np.concatenate((xy.reshape(*t.shape, 2), phi[..., None]), axis=-1)
 
     def grid(self, t: ArrayLike, phi: ArrayLike) -> Floats:
@@ -79,7 +84,7 @@ class Surface:
 
         t, phi = np.ascontiguousarray(t, dtype=np.float64), np.ascontiguousarray(phi, dtype=np.float64)
         xy = np.empty((len(phi), len(t), 2))
-        _core.evaluate_grid(self._coefficients(), t, phi, xy)
+        _core.evaluate_grid(self.ruled, t, phi, xy)
         return xy
 
     def helix(self, t: Number) -> Helix:
@@ -91,9 +96,6 @@ class Surface:
     def pose(self, t: Number, theta: Angle) -> Pose:
         """The exact pose at t and theta."""
         return self.helix(t).pose(theta)
-
-    def _coefficients(self) -> Floats:
-        return np.array([float(c) for point in (self.p, self.q, self.a, self.g) for c in point])
 
 
 @dataclass(frozen=True, slots=True)

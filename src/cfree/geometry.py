@@ -1,0 +1,246 @@
+"""The local geometry of contact surfaces: fundamental forms, normal, curvatures, directions.
+
+Paper, section 4, for both kinds of surface and for many at once. A surface is given as in `cfree.surface`,
+
+    S(t, phi) = (p + t q - R(phi) (a + t g), w phi),    one of q and g is 0,
+
+by eight numbers p, q, a, g: `Surface.ruled`, or rows of `Boundary.ruled`. The third coordinate is a length, too:
+w = angle_scale is the length that one radian counts for, 1 in the paper. All t and phi are allowed. Values outside
+[0, 1] and outside the contact's angle range belong to the surface, not to the patch.
+
+With S_t = (U, 0), S_phi = (V, w), L = |U|, and V = k along U and s across it, everything is a fraction in L, s, k and w:
+
+    E = L^2    F = L k    G = w^2 + s^2 + k^2    v = sqrt(E G - F^2) = L sqrt(w^2 + s^2)
+    e = 0      f = -w |g|^2 / v                  g = -w F / v
+
+On e-v surfaces s is the signed position of the contact point along the robot's edge, from the foot of the perpendicular
+from the reference point, and |k| is that perpendicular's length. On v-e surfaces s and k turn with phi and f is 0.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LocalGeometry:
+    """First and second fundamental forms at points of contact surfaces, and what follows from them.
+
+    Every array has the common shape (...) of the input that made it; see `local_geometry`.
+
+    Attributes
+    ----------
+    E, F, G : (...) float64
+        First fundamental form: S_t.S_t in length^2, S_t.S_phi in length^2 / radian, S_phi.S_phi in length^2 / radian^2.
+    e, f, g : (...) float64
+        Second fundamental form, for the normal towards the free side, in length, length / radian, length / radian^2.
+    v : (...) float64
+        sqrt(E G - F^2), the area element, in length^2 / radian; never 0.
+    frame : (..., 3, 3) float64
+        Rows: the unit vector along the ruling, the unit tangent across it with increasing phi, the unit normal; in
+        the coordinates x, y, angle_scale * theta.
+    """
+
+    E: Floats
+    F: Floats
+    G: Floats
+    e: Floats
+    f: Floats
+    g: Floats
+    v: Floats
+    frame: Floats
+
+    @property
+    def normal(self) -> Floats:
+        """Unit normal S_t x S_phi / v, (..., 3), which points to the free side of a patch.
+
+        Its two first coordinates are the normal n of the contact line, its third says how turning helps.
+        """
+        return self.frame[..., 2, :]
+
+    @property
+    def gaussian_curvature(self) -> Floats:
+        """K of Lemma 2, in 1 / length^2: negative on e-v surfaces, 0 on v-e surfaces."""
+        return 0.0 - (self.f / self.v) ** 2
+
+    @property
+    def mean_curvature(self) -> Floats:
+        """H of Lemma 2, in 1 / length, for the normal towards the free side."""
+        v = self.v
+        H: Floats = ((self.g / v) * (self.E / v) - 2 * (self.f / v) * (self.F / v)) / 2
+        return H
+
+    def normal_curvature(self, xi: ArrayLike) -> Floats:
+        """Normal curvature in a direction, eq. (10), in 1 / length.
+
+        Parameters
+        ----------
+        xi : (...) float, radians
+            Angle from the ruling, S_t, towards increasing phi.
+        """
+        xi = finite("xi", xi)
+        sine, cosine = np.sin(xi), np.cos(xi)
+        kappa: Floats = 2 * sine * (self.mean_curvature * sine + self.f / self.v * cosine)
+        return kappa
+
+    @property
+    def asymptotic_directions(self) -> Floats:
+        """Angles xi in [0, pi] at which the normal curvature vanishes, (..., 2): the ruling's, and the other.
+
+        The other is arctan(2 v / F) on e-v surfaces, pi / 2 where F = 0. On v-e surfaces it is the ruling again, as
+        0 or pi. Where H = 0 as well, the surface is flat to second order and every direction is one.
+        """
+        other = 2 * self.principal_directions[..., 0]
+        return np.stack([np.zeros_like(other), other], axis=-1)
+
+    @property
+    def principal_directions(self) -> Floats:
+        """Angles xi_1 in [0, pi / 2] and xi_2 = xi_1 + pi / 2 of least and greatest normal curvature, (..., 2)."""
+        xi = np.arctan2(-self.f / self.v, self.mean_curvature) / 2
+        return np.stack([xi, xi + math.pi / 2], axis=-1)
+
+    @property
+    def principal_curvatures(self) -> Floats:
+        """Normal curvatures kappa_1 <= kappa_2 in the principal directions, (..., 2), in 1 / length."""
+        H, root_of_minus_K = self.mean_curvature, self.f / self.v
+        large = H + np.copysign(np.hypot(H, root_of_minus_K), H)  # nothing cancels
+        small = -np.divide(root_of_minus_K**2, large, out=np.zeros_like(large), where=large != 0)
+        return np.stack([np.minimum(large, small), np.maximum(large, small)], axis=-1)
+
+    def tangent(self, xi: ArrayLike) -> Floats:
+        """Unit tangent in the direction xi (radians, from the ruling), (..., 3), in x, y, angle_scale * theta."""
+        xi = finite("xi", xi)[..., None]
+        return np.cos(xi) * self.frame[..., 0, :] + np.sin(xi) * self.frame[..., 1, :]
+
+
+def local_geometry(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> LocalGeometry:
+    """Fundamental forms, normal, curvatures and directions at points of contact surfaces.
+
+    Parameters
+    ----------
+    ruled : (..., 8) float
+        `Surface.ruled`, or rows of `Boundary.ruled`; its leading shape, t and phi are broadcast against each other.
+    t : (...) float
+        Along the ruling; beyond [0, 1] the points are on the surface, not on the patch.
+    phi : (...) float, radians
+        Beyond the contact's angle range the same holds. On e-v surfaces only the frame depends on it.
+    angle_scale : float, length per radian
+        1 in the paper.
+
+    Returns
+    -------
+    LocalGeometry
+
+    Raises
+    ------
+    ValueError
+        If a number is not finite, `angle_scale` is not positive, or a row is no contact surface.
+
+    Notes
+    -----
+    Section 4, Lemma 2 and eq. (10), which are the case of e-v surfaces and angle_scale 1. Time is linear in the number
+    of points.
+
+    Examples
+    --------
+    >>> from cfree import EdgeVertex, Polygon, contact_surface
+    >>> square = Polygon([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    >>> S = contact_surface(square, square, EdgeVertex(0, 2))
+    >>> at = local_geometry(S.ruled, [0, 0.5, 1], 0)
+    >>> at.gaussian_curvature
+    array([-0.25, -1.  , -0.25])
+    >>> at.mean_curvature
+    array([0.1767767, 0.5      , 0.1767767])
+    """
+    w = check_scale(angle_scale)
+    q, a, g = read_ruled(ruled)[1:]
+    t, phi = finite("t", t), finite("phi", phi)
+    L = edge_length(q, g)
+    s, k = across_and_along(q, a, g, t, phi)
+    ux, uy = _ruling(q, g, phi)
+    s, k, L, ux, uy, length_of_g = np.broadcast_arrays(s, k, L, ux, uy, np.hypot(g[..., 0], g[..., 1]))
+    r, zero = np.hypot(w, s), np.zeros(s.shape)
+    v = L * r
+    f, F = -w * length_of_g * (length_of_g / v), L * k
+    rows = (ux, uy, zero), (-s / r * uy, s / r * ux, w / r), (w / r * uy, -w / r * ux, s / r)
+    frame = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    return LocalGeometry(L**2, F, r**2 + k**2, zero, f, -w * k / r, v, frame)
+
+
+class Ruled(NamedTuple):
+    """The vectors of contact surfaces, (..., 2) each: one of q and g is 0."""
+
+    p: Floats
+    q: Floats
+    a: Floats
+    g: Floats
+
+
+def read_ruled(ruled: ArrayLike) -> Ruled:
+    """The four vectors of rows of eight numbers, checked.
+
+    Examples
+    --------
+    >>> read_ruled([0, 0, 1, 0, 0, 0, 0, 2])
+    Traceback (most recent call last):
+        ...
+    ValueError: ruled: row [0. 0. 1. 0. 0. 0. 0. 2.] is no contact surface; one of q and g must be 0, the other not
+    """
+    rows = finite("ruled", ruled)
+    if rows.ndim == 0 or rows.shape[-1] != 8:
+        raise ValueError(f"ruled: shape {rows.shape}; give rows p, q, a, g of eight numbers, such as Surface.ruled")
+    moves, turns = rows[..., 2:4].any(axis=-1), rows[..., 6:8].any(axis=-1)
+    if (moves == turns).any():
+        row = rows[moves == turns][0]
+        raise ValueError(f"ruled: row {row} is no contact surface; one of q and g must be 0, the other not")
+    return Ruled(rows[..., 0:2], rows[..., 2:4], rows[..., 4:6], rows[..., 6:8])
+
+
+def finite(name: str, values: ArrayLike) -> Floats:
+    """Values as doubles, none of them NaN or infinite."""
+    array = np.asarray(values, dtype=np.float64)
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name}: {array[~np.isfinite(array)][0]} is not finite; give finite numbers")
+    return array
+
+
+def check_scale(angle_scale: float) -> float:
+    """The length of a radian, finite and positive."""
+    if not 0 < angle_scale < math.inf:
+        raise ValueError(f"angle_scale: {angle_scale}; give a finite length per radian above 0")
+    return float(angle_scale)
+
+
+def edge_length(q: Floats, g: Floats) -> Floats:
+    """L, the length of the edge and of the rulings: |q| or |g|."""
+    return np.hypot(q[..., 0] + g[..., 0], q[..., 1] + g[..., 1])
+
+
+def across_and_along(q: Floats, a: Floats, g: Floats, t: Floats, phi: Floats) -> tuple[Floats, Floats]:
+    """s and k: the parts of dx / dphi across and along the ruling; on e-v surfaces phi does not matter."""
+    dx, dy, is_edge = _direction(q, g)
+    c, n = np.where(is_edge, 1.0, np.cos(phi)), np.where(is_edge, 0.0, np.sin(phi))
+    sign = np.where(is_edge, 1.0, -1.0)
+    ax, ay = c * a[..., 0] - n * a[..., 1], n * a[..., 0] + c * a[..., 1]
+    s: Floats = sign * (dx * ax + dy * ay) + t * np.hypot(g[..., 0], g[..., 1])
+    return s, sign * (ax * dy - ay * dx)
+
+
+def _ruling(q: Floats, g: Floats, phi: Floats) -> tuple[Floats, Floats]:
+    """Unit vector along S_t: that of q, or of -R(phi) g."""
+    dx, dy, is_edge = _direction(q, g)
+    c, n = np.where(is_edge, -np.cos(phi), 1.0), np.where(is_edge, -np.sin(phi), 0.0)
+    return c * dx - n * dy, n * dx + c * dy
+
+
+def _direction(q: Floats, g: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
+    """Unit vector along the edge, whether the robot's or the obstacle's, and whether it is the robot's."""
+    L = edge_length(q, g)
+    return (q[..., 0] + g[..., 0]) / L, (q[..., 1] + g[..., 1]) / L, np.asarray(g.any(axis=-1))

@@ -1,0 +1,138 @@
+"""How the rulings of a contact surface lie to each other: developable, minimal, striction, distribution parameter.
+
+Paper, section 4 with Lemma 3. On an e-v surface they turn with phi, all at the same rate, and come closest where the
+robot's point a + t g is nearest to the reference point: t_* = -a.g / |g|^2. On a v-e surface they are parallel.
+Yes and no are decided exactly, on the surface's fractions. All answers are about the surface, any t and phi, unless they
+say "patch".
+"""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cfree.geometry import Floats, check_scale, read_ruled
+from cfree.surface import Helix, Surface
+
+
+def is_developable(surface: Surface) -> bool:
+    """Is the Gaussian curvature 0 everywhere? On v-e surfaces, which are cylinders; never on e-v surfaces.
+
+    Examples
+    --------
+    >>> from cfree import EdgeVertex, Polygon, VertexEdge, contact_surface
+    >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> [is_developable(contact_surface(square, square, contact)) for contact in (VertexEdge(0, 0), EdgeVertex(0, 0))]
+    [True, False]
+    """
+    return not any(surface.g)
+
+
+def is_helicoid(surface: Surface) -> bool:
+    """Is it an e-v surface whose robot edge lies on a line through the reference point? Exact.
+
+    Notes
+    -----
+    Then S(t, phi) = (b_j - s R(phi) u, phi) with a unit vector u and s the position along that line: a right helicoid.
+    Every other e-v surface is none, since it is not minimal.
+    """
+    return not is_developable(surface) and is_minimal(surface)
+
+
+def is_minimal(surface: Surface) -> bool:
+    """Is the mean curvature 0 everywhere? Exact.
+
+    Notes
+    -----
+    Lemma 3, as "if and only if": H = w E F / (2 v^3) on an e-v surface is 0 somewhere only if F = det(a_i, a_{i+1}) is,
+    and then everywhere. On a v-e surface H = -w E F / (2 v^3) with F = q x R(phi) a: 0 everywhere only if a_i is the
+    reference point, and the surface then lies in a plane.
+
+    Examples
+    --------
+    >>> from cfree import EdgeVertex, Polygon, VertexEdge, contact_surface
+    >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> [is_minimal(contact_surface(square, square, EdgeVertex(i, 0))) for i in range(4)]
+    [True, False, False, True]
+    >>> [is_minimal(contact_surface(square, square, VertexEdge(i, 0))) for i in range(4)]
+    [True, False, False, False]
+    """
+    (ax, ay), (gx, gy) = surface.a, surface.g
+    return ax * gy == ay * gx if any(surface.g) else not any(surface.a)
+
+
+def striction_parameter(surface: Surface) -> Fraction | None:
+    """t_* of the striction curve of an e-v surface, exact; None on a v-e surface, whose rulings are parallel.
+
+    Notes
+    -----
+    t_* = <a_i, a_i - a_{i+1}> / E. There |K| is greatest, and so is |H| unless H = 0; both are even in t - t_*.
+
+    Examples
+    --------
+    >>> from cfree import EdgeVertex, Polygon, contact_surface
+    >>> triangle = Polygon([(1, -1), (4, 2), (0, 1)])
+    >>> striction_parameter(contact_surface(triangle, triangle, EdgeVertex(0, 0)))
+    Fraction(0, 1)
+    """
+    if is_developable(surface):
+        return None
+    (ax, ay), (gx, gy) = surface.a, surface.g
+    return -(ax * gx + ay * gy) / (gx * gx + gy * gy)
+
+
+def striction_curve(surface: Surface) -> Helix | None:
+    """The curve phi -> S(t_*, phi) of an e-v surface: the helix of the foot of the perpendicular, or its axis."""
+    t = striction_parameter(surface)
+    return None if t is None else surface.helix(t)
+
+
+def striction_is_on_patch(surface: Surface) -> bool:
+    """Does the striction curve run within t in [0, 1], ends included? Exact; False on v-e surfaces.
+
+    It then crosses the contact patch, if the contact has one: see `contacts`.
+    """
+    t = striction_parameter(surface)
+    return t is not None and 0 <= t <= 1
+
+
+def striction_parameters(ruled: ArrayLike) -> Floats:
+    """t_* of many surfaces in double precision, (...,); NaN for v-e surfaces.
+
+    Rounded: whether it lies in [0, 1] is for `striction_is_on_patch` to say where that is close.
+
+    Parameters
+    ----------
+    ruled : (..., 8) float
+        `Surface.ruled`, or rows of `Boundary.ruled`.
+    """
+    _, _, a, g = read_ruled(ruled)
+    L = np.hypot(g[..., 0], g[..., 1])
+    with np.errstate(invalid="ignore"):
+        ux, uy = g[..., 0] / L, g[..., 1] / L
+        return -(a[..., 0] * ux + a[..., 1] * uy) / L
+
+
+def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
+    """det(c', r, r') / |r'|^2 of unit rulings r over the directrix c, in length, (...,); NaN for v-e surfaces.
+
+    Parameters
+    ----------
+    ruled : (..., 8) float
+        `Surface.ruled`, or rows of `Boundary.ruled`.
+    angle_scale : float, length per radian
+
+    Notes
+    -----
+    It is `angle_scale` for every e-v surface: two neighbouring rulings are w dphi apart and turned by dphi. So
+    K = -w^2 / (w^2 + s^2)^2 at the distance s from the striction curve. On v-e surfaces r' = 0.
+
+    Examples
+    --------
+    >>> distribution_parameters([[0, 0, 0, 0, 1, 2, 3, 4], [0, 0, 1, 0, 1, 2, 0, 0]], angle_scale=2)
+    array([ 2., nan])
+    """
+    g = read_ruled(ruled).g
+    return np.where(g.any(axis=-1), check_scale(angle_scale), np.nan)
