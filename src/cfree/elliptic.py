@@ -1,7 +1,7 @@
 """The incomplete elliptic integral of the second kind, for arrays.
 
-By Carlson's symmetric integrals R_F and R_D and his duplication: each step brings the three arguments closer by a factor
-of 4, then a power series of degree 5 in what is left of their differences does.
+By Carlson's symmetric integrals R_F and R_D and his duplication: each step brings the three arguments closer by a
+factor of 4, then a power series of degree 5 in what is left of their differences does.
 """
 
 from __future__ import annotations

@@ -8,7 +8,7 @@ by eight numbers p, q, a, g: `Surface.ruled`, or rows of `Boundary.ruled`. The t
 w = angle_scale is the length that one radian counts for, 1 in the paper. All t and phi are allowed. Values outside
 [0, 1] and outside the contact's angle range belong to the surface, not to the patch.
 
-With S_t = (U, 0), S_phi = (V, w), L = |U|, and V = k along U and s across it, everything is a fraction in L, s, k and w:
+With S_t = (U, 0), S_phi = (V, w), L = |U|, and V = k along U and s across it, everything is made of L, s, k and w:
 
     E = L^2    F = L k    G = w^2 + s^2 + k^2    v = sqrt(E G - F^2) = L sqrt(w^2 + s^2)
     e = 0      f = -w |g|^2 / v                  g = -w F / v
@@ -181,6 +181,11 @@ class Ruled(NamedTuple):
     q: Floats
     a: Floats
     g: Floats
+
+    @property
+    def is_edge_vertex(self) -> NDArray[np.bool_]:
+        """Whether the contact is e-v, (...,)."""
+        return np.asarray(self.g.any(axis=-1))
 
 
 def read_ruled(ruled: ArrayLike) -> Ruled:

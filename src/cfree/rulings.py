@@ -2,8 +2,8 @@
 
 Paper, section 4 with Lemma 3. On an e-v surface they turn with phi, all at the same rate, and come closest where the
 robot's point a + t g is nearest to the reference point: t_* = -a.g / |g|^2. On a v-e surface they are parallel.
-Yes and no are decided exactly, on the surface's fractions. All answers are about the surface, any t and phi, unless they
-say "patch".
+Yes and no are decided exactly, on the surface's fractions. All answers are about the surface, any t and phi, unless
+they say "patch".
 """
 
 from __future__ import annotations
@@ -134,5 +134,4 @@ def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Fl
     >>> distribution_parameters([[0, 0, 0, 0, 1, 2, 3, 4], [0, 0, 1, 0, 1, 2, 0, 0]], angle_scale=2)
     array([ 2., nan])
     """
-    g = read_ruled(ruled).g
-    return np.where(g.any(axis=-1), check_scale(angle_scale), np.nan)
+    return np.where(read_ruled(ruled).is_edge_vertex, check_scale(angle_scale), np.nan)

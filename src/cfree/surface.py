@@ -209,6 +209,27 @@ def rotation_about(centre: Sequence[Number], fixed: Sequence[Number]) -> Helix:
     return Helix((to_fraction(px), to_fraction(py)), (to_fraction(ax), to_fraction(ay)))
 
 
+def helix_through(pose: Pose, fixed: Sequence[Number]) -> Helix:
+    """The helix through a pose that keeps a point of the robot, given in its own coordinates, where it is: Remark 2.
+
+    Notes
+    -----
+    Different points give different helices, and there are no others through the pose: it lies on as many as the plane
+    has points. Their tangents are (-J R a, 1): every direction but the horizontal ones, each once.
+
+    Examples
+    --------
+    >>> q = Pose(1, 2, "90deg")
+    >>> helix = helix_through(q, (3, 0))
+    >>> helix.centre, helix.pose("90deg") == q
+    ((Fraction(1, 1), Fraction(5, 1)), True)
+    """
+    x, y = fixed
+    a = to_fraction(x), to_fraction(y)
+    (P,) = pose.apply_exact([a])
+    return Helix(P, a)
+
+
 def rotation_of_combination(
     centre: Sequence[Number], points: Iterable[Sequence[Number]], weights: Iterable[Number]
 ) -> Helix:

@@ -1,0 +1,78 @@
+"""Contact surfaces of v-e contacts unrolled into the plane.
+
+Paper, section 3.1: such a surface is a cylinder. Its rulings all have the direction of E_j, and across them it is a
+sinusoid: at phi the line is R(phi) a away from E_j. Unrolled, a ruling becomes a vertical segment of its own length,
+and the distance of two rulings is the length of the sinusoid between them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from cfree.elliptic import second_kind
+from cfree.geometry import Floats, check_scale, edge_length, finite, read_ruled
+
+
+def development(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
+    """Where points of v-e surfaces are when the surface is unrolled into the plane: an isometry.
+
+    Parameters
+    ----------
+    ruled : (..., 8) float
+        `Surface.ruled` or rows of `Boundary.ruled`, of v-e contacts; broadcast against t and phi.
+    t : (...) float
+        Along the ruling; beyond [0, 1] the points are on the surface, not on the patch.
+    phi : (...) float, radians
+        Any values; those of the contact's angle range are on the patch. The surface does not close after a turn.
+    angle_scale : float, length per radian
+
+    Returns
+    -------
+    (..., 2) float64
+        In length: across the rulings, from the ruling of phi = 0, and along them, from the line through the origin.
+
+    Raises
+    ------
+    ValueError
+        If a surface is of an e-v contact, which has K < 0: no part of it is isometric to a part of the plane. Or if a
+        number is not finite, or `angle_scale` not positive.
+
+    Notes
+    -----
+    With u the unit vector of E_j the point is (integral of sqrt(w^2 + (u.R(phi) a)^2) dphi, u.(p + t q - R(phi) a)).
+    Its derivatives have the products E, F and G of the surface. The integral is an elliptic one of the second kind.
+
+    Examples
+    --------
+    >>> from cfree import Polygon, VertexEdge, contact_surface
+    >>> S = contact_surface(Polygon([(0, 0), (1, 0), (0, 1)]), Polygon([(3, 1), (5, 1), (3, 4)]), VertexEdge(0, 0))
+    >>> development(S.ruled, [0, 1], [0, 0.5])
+    array([[0. , 3. ],
+           [0.5, 5. ]])
+    """
+    w = check_scale(angle_scale)
+    p, q, a, g = read_ruled(ruled)
+    if g.any():
+        raise ValueError("ruled: a surface of an e-v contact is not developable; give those of v-e contacts")
+    t, phi = finite("t", t), finite("phi", phi)
+    L = edge_length(q, g)
+    ux, uy = q[..., 0] / L, q[..., 1] / L
+    c, n = np.cos(phi), np.sin(phi)
+    x, y = p[..., 0] - (c * a[..., 0] - n * a[..., 1]), p[..., 1] - (n * a[..., 0] + c * a[..., 1])
+    along = ux * x + uy * y + t * L
+    return np.stack(np.broadcast_arrays(distance_across(q, a, np.zeros(()), phi, w), along), axis=-1)
+
+
+def distance_across(q: Floats, a: Floats, phi_from: Floats, phi_to: Floats, w: float) -> Floats:
+    """Length of the cross-section of v-e surfaces between two rulings.
+
+    Notes
+    -----
+    u.R(phi) a = |a| sin(psi), where psi grows with phi.
+    """
+    r = np.hypot(a[..., 0], a[..., 1])
+    first = np.arctan2(q[..., 0] * a[..., 0] + q[..., 1] * a[..., 1], q[..., 1] * a[..., 0] - q[..., 0] * a[..., 1])
+    n = (r / w) ** 2
+    length: Floats = w * (second_kind(first + phi_to, n) - second_kind(first + phi_from, n))
+    return length
