@@ -14,12 +14,15 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.development import distance_across
-from cfree.geometry import Floats, Ruled, across_and_along, check_scale, edge_length, finite, read_ruled
+from cfree.ruled import Floats, Ruled, check_scale, finite, read_ruled
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
+    from cfree.trapezoids import Ints
 
-NODES = 16  # of the quadrature over the orientations of a trapezoid
+NODES = 8  # of the quadrature over an interval of orientations
+CLOSE = 1e-12
+HALVINGS = 12
 
 
 def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
@@ -63,7 +66,7 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     if np.any(width < 0):
         raise ValueError(f"phi_range: {width.min()} is negative; give the width of the range in radians")
     swept = width * _ruling_areas(rows, np.zeros(()), np.ones(()), start, w)
-    unrolled = edge_length(rows.q, rows.g) * distance_across(rows.q, rows.a, start, start + width, w)
+    unrolled = rows.L * distance_across(rows, start, start + width, w)
     return np.where(rows.is_edge_vertex, swept, unrolled)
 
 
@@ -85,27 +88,45 @@ def trapezoid_areas(boundary: Boundary, *, angle_scale: float = 1.0) -> Floats:
 
     Notes
     -----
-    Exact in t, Gauss-Legendre quadrature with 16 nodes in theta: no error is proved. Time and memory are linear in the
+    Exact in t. In theta by Gauss-Legendre quadrature on intervals that are halved until halving changes less than
+    1e-12 of the value, or of the mean of all: a measured error, no proved one. Time and memory are about linear in the
     number of trapezoids.
     """
     w = check_scale(angle_scale)
     boundary.require_complete()
     table = boundary.trapezoids
-    rows = read_ruled(boundary.ruled[table.patch])
-    everything = np.arange(len(table), dtype=np.int32)
-    half, middle = (table.theta_to - table.theta_from) / 2, (table.theta_to + table.theta_from) / 2
-    areas = np.zeros(len(table))
-    for node, weight in zip(*np.polynomial.legendre.leggauss(NODES), strict=True):
-        theta = middle + half * node
-        lower, upper = (np.clip(t, 0, 1) for t in boundary.limits(everything, theta))
-        areas += weight * half * _ruling_areas(rows, lower, np.maximum(lower, upper), theta, w)
+    rows = boundary.ruled[table.patch]
+    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+
+    def integrals(which: Ints, start: Floats, stop: Floats) -> Floats:
+        ruled, half, total = read_ruled(rows[which]), (stop - start) / 2, np.zeros(len(which))
+        for node, weight in zip(nodes, weights, strict=True):
+            theta = start + half * (1 + node)
+            lower, upper = (np.clip(t, 0, 1) for t in boundary.limits(which, theta))
+            total += weight * half * _ruling_areas(ruled, lower, np.maximum(lower, upper), theta, w)
+        return total
+
+    which, start, stop = np.arange(len(table), dtype=np.int32), table.theta_from, table.theta_to
+    coarse = integrals(which, start, stop)
+    areas, whole = np.zeros(len(table)), coarse.sum()
+    for _ in range(HALVINGS):
+        middle = (start + stop) / 2
+        parts = integrals(which, start, middle), integrals(which, middle, stop)
+        fine = parts[0] + parts[1]
+        done = abs(fine - coarse) <= CLOSE * np.maximum(fine, whole / max(1, len(table)))
+        np.add.at(areas, which[done], fine[done])
+        rest = ~done
+        coarse = np.concatenate([part[rest] for part in parts])
+        start, stop = np.concatenate((start[rest], middle[rest])), np.concatenate((middle[rest], stop[rest]))
+        which = np.concatenate((which[rest], which[rest]))
+    np.add.at(areas, which, coarse)
     return areas
 
 
 def _ruling_areas(rows: Ruled, lower: Floats, upper: Floats, phi: Floats, w: float) -> Floats:
     """Integral of v dt from lower to upper."""
-    (s0, _), (s1, _) = (across_and_along(rows.q, rows.a, rows.g, t, phi) for t in (lower, upper))
-    on_edge = edge_length(rows.q, rows.g) * (upper - lower) * np.hypot(w, s0)
+    (s0, _), (s1, _) = (rows.across_and_along(t, phi) for t in (lower, upper))
+    on_edge = rows.L * (upper - lower) * np.hypot(w, s0)
     return np.where(rows.is_edge_vertex, _primitive(s1, w) - _primitive(s0, w), on_edge)
 
 

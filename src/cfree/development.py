@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.elliptic import second_kind
-from cfree.geometry import Floats, check_scale, edge_length, finite, read_ruled
+from cfree.ruled import Floats, Ruled, check_scale, finite, read_ruled
 
 
 def development(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
@@ -52,27 +52,24 @@ def development(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: 
            [0.5, 5. ]])
     """
     w = check_scale(angle_scale)
-    p, q, a, g = read_ruled(ruled)
-    if g.any():
+    rows, t, phi = read_ruled(ruled), finite("t", t), finite("phi", phi)
+    if rows.is_edge_vertex.any():
         raise ValueError("ruled: a surface of an e-v contact is not developable; give those of v-e contacts")
-    t, phi = finite("t", t), finite("phi", phi)
-    L = edge_length(q, g)
-    ux, uy = q[..., 0] / L, q[..., 1] / L
-    c, n = np.cos(phi), np.sin(phi)
-    x, y = p[..., 0] - (c * a[..., 0] - n * a[..., 1]), p[..., 1] - (n * a[..., 0] + c * a[..., 1])
-    along = ux * x + uy * y + t * L
-    return np.stack(np.broadcast_arrays(distance_across(q, a, np.zeros(()), phi, w), along), axis=-1)
+    u = rows.ruling(phi)
+    s, _ = rows.across_and_along(t, phi)  # -u.R(phi) a
+    along = u[..., 0] * rows.p[..., 0] + u[..., 1] * rows.p[..., 1] + t * rows.L + s
+    return np.stack(np.broadcast_arrays(distance_across(rows, np.zeros(()), phi, w), along), axis=-1)
 
 
-def distance_across(q: Floats, a: Floats, phi_from: Floats, phi_to: Floats, w: float) -> Floats:
-    """Length of the cross-section of v-e surfaces between two rulings.
+def distance_across(rows: Ruled, phi_from: Floats, phi_to: Floats, w: float) -> Floats:
+    """Length of the cross-section of v-e surfaces between two rulings; no meaning for others.
 
     Notes
     -----
     u.R(phi) a = |a| sin(psi), where psi grows with phi.
     """
-    r = np.hypot(a[..., 0], a[..., 1])
-    first = np.arctan2(q[..., 0] * a[..., 0] + q[..., 1] * a[..., 1], q[..., 1] * a[..., 0] - q[..., 0] * a[..., 1])
-    n = (r / w) ** 2
+    (qx, qy), (ax, ay) = (np.moveaxis(vector, -1, 0) for vector in (rows.q, rows.a))
+    first = np.arctan2(qx * ax + qy * ay, qy * ax - qx * ay)
+    n = (np.hypot(ax, ay) / w) ** 2
     length: Floats = w * (second_kind(first + phi_to, n) - second_kind(first + phi_from, n))
     return length

@@ -27,7 +27,7 @@ def second_kind(psi: Floats, n: Floats) -> Floats:
     Returns
     -------
     (...) float64
-        With a relative error of a few 1e-16, measured; psi itself is taken as exact.
+        With a relative error below 1e-14, measured; psi itself is taken as exact.
 
     Notes
     -----

@@ -21,12 +21,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Floats = NDArray[np.float64]
+from cfree.ruled import Floats, check_scale, finite, read_ruled
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,7 +101,11 @@ class LocalGeometry:
 
     @property
     def principal_directions(self) -> Floats:
-        """Angles xi_1 in [0, pi / 2] and xi_2 = xi_1 + pi / 2 of least and greatest normal curvature, (..., 2)."""
+        """Angles xi_1 in [0, pi / 2] and xi_2 = xi_1 + pi / 2 of least and greatest normal curvature, (..., 2).
+
+        On e-v surfaces 2 xi_1 is the angle of the vector (F, 2 v): arctan(2 v / F), or pi / 2 where F = 0. Where F < 0
+        the paper's arctan is negative, and its xi_1 the other one of the two.
+        """
         xi = np.arctan2(-self.f / self.v, self.mean_curvature) / 2
         return np.stack([xi, xi + math.pi / 2], axis=-1)
 
@@ -160,92 +163,11 @@ def local_geometry(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scal
     array([0.1767767, 0.5      , 0.1767767])
     """
     w = check_scale(angle_scale)
-    q, a, g = read_ruled(ruled)[1:]
-    t, phi = finite("t", t), finite("phi", phi)
-    L = edge_length(q, g)
-    s, k = across_and_along(q, a, g, t, phi)
-    ux, uy = _ruling(q, g, phi)
-    s, k, L, ux, uy, length_of_g = np.broadcast_arrays(s, k, L, ux, uy, np.hypot(g[..., 0], g[..., 1]))
+    rows, t, phi = read_ruled(ruled), finite("t", t), finite("phi", phi)
+    u, g = rows.ruling(phi), np.hypot(rows.g[..., 0], rows.g[..., 1])
+    s, k, L, ux, uy, g = np.broadcast_arrays(*rows.across_and_along(t, phi), rows.L, u[..., 0], u[..., 1], g)
     r, zero = np.hypot(w, s), np.zeros(s.shape)
     v = L * r
-    f, F = -w * length_of_g * (length_of_g / v), L * k
-    rows = (ux, uy, zero), (-s / r * uy, s / r * ux, w / r), (w / r * uy, -w / r * ux, s / r)
-    frame = np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
-    return LocalGeometry(L**2, F, r**2 + k**2, zero, f, -w * k / r, v, frame)
-
-
-class Ruled(NamedTuple):
-    """The vectors of contact surfaces, (..., 2) each: one of q and g is 0."""
-
-    p: Floats
-    q: Floats
-    a: Floats
-    g: Floats
-
-    @property
-    def is_edge_vertex(self) -> NDArray[np.bool_]:
-        """Whether the contact is e-v, (...,)."""
-        return np.asarray(self.g.any(axis=-1))
-
-
-def read_ruled(ruled: ArrayLike) -> Ruled:
-    """The four vectors of rows of eight numbers, checked.
-
-    Examples
-    --------
-    >>> read_ruled([0, 0, 1, 0, 0, 0, 0, 2])
-    Traceback (most recent call last):
-        ...
-    ValueError: ruled: row [0. 0. 1. 0. 0. 0. 0. 2.] is no contact surface; one of q and g must be 0, the other not
-    """
-    rows = finite("ruled", ruled)
-    if rows.ndim == 0 or rows.shape[-1] != 8:
-        raise ValueError(f"ruled: shape {rows.shape}; give rows p, q, a, g of eight numbers, such as Surface.ruled")
-    moves, turns = rows[..., 2:4].any(axis=-1), rows[..., 6:8].any(axis=-1)
-    if (moves == turns).any():
-        row = rows[moves == turns][0]
-        raise ValueError(f"ruled: row {row} is no contact surface; one of q and g must be 0, the other not")
-    return Ruled(rows[..., 0:2], rows[..., 2:4], rows[..., 4:6], rows[..., 6:8])
-
-
-def finite(name: str, values: ArrayLike) -> Floats:
-    """Values as doubles, none of them NaN or infinite."""
-    array = np.asarray(values, dtype=np.float64)
-    if not np.isfinite(array).all():
-        raise ValueError(f"{name}: {array[~np.isfinite(array)][0]} is not finite; give finite numbers")
-    return array
-
-
-def check_scale(angle_scale: float) -> float:
-    """The length of a radian, finite and positive."""
-    if not 0 < angle_scale < math.inf:
-        raise ValueError(f"angle_scale: {angle_scale}; give a finite length per radian above 0")
-    return float(angle_scale)
-
-
-def edge_length(q: Floats, g: Floats) -> Floats:
-    """L, the length of the edge and of the rulings: |q| or |g|."""
-    return np.hypot(q[..., 0] + g[..., 0], q[..., 1] + g[..., 1])
-
-
-def across_and_along(q: Floats, a: Floats, g: Floats, t: Floats, phi: Floats) -> tuple[Floats, Floats]:
-    """s and k: the parts of dx / dphi across and along the ruling; on e-v surfaces phi does not matter."""
-    dx, dy, is_edge = _direction(q, g)
-    c, n = np.where(is_edge, 1.0, np.cos(phi)), np.where(is_edge, 0.0, np.sin(phi))
-    sign = np.where(is_edge, 1.0, -1.0)
-    ax, ay = c * a[..., 0] - n * a[..., 1], n * a[..., 0] + c * a[..., 1]
-    s: Floats = sign * (dx * ax + dy * ay) + t * np.hypot(g[..., 0], g[..., 1])
-    return s, sign * (ax * dy - ay * dx)
-
-
-def _ruling(q: Floats, g: Floats, phi: Floats) -> tuple[Floats, Floats]:
-    """Unit vector along S_t: that of q, or of -R(phi) g."""
-    dx, dy, is_edge = _direction(q, g)
-    c, n = np.where(is_edge, -np.cos(phi), 1.0), np.where(is_edge, -np.sin(phi), 0.0)
-    return c * dx - n * dy, n * dx + c * dy
-
-
-def _direction(q: Floats, g: Floats) -> tuple[Floats, Floats, NDArray[np.bool_]]:
-    """Unit vector along the edge, whether the robot's or the obstacle's, and whether it is the robot's."""
-    L = edge_length(q, g)
-    return (q[..., 0] + g[..., 0]) / L, (q[..., 1] + g[..., 1]) / L, np.asarray(g.any(axis=-1))
+    axes = (ux, uy, zero), (-s / r * uy, s / r * ux, w / r), (w / r * uy, -w / r * ux, s / r)
+    frame = np.stack([np.stack(axis, axis=-1) for axis in axes], axis=-2)
+    return LocalGeometry(L**2, L * k, r**2 + k**2, zero, -w * g * (g / v), -w * k / r, v, frame)
