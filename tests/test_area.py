@@ -11,7 +11,7 @@ import pytest
 from cfree import area
 from cfree.area import patch_areas, trapezoid_areas
 from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
-from cfree.development import development
+from cfree.development import develop
 from cfree.elliptic import second_kind
 from cfree.errors import IncompleteError
 from cfree.forbidden import boundary
@@ -57,7 +57,7 @@ def test_developments_are_isometries(w: float) -> None:
     at = local_geometry(rows, t, phi, angle_scale=w)
 
     def moved(i: int, j: int) -> np.ndarray:
-        return development(rows, t + i * d, phi + j * d, angle_scale=w)
+        return develop(rows, t + i * d, phi + j * d, angle_scale=w)
 
     by_t, by_phi = (moved(1, 0) - moved(-1, 0)) / (2 * d), (moved(0, 1) - moved(0, -1)) / (2 * d)
     np.testing.assert_allclose((by_t**2).sum(axis=1), at.E, atol=1e-7)
@@ -70,23 +70,23 @@ def test_helices_and_rulings_keep_their_lengths() -> None:
     S, r, w = contact_surface(TRIANGLE, SQUARE, VertexEdge(1, 2)), angle_range(TRIANGLE, SQUARE, VertexEdge(1, 2)), 0.7
     phi = r.phi_min + np.linspace(0, r.phi_range, 20_001)
     for t in (0.0, 0.4, 1.0):
-        curve = development(S.ruled, t, phi, angle_scale=w)
+        curve = develop(S.ruled, t, phi, angle_scale=w)
         length = np.hypot(*np.diff(curve, axis=0).T).sum()
         assert length == pytest.approx(r.phi_range * math.hypot(w, math.hypot(*map(float, S.a))), rel=1e-8)
-    ends = development(S.ruled, [[0], [1]], phi[:3], angle_scale=w)
+    ends = develop(S.ruled, [[0], [1]], phi[:3], angle_scale=w)
     np.testing.assert_allclose(ends[1] - ends[0], np.tile([0, 2], (3, 1)), atol=1e-12)
 
 
 def test_developments_broadcast() -> None:
     rows = v_e_rows(np.random.default_rng(5), 4)
-    table = development(rows[:, None], [0, 1, 2], 0.5)
+    table = develop(rows[:, None], [0, 1, 2], 0.5)
     assert table.shape == (4, 3, 2)
-    np.testing.assert_array_equal(table[3, 2], development(rows[3], 2, 0.5))
+    np.testing.assert_array_equal(table[3, 2], develop(rows[3], 2, 0.5))
 
 
 def test_e_v_surfaces_are_not_developable() -> None:
     with pytest.raises(ValueError, match="e-v contact is not developable; give those of v-e"):
-        development(contact_surface(TRIANGLE, SQUARE, EdgeVertex(0, 0)).ruled, 0, 0)
+        develop(contact_surface(TRIANGLE, SQUARE, EdgeVertex(0, 0)).ruled, 0, 0)
     for arguments, message in (
         ((math.nan, 0, 1.0), "t: nan"),
         ((0, math.inf, 1.0), "phi: inf"),
@@ -94,7 +94,7 @@ def test_e_v_surfaces_are_not_developable() -> None:
     ):
         t, phi, w = arguments
         with pytest.raises(ValueError, match=message):
-            development(v_e_rows(np.random.default_rng(6), 1), t, phi, angle_scale=w)
+            develop(v_e_rows(np.random.default_rng(6), 1), t, phi, angle_scale=w)
 
 
 # areas of patches
@@ -126,7 +126,7 @@ def test_the_closed_form_of_an_e_v_patch_for_w_1() -> None:
 def test_areas_of_v_e_patches_are_those_of_their_developments() -> None:
     S, r = contact_surface(TRIANGLE, SQUARE, VertexEdge(2, 1)), angle_range(TRIANGLE, SQUARE, VertexEdge(2, 1))
     phi = r.phi_min + np.linspace(0, r.phi_range, 4001)
-    rim = np.concatenate([development(S.ruled, 0, phi), development(S.ruled, 1, phi[::-1])])
+    rim = np.concatenate([develop(S.ruled, 0, phi), develop(S.ruled, 1, phi[::-1])])
     x, y = rim.T
     shoelace = abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
     assert float(patch_areas(S.ruled, r.phi_min, r.phi_range)) == pytest.approx(shoelace, rel=1e-6)

@@ -50,7 +50,7 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     Notes
     -----
     An e-v patch has phi_range times the integral above, which phi_min does not change. A v-e patch is as large as its
-    `development`: L times an elliptic integral of the second kind.
+    development: L times an elliptic integral of the second kind.
 
     Examples
     --------

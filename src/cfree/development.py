@@ -14,7 +14,7 @@ from cfree.elliptic import second_kind
 from cfree.ruled import Floats, Ruled, check_scale, finite, read_ruled
 
 
-def development(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
+def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
     """Where points of v-e surfaces are when the surface is unrolled into the plane: an isometry.
 
     Parameters
@@ -47,7 +47,7 @@ def development(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: 
     --------
     >>> from cfree import Polygon, VertexEdge, contact_surface
     >>> S = contact_surface(Polygon([(0, 0), (1, 0), (0, 1)]), Polygon([(3, 1), (5, 1), (3, 4)]), VertexEdge(0, 0))
-    >>> development(S.ruled, [0, 1], [0, 0.5])
+    >>> develop(S.ruled, [0, 1], [0, 0.5])
     array([[0. , 3. ],
            [0.5, 5. ]])
     """
