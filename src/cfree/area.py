@@ -50,7 +50,9 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     Notes
     -----
     An e-v patch has phi_range times the integral above, which phi_min does not change. A v-e patch is as large as its
-    development: L times an elliptic integral of the second kind.
+    development: L times an elliptic integral of the second kind. Both are differences, which lose digits
+    where the edge is short and far from the foot of the perpendicular, or the range narrow: measured, about as many as
+    s / L, or 1 / phi_range, has.
 
     Examples
     --------
