@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UnsupportedError as UnsupportedError
+    from cfree.film import save_film as save_film
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
     from cfree.geometry import LocalGeometry as LocalGeometry
@@ -100,6 +101,7 @@ _HOMES = {
     "development": "develop",
     "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
     "UnsupportedError",
+    "film": "save_film",
     "forbidden": "Boundary boundary",
     "geometry": "LocalGeometry local_geometry",
     "io": "load_polygons load_scene",

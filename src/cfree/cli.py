@@ -194,6 +194,51 @@ def cut(
 
 
 @app.command(
+    epilog="Examples: `cfree film scene.json -o film.mp4`; "
+    "`cfree film examples/scenes/paper_fig9.json examples/scenes/five_convex.json -o paper.mp4 --seconds 60`; "
+    "`cfree film scene.json -o path.gif --storyboard path --seconds 5 --fps 10`"
+)
+def film(
+    scenes: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="SCENE...", help="Scene files, or boundaries, shown one after the other.", show_default=False
+        ),
+    ],
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FILE", help="The film: .mp4 or .gif.", show_default=False)
+    ],
+    storyboard: Annotated[
+        str,
+        typer.Option(metavar="NAME", help='"paper": slices, a helix, patches, all of the boundary, a path; or "path".'),
+    ] = "paper",
+    seconds: Annotated[float, typer.Option(metavar="S", help="Length of the film.")] = 30.0,
+    fps: Annotated[int, typer.Option(metavar="N", help="Frames a second.")] = 25,
+    size: Annotated[
+        str | None,
+        typer.Option(metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF"),
+    ] = None,
+) -> None:
+    """Make a film: the robot among the obstacles, and the point it is in the configuration space."""
+    with _one_line_faults():
+        from cfree.film import save_film
+        from cfree.film.reel import check_options
+
+        for scene in scenes:
+            written = _check_outputs(scene, {"film": output})
+        pixels = _read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
+        check_options(len(scenes), seconds, fps, pixels, storyboard)
+        found = [_boundary_of(scene, None) for scene in scenes]
+        with _bar("film") as progress:
+            save_film(found, output, seconds=seconds, fps=fps, size=pixels, storyboard=storyboard, progress=progress)
+        from cfree.report import print_rows
+
+        print_rows(
+            ", ".join(map(str, scenes)), {"frames": round(seconds * fps), "size": "x".join(map(str, pixels))}, written
+        )
+
+
+@app.command(
     epilog="Examples: `cfree verify scene.json scene.npz`; `cfree verify scene.json scene.npz --sample 1000`. "
     "Exit code 0: verified; 1: refuted; 2: a file that cannot be read."
 )
@@ -289,6 +334,15 @@ def _read_size(text: str) -> float:
     return size
 
 
+def _read_pixels(text: str) -> tuple[int, int]:
+    """Width and height, from "1280x720"."""
+    try:
+        width, height = map(int, text.lower().split("x"))
+    except ValueError:
+        raise ValueError(f'--size: {text!r}; give width and height such as "1280x720"') from None
+    return width, height
+
+
 def _boundary_of(
     source: Path, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
 ) -> Boundary:
@@ -339,6 +393,10 @@ def _check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, st
             from cfree.plot import check_picture_path
 
             check_picture_path(path)
+        if name == "film":
+            from cfree.film.encode import check_film_path
+
+            check_film_path(path)
         if path.is_dir():
             raise IsADirectoryError(errno.EISDIR, "is a directory; give the name of a file", str(path))
         if path.exists() and source.exists() and path.samefile(source):

@@ -1,0 +1,90 @@
+"""Frames into a file: MP4 with PyAV, GIF with Pillow; whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from itertools import chain
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.errors import UnsupportedError
+from cfree.files import replacing
+
+Image = NDArray[np.uint8]
+
+SUFFIXES = (".mp4", ".gif")
+
+
+def check_film_path(path: str | PathLike[str]) -> str:
+    """Suffix of a film that can be written here.
+
+    Raises
+    ------
+    UnsupportedError
+        If it is another format, or MP4 and PyAV is not installed.
+
+    Examples
+    --------
+    >>> check_film_path("parking.GIF")
+    '.gif'
+    >>> check_film_path("parking.avi")
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: parking.avi: no film format; name the file .mp4 or .gif
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in SUFFIXES:
+        raise UnsupportedError(f"{path}: no film format; name the file .mp4 or .gif")
+    if suffix == ".mp4":
+        try:
+            import av  # noqa: F401
+        except ImportError:
+            raise UnsupportedError(
+                f"{path}: MP4 needs PyAV: pip install 'cfree[video]'; or name the file .gif"
+            ) from None
+    return suffix
+
+
+def write(frames: Iterator[Image], path: str | PathLike[str], fps: int) -> None:
+    """Write frames of equal size as they come.
+
+    Parameters
+    ----------
+    frames : iterator of (height, width, 3) uint8
+        At least one. Width and height even for MP4.
+    path : path
+        ``.mp4`` or ``.gif``; a file there is replaced once the film is complete.
+    fps : int
+        Frames a second; a GIF's are rounded to hundredths of a second.
+    """
+    save = {".mp4": _save_mp4, ".gif": _save_gif}[check_film_path(path)]
+    with replacing(path) as unfinished:
+        save(frames, unfinished, fps)
+
+
+def _save_mp4(frames: Iterator[Image], path: Path, fps: int) -> None:
+    import av
+
+    first = next(frames)
+    with av.open(str(path), "w", options={"movflags": "faststart"}) as container:
+        stream = container.add_stream("libx264", rate=Fraction(fps), options={"crf": "17", "preset": "medium"})
+        stream.height, stream.width = first.shape[:2]
+        stream.pix_fmt = "yuv420p"
+        for frame in chain([first], frames):
+            container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(frame), format="rgb24")))
+        container.mux(stream.encode(None))
+
+
+def _save_gif(frames: Iterator[Image], path: Path, fps: int) -> None:
+    from PIL import Image as Pillow
+
+    pictures = (
+        Pillow.fromarray(frame).quantize(256, method=Pillow.Quantize.FASTOCTREE, dither=Pillow.Dither.NONE)
+        for frame in frames
+    )
+    first = next(pictures)
+    first.save(path, save_all=True, append_images=pictures, duration=max(20, round(100 / fps) * 10), loop=0)

@@ -1,0 +1,166 @@
+"""From shots to pictures: what has appeared so far, the camera's way, and the fades."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.film.frame import Stage, View
+from cfree.film.painter import AZIMUTHS
+from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+Floats = NDArray[np.float64]
+Image = NDArray[np.uint8]
+
+FADE = 0.4  # seconds from one scene to the next, or over a cut
+TURN = 1.6  # seconds over which the camera turns from one shot to the next
+SWAY = math.radians(7), 11.0  # the camera is never quite at rest: how far, in how many seconds
+LATER = ("pillar", "path")  # what a second scene shows: the rest has been seen
+KEPT = ("slices", "helix", "path")  # shots whose line stays
+
+
+def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int], name: str) -> None:
+    """Raise a ValueError that says what is wrong with an option, if anything is.
+
+    Examples
+    --------
+    >>> check_options(1, 10.0, 25, (1281, 720), "paper")
+    Traceback (most recent call last):
+        ...
+    ValueError: size 1281x720; give even numbers from 160x90 to 7680x4320
+    """
+    if name not in STORYBOARDS:
+        raise ValueError(f"storyboard {name!r}; choose one of {', '.join(STORYBOARDS)}")
+    if not scenes:
+        raise ValueError("no scene; give at least one")
+    if not 1 <= fps <= 100:
+        raise ValueError(f"{fps} frames a second; give 1 to 100")
+    if not (0 < seconds < math.inf) or round(seconds * fps) < scenes * len(SECONDS):
+        raise ValueError(f"{seconds} seconds; give enough for {len(SECONDS)} frames of each scene at least")
+    width, height = size
+    if width % 2 or height % 2 or not (160 <= width <= 7680 and 90 <= height <= 4320):
+        raise ValueError(f"size {width}x{height}; give even numbers from 160x90 to 7680x4320")
+
+
+def shots_of(boundaries: Sequence[Boundary], frames: int, name: str) -> list[list[Shot]]:
+    """The shots of each scene.
+
+    Raises
+    ------
+    ValueError
+        If there is nothing to show of a scene.
+    """
+    kinds = [STORYBOARDS[name]] + [tuple(k for k in STORYBOARDS[name] if k in LATER)] * (len(boundaries) - 1)
+    weights = [sum(SECONDS[kind] for kind in chosen) for chosen in kinds]
+    result, left = [], frames
+    for k, (boundary, chosen) in enumerate(zip(boundaries, kinds, strict=True)):
+        count = max(1, round(left * weights[k] / sum(weights[k:])))
+        shots = storyboard(boundary, count, chosen)
+        if not shots:
+            title = boundary.scene.name or f"scene {k}"
+            raise ValueError(f"{title}: nothing to show: no contact, and no free pose with room around it")
+        result.append(shots)
+        left -= sum(len(shot.moments) for shot in shots)
+    return result
+
+
+def pictures(
+    boundaries: Sequence[Boundary],
+    seconds: float,
+    fps: int,
+    size: tuple[int, int],
+    name: str,
+    progress: Callable[[float], object] | None,
+) -> Iterator[Image]:
+    """All frames of a film."""
+    total = round(seconds * fps)
+    scenes = shots_of(boundaries, total, name)
+    total = sum(len(shot.moments) for shots in scenes for shot in shots)
+    fade, done = round(FADE * fps), 0
+    last: Image | None = None
+    for boundary, shots in zip(boundaries, scenes, strict=True):
+        stage = Stage(boundary, size)
+        before, since = last, 0  # what fades out, and for how long
+        for view, cut in views(stage, shots, fps):
+            if cut:
+                before, since = last, 0
+            last = stage.draw(view)
+            since += 1
+            picture = last
+            if before is not None and since <= fade:
+                share = since / (fade + 1)
+                picture = ((1 - share) * before + share * last + 0.5).astype(np.uint8)
+            yield picture
+            done += 1
+            if progress is not None:
+                progress(done / total)
+
+
+def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View, bool]]:
+    """What each frame shows, and whether it comes after a cut."""
+    azimuth = _camera(shots, fps)
+    ghost = _averaged(np.concatenate([np.full(len(shot.moments), shot.ghost) for shot in shots]), 0.5 * fps)
+    shown = np.stack((stage.space.angles[:, 0], stage.space.angles[:, 0]), axis=1)
+    kept: list[tuple[str, Floats]] = []
+    at = 0
+    for shot in shots:
+        line = np.array([(float(q.x), float(q.y), math.degrees(q.theta)) for q in (m.pose for m in shot.moments)])
+        for k, moment in enumerate(shot.moments):
+            shown = _more_shown(shown, stage.space.angles, shot, k, line[:, 2])
+            # the free way to a shot is drawn while it lasts
+            lines = [*kept, (shot.colour, line[0 if k < shot.link else shot.link : k + 1])]
+            goal = shot.moments[-1].pose if shot.kind == "path" else None
+            view = View(shot.title, shot.note, moment, float(azimuth[at]), shown, float(ghost[at]), lines, goal)
+            yield view, shot.cut and k == 0
+            at += 1
+        if shot.kind in KEPT:
+            kept = [*kept, (shot.colour, line[shot.link :])]
+        if shot.kind == "pillar":
+            kept = []
+
+
+def _more_shown(shown: Floats, angles: Floats, shot: Shot, k: int, degrees: Floats) -> Floats:
+    """The angles between which the parts are seen once a shot has come to its moment k."""
+    if k < shot.link:
+        return shown
+    shown = shown.copy()
+    if shot.swept is not None:
+        parts = list(shot.swept.parts)
+        begin, here = degrees[shot.link], degrees[k]
+        low, high = min(begin, here), max(begin, here)
+        if k == len(shot.moments) - 1:
+            low, high = math.degrees(shot.swept.angles[0]), math.degrees(shot.swept.angles[-1])
+        shown[parts, 0] = np.clip(low, angles[parts, 0], angles[parts, 1])
+        shown[parts, 1] = np.clip(high, angles[parts, 0], angles[parts, 1])
+    if len(shot.level):
+        whole = (shown[:, 0] == angles[:, 0]) & (shown[:, 1] == angles[:, 1])
+        high = np.clip(shot.level[k], angles[:, 0], angles[:, 1])
+        shown[:, 0] = angles[:, 0]
+        shown[:, 1] = np.where(whole, angles[:, 1], high)
+    if shot.kind == "path":
+        shown = angles.copy()
+    return shown
+
+
+def _camera(shots: Sequence[Shot], fps: int) -> Floats:
+    """Azimuth of each frame: from shot to shot without haste, and a slow swaying."""
+    wanted = np.concatenate([np.full(len(shot.moments), shot.azimuth) for shot in shots])
+    how_far, seconds = SWAY
+    sway = how_far * np.sin(math.tau * np.arange(len(wanted)) / (seconds * fps))
+    azimuth: Floats = np.clip(_averaged(wanted, TURN * fps) + sway, *AZIMUTHS)
+    return azimuth
+
+
+def _averaged(values: Floats, width: float) -> Floats:
+    """A moving average with a smooth window of this half width, in frames."""
+    half = max(1, round(width))
+    window = np.hanning(2 * half + 1)
+    padded = np.pad(values, half, mode="edge")
+    return np.convolve(padded, window / window.sum(), mode="valid")

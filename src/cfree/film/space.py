@@ -1,0 +1,145 @@
+"""The configuration space in a frame: the patches seen so far, cut by the plane of the robot's orientation.
+
+The plane shows the slice: where the reference point is free, where it is forbidden, and along what it touches. What is
+above it is more or less transparent, so that it never hides the robot's point.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.patches import PathPatch
+from matplotlib.patheffects import withStroke
+from numpy.typing import NDArray
+
+from cfree.film.box import INK, Box
+from cfree.film.painter import ON_FACE, Eye, Pieces, facing, joined, line_pieces, paint, pieces_of, within
+from cfree.mesh import COLOURS
+from cfree.outlines import Window, path_of, rings_of, rings_of_geometry
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from matplotlib.path import Path
+
+    from cfree.forbidden import Boundary
+    from cfree.slice import Slice
+
+Floats = NDArray[np.float64]
+
+FREE, SOLID, LEVEL, SHADOW, RIM = "#cfe3f7", "#c9cad2", "#3a6ea5", "#b9bec8", "#1b1b1f"
+POINT = "#d81b9a"
+TAIL = 500  # points of a motion's line
+PLACE = 0.445, 0.095, 0.55, 0.85
+
+
+class Space:
+    """Axes of the configuration space.
+
+    Parameters
+    ----------
+    figure : matplotlib figure
+    boundary : Boundary
+    window : four floats
+        x0, y0, x1, y1 of the box.
+    names : (str, str)
+        Of the axes x and y.
+    """
+
+    def __init__(self, figure: Figure, boundary: Boundary, window: Window, names: tuple[str, str]) -> None:
+        self.boundary, self.window = boundary, window
+        self.pieces, self.angles = pieces_of(boundary, window)
+        ax: Any = figure.add_axes(PLACE)
+        self.panel = figure.bbox.width * PLACE[2], figure.bbox.height * PLACE[3]
+        ax.set(xlim=(0, self.panel[0]), ylim=(0, self.panel[1]))
+        ax.axis("off")
+        self.box = Box(ax, window, self.panel[1], names)
+
+        def region(colour: str, opacity: float, zorder: float) -> Any:
+            return ax.add_patch(PathPatch(path_of([]), facecolor=colour, alpha=opacity, lw=0, zorder=zorder))
+
+        self.floor = region(SHADOW, 0.55, 1.2)
+        self.below = ax.add_collection(PolyCollection([], zorder=2, joinstyle="round"))
+        self.free, self.solid = region(FREE, 0.55, 3), region(SOLID, 0.93, 3.1)
+        self.level = ax.add_patch(PathPatch(path_of([]), fill=False, edgecolor=LEVEL, lw=1.0, zorder=3.2))
+        self.section = ax.add_collection(LineCollection([], zorder=3.3, capstyle="round"))
+        self.cross = ax.add_collection(LineCollection([], colors=INK, lw=0.8, linestyles=[(0, (4, 3))], zorder=3.4))
+        self.above = ax.add_collection(PolyCollection([], zorder=4, joinstyle="bevel"))
+        (self.point,) = ax.plot([], [], "o", ms=9.5, color=POINT, mec="white", mew=1.8, zorder=8)
+        halo = [withStroke(linewidth=2.2, foreground="white")]
+        style = {"va": "center", "fontsize": 9.5, "weight": "bold", "zorder": 7, "path_effects": halo}
+        self.tag = ax.text(0, 0, "", color=LEVEL, **style)
+
+    def draw(
+        self, pose: Pose, cut: Slice, azimuth: float, shown: Floats, ghost: float, lines: Sequence[tuple[str, Floats]]
+    ) -> None:
+        """Everything as it is in one frame; see `cfree.film.frame.View`."""
+        eye = Eye(self.window, *self.panel, azimuth)
+        theta = math.degrees(pose.theta)
+        self.box.draw(eye)
+        self.floor.set_path(_lifted(eye, rings_of(self.boundary.scene.obstacles), 0.0))
+        self._draw_level(eye, theta, cut)
+        self._draw_pieces(eye, theta, shown, ghost, lines)
+        _, y0, x1, y1 = self.window
+        x, y = float(pose.x), float(pose.y)
+        (here,), _ = eye([(x, y, theta)])
+        self.point.set_data([here[0]], [here[1]])
+        self.cross.set_segments(list(eye([[(x, y, theta), (x, y0, theta)], [(x, y, theta), (x1, y, theta)]])[0]))
+        (corner,), _ = eye([(x1, y1, theta)])
+        self.tag.set_position((float(corner[0]) + 0.015 * self.panel[0], float(corner[1])))
+        self.tag.set_text(f"θ = {theta:.0f}°")
+
+    def _draw_level(self, eye: Eye, theta: float, cut: Slice) -> None:
+        x0, y0, x1, y1 = self.window
+        frame = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], dtype=np.float64)
+        solid = _clipped(cut, self.window)
+        self.solid.set_path(_lifted(eye, solid, theta))
+        self.free.set_path(_lifted(eye, [frame, *(ring[::-1] for ring in solid)], theta))
+        self.level.set_path(_lifted(eye, [frame], theta))
+        kinds = self.boundary.patch_kind[cut.patches]
+        ends = np.concatenate((cut.segments, np.full((len(kinds), 2, 1), theta)), axis=2)[kinds != 3]
+        self.section.set_segments(list(eye(ends)[0]))
+        self.section.set_color([COLOURS[int(kind)] for kind in kinds[kinds != 3]])
+        self.section.set_linewidth(2.0 * min(1.0, max(0.4, math.sqrt(150 / max(1, len(kinds))))))
+
+    def _draw_pieces(
+        self, eye: Eye, theta: float, shown: Floats, ghost: float, lines: Sequence[tuple[str, Floats]]
+    ) -> None:
+        low, high = shown[self.pieces.part].T
+        fronts = facing(self.pieces, eye)
+        tubes = [piece for colour, line in lines for piece in _tube(line, colour)]
+        for onto, bottom, top, opacity in ((self.below, 0.0, theta, 1.0), (self.above, theta, 361.0, ghost)):
+            faces, kept = within(self.pieces, np.maximum(low, bottom), np.minimum(high, top))
+            parts = [faces]
+            for tube in tubes:
+                n = len(tube.part)
+                parts.append(within(tube, np.full(n, bottom), np.full(n, top))[0])
+            both = joined(parts)
+            front = np.append(fronts[kept], np.ones(len(both.part) - len(faces.part), dtype=bool))
+            paint(onto, both, eye, front, opacity)
+
+
+def _tube(line: Floats, colour: str) -> list[Pieces]:
+    """A polyline with a dark rim."""
+    if len(line) < 2:
+        return []
+    kept = line[np.unique(np.linspace(0, len(line) - 1, TAIL).astype(int))]
+    return [line_pieces(kept, RIM, 4.4, ON_FACE + 0.01), line_pieces(kept, colour, 2.8, ON_FACE + 0.04)]
+
+
+def _lifted(eye: Eye, rings: Iterable[Floats], theta: float) -> Path:
+    """Rings of the plane at one theta, as the eye sees them."""
+    return path_of(eye(np.column_stack((ring, np.full(len(ring), theta))))[0] for ring in rings)
+
+
+def _clipped(cut: Slice, window: Window) -> list[Floats]:
+    """Rings of the forbidden region within the window."""
+    import shapely
+
+    inside = shapely.intersection(cut.forbidden, shapely.box(*window))
+    parts = [part for part in shapely.get_parts(inside) if part.geom_type == "Polygon" and part.area > 0]
+    return rings_of_geometry(shapely.MultiPolygon(parts)) if parts else []

@@ -1,0 +1,424 @@
+"""What a film shows of a scene, shot by shot, and every pose in it.
+
+The storyboard "paper" tells what the paper says of one robot and one obstacle, from the scene's own contacts:
+
+    slices    the robot slides around an obstacle without turning: twice, at two orientations
+    helix     it turns about a vertex that stays on a vertex: a v-v helix (Lemma 1)
+    v-e       it sweeps over a v-e patch (eq. 5) from the same helix
+    e-v       it sweeps over an e-v patch (eq. 8)
+    pillar    it goes around the obstacle, or turns where it can, while theta goes from 0 to 360 degrees: everything
+    path      it moves from start to goal, touching nothing
+
+Within a shot the motion is continuous. From one to the next it goes freely; where no free way is found there is a cut.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
+from cfree.film.painter import AZIMUTHS, HELIX
+from cfree.film.route import Clearance, route
+from cfree.mesh import robot_radius
+from cfree.plot import extent
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+Floats = NDArray[np.float64]
+
+STORYBOARDS = {
+    "paper": ("slices", "helix", "v-e", "e-v", "pillar", "path"),
+    "path": ("path",),
+}
+SECONDS = {"slices": 8.0, "helix": 3.5, "v-e": 5.5, "e-v": 6.5, "pillar": 9.0, "path": 8.0}
+PATH = "#d81b9a"
+HOME = math.radians(-52)
+FULL_TURN = math.tau - 1e-6
+LOWER = math.radians(50)  # by how much the first slice is below the second
+LINK = 0.45  # share of a shot that a free way to its beginning may take
+FINER = 1, 2  # a second grid for narrow passages
+TRIED = 30  # patches, best first, until one is found whose slice closes around an obstacle
+
+
+@dataclass(frozen=True)
+class Shot:
+    """Part of a film.
+
+    Attributes
+    ----------
+    kind : str
+        One of the names above.
+    title, note : str
+        Words and a formula.
+    moments : list of Moment
+        One for each frame.
+    cut : bool
+        The robot is not where the shot before it ended.
+    link : int
+        How many moments at the beginning are a free way to where the shot begins.
+    swept : Column, optional
+        The column that appears as the robot sweeps over it.
+    level : (n,) float, degrees, optional
+        Everything below appears.
+    azimuth : float, radians
+        From where the shot is best seen.
+    ghost : float
+        Opacity of what is above the plane of the current orientation.
+    colour : str
+        Of the motion's line in the configuration space.
+    """
+
+    kind: str
+    title: str
+    note: str
+    moments: list[Moment]
+    cut: bool = False
+    link: int = 0
+    swept: Column | None = None
+    level: Floats = field(default_factory=lambda: np.zeros(0))
+    azimuth: float = HOME
+    ghost: float = 1.0
+    colour: str = PATH
+
+
+def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBOARDS["paper"]) -> list[Shot]:
+    """Shots of a scene.
+
+    Parameters
+    ----------
+    boundary : Boundary
+    frames : int
+        Moments in all.
+    kinds : tuple of str
+        Shots wanted; those the scene has nothing for are left out.
+
+    Examples
+    --------
+    >>> from cfree.forbidden import boundary
+    >>> from cfree.io import load_scene
+    >>> shots = storyboard(boundary(load_scene("examples/scenes/paper_fig9.json")), 60)
+    >>> [shot.kind for shot in shots]
+    ['slices', 'helix', 'v-e', 'e-v', 'pillar', 'path']
+    >>> sum(len(shot.moments) for shot in shots), any(shot.cut for shot in shots)
+    (60, False)
+    """
+    director = _Director(boundary)
+    found = director.shots(frames, kinds)
+    if found and sum(len(shot.moments) for shot in found) < frames:
+        # the last shot came to nothing: its time goes to the others
+        found = director.shots(frames, tuple(shot.kind for shot in found))
+    return found
+
+
+class _Director:
+    """Makes one shot after another, each from where the last one ended."""
+
+    def __init__(self, boundary: Boundary) -> None:
+        self.boundary = boundary
+        self.window = extent(boundary)
+        self.radius = robot_radius(boundary.scene)
+        found = sorted(columns(boundary), key=self._worth, reverse=True)
+        corners = [c for c in found if c.side is not None and self._kind(c) == "v-e"]
+        self.corner = next((c for c in corners[:TRIED] if self._goes_round(c)), corners[0] if corners else None)
+        edges = [c for c in found if self._kind(c) == "e-v"]
+        self.edge = next((c for c in edges if self._shares_obstacle(c)), edges[0] if edges else None)
+        self.here: Moment | None = None
+        self._spaces: dict[int, Clearance] = {}
+
+    def shots(self, frames: int, kinds: tuple[str, ...]) -> list[Shot]:
+        self.here = None
+        makers: dict[str, Callable[[int], Shot | None]] = {
+            "slices": self._slices,
+            "helix": self._helix,
+            "v-e": self._vertex_edge,
+            "e-v": self._edge_vertex,
+            "pillar": self._pillar,
+            "path": self._path,
+        }
+        needed = {"helix": self.corner, "slices": self.corner, "v-e": self.corner, "e-v": self.edge}
+        kinds = tuple(kind for kind in kinds if kind not in needed or needed[kind] is not None)
+        found: list[Shot] = []
+        for k, kind in enumerate(kinds):
+            share = SECONDS[kind] / sum(SECONDS[kind] for kind in kinds[k:])
+            count = max(1, round((frames - sum(len(shot.moments) for shot in found)) * share))
+            shot = makers[kind](count)
+            if shot is not None:
+                found.append(replace(shot, cut=shot.cut and bool(found)))
+                self.here = shot.moments[-1]
+        return found
+
+    # shots
+
+    def _slices(self, n: int) -> Shot | None:
+        """Around the obstacle at one orientation, then at that where the helix begins, and to it."""
+        column = self.corner
+        assert column is not None and column.side is not None
+        (begin,) = along_helix(self.boundary, column, _inside(column)[:1])
+        goal, theta = _xy(begin.pose), begin.pose.theta
+        last = Ring(self.boundary, theta, goal)
+        if last.is_bound or not last.is_closed:
+            return None
+        moments = self._two_slices(last, goal, n) or [last.moment(s) for s in _eased(0, last.perimeter, n)]
+        return Shot("slices", "Translation: a slice at constant orientation", _FORMULAS["slices"], moments)
+
+    def _two_slices(self, last: Ring, goal: tuple[float, float], n: int) -> list[Moment] | None:
+        """Around at a lower orientation, turning in contact up to the last one, around there, and to the goal."""
+        angle = last.theta - LOWER
+        if angle < 0:
+            return None
+        first = Ring(self.boundary, angle, goal)
+        if first.is_bound or not first.is_closed:
+            return None
+        here = _xy(first.moment(0.0).pose)
+        turning = roll(self.boundary, here, _eased(angle, last.theta, max(n, 100)), 0.3 * last.perimeter)
+        if turning is None:
+            return None
+        again = Ring(self.boundary, last.theta, _xy(turning[-1].pose))
+        rest = again.distance_to(goal) + again.perimeter
+        turn = n // 5
+        before = round((n - turn) * first.perimeter / (first.perimeter + rest))
+        return [
+            *(first.moment(s) for s in _eased(0, first.perimeter, before)),
+            *_thinned(turning, turn),
+            *(again.moment(s) for s in _eased(0, rest, n - turn - before)),
+        ]
+
+    def _helix(self, n: int) -> Shot:
+        assert self.corner is not None
+        low, high = _inside(self.corner)
+        moments = along_helix(self.boundary, self.corner, _eased(low, high, n))
+        shot = Shot("helix", "Rotation about a vertex: a helix", _FORMULAS["v-v"], moments)
+        return replace(shot, azimuth=self._azimuth(self.corner), colour=HELIX)
+
+    def _vertex_edge(self, n: int) -> Shot:
+        column = self.corner
+        assert column is not None and column.side is not None
+        return self._sweep("v-e", "A vertex slides on an edge: a v-e patch", column, n, column.side)
+
+    def _edge_vertex(self, n: int) -> Shot:
+        assert self.edge is not None
+        return self._sweep("e-v", "An edge slides over a vertex: an e-v patch", self.edge, n, 0)
+
+    def _sweep(self, kind: str, title: str, column: Column, n: int, side: int) -> Shot:
+        """To and fro along the edge, downwards through the whole range: so the plane never covers what was swept."""
+        low, high = _inside(column)
+
+        def moments(count: int) -> list[Moment]:
+            share = 0.5 - 0.5 * np.cos(5 * math.pi * np.linspace(0, 1, count))
+            angles = np.linspace(high, low, count)
+            return over_column(self.boundary, column, 1 - share if side else share, angles)
+
+        found, link, cut = self._linked(moments, n)
+        shot = Shot(kind, title, _FORMULAS[kind], found)
+        return replace(shot, swept=column, azimuth=self._azimuth(column), link=link, cut=cut)
+
+    def _pillar(self, n: int) -> Shot | None:
+        """A full turn: around the obstacle, or in place, or the robot rests."""
+        if len(self.boundary.scene.obstacles) == 1:
+            title, found = "All contacts: the boundary of the forbidden space", self._around(n) or self._in_place(n)
+        else:
+            title, found = "Several obstacles: all contacts, trimmed", self._in_place(n) or self._around(n)
+        if found is None:
+            here = self.here or self._rest()
+            if here is None:
+                return None
+            found = [here] * n, 0, False
+        moments, link, cut = found
+        level = np.append(np.zeros(link), np.degrees(_eased(0, FULL_TURN, n - link)))
+        shot = Shot("pillar", title, _FORMULAS["pillar"], moments)
+        return replace(shot, level=level, ghost=0.08, link=link, cut=cut)
+
+    def _around(self, n: int) -> tuple[list[Moment], int, bool] | None:
+        if self.corner is None:
+            return None
+        start = _xy(along_helix(self.boundary, self.corner, _inside(self.corner)[:1])[0].pose)
+        ring = Ring(self.boundary, 0.0, start)
+        if ring.gap == math.inf or ring.is_bound or not ring.is_closed:
+            return None
+        dense = max(4 * n, 400)
+        angles = _eased(0, FULL_TURN, dense)
+        motions = (roll(self.boundary, start, angles, turns * ring.perimeter) for turns in (2, 1, 3, 0))
+        motion = next((motion for motion in motions if motion is not None), None)
+        return None if motion is None else self._linked(lambda count: _thinned(motion, count), n)
+
+    def _in_place(self, n: int) -> tuple[list[Moment], int, bool] | None:
+        """Where there is most room for a full turn, if there is any."""
+        space = self._space(1)
+        room = space.grid.min(axis=2)
+        if room.max(initial=0) <= 2 * space.margin:
+            return None
+        i, j = np.unravel_index(int(room.argmax()), room.shape)
+        x, y, _ = space.poses(np.array([i, j, 0])).tolist()
+        return self._linked(lambda count: [Moment(Pose(x, y, float(a))) for a in _eased(0, FULL_TURN, count)], n)
+
+    def _path(self, n: int) -> Shot | None:
+        """From start to goal; if the scene has none, from here to the pose that is farthest."""
+        scene = self.boundary.scene
+        start = self.here or self._rest() if scene.start is None else Moment(scene.start)
+        if start is None:
+            return None
+        way = None if scene.goal is None else self._way_to(_place(start.pose), _place(scene.goal))
+        if way is None:
+            way = route(self._space(1), _place(start.pose), None)
+        if way is None:
+            return None
+        moments, link, cut = self._linked(lambda count: _along(way, count), n)
+        shot = Shot("path", "A path through the free space", _FORMULAS["path"], moments)
+        return replace(shot, ghost=0.08, link=link, cut=cut)
+
+    # what they need
+
+    def _linked(self, moments: Callable[[int], list[Moment]], n: int) -> tuple[list[Moment], int, bool]:
+        """A motion, after a free way from where the robot is; how long that is; and is there a cut instead?"""
+        if self.here is None:
+            return moments(n), 0, False
+        (begin,) = moments(1)
+        here, there = (_place(moment.pose) for moment in (self.here, begin))
+        if np.linalg.norm((here - there) * (1, 1, self.radius)) < 0.02 * self.radius:
+            return moments(n), 0, False
+        way = self._way_between(self.here, begin)
+        if way is None:
+            return moments(n), 0, True
+        length = float(np.linalg.norm(np.diff(way, axis=0) * (1, 1, self.radius), axis=1).sum())
+        link = round(n * min(LINK, max(0.1, 0.4 * length / math.dist(self.window[:2], self.window[2:]))))
+        # both ends are exact already
+        return [*_along(way, link + 2)[1:-1], *moments(n - link)], link, False
+
+    def _way_between(self, start: Moment, goal: Moment) -> Floats | None:
+        """Off the contact, freely, and onto the other contact."""
+        first, last = self._off(start), self._off(goal)
+        if first is None or last is None:
+            return None
+        way = route(self._space(1), first[-1], last[-1])
+        if way is None:
+            return None
+        return np.concatenate((first[:-1], way, last[:-1][::-1]))
+
+    def _off(self, moment: Moment) -> Floats | None:
+        """A straight free way off a contact, to where there is some clearance."""
+        here = _place(moment.pose)
+        if moment.contact is None:
+            return here[None]
+        normal = self._normal(moment)
+        space = self._space(1)
+        for length in (8 * space.margin, 4 * space.margin, 2 * space.margin, space.margin):
+            s = np.linspace(0, length, 40)[:, None]
+            way = here + s * np.append(normal, 0.0)
+            clearance = space.measured(way)
+            # straight off an edge, the clearance grows at first by what is moved
+            if (clearance[1:] > 0.3 * np.minimum(s[1:, 0], space.margin)).all():
+                return np.asarray(way)
+        return None
+
+    def _normal(self, moment: Moment) -> Floats:
+        """The mean of the directions to the free side that the contacts here have."""
+        cut = self.boundary.slice(moment.pose.theta)
+        start, stop = cut.segments[:, 0], cut.segments[:, 1]
+        step = stop - start
+        square = np.maximum((step**2).sum(axis=1), 1e-300)
+        share = np.clip(((_xy(moment.pose) - start) * step).sum(axis=1) / square, 0, 1)
+        gap = np.hypot(*(start + share[:, None] * step - _xy(moment.pose)).T)
+        near = np.flatnonzero(gap < 1e-6 * self.radius + gap.min())
+        normal = np.sum([outward(self.boundary, int(cut.patches[k]), moment.pose.theta) for k in near], axis=0)
+        return np.asarray(normal / max(np.linalg.norm(normal), 1e-12))
+
+    def _way_to(self, start: Floats, goal: Floats) -> Floats | None:
+        ways = (route(self._space(fineness), start, goal) for fineness in FINER)
+        return next((way for way in ways if way is not None), None)
+
+    def _space(self, fineness: int) -> Clearance:
+        if fineness not in self._spaces:
+            self._spaces[fineness] = Clearance(self.boundary, self.window, fineness)
+        return self._spaces[fineness]
+
+    def _rest(self) -> Moment | None:
+        """Where there is most room at theta = 0."""
+        space = self._space(1)
+        i, j = np.unravel_index(int(space.grid[..., 0].argmax()), space.grid.shape[:2])
+        if space.grid[i, j, 0] <= 0:
+            return None
+        x, y, _ = space.poses(np.array([i, j, 0])).tolist()
+        return Moment(Pose(x, y, 0))
+
+    def _kind(self, column: Column) -> str:
+        return {1: "v-e", 2: "e-v", 3: "bound"}[int(self.boundary.patch_kind[column.patch])]
+
+    def _worth(self, column: Column) -> float:
+        """Area, less if it is seen badly, or if there are no lower orientations to begin at."""
+        low, high = column.angles[0], column.angles[-1]
+        _, _, *edge = self.boundary.ruled[column.patch, [0, 1, 2, 3, 6, 7]].tolist()
+        k = len(column.trapezoids) // 2
+        middle = 0.5 * (max(column.angles[k], low) + column.angles[k + 1])
+        lower, upper = self.boundary.limits([column.trapezoids[k]], [middle])
+        area = (high - low) * math.hypot(*edge) * max(0.0, float(upper[0] - lower[0]))
+        seen = math.cos(self._facing(column) - HOME)
+        return area * max(0.05, seen) * (0.5 if low < math.radians(55) else 1.0)
+
+    def _goes_round(self, column: Column) -> bool:
+        (begin,) = along_helix(self.boundary, column, _inside(column)[:1])
+        ring = Ring(self.boundary, begin.pose.theta, _xy(begin.pose))
+        return ring.is_closed and not ring.is_bound
+
+    def _shares_obstacle(self, column: Column) -> bool:
+        obstacle = self.boundary.patches[column.patch].obstacle.polygon
+        return self.corner is None or obstacle == self.boundary.patches[self.corner.patch].obstacle.polygon
+
+    def _facing(self, column: Column) -> float:
+        x, y = outward(self.boundary, column.patch, 0.5 * (column.angles[0] + column.angles[-1])).tolist()
+        return math.atan2(y, x)
+
+    def _azimuth(self, column: Column) -> float:
+        """Half-way between the usual azimuth and that from which a column is seen from in front."""
+        turn = math.remainder(self._facing(column) - HOME, math.tau)
+        return float(np.clip(HOME + 0.7 * turn, AZIMUTHS[0] + 0.1, AZIMUTHS[1] - 0.1))
+
+
+_FORMULAS = {
+    "slices": r"the reference point goes around $O \oplus -R^{\theta}A$",
+    "v-v": r"$q(\phi) = (b_j - R^{\phi} a_i,\ \phi)$",
+    "v-e": r"$S(t, \phi) = (b_j + t\,E_j^O - R^{\phi} a_i,\ \phi)$",
+    "e-v": r"$S(t, \phi) = (b_j - R^{\phi}(a_i + t\,E_i^A),\ \phi)$",
+    "pillar": "v-e and e-v patches meet in v-v helices and e-e lines",
+    "path": "what is above the current orientation is shown as glass",
+}
+
+
+def _place(pose: Pose) -> Floats:
+    return np.array([float(pose.x), float(pose.y), pose.theta])
+
+
+def _xy(pose: Pose) -> tuple[float, float]:
+    return float(pose.x), float(pose.y)
+
+
+def _inside(column: Column) -> tuple[float, float]:
+    """The angles of a column but for a little at both ends, where something else touches as well."""
+    low, high = column.angles[0], column.angles[-1]
+    margin = min(2e-3, 0.01 * (high - low))
+    return low + margin, high - margin
+
+
+def _eased(start: float, stop: float, n: int) -> list[float]:
+    """From start to stop, slowly at both ends."""
+    s = np.linspace(0, 1, n) if n > 1 else np.zeros(n)
+    s = np.where(s < 0.1, s * s / 0.18, np.where(s > 0.9, 1 - (1 - s) ** 2 / 0.18, (s - 0.05) / 0.9))
+    return (start + (stop - start) * s).tolist()  # type: ignore[no-any-return]
+
+
+def _thinned(moments: list[Moment], n: int) -> list[Moment]:
+    return [moments[k] for k in np.rint(np.linspace(0, len(moments) - 1, n)).astype(int)] if n > 1 else moments[:n]
+
+
+def _along(way: Floats, n: int) -> list[Moment]:
+    """Poses at even steps of a polyline, slowly at both ends."""
+    places = _eased(0, len(way) - 1, n)
+    rows = np.stack([np.interp(places, np.arange(len(way)), column) for column in way.T], axis=1)
+    return [Moment(Pose(x, y, min(theta, FULL_TURN))) for x, y, theta in rows.tolist()]

@@ -1,0 +1,434 @@
+"""Films: true poses, continuous motions, captions that cfree.touch agrees with, and files that can be read back."""
+
+import itertools
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+from typer.testing import CliRunner
+
+import cfree
+from cfree.cli import app
+from cfree.describe import is_free
+from cfree.errors import UnsupportedError
+from cfree.features import WORKSPACE
+from cfree.film.frame import Stage, caption
+from cfree.film.moves import Moment, Ring, columns, outward, over_column, roll, surface_of
+from cfree.film.reel import LATER, check_options, shots_of, views
+from cfree.film.route import Clearance, route
+from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
+from cfree.forbidden import Boundary, boundary
+from cfree.io import load_scene
+from cfree.mesh import robot_radius
+from cfree.plot import extent
+from cfree.pose import Pose
+from cfree.scene import Scene
+from cfree.touch import contact_features, is_forbidden
+
+SCENES = Path("examples/scenes")
+FIG9, FIVE = SCENES / "paper_fig9.json", SCENES / "five_convex.json"
+FRAMES = 160
+PAPER = "paper_fig9", "five_convex"
+# non-convex robots and obstacles, a workspace, contact with no room, several parts, nothing to touch
+OTHERS = ("comb_hook", "degenerate_workspace", "sofa_corner", "degenerate_two_part_robot", "degenerate_no_obstacles",
+          "degenerate_own_hole", "degenerate_exact_fit")  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def fig9() -> Boundary:
+    return boundary(load_scene(FIG9))
+
+
+@pytest.fixture(scope="module")
+def five() -> Boundary:
+    return boundary(load_scene(FIVE))
+
+
+@cache
+def tale(name: str) -> tuple[Boundary, list[Shot]]:
+    result = boundary(load_scene(SCENES / f"{name}.json"))
+    return result, storyboard(result, FRAMES)
+
+
+@pytest.fixture(params=["paper_fig9", "five_convex", *OTHERS])
+def told(request: pytest.FixtureRequest) -> tuple[Boundary, list[Shot]]:
+    return tale(request.param)
+
+
+def shot_of(name: str, kind: str) -> Shot:
+    (shot,) = (shot for shot in tale(name)[1] if shot.kind == kind)
+    return shot
+
+
+def places(moments: list[Moment]) -> np.ndarray:
+    return np.array([(float(m.pose.x), float(m.pose.y), m.pose.theta) for m in moments])
+
+
+# what is shown is true
+
+
+def test_every_pose_is_free(told: tuple[Boundary, list[Shot]]) -> None:
+    result, shots = told
+    for shot in shots:
+        assert all(is_free(result.scene, moment.pose) for moment in shot.moments)
+
+
+@pytest.mark.parametrize("name", PAPER)
+def test_no_pose_of_the_papers_scenes_is_forbidden_by_any_obstacle(name: str) -> None:
+    result, shots = tale(name)
+    (robot,) = result.scene.robot
+    for shot in shots:
+        for moment in shot.moments:
+            assert not any(is_forbidden(robot, obstacle, moment.pose) for obstacle in result.scene.obstacles)
+
+
+def test_captions_agree_with_touch(told: tuple[Boundary, list[Shot]]) -> None:
+    result, shots = told
+    scene, seen = result.scene, set()
+    for moment in (moment for shot in shots for moment in shot.moments if moment.contact is not None):
+        contact = moment.contact
+        assert contact is not None
+        if contact.obstacle.polygon == WORKSPACE:
+            continue  # its edges run the other way
+        robot, obstacle = scene.robot[contact.robot.polygon], scene.obstacles[contact.obstacle.polygon]
+        kinds = {"v-e": "VertexEdge", "e-v": "EdgeVertex", "v-v": "VertexVertex"}
+        wanted = kinds[contact.kind], contact.robot.index, contact.obstacle.index
+        found = {(type(c).__name__, c.i, c.j) for c in contact_features(robot, obstacle, moment.pose)}
+        assert wanted in found
+        assert caption(contact).startswith(f"{contact.kind} contact")
+        seen.add(contact.kind)
+    if any(shot.kind == "helix" for shot in shots) and scene.workspace is None:
+        assert seen >= {"v-e", "v-v"}
+
+
+def test_a_film_is_as_long_as_it_should_be(told: tuple[Boundary, list[Shot]]) -> None:
+    result, shots = told
+    has_room = len(result.trapezoids) > 0
+    assert sum(len(shot.moments) for shot in shots) == (FRAMES if has_room else 0)
+
+
+def test_shots_without_contact_have_no_caption(told: tuple[Boundary, list[Shot]]) -> None:
+    _, shots = told
+    for shot in shots:
+        free = shot.moments if shot.kind == "path" else shot.moments[: shot.link]
+        assert all(moment.contact is None for moment in free)
+    assert caption(None) == "no contact"
+
+
+def test_a_helix_keeps_its_vertex_in_place(fig9: Boundary) -> None:
+    shot = shot_of("paper_fig9", "helix")
+    contact = shot.moments[0].contact
+    assert contact is not None
+    (robot,), (obstacle,) = fig9.scene.robot, fig9.scene.obstacles
+    for moment in shot.moments:
+        (point,) = moment.pose.apply_exact([robot.exact_vertices[contact.robot.index]])
+        assert point == obstacle.exact_vertices[contact.obstacle.index]
+
+
+# it moves as a robot does
+
+
+def test_motions_are_continuous(told: tuple[Boundary, list[Shot]]) -> None:
+    result, shots = told
+    x0, y0, x1, y1 = extent(result)
+    scale = (1, 1, robot_radius(result.scene))
+    bound = 48 / FRAMES * math.hypot(x1 - x0, y1 - y0)
+    for shot in shots:
+        if len(shot.moments) > 1:
+            steps = np.linalg.norm(np.diff(places(shot.moments), axis=0) * scale, axis=1)
+            assert steps.max() < bound, shot.kind
+            assert np.abs(np.diff(places(shot.moments)[:, 2])).max() < 1.5  # never through theta = 0
+    for before, after in itertools.pairwise(shots):
+        gap = np.linalg.norm((places(before.moments[-1:]) - places(after.moments[:1])) * scale)
+        assert after.cut or gap < bound, after.kind
+
+
+def test_more_frames_mean_smaller_steps(fig9: Boundary) -> None:
+    def largest(frames: int) -> float:
+        return max(float(np.abs(np.diff(places(shot.moments), axis=0)).max()) for shot in storyboard(fig9, frames))
+
+    assert largest(1200) < 0.25 * largest(200)
+
+
+@pytest.mark.parametrize("name", PAPER)
+def test_the_papers_scenes_are_told_without_cuts(name: str) -> None:
+    _, shots = tale(name)
+    assert [shot.kind for shot in shots] == list(STORYBOARDS["paper"])
+    assert not any(shot.cut for shot in shots)
+    assert sum(len(shot.moments) for shot in shots) == FRAMES
+
+
+def test_a_sweep_goes_through_the_whole_range_and_to_and_fro(fig9: Boundary) -> None:
+    for shot in (shot_of("paper_fig9", "v-e"), shot_of("paper_fig9", "e-v")):
+        assert shot.swept is not None
+        moments = shot.moments[shot.link :]
+        theta = places(moments)[:, 2]
+        low, high = shot.swept.angles[0], shot.swept.angles[-1]
+        assert np.ptp(theta) > 0.97 * (high - low)
+        patch = fig9.patches[shot.swept.patch]
+        assert patch.phi_range == pytest.approx(high - low, abs=1e-9)  # one convex pair: the whole patch
+        p = surface_of(fig9.scene, patch)
+        edge = p(1, theta)[:, :2] - p(0, theta)[:, :2]
+        t = ((places(moments)[:, :2] - p(0, theta)[:, :2]) * edge).sum(axis=1) / (edge**2).sum(axis=1)
+        assert t.min() < 0.05 and t.max() > 0.95
+
+
+def test_the_pillar_is_a_full_turn() -> None:
+    for name in PAPER:
+        shot = shot_of(name, "pillar")
+        theta = places(shot.moments[shot.link :])[:, 2]
+        assert theta[0] < 0.05 and theta[-1] > 6.23 and (np.diff(theta) >= 0).all()
+    shot = shot_of("paper_fig9", "pillar")
+    assert all(moment.contact for moment in shot.moments[shot.link :])  # in contact all the way round
+
+
+# moves
+
+
+def test_a_ring_is_the_slice(fig9: Boundary) -> None:
+    ring = Ring(fig9, 0.7, (-2.0, 0.0))
+    cut = fig9.slice(0.7)
+    (robot,), (obstacle,) = fig9.scene.robot, fig9.scene.obstacles
+    sides = [np.hypot(*np.diff([*p.vertices, p.vertices[0]], axis=0).T).sum() for p in (robot, obstacle)]
+    assert ring.is_closed and not ring.is_bound
+    assert ring.perimeter == pytest.approx(sum(sides))  # per(A) + per(O)
+    for distance in np.linspace(0, ring.perimeter, 40):
+        x, y = float((pose := ring.moment(distance).pose).x), float(pose.y)
+        start, stop = cut.segments[:, 0], cut.segments[:, 1]
+        share = np.clip((((x, y) - start) * (stop - start)).sum(axis=1) / ((stop - start) ** 2).sum(axis=1), 0, 1)
+        assert np.hypot(*(start + share[:, None] * (stop - start) - (x, y)).T).min() < 1e-5
+
+
+def test_rolling_stops_where_contacts_end(five: Boundary) -> None:
+    # along the bounds
+    assert roll(five, (0.0, 0.0), np.linspace(0, 1, 50).tolist(), 10.0) is None
+
+
+def test_columns_tile_the_patches(five: Boundary) -> None:
+    found = columns(five)
+    parts = [part for column in found for part in column.parts]
+    assert len(parts) == len(set(parts))
+    height = sum(column.angles[-1] - column.angles[0] for column in found)
+    table = five.trapezoids
+    chosen = five.patch_kind[table.patch] != 3
+    assert height == pytest.approx(float((table.theta_to - table.theta_from)[chosen].sum()))
+    for column in found[::17]:
+        angles = np.linspace(column.angles[0] + 1e-4, column.angles[-1] - 1e-4, 5)
+        for moment in over_column(five, column, np.linspace(0, 1, 5), angles):
+            assert is_free(five.scene, moment.pose)
+
+
+def test_outward_is_away_from_the_forbidden_space(five: Boundary) -> None:
+    for column in columns(five)[::9]:
+        theta = 0.5 * (column.angles[0] + column.angles[-1])
+        (moment,) = over_column(five, column, [0.5], [theta])
+        x, y = float(moment.pose.x), float(moment.pose.y)
+        dx, dy = 1e-6 * outward(five, column.patch, moment.pose.theta)
+        turn = {"inf": "inf"} if moment.pose.tau is None else moment.pose.tau
+        inside = Pose(x - dx, y - dy, {"tau": turn})
+        assert not is_free(five.scene, inside)
+
+
+# free motions
+
+
+def test_clearance_is_a_lower_bound(five: Boundary) -> None:
+    space = Clearance(five, extent(five))
+    rng = np.random.default_rng(1)
+    poses = rng.uniform((0, 0, 0), (12, 9, math.tau), (400, 3))
+    assert (space.at_least(poses) <= space.measured(poses) + 1e-9).all()
+    assert (space.at_least(poses) > 0).sum() > 50
+
+
+def test_routes_are_free_between_their_points(five: Boundary) -> None:
+    space = Clearance(five, extent(five))
+    start, goal = np.array([1, 1.2, 0.0]), np.array([11, 4.3, math.radians(120)])
+    way = route(space, start, goal)
+    assert way is not None
+    assert np.allclose(way[[0, -1]], [start, goal])
+    assert space.are_free(way, space.measured(way))
+    for a, b in itertools.pairwise(way[:: len(way) // 60]):
+        for s in (0.25, 0.5, 0.75):
+            assert is_free(five.scene, Pose(*((1 - s) * a + s * b).tolist())) or np.linalg.norm(a - b) > 0.5
+
+
+def test_no_route_leads_through_a_wall() -> None:
+    wall = [(4, -1), (5, -1), (5, 9), (4, 9)]
+    result = boundary(Scene([(0, 0), (1, 0), (0, 1)], [wall], bounds=(0, 0, 8, 8)))
+    space = Clearance(result, extent(result))
+    assert route(space, np.array([1.0, 4.0, 0.0]), np.array([7.0, 4.0, 0.0])) is None
+    assert route(space, np.array([1.0, 4.0, 0.0]), np.array([1.0, 1.0, 1.0])) is not None
+
+
+# frames
+
+
+def test_what_is_swept_appears_and_stays(fig9: Boundary) -> None:
+    (shots,) = shots_of([fig9], 120, "paper")
+    stage = Stage(fig9, (160, 90))
+    heights = [(view.shown[:, 1] - view.shown[:, 0]).clip(0).sum() for view, _ in views(stage, shots, 25)]
+    assert heights[0] == 0 and (np.diff(heights) > -1e-9).all()
+    assert heights[-1] == pytest.approx(np.ptp(stage.space.angles, axis=1).sum())
+    swept = next(k for k, (view, _) in enumerate(views(stage, shots, 25)) if view.title == shots[3].title)
+    assert heights[swept] == pytest.approx(math.degrees(shots[2].swept.angles[-1] - shots[2].swept.angles[0]))  # type: ignore[union-attr]
+
+
+def test_the_camera_is_smooth_and_stays_in_its_quadrant(fig9: Boundary) -> None:
+    (shots,) = shots_of([fig9], 750, "paper")
+    azimuth = np.array([view.azimuth for view, _ in views(Stage(fig9, (160, 90)), shots, 25)])
+    assert np.degrees(azimuth).min() > -90 and np.degrees(azimuth).max() < 0
+    assert np.degrees(np.abs(np.diff(azimuth)).max()) < 1.5
+    assert np.degrees(np.abs(np.diff(azimuth, 2)).max()) < 0.2
+
+
+def test_a_frame_has_the_papers_colours_and_its_words(fig9: Boundary) -> None:
+    (shots,) = shots_of([fig9], 120, "paper")
+    stage = Stage(fig9, (640, 360))
+    frames = [view for view, _ in views(stage, shots, 25) if view.title == shots[4].title]
+    image = stage.draw(frames[-1]) / 255
+    red, green, blue = image[..., 0], image[..., 1], image[..., 2]
+    assert image.shape == (360, 640, 3)
+    assert np.count_nonzero((red > 2 * green) & (red > 2 * blue)) > 3000
+    assert np.count_nonzero((green > 1.4 * red) & (green > 1.4 * blue)) > 1500
+    assert np.count_nonzero((blue > 1.8 * red) & (blue > 1.5 * green)) > 100
+    assert stage.caption.get_text() == caption(frames[-1].moment.contact)
+    assert stage.space.tag.get_text() == "θ = 360°"
+    stage.canvas.draw()
+    words = [stage.title, stage.note, stage.caption, stage.pose]
+    boxes = [word.get_window_extent() for word in words]
+    for box, other in itertools.combinations(boxes, 2):
+        assert not box.overlaps(other)
+    for box in boxes:
+        assert box.x0 >= 0 and box.x1 <= 640
+
+
+def test_later_scenes_show_what_is_new(fig9: Boundary, five: Boundary) -> None:
+    first, second = shots_of([fig9, five], 60, "paper")
+    assert [shot.kind for shot in first] == list(STORYBOARDS["paper"])
+    assert [shot.kind for shot in second] == list(LATER)
+    assert sum(len(shot.moments) for shot in [*first, *second]) == 60
+
+
+# files
+
+
+def test_a_gif_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
+    file, shares = tmp_path / "new" / "film.gif", []
+    cfree.save_film([fig9], file, seconds=2, fps=10, size=(320, 180), progress=shares.append)
+    with Image.open(file) as film:
+        assert film.size == (320, 180)
+        assert film.n_frames == 20  # type: ignore[attr-defined]
+        assert film.info["duration"] == 100
+    assert len(shares) == 20 and shares[-1] == 1 and [f.name for f in file.parent.iterdir()] == ["film.gif"]
+
+
+def test_an_mp4_is_read_back(fig9: Boundary, five: Boundary, tmp_path: Path) -> None:
+    av = pytest.importorskip("av")
+    file = tmp_path / "film.mp4"
+    cfree.save_film([fig9, five], file, seconds=2, fps=12, size=(320, 180))
+    with av.open(str(file)) as film:
+        (stream,) = film.streams.video
+        frames = list(film.decode(stream))
+        assert (stream.width, stream.height, stream.average_rate) == (320, 180, 12)
+    assert len(frames) == 24
+    assert np.ptp(frames[5].to_ndarray(format="rgb24")) > 200
+
+
+def test_without_pyav_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setitem(sys.modules, "av", None)
+    with pytest.raises(UnsupportedError, match=r"pip install 'cfree\[video\]'"):
+        cfree.save_film([], tmp_path / "film.mp4")
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"seconds": 0}, "seconds"),
+        ({"seconds": math.nan}, "seconds"),
+        ({"fps": 0}, "frames a second"),
+        ({"size": (321, 180)}, "even numbers"),
+        ({"size": (20, 10)}, "160x90"),
+        ({"name": "opera"}, "choose one of paper, path"),
+        ({"scenes": 0}, "no scene"),
+    ],
+)
+def test_options_without_sense_are_refused(options: dict[str, Any], message: str) -> None:
+    sensible: dict[str, Any] = {"scenes": 1, "seconds": 10.0, "fps": 25, "size": (320, 180), "name": "paper"}
+    check_options(**sensible)
+    with pytest.raises(ValueError, match=message):
+        check_options(**(sensible | options))
+
+
+# the command
+
+
+def run(*arguments: object) -> Any:
+    return CliRunner().invoke(app, ["film", *(str(argument) for argument in arguments)])
+
+
+def test_the_command_makes_a_film(tmp_path: Path) -> None:
+    file = tmp_path / "film.gif"
+    result = run(FIG9, "-o", file, "--seconds", 1, "--fps", 10, "--size", "160x90", "--storyboard", "path")
+    assert result.exit_code == 0, result.output
+    assert str(file) in result.stdout and "160x90" in result.stdout
+    with Image.open(file) as film:
+        assert film.size == (160, 90)
+        assert film.n_frames == 10  # type: ignore[attr-defined]
+
+
+def test_help_has_examples() -> None:
+    result = run("--help")
+    assert result.exit_code == 0
+    assert "cfree film scene.json -o film.mp4" in " ".join(result.stdout.split())
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ([FIG9, "-o", "film.avi"], "name the file .mp4 or .gif"),
+        (["missing.json", "-o", "film.gif"], "missing.json"),
+        ([FIG9, "-o", "film.gif", "--size", "wide"], "1280x720"),
+        ([FIG9, "-o", "film.gif", "--storyboard", "opera"], "paper, path"),
+        ([FIG9, "-o", "film.gif", "--seconds", "0"], "seconds"),
+        ([FIG9, "-o", FIG9], "no film format"),
+        ([SCENES / "degenerate_own_hole.json", "-o", "film.gif"], "nothing to show"),
+    ],
+)
+def test_bad_input_is_one_line_and_exit_code_2(
+    arguments: list[object], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    arguments = [argument.resolve() if isinstance(argument, Path) else argument for argument in arguments]
+    monkeypatch.chdir(tmp_path)
+    result = run(*arguments)
+    assert result.exit_code == 2
+    assert message in result.stderr and result.stderr.count("\n") == 1
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("suffix", ["gif", "mp4"])
+def test_an_interrupt_leaves_no_file(suffix: str, tmp_path: Path) -> None:
+    if suffix == "mp4":
+        pytest.importorskip("av")
+    file = tmp_path / f"film.{suffix}"
+    process = subprocess.Popen(
+        [sys.executable, "-m", "cfree", "film", str(FIG9), "-o", str(file), "--seconds", "60"],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    )  # fmt: skip
+    deadline = time.monotonic() + 30
+    while not list(tmp_path.iterdir()) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert list(tmp_path.iterdir()), "the film was never begun"
+    time.sleep(0.5)
+    os.kill(process.pid, signal.SIGINT)
+    _, errors = process.communicate(timeout=30)
+    assert process.returncode == 130 and "interrupted" in errors
+    assert not list(tmp_path.iterdir())
