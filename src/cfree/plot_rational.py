@@ -43,7 +43,7 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     Returns
     -------
     matplotlib figure
-        The rational model is cut off at |tau| = 4, that is about 152 degrees.
+        The rational model is cut off at tau = -4 and 4, that is about 152 degrees.
 
     Raises
     ------

@@ -68,7 +68,7 @@ def striction_parameter(surface: Surface) -> Fraction | None:
 
     Notes
     -----
-    t_* = <a_i, a_i - a_{i+1}> / E. There |K| is greatest, and so is |H| unless H = 0; both are even in t - t_*.
+    t_* = <a_i, a_i - a_{i+1}> / E. There K and H are farthest from 0, unless H = 0; both are even in t - t_*.
 
     Examples
     --------
@@ -116,7 +116,7 @@ def striction_parameters(ruled: ArrayLike) -> Floats:
 
 
 def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
-    """det(c', r, r') / |r'|^2 of unit rulings r over the directrix c, in length, (...,); NaN for v-e surfaces.
+    """det(c', r, r') / r'.r' of unit rulings r over the directrix c, in length, (...,); NaN for v-e surfaces.
 
     Parameters
     ----------

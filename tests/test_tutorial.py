@@ -1,0 +1,19 @@
+"""The tutorials of the documentation run, and say what they say."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+
+GALLERY = Path(__file__).parents[1] / "examples" / "gallery"
+
+
+def test_the_paper_in_15_minutes(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(GALLERY.parents[1])
+    runpy.run_path(str(GALLERY / "plot_paper_in_15_minutes.py"))
+    said = capsys.readouterr().out
+    assert "'VertexEdge': 9, 'EdgeVertex': 9, 'VertexVertex': 9, 'EdgeEdge': 9" in said
+    assert "Euler number [0]" in said
+    assert said.rstrip().endswith("True")  # the robot's point is at the obstacle's vertex, exactly
