@@ -20,7 +20,7 @@ from mpl_toolkits.mplot3d.art3d import Text3D
 
 from cfree import Polygon, Pose, contact_features, is_contact, is_forbidden, load_scene
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range
-from cfree.figures import FIGURES, curvature, curves, draw, draw_all, plane, poses, ranges, scenes, surfaces
+from cfree.figures import FIGURES, curves, draw, draw_all, plane, poses, ranges, scenes, surfaces
 from cfree.figures.style import FORMATS, PAPER, SAFE, Palette, styled, write
 from cfree.forbidden import boundary
 from cfree.plot3d import ON_TOP, SURFACE
@@ -241,58 +241,6 @@ def test_the_triangles_and_the_five_obstacles_are_those_of_the_examples() -> Non
     assert (fig9.robot, fig9.obstacles) == ((surfaces.ROBOT,), (surfaces.OBSTACLE,))
     assert (scenes.FIVE.robot, scenes.FIVE.obstacles) == (five.robot, five.obstacles)
     assert (scenes.FIVE.start, scenes.FIVE.goal) == (five.start, five.goal)
-
-
-# curvature: the formulas against differences of the surface
-
-
-@pytest.mark.parametrize("t", [0.1, 0.5, 0.83])
-def test_curvatures_are_those_of_the_surface(t: float) -> None:
-    E, F, G, e, f, g = forms(t, 0.7)
-    K, H = (e * g - f * f) / (E * G - F * F), (e * G - 2 * f * F + g * E) / (2 * (E * G - F * F))
-    assert curvature.FORMS.K(t) == pytest.approx(K, rel=1e-6)
-    assert curvature.FORMS.H(t) == pytest.approx(H, rel=1e-6)
-
-
-def test_directions_are_asymptotic_and_principal() -> None:
-    t, phi = curvature.POINT
-    E, F, G, e, f, g = forms(t, phi)
-
-    def normal_curvature(xi: float) -> float:
-        dt, dphi = curvature.FORMS.tangent(t, xi)
-        assert E * dt * dt + 2 * F * dt * dphi + G * dphi * dphi == pytest.approx(1)
-        return e * dt * dt + 2 * f * dt * dphi + g * dphi * dphi
-
-    asymptotic, principal = curvature.FORMS.directions(t)
-    assert [normal_curvature(xi) for xi in asymptotic] == pytest.approx([0, 0], abs=1e-6)
-    values = [normal_curvature(xi) for xi in np.linspace(0, math.pi, 2001)]
-    found = [normal_curvature(xi) for xi in principal]
-    assert sorted(found) == pytest.approx([min(values), max(values)], rel=1e-4)
-    assert found[0] * found[1] == pytest.approx(float(curvature.FORMS.K(t)), rel=1e-5)
-
-
-def test_curvature_is_least_on_the_striction_curve() -> None:
-    t = np.linspace(0, 1, 10_001)
-    assert t[np.argmin(curvature.FORMS.K(t))] == pytest.approx(curvature.FORMS.striction, abs=1e-4)
-
-
-def forms(t: float, phi: float) -> tuple[float, ...]:
-    """E, F, G, e, f, g by differences, with the normal S_t x S_phi."""
-    h = 1e-4
-
-    def S(i: float, j: float) -> np.ndarray:
-        return curvature.SURFACE(t + i * h, phi + j * h)
-
-    first = (S(1, 0) - S(-1, 0)) / (2 * h), (S(0, 1) - S(0, -1)) / (2 * h)
-    second = (
-        (S(1, 0) - 2 * S(0, 0) + S(-1, 0)) / h**2,
-        (S(1, 1) - S(1, -1) - S(-1, 1) + S(-1, -1)) / (4 * h**2),
-        (S(0, 1) - 2 * S(0, 0) + S(0, -1)) / h**2,
-    )
-    normal = np.cross(*first)
-    normal /= np.linalg.norm(normal)
-    u, v = first
-    return float(u @ u), float(u @ v), float(v @ v), *(float(x @ normal) for x in second)
 
 
 # slices

@@ -328,8 +328,8 @@ def to_rational(points: ArrayLike) -> Floats:
     -----
     Measured on random points: there and back, theta returns within one unit in its last place. Near the half turn tau
     is large and has no more digits than pi - theta: back and there, tau returns with a relative error of at most
-    2^-50 over the sine of theta, and as inf from about 1e16 on. Whole turns are lost. One exact pose in both models is a
-    `Pose`, with `tau`, `theta` and `theta_error`.
+    2^-50 over the sine of theta, and as inf from about 1e16 on. Whole turns are lost. One exact pose in both models is
+    a `Pose`, with `tau`, `theta` and `theta_error`.
 
     Examples
     --------

@@ -6,23 +6,21 @@ The formulas of section 4, in the metric dx^2 + dy^2 + dtheta^2: a radian is as 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib import colormaps
-from numpy.typing import ArrayLike, NDArray
 
 from cfree.contact import EdgeVertex
 from cfree.figures.space import curve, draw_frame, new_space, paint, sheet
 from cfree.figures.style import GREY, INK, Palette, new_figure
+from cfree.geometry import local_geometry
 from cfree.polygon import Polygon
+from cfree.rulings import striction_parameter
 from cfree.surface import contact_surface
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-Floats = NDArray[np.float64]
 
 ROBOT = Polygon([(-1, "-0.6"), ("1.4", "-0.4"), ("-0.3", 1)])
 OBSTACLE = Polygon([(0, 0), (2, 1), (1, 2)])
@@ -30,52 +28,6 @@ CONTACT = EdgeVertex(0, 0)
 SURFACE = contact_surface(ROBOT, OBSTACLE, CONTACT)
 
 
-@dataclass(frozen=True, slots=True)
-class Forms:
-    """What section 4 needs of an edge from a_i to a_{i+1}: E and F; G and v depend on t."""
-
-    a: Floats
-    edge: Floats
-
-    @property
-    def E(self) -> float:
-        return float(self.edge @ self.edge)
-
-    @property
-    def F(self) -> float:
-        (x, y), (u, w) = self.a.tolist(), self.edge.tolist()
-        return float(x * w - y * u)
-
-    @property
-    def striction(self) -> float:
-        """t_* of the striction curve, where K is least."""
-        return float(-(self.a @ self.edge) / self.E)
-
-    def v(self, t: ArrayLike) -> Floats:
-        point = self.a + np.asarray(t, float)[..., None] * self.edge
-        G = 1 + (point**2).sum(axis=-1)
-        return np.asarray(np.sqrt(self.E * G - self.F**2))
-
-    def K(self, t: ArrayLike) -> Floats:
-        """Gaussian curvature, Lemma 2."""
-        return np.asarray(-(self.E**2) / self.v(t) ** 4)
-
-    def H(self, t: ArrayLike) -> Floats:
-        """Mean curvature, Lemma 2."""
-        return np.asarray(self.E * self.F / (2 * self.v(t) ** 3))
-
-    def directions(self, t: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Angles xi of the asymptotic and of the principal directions, from S_t towards S_phi."""
-        second = math.atan2(2 * float(self.v(t)), self.F)
-        return (0.0, second), (0.5 * second, 0.5 * second + math.pi / 2)
-
-    def tangent(self, t: float, xi: float) -> tuple[float, float]:
-        """(dt, dphi) of the unit tangent vector at the angle xi."""
-        v, root = float(self.v(t)), math.sqrt(self.E)
-        return math.cos(xi) / root - self.F * math.sin(xi) / (root * v), root * math.sin(xi) / v
-
-
-FORMS = Forms(ROBOT.vertices[0], ROBOT.edge(0))
 POINT = (0.5, math.radians(40))
 REACH = 0.5
 """Length of the directions drawn, on both sides of the point."""
@@ -95,20 +47,18 @@ def directions(palette: Palette) -> Figure:
     ax = new_space(
         figure, (-0.03, -0.4, 1.06, 1.46), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22
     )
-    asymptotic, principal = FORMS.directions(t0)
+    at = local_geometry(SURFACE.ruled, t0, phi0)
     parts = [sheet(points, "#dfe6ee", 1.0)]
     parts += [curve(SURFACE(s, phi), "#9aa4b2", 0.7) for s in np.linspace(t[0], t[-1], 9)]
     parts += [curve(SURFACE(t, angle), "#9aa4b2", 0.7) for angle in np.linspace(phi[0], phi[-1], 9)]
     paint(ax, parts)
     p = SURFACE(t0, phi0)
     for xis, colour, names in (
-        (asymptotic, palette.asymptotic, (r"$\xi = 0$", r"$\xi = \arctan\frac{2v}{F}$")),
-        (principal, palette.principal, (r"$\xi_1$", r"$\xi_2$")),
+        (at.asymptotic_directions, palette.asymptotic, (r"$\xi = 0$", r"$\xi = \arctan\frac{2v}{F}$")),
+        (at.principal_directions, palette.principal, (r"$\xi_1$", r"$\xi_2$")),
     ):
         for xi, name in zip(xis, names, strict=True):
-            dt, dphi = FORMS.tangent(t0, xi)
-            h = 1e-6
-            along = (SURFACE(t0 + h * dt, phi0 + h * dphi) - SURFACE(t0 - h * dt, phi0 - h * dphi)) / (2 * h)
+            along = at.tangent(xi)
             ends = np.stack((p - REACH * along, p + REACH * along)) * (1, 1, 180 / math.pi)
             ax.plot(*ends.T, color=colour, linewidth=2.6, zorder=10, solid_capstyle="round")
             x, y, z = (p + 1.2 * REACH * along) * (1, 1, 180 / math.pi)
@@ -131,18 +81,19 @@ def gaussian(palette: Palette) -> Figure:
     ax = new_space(figure, (-0.02, 0.0, 0.6, 1.0), window, angle_scale=0.7, view=(24.0, -58.0), zoom=1.0)
     draw_frame(ax, range(-5, 6))
     middle = (t[1:] + t[:-1]) / 2
-    K = FORMS.K(middle)
+    K = local_geometry(SURFACE.ruled, middle, 0).gaussian_curvature
     norm, scale = Normalize(-1, 0), colormaps[palette.scale]
     colours = np.tile(scale(norm(K))[:, :3], (len(phi) - 1, 1, 1))
-    star = FORMS.striction
+    star = float(striction_parameter(SURFACE) or 0)
     rim = [curve(SURFACE(s, phi), INK, 1.0) for s in (0.0, 1.0)]
     paint(ax, [sheet(points, colours, 0.7), *rim, curve(SURFACE(star, phi), "white", 2.2)])
     bar = figure.colorbar(ScalarMappable(norm, scale), cax=figure.add_axes((0.6, 0.2, 0.015, 0.6)))
     bar.ax.set_title("$K$", fontsize=13)
     graph = figure.add_axes((0.74, 0.2, 0.23, 0.6))
     fine = np.linspace(0, 1, 401)
-    graph.plot(fine, FORMS.K(fine), color=INK, label="$K(t)$")
-    graph.plot(fine, FORMS.H(fine), color=INK, linestyle="--", label="$H(t)$")
+    at = local_geometry(SURFACE.ruled, fine, 0)
+    graph.plot(fine, at.gaussian_curvature, color=INK, label="$K(t)$")
+    graph.plot(fine, at.mean_curvature, color=INK, linestyle="--", label="$H(t)$")
     graph.axvline(star, color=GREY, linewidth=0.8, linestyle=":")
     graph.text(star, 1.02, "$t_*$", ha="center", va="bottom", transform=graph.get_xaxis_transform())
     graph.set(xlabel="$t$", xlim=(0, 1), ylim=(-1.05, 0.32), yticks=np.arange(-1, 0.3, 0.2))
