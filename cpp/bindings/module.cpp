@@ -5,6 +5,7 @@
 
 #include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
+#include "cfree/mesh.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
 
@@ -141,6 +142,28 @@ NB_MODULE(_core, m) {
                               array_of(std::move(x.twin)), array_of(std::move(x.edge)), array_of(std::move(x.vertex)),
                               array_of(std::move(x.component)), array_of(std::move(x.x)), array_of(std::move(x.y)),
                               array_of(std::move(x.theta)), x.edges, x.vertices, x.components);
+    });
+    m.def("mesh", [](const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy, In1 obstacle_xy,
+                     Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle, Column<int> patch,
+                     Column<std::uint8_t> chart, Column<std::uint64_t> lower, Column<std::uint64_t> upper, Column<int> first,
+                     Column<int> face, Column<std::uint8_t> side, Column<int> twin, Column<int> edge, Column<int> vertex, In1 x,
+                     In1 y, In1 theta, int edges, double error, double angle_scale, double most) {
+        const auto count = [](const auto& column) { return static_cast<cfree::Index>(column.shape(0)); };
+        const cfree::Scene scene{robot, obstacles};
+        const cfree::Patches patches{vector_of(kind), vector_of(patch_robot), vector_of(patch_obstacle)};
+        const cfree::MeshInput input{{scene, robot_xy.data(), obstacle_xy.data()}, patches, patch.data(), chart.data(),
+                                     lower.data(), upper.data(), count(patch), count(face), edges, count(x), first.data(),
+                                     face.data(), twin.data(), edge.data(), vertex.data(), side.data(), x.data(), y.data(),
+                                     theta.data(), error, angle_scale};
+        cfree::MeshEstimate estimate;
+        cfree::MeshArrays found;
+        {
+            nb::gil_scoped_release release;
+            estimate = cfree::estimate_mesh(input);
+            if (estimate.triangles <= most) found = cfree::mesh(input);
+        }
+        return nb::make_tuple(array_of(std::move(found.xyz)), array_of(std::move(found.corners)), array_of(std::move(found.face)),
+                              array_of(std::move(found.seam)), found.least, estimate.coarsest, estimate.triangles);
     });
     nb::class_<cfree::Slicer>(m, "Slicer")
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,

@@ -1,0 +1,380 @@
+#include "cfree/mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "cfree/sheet.hpp"
+#include "cfree/triangulation.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double on_curves = 0.6;   // share of the error that sampled curves may take
+constexpr double most_turn = pi / 4;  // between two samples of a curve
+constexpr double rim_step = 1.25;   // greatest step along the rim of a wide e-v face, in units of the lattice
+constexpr double rim_gap = 0.6;     // least distance of lattice points from the rim, in the same units
+constexpr double golden = std::numbers::phi;
+constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles a unit of w du dphi / error
+
+bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
+
+class Mesher {
+public:
+    explicit Mesher(const MeshInput& x) : in(x) {
+        sheets.reserve(static_cast<std::size_t>(in.faces));
+        for (Index f = 0; f < in.faces; ++f) sheets.push_back(sheet_of(f));
+        order.resize(static_cast<std::size_t>(in.coedges));
+        start.assign(static_cast<std::size_t>(in.edges) + 1, 0);
+        for (Index h = 0; h < in.coedges; ++h) ++start[in.edge[h] + 1];
+        std::partial_sum(start.begin(), start.end(), start.begin());
+        std::vector<Index> place(start.begin(), start.end() - 1);
+        for (Index h = 0; h < in.coedges; ++h) order[place[in.edge[h]]++] = h;
+    }
+
+    MeshEstimate estimate() const;
+    MeshArrays run();
+
+private:
+    // Samples between the ends of an edge, in the direction of its first coedge: all angles of a curve, or shares of a wall.
+    using Samples = std::vector<double>;
+    // Those of a pair of twins: `count` vertices from `begin` on in that direction; a wall at the seam has them twice.
+    struct Run {
+        Index begin = 0, count = 0;
+        bool forwards = true;
+    };
+
+    Sheet sheet_of(Index f) const {
+        const Index p = in.patch[f];
+        const Feature on{static_cast<Kind>(in.patches.kind[p]), in.patches.robot[p], in.patches.obstacle[p]};
+        double from = 0, to = 0;
+        for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
+            const double phi = angle(h);
+            from = h == in.first[f] ? phi : std::min(from, phi), to = h == in.first[f] ? phi : std::max(to, phi);
+        }
+        return {in.places, on, unpacked(in.lower[f]), unpacked(in.upper[f]), from, to, in.error, in.angle_scale};
+    }
+    Index after(Index h) const { return h + 1 == in.first[in.face[h] + 1] ? in.first[in.face[h]] : h + 1; }
+    bool on_seam(Index v) const { return std::abs(in.theta[v] - 0.5 * pi) > pi - 1e-12; }
+    bool is_late(Index h) const { return in.chart[in.face[h]] == 1; }
+    // where the coedge starts, as its face sees it
+    double angle(Index h) const {
+        const Index v = in.vertex[h];
+        return on_seam(v) ? (is_late(h) ? 1.5 * pi : -0.5 * pi) : in.theta[v];
+    }
+    Complex place(Index h) const { return {in.x[in.vertex[h]], in.y[in.vertex[h]]}; }
+    double lattice_unit() const { return 2 * std::sqrt(in.error / in.angle_scale); }
+
+    Samples samples_of_curve(Index edge) const;
+    Samples samples_of_wall(Index edge) const;
+    double rim_limit(double across) const {  // for a step in u or phi, beside a face so wide in the other
+        const double unit = lattice_unit();
+        return std::max(rim_step * unit, 1.6 * unit * unit / std::max(across, 1e-300));
+    }
+    Index vertex_of(Index h);
+    Index add_vertex(double x, double y, double theta);
+    void add_run(Index h, Index first_coedge, const Samples& samples);
+    void triangulate(Index f);
+    void add_lattice(const Sheet& sheet);
+    void improve(Index f, std::size_t most);
+    bool flip_to_close(const Sheet& sheet, Index t);
+    bool is_close(const Sheet& sheet, Index t) const {
+        const auto& c = net.triangles[t].corner;
+        return sheet.is_close({&points[c[0]], &points[c[1]], &points[c[2]]});
+    }
+    Index add_point(const Sheet& sheet, const MeshPoint& p);
+    template <std::size_t n>
+    Index add_middle(const Sheet& sheet, const std::array<Index, n>& of) {
+        double x = 0, y = 0;
+        for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
+        return add_point(sheet, sheet.point(sheet.is_saddle ? in.angle_scale * std::sinh(x - sheet.shear * y) : x, y));
+    }
+    double scale_of_lattice(const Sheet& sheet) const;
+
+    const MeshInput& in;
+    std::vector<Sheet> sheets;
+    std::vector<Index> order, start;  // coedges by edge
+    std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
+    std::vector<Run> runs;            // of each coedge
+    MeshArrays out;
+    // of the face at hand
+    Triangulation net;
+    std::vector<MeshPoint> points;
+};
+
+Mesher::Samples Mesher::samples_of_curve(Index edge) const {
+    const Index first = order[start[edge]];
+    const double a = std::min(angle(first), angle(after(first))), b = std::max(angle(first), angle(after(first)));
+    double limit = most_turn;
+    bool is_digon = false;
+    for (Index k = start[edge]; k < start[edge + 1]; ++k) {
+        const Index f = in.face[order[k]];
+        if (sheets[f].is_saddle) limit = std::min(limit, rim_limit(sheets[f].most_width_u()));
+        is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
+    }
+    const auto bend = [&](double from, double to) {
+        double most = 0;
+        for (Index k = start[edge]; k < start[edge + 1]; ++k)
+            for (const ContactCurve& c : sheets[in.face[order[k]]].curves) most = std::max(most, c.bend(from, to));
+        return most;
+    };
+    Samples samples;
+    for (double at = a; at < b;) {
+        double step = b - at;
+        for (;;) {
+            const double most = std::min(limit, std::sqrt(8 * on_curves * in.error / std::max(bend(at, at + step), 1e-300)));
+            if (step <= most * (1 + 1e-9)) break;
+            step = std::max((b - at) / std::ceil((b - at) / most), 0.5 * step);
+            if (step < 1e-12) break;
+        }
+        if (at + step >= b - 1e-12) break;
+        samples.push_back(at += step);
+    }
+    if (samples.empty() && is_digon) samples.push_back(0.5 * (a + b));
+    return samples;
+}
+
+Mesher::Samples Mesher::samples_of_wall(Index edge) const {
+    const Index first = order[start[edge]];
+    const Complex p = place(first), q = place(after(first));
+    Samples best;
+    for (Index k = start[edge]; k < start[edge + 1]; ++k) {
+        const Sheet& sheet = sheets[in.face[order[k]]];
+        if (!sheet.is_saddle) continue;
+        const double phi = angle(order[k]), s = sheet.position(p, phi), t = sheet.position(q, phi);
+        const double from = sheet.u(s), to = sheet.u(t);
+        const auto steps = static_cast<std::size_t>(std::ceil(std::abs(to - from) / rim_limit(sheet.to - sheet.from)));
+        if (steps <= best.size() + 1) continue;
+        best.clear();
+        for (std::size_t j = 1; j < steps; ++j) {
+            const double u = from + (to - from) * static_cast<double>(j) / static_cast<double>(steps);
+            best.push_back((in.angle_scale * std::sinh(u) - s) / (t - s));
+        }
+    }
+    return best;
+}
+
+Index Mesher::add_vertex(double x, double y, double theta) {
+    out.xyz.insert(out.xyz.end(), {x, y, theta});
+    return static_cast<Index>(out.xyz.size() / 3) - 1;
+}
+
+Index Mesher::vertex_of(Index h) {
+    const Index v = in.vertex[h];
+    Index& id = (on_seam(v) && is_late(h) ? late : early)[v];
+    if (id < 0) id = add_vertex(in.x[v], in.y[v], angle(h));
+    return id;
+}
+
+// Vertices for the samples of a coedge and its twin, which the other coedges of the edge do not share.
+void Mesher::add_run(Index h, Index first_coedge, const Samples& samples) {
+    const Index twin = in.twin[h], count = static_cast<Index>(samples.size());
+    const bool curve = is_curve(in.side[h]);
+    const Complex p = place(first_coedge), q = place(after(first_coedge));
+    const auto forwards = [&](Index x) {
+        if (curve) return in.side[x] == 1;
+        return std::abs(place(x) - p) < std::abs(place(x) - q);
+    };
+    const auto add = [&](Index x) {
+        const Index begin = static_cast<Index>(out.xyz.size() / 3);
+        const Sheet& sheet = sheets[in.face[first_coedge]];
+        for (const double sample : samples) {
+            const Complex z = curve ? sheet.curves[in.side[first_coedge] == 1].at(sample) : p + sample * (q - p);
+            add_vertex(z.real(), z.imag(), curve ? sample : angle(x));
+        }
+        runs[x] = {begin, count, forwards(x)};
+    };
+    add(h);
+    if (!curve && std::abs(angle(h) - angle(twin)) > pi) {
+        add(twin);
+        for (Index k = 0; k < count; ++k) {
+            const Index one = runs[h].begin + k, other = runs[twin].begin + k;
+            out.seam.push_back(is_late(h) ? other : one), out.seam.push_back(is_late(h) ? one : other);
+        }
+    } else runs[twin] = {runs[h].begin, count, forwards(twin)};
+}
+
+Index Mesher::add_point(const Sheet& sheet, const MeshPoint& p) {
+    points.push_back(p);
+    net.places.push_back({sheet.is_saddle ? sheet.u(p.s) + sheet.shear * p.phi : p.s, p.phi});
+    return static_cast<Index>(points.size()) - 1;
+}
+
+// The largest share of the ideal area at which triangles of the lattice fit everywhere.
+double Mesher::scale_of_lattice(const Sheet& sheet) const {
+    const double phi = 0.5 * (sheet.from + sheet.to), unit = lattice_unit();
+    const double low = sheet.u(sheet.position(sheet.curves[0].at(phi), phi)), wide = sheet.width_u(phi);
+    const auto fits = [&](double scale) {
+        for (int k = 0; k <= 16; ++k) {
+            std::array<MeshPoint, 3> p;
+            const double x[] = {0, 1 / golden, golden}, y[] = {0, golden, 1 / golden};
+            for (int c = 0; c < 3; ++c) {
+                const double dy = scale * unit * y[c];
+                const double u = low + wide * k / 16 + scale * unit * (x[c] - 0.76) - sheet.shear * dy;
+                p[c] = {in.angle_scale * std::sinh(u), phi + dy, {0, 0}};
+            }
+            if (!sheet.fits_inside({&p[0], &p[1], &p[2]})) return false;
+        }
+        return true;
+    };
+    double scale = 1;
+    while (scale > 0.5 && !fits(scale)) scale *= 0.985;
+    return scale;
+}
+
+// Points of the lattice of best triangles: edges (1/g, g), (1, -1) and (g, 1/g), g the golden ratio, with |dx dy| = 1.
+void Mesher::add_lattice(const Sheet& sheet) {
+    const double unit = lattice_unit() * scale_of_lattice(sheet);
+    double left = 1e300, right = -1e300;
+    for (const auto& p : net.places) left = std::min(left, p.x), right = std::max(right, p.x);
+    const double x0 = 0.5 * (left + right), y0 = 0.5 * (sheet.from + sheet.to), gap = rim_gap * unit;
+    const double wide = 0.5 * (right - left) / unit, high = 0.5 * (sheet.to - sheet.from) / unit;
+    // the point i (1/g, g) + j (1, -1)
+    const auto rows = static_cast<Index>(std::ceil(wide * golden + high / golden)) + 2;
+    std::vector<std::array<double, 2>> found;
+    for (Index j = -rows; j <= rows; ++j) {
+        const auto from = static_cast<Index>(std::floor((-high + j) / golden)), to = static_cast<Index>(std::ceil((high + j) / golden));
+        for (Index i = from; i <= to; ++i) {
+            const double x = x0 + unit * (i / golden + j), phi = y0 + unit * (i * golden - j);
+            if (x < left || x > right || phi < sheet.from + gap || phi > sheet.to - gap) continue;
+            const double u = x - sheet.shear * phi;
+            const MeshPoint p = sheet.point(in.angle_scale * std::sinh(u), phi);
+            const double low = p.s - p.inward[0], up = p.s + p.inward[1];
+            if (u - sheet.u(low) < gap || sheet.u(up) - u < gap) continue;
+            const Index id = add_point(sheet, p);
+            if (!net.insert(id)) points.pop_back(), net.places.pop_back();
+        }
+    }
+}
+
+// Flips edges and puts points on them until every triangle is close.
+void Mesher::improve(Index f, std::size_t most) {
+    const Sheet& sheet = sheets[f];
+    auto& open = net.changed;
+    open.resize(net.triangles.size());
+    std::iota(open.rbegin(), open.rend(), 0);
+    while (!open.empty()) {
+        const Index t = open.back();
+        open.pop_back();
+        if (is_close(sheet, t) || flip_to_close(sheet, t)) continue;
+        if (net.triangles.size() > most) throw std::logic_error("no triangles close enough on trapezoid " + std::to_string(f));
+        const int k = net.longest_inner_edge(t);
+        const auto& x = net.triangles[t].corner;
+        if (k < 0) net.split_triangle(t, add_middle(sheet, x));
+        else net.split_edge(t, k, add_middle(sheet, std::array{x[(k + 1) % 3], x[(k + 2) % 3]}));
+        net.make_delaunay_around(static_cast<Index>(points.size()) - 1);
+    }
+}
+
+// The other diagonal, if then both triangles are close.
+bool Mesher::flip_to_close(const Sheet& sheet, Index t) {
+    for (int k = 0; k < 3; ++k) {
+        if (!net.can_flip(t, k)) continue;
+        const auto& x = net.triangles[t].corner;
+        const MeshPoint &a = points[x[k]], &b = points[x[(k + 1) % 3]], &c = points[x[(k + 2) % 3]], &d = points[net.opposite(t, k)];
+        if (sheet.is_close({&a, &b, &d}) && sheet.is_close({&d, &c, &a})) return net.flip(t, k), true;
+    }
+    return false;
+}
+
+void Mesher::triangulate(Index f) {
+    const Sheet& sheet = sheets[f];
+    net.places.clear(), net.triangles.clear(), points.clear();
+    std::array<std::vector<Index>, 4> rim;  // without the coedges' last ends
+    for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
+        const auto add = [&](Index vertex, Complex x, double phi) {
+            MeshPoint p = sheet.point(sheet.position(x, phi), phi);
+            if (in.side[h] == 1) p.inward[1] = 0;
+            if (in.side[h] == 3) p.inward[0] = 0;
+            p.vertex = vertex;
+            rim[in.side[h]].push_back(add_point(sheet, p));
+        };
+        add(vertex_of(h), place(h), angle(h));
+        const Run& run = runs[h];
+        for (Index k = 0; k < run.count; ++k) {
+            const Index v = run.begin + (run.forwards ? k : run.count - 1 - k);
+            add(v, {out.xyz[3 * v], out.xyz[3 * v + 1]}, out.xyz[3 * v + 2]);
+        }
+    }
+    // corners: lower left, lower right, upper right, upper left
+    const auto corner = [&](int side) {
+        for (int k = 0; k < 4; ++k)
+            if (!rim[(side + k) % 4].empty()) return rim[(side + k) % 4].front();
+        return Index(-1);
+    };
+    std::vector<Index> left = rim[3], right = rim[1];
+    left.push_back(corner(0)), right.push_back(corner(2));
+    std::reverse(left.begin(), left.end());
+    points[left.front()].inward[0] = points[left.back()].inward[0] = 0;
+    points[right.front()].inward[1] = points[right.back()].inward[1] = 0;
+    net.zip(left, right);
+    const auto split = [&](const std::vector<Index>& wall, Index end) {
+        for (std::size_t k = 1; k < wall.size(); ++k) net.split_rim(wall[k - 1], end, wall[k]);
+    };
+    split(rim[0], corner(1)), split(rim[2], corner(3));
+
+    const double ideal = sheet.is_saddle ? [&] {
+        double sum = 0;  // Simpson's rule
+        const int parts = 16;
+        for (int k = 0; k <= parts; ++k)
+            sum += (k == 0 || k == parts ? 1 : k % 2 ? 4 : 2) * sheet.width_u(sheet.from + k * (sheet.to - sheet.from) / parts);
+        return best_density * in.angle_scale * (sheet.to - sheet.from) * sum / (3 * parts) / in.error;
+    }() : 0;
+    out.least += ideal;
+    if (ideal > 4) {
+        net.make_delaunay();
+        add_lattice(sheet);
+    }
+    improve(f, 100 * points.size() + 10000);
+    for (MeshPoint& p : points) {
+        if (p.vertex >= 0) continue;
+        const Complex x = sheet.at(p.s, p.phi);
+        p.vertex = add_vertex(x.real(), x.imag(), p.phi);
+    }
+    for (const Triangle& t : net.triangles) {
+        for (const Index c : t.corner) out.corners.push_back(points[c].vertex);
+        out.face.push_back(f);
+    }
+}
+
+MeshArrays Mesher::run() {
+    early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
+    runs.resize(static_cast<std::size_t>(in.coedges));
+    for (Index e = 0; e < in.edges; ++e) {
+        const Index first = order[start[e]];
+        const Samples samples = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_wall(e);
+        if (samples.empty()) continue;
+        for (Index k = start[e]; k < start[e + 1]; ++k)
+            if (order[k] < in.twin[order[k]]) add_run(order[k], first, samples);
+    }
+    for (Index f = 0; f < in.faces; ++f) triangulate(f);
+    for (Index v = 0; v < in.vertices; ++v)
+        if (early[v] >= 0 && late[v] >= 0) out.seam.push_back(early[v]), out.seam.push_back(late[v]);
+    return std::move(out);
+}
+
+MeshEstimate Mesher::estimate() const {
+    MeshEstimate result{static_cast<double>(in.coedges), 0};
+    for (Index f = 0; f < in.faces; ++f) {
+        const Sheet& sheet = sheets[f];
+        const double high = sheet.to - sheet.from;
+        if (sheet.is_saddle) result.triangles += 1.1 * best_density * in.angle_scale * high * sheet.most_width_u() / in.error;
+        for (const ContactCurve& c : sheet.curves)
+            result.triangles += high * std::sqrt(c.bend(0.75 * sheet.from + 0.25 * sheet.to, 0.25 * sheet.from + 0.75 * sheet.to) /
+                                                 (8 * on_curves * in.error));
+    }
+    result.triangles += result.coarsest;
+    return result;
+}
+
+}  // namespace
+
+MeshEstimate estimate_mesh(const MeshInput& input) { return Mesher(input).estimate(); }
+MeshArrays mesh(const MeshInput& input) { return Mesher(input).run(); }
+
+}  // namespace cfree
