@@ -17,8 +17,9 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double on_curves = 0.6;   // share of the error that sampled curves may take
 constexpr double most_turn = pi / 4;  // between two samples of a curve
-constexpr double rim_step = 1.25;   // greatest step along the rim of a wide e-v face, in units of the lattice
-constexpr double rim_gap = 0.6;     // least distance of lattice points from the rim, in the same units
+constexpr double rim_step = 2;   // greatest step along the rim of a wide e-v face, in units of the lattice
+constexpr double rim_gap = 0.2;     // least distance of lattice points from the rim, in the same units
+constexpr double stretch = 1.4;
 constexpr double golden = std::numbers::phi;
 constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles a unit of w du dphi / error
 
@@ -72,10 +73,12 @@ private:
 
     Samples samples_of_curve(Index edge) const;
     Samples samples_of_wall(Index edge) const;
-    double rim_limit(double across) const {  // for a step in u or phi, beside a face so wide in the other
+    double rim_limit(double across, double unit_along) const {  // for a step in u or phi, beside a face so wide in the other
         const double unit = lattice_unit();
-        return std::max(rim_step * unit, 1.6 * unit * unit / std::max(across, 1e-300));
+        return std::max(rim_step * unit * unit_along, 1.6 * unit * unit / std::max(across, 1e-300));
     }
+    std::vector<Samples> samples_of_edges() const;
+    bool part_equal_edges();
     Index vertex_of(Index h);
     Index add_vertex(double x, double y, double theta);
     void add_run(Index h, Index first_coedge, const Samples& samples);
@@ -83,6 +86,7 @@ private:
     void add_lattice(const Sheet& sheet);
     void improve(Index f, std::size_t most);
     bool flip_to_close(const Sheet& sheet, Index t);
+    void simplify(const Sheet& sheet, Index rim, Index lattice);
     bool is_close(const Sheet& sheet, Index t) const {
         const auto& c = net.triangles[t].corner;
         return sheet.is_close({&points[c[0]], &points[c[1]], &points[c[2]]});
@@ -92,7 +96,8 @@ private:
     Index add_middle(const Sheet& sheet, const std::array<Index, n>& of) {
         double x = 0, y = 0;
         for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
-        return add_point(sheet, sheet.point(sheet.is_saddle ? in.angle_scale * std::sinh(x - sheet.shear * y) : x, y));
+        y /= stretch;
+        return add_point(sheet, sheet.point(sheet.is_saddle ? in.angle_scale * std::sinh(stretch * x - sheet.shear * y) : x, y));
     }
     double scale_of_lattice(const Sheet& sheet) const;
 
@@ -102,9 +107,11 @@ private:
     std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
     std::vector<Run> runs;            // of each coedge
     MeshArrays out;
+    Index rim_vertices = 0;
     // of the face at hand
     Triangulation net;
     std::vector<MeshPoint> points;
+    Triangulation::Star star;
 };
 
 Mesher::Samples Mesher::samples_of_curve(Index edge) const {
@@ -114,7 +121,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     bool is_digon = false;
     for (Index k = start[edge]; k < start[edge + 1]; ++k) {
         const Index f = in.face[order[k]];
-        if (sheets[f].is_saddle) limit = std::min(limit, rim_limit(sheets[f].most_width_u()));
+        if (sheets[f].is_saddle) limit = std::min(limit, rim_limit(sheets[f].most_width_u(), 1 / stretch));
         is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
     }
     const auto bend = [&](double from, double to) {
@@ -148,7 +155,7 @@ Mesher::Samples Mesher::samples_of_wall(Index edge) const {
         if (!sheet.is_saddle) continue;
         const double phi = angle(order[k]), s = sheet.position(p, phi), t = sheet.position(q, phi);
         const double from = sheet.u(s), to = sheet.u(t);
-        const auto steps = static_cast<std::size_t>(std::ceil(std::abs(to - from) / rim_limit(sheet.to - sheet.from)));
+        const auto steps = static_cast<std::size_t>(std::ceil(std::abs(to - from) / rim_limit(sheet.to - sheet.from, stretch)));
         if (steps <= best.size() + 1) continue;
         best.clear();
         for (std::size_t j = 1; j < steps; ++j) {
@@ -201,7 +208,7 @@ void Mesher::add_run(Index h, Index first_coedge, const Samples& samples) {
 
 Index Mesher::add_point(const Sheet& sheet, const MeshPoint& p) {
     points.push_back(p);
-    net.places.push_back({sheet.is_saddle ? sheet.u(p.s) + sheet.shear * p.phi : p.s, p.phi});
+    net.places.push_back({sheet.is_saddle ? (sheet.u(p.s) + sheet.shear * p.phi) / stretch : p.s, stretch * p.phi});
     return static_cast<Index>(points.size()) - 1;
 }
 
@@ -214,8 +221,8 @@ double Mesher::scale_of_lattice(const Sheet& sheet) const {
             std::array<MeshPoint, 3> p;
             const double x[] = {0, 1 / golden, golden}, y[] = {0, golden, 1 / golden};
             for (int c = 0; c < 3; ++c) {
-                const double dy = scale * unit * y[c];
-                const double u = low + wide * k / 16 + scale * unit * (x[c] - 0.76) - sheet.shear * dy;
+                const double dy = scale * unit * y[c] / stretch;
+                const double u = low + wide * k / 16 + stretch * scale * unit * (x[c] - 0.76) - sheet.shear * dy;
                 p[c] = {in.angle_scale * std::sinh(u), phi + dy, {0, 0}};
             }
             if (!sheet.fits_inside({&p[0], &p[1], &p[2]})) return false;
@@ -232,20 +239,20 @@ void Mesher::add_lattice(const Sheet& sheet) {
     const double unit = lattice_unit() * scale_of_lattice(sheet);
     double left = 1e300, right = -1e300;
     for (const auto& p : net.places) left = std::min(left, p.x), right = std::max(right, p.x);
-    const double x0 = 0.5 * (left + right), y0 = 0.5 * (sheet.from + sheet.to), gap = rim_gap * unit;
-    const double wide = 0.5 * (right - left) / unit, high = 0.5 * (sheet.to - sheet.from) / unit;
+    const double x0 = 0.5 * (left + right), y0 = 0.5 * (sheet.from + sheet.to) * stretch, gap = rim_gap * unit;
+    const double wide = 0.5 * (right - left) / unit, high = 0.5 * (sheet.to - sheet.from) * stretch / unit;
     // the point i (1/g, g) + j (1, -1)
     const auto rows = static_cast<Index>(std::ceil(wide * golden + high / golden)) + 2;
     std::vector<std::array<double, 2>> found;
     for (Index j = -rows; j <= rows; ++j) {
         const auto from = static_cast<Index>(std::floor((-high + j) / golden)), to = static_cast<Index>(std::ceil((high + j) / golden));
         for (Index i = from; i <= to; ++i) {
-            const double x = x0 + unit * (i / golden + j), phi = y0 + unit * (i * golden - j);
-            if (x < left || x > right || phi < sheet.from + gap || phi > sheet.to - gap) continue;
-            const double u = x - sheet.shear * phi;
+            const double x = x0 + unit * (i / golden + j), phi = (y0 + unit * (i * golden - j)) / stretch;
+            if (x < left || x > right || phi < sheet.from + gap / stretch || phi > sheet.to - gap / stretch) continue;
+            const double u = stretch * x - sheet.shear * phi;
             const MeshPoint p = sheet.point(in.angle_scale * std::sinh(u), phi);
             const double low = p.s - p.inward[0], up = p.s + p.inward[1];
-            if (u - sheet.u(low) < gap || sheet.u(up) - u < gap) continue;
+            if (u - sheet.u(low) < gap * stretch || sheet.u(up) - u < gap * stretch) continue;
             const Index id = add_point(sheet, p);
             if (!net.insert(id)) points.pop_back(), net.places.pop_back();
         }
@@ -280,6 +287,44 @@ bool Mesher::flip_to_close(const Sheet& sheet, Index t) {
         if (sheet.is_close({&a, &b, &d}) && sheet.is_close({&d, &c, &a})) return net.flip(t, k), true;
     }
     return false;
+}
+
+// Takes out inner points that are not needed; those amid lattice points are.
+void Mesher::simplify(const Sheet& sheet, Index rim, Index lattice) {
+    std::vector<Index> at(points.size(), -1);
+    for (Index t = 0; t < static_cast<Index>(net.triangles.size()); ++t)
+        for (const Index c : net.triangles[t].corner) at[c] = t;
+    const auto drop = [&](Index p) {
+        for (std::size_t from = 0; from < star.link.size(); ++from) {
+            const std::size_t n = star.link.size();
+            const auto is_fine = [&](std::size_t k) {
+                const Index b = star.link[(from + k) % n], c = star.link[(from + k + 1) % n];
+                return sheet.is_close({&points[star.link[from]], &points[b], &points[c]});
+            };
+            bool fine = net.can_fan(star, from);
+            for (std::size_t k = 1; fine && k + 1 < n; ++k) fine = is_fine(k);
+            if (!fine) continue;
+            net.fan(star, from);
+            for (std::size_t k = 1; k + 1 < n; ++k) {
+                const Index t = star.triangles[(from + k) % n];
+                for (const Index c : net.triangles[t].corner) at[c] = t;
+            }
+            at[p] = -1;
+            return true;
+        }
+        return false;
+    };
+    for (bool again = true; again;) {
+        again = false;
+        for (auto p = static_cast<Index>(points.size()) - 1; p >= rim; --p) {
+            if (at[p] < 0) continue;
+            net.star_of(p, at[p], star);
+            const auto is_plain = [&](Index q) { return q >= rim && q < lattice; };
+            if (is_plain(p) && std::all_of(star.link.begin(), star.link.end(), is_plain)) continue;
+            again = drop(p) || again;
+        }
+    }
+    net.sweep_dropped();
 }
 
 void Mesher::triangulate(Index f) {
@@ -326,33 +371,97 @@ void Mesher::triangulate(Index f) {
         return best_density * in.angle_scale * (sheet.to - sheet.from) * sum / (3 * parts) / in.error;
     }() : 0;
     out.least += ideal;
+    const auto rim_end = static_cast<Index>(points.size());
     if (ideal > 4) {
         net.make_delaunay();
         add_lattice(sheet);
     }
+    const auto lattice_end = static_cast<Index>(points.size());
     improve(f, 100 * points.size() + 10000);
-    for (MeshPoint& p : points) {
-        if (p.vertex >= 0) continue;
-        const Complex x = sheet.at(p.s, p.phi);
-        p.vertex = add_vertex(x.real(), x.imag(), p.phi);
-    }
+    if (static_cast<Index>(points.size()) > rim_end) simplify(sheet, rim_end, lattice_end);
     for (const Triangle& t : net.triangles) {
-        for (const Index c : t.corner) out.corners.push_back(points[c].vertex);
+        for (const Index c : t.corner) {
+            MeshPoint& p = points[c];
+            if (p.vertex < 0) {
+                const Complex x = sheet.at(p.s, p.phi);
+                p.vertex = add_vertex(x.real(), x.imag(), p.phi);
+            }
+            out.corners.push_back(p.vertex);
+        }
         out.face.push_back(f);
     }
+}
+
+// Samples of all edges; of those between the same two vertices, without samples, all but one get one.
+std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
+    std::vector<Samples> samples(static_cast<std::size_t>(in.edges));
+    std::vector<std::array<Index, 3>> plain;
+    for (Index e = 0; e < in.edges; ++e) {
+        const Index first = order[start[e]];
+        samples[e] = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_wall(e);
+        for (Index k = start[e]; samples[e].empty() && k < start[e + 1]; ++k) {
+            const auto [p, q] = std::minmax(in.vertex[order[k]], in.vertex[after(order[k])]);
+            if (order[k] < in.twin[order[k]]) plain.push_back({p, q, e});
+        }
+    }
+    std::sort(plain.begin(), plain.end());
+    for (std::size_t k = 1; k < plain.size(); ++k) {
+        const auto &x = plain[k - 1], &y = plain[k];
+        const Index first = order[start[y[2]]];
+        if (x[0] == y[0] && x[1] == y[1] && samples[y[2]].empty())
+            samples[y[2]].push_back(is_curve(in.side[first]) ? 0.5 * (angle(first) + angle(after(first))) : 0.5);
+    }
+    return samples;
+}
+
+// Two faces may have inner edges between the same two points of their rims: such edges are cut in the middle.
+bool Mesher::part_equal_edges() {
+    struct Edge {
+        Index p, q, triangle, face;
+        auto key() const { return std::array{p, q, face}; }
+    };
+    std::vector<Edge> found;
+    const auto count = static_cast<Index>(out.face.size());
+    for (Index t = 0; t < count; ++t)
+        for (int k = 0; k < 3; ++k) {
+            const auto [p, q] = std::minmax(out.corners[3 * t + k], out.corners[3 * t + (k + 1) % 3]);
+            if (q < rim_vertices) found.push_back({p, q, t, out.face[t]});
+        }
+    std::sort(found.begin(), found.end(), [](const Edge& x, const Edge& y) { return x.key() < y.key(); });
+    std::vector<char> is_cut(static_cast<std::size_t>(count), 0);
+    bool any = false;
+    for (std::size_t begin = 0, end; begin < found.size(); begin = end) {
+        for (end = begin; end < found.size() && found[end].p == found[begin].p && found[end].q == found[begin].q;) ++end;
+        for (std::size_t k = begin; end - begin > 2 && k + 1 < end; ++k) {
+            const Edge &x = found[k], &y = found[k + 1];
+            if (x.face != y.face || is_cut[x.triangle] || is_cut[y.triangle]) continue;
+            const auto middle = [&](int c) { return 0.5 * (out.xyz[3 * x.p + c] + out.xyz[3 * x.q + c]); };
+            const Index m = add_vertex(middle(0), middle(1), middle(2));
+            for (const Index t : {x.triangle, y.triangle}) {
+                is_cut[t] = 1, any = true;
+                int c = 0;  // the corner off the edge
+                while (out.corners[3 * t + c] == x.p || out.corners[3 * t + c] == x.q) ++c;
+                const Index a = out.corners[3 * t + c], p = out.corners[3 * t + (c + 1) % 3], q = out.corners[3 * t + (c + 2) % 3];
+                out.corners[3 * t] = a, out.corners[3 * t + 1] = p, out.corners[3 * t + 2] = m;
+                out.corners.insert(out.corners.end(), {a, m, q});
+                out.face.push_back(x.face);
+            }
+        }
+    }
+    return any;
 }
 
 MeshArrays Mesher::run() {
     early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
     runs.resize(static_cast<std::size_t>(in.coedges));
-    for (Index e = 0; e < in.edges; ++e) {
-        const Index first = order[start[e]];
-        const Samples samples = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_wall(e);
-        if (samples.empty()) continue;
-        for (Index k = start[e]; k < start[e + 1]; ++k)
-            if (order[k] < in.twin[order[k]]) add_run(order[k], first, samples);
-    }
+    const auto samples = samples_of_edges();
+    for (Index e = 0; e < in.edges; ++e)
+        for (Index k = start[e]; !samples[e].empty() && k < start[e + 1]; ++k)
+            if (order[k] < in.twin[order[k]]) add_run(order[k], order[start[e]], samples[e]);
+    for (Index h = 0; h < in.coedges; ++h) vertex_of(h);
+    rim_vertices = static_cast<Index>(out.xyz.size() / 3);
     for (Index f = 0; f < in.faces; ++f) triangulate(f);
+    while (part_equal_edges()) {}
     for (Index v = 0; v < in.vertices; ++v)
         if (early[v] >= 0 && late[v] >= 0) out.seam.push_back(early[v]), out.seam.push_back(late[v]);
     return std::move(out);

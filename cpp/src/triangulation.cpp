@@ -199,4 +199,47 @@ bool Triangulation::insert(Index p) {
     return true;
 }
 
+void Triangulation::star_of(Index p, Index t, Star& star) const {
+    star.triangles.clear(), star.link.clear();
+    const Index first = t;
+    do {
+        const auto& x = triangles[t].corner;
+        const int k = x[0] == p ? 0 : x[1] == p ? 1 : 2;
+        star.triangles.push_back(t), star.link.push_back(x[next(k)]);
+        t = triangles[t].across[next(k)];
+    } while (t != first);
+}
+
+bool Triangulation::can_fan(const Star& star, std::size_t from) const {
+    const std::size_t n = star.link.size();
+    for (std::size_t k = 1; k + 1 < n; ++k) {
+        const Index a = star.link[from], b = star.link[(from + k) % n], c = star.link[(from + k + 1) % n];
+        if (area(a, b, c) <= flat * std::max({square_distance(a, b), square_distance(b, c), square_distance(c, a)})) return false;
+    }
+    return true;
+}
+
+void Triangulation::fan(const Star& star, std::size_t from) {
+    const std::size_t n = star.link.size();
+    const auto link = [&](std::size_t k) { return star.link[(from + k) % n]; };
+    const auto slot = [&](std::size_t k) { return star.triangles[(from + k) % n]; };
+    const Index first = slot(0), last_one = slot(n - 1);
+    std::vector<Index> outer(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto& x = triangles[slot(k)];
+        const int m = x.corner[0] == link(k) ? 0 : x.corner[1] == link(k) ? 1 : 2;
+        outer[k] = x.across[previous(m)];  // opposite the star's middle, which comes before link(k)
+    }
+    for (std::size_t k = 1; k + 1 < n; ++k)
+        triangles[slot(k)] = {{link(0), link(k), link(k + 1)},
+                              {outer[k], k + 2 == n ? outer[n - 1] : slot(k + 1), k == 1 ? outer[0] : slot(k - 1)}};
+    replace_neighbour(outer[0], first, slot(1));
+    replace_neighbour(outer[n - 1], last_one, slot(n - 2));
+    for (const Index t : {first, last_one}) triangles[t].corner[0] = -1;
+}
+
+void Triangulation::sweep_dropped() {
+    std::erase_if(triangles, [](const Triangle& t) { return t.corner[0] < 0; });  // who is across is no longer known
+}
+
 }  // namespace cfree

@@ -36,6 +36,15 @@ public:
     void make_delaunay();
     int longest_inner_edge(Index t) const;  // by the corner opposite, -1 if all are of the rim
 
+    // Around an inner point, counter-clockwise: triangle k has the corners p, link[k] and the next of the link.
+    struct Star {
+        std::vector<Index> triangles, link;
+    };
+    void star_of(Index p, Index t, Star& star) const;
+    bool can_fan(const Star& star, std::size_t from) const;  // are triangles from link[from] to the rest of the link upright?
+    void fan(const Star& star, std::size_t from);            // in place of the star; the first and the last of it are dropped
+    void sweep_dropped();
+
     bool can_flip(Index t, int k) const;  // to the other diagonal of a convex quadrilateral
     void flip(Index t, int k);
     Index opposite(Index t, int k) const;  // the corner across the edge
