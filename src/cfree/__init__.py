@@ -40,7 +40,6 @@ if TYPE_CHECKING:
     from cfree.io import load_polygons as load_polygons
     from cfree.io import load_scene as load_scene
     from cfree.mesh import Mesh as Mesh
-    from cfree.mesh import boundary_mesh as boundary_mesh
     from cfree.mesh import save_mesh as save_mesh
     from cfree.plot import plot_boundary as plot_boundary
     from cfree.plot import plot_overview as plot_overview
@@ -105,7 +104,7 @@ _HOMES = {
     "forbidden": "Boundary boundary",
     "geometry": "LocalGeometry local_geometry",
     "io": "load_polygons load_scene",
-    "mesh": "Mesh boundary_mesh save_mesh",
+    "mesh": "Mesh save_mesh",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
     "plot_rational": "plot_models",
     "plot_unrolled": "plot_development",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import math
 import os
 import sys
 from collections.abc import Callable, Iterator
@@ -114,6 +115,15 @@ def boundary(
         Path | None,
         typer.Option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.", show_default=False),
     ] = None,
+    error: Annotated[
+        float | None,
+        typer.Option(
+            "--error",
+            metavar="E",
+            help="Greatest distance of the mesh to the boundary.",
+            show_default="robot's radius / 100",
+        ),
+    ] = None,
     threads: ThreadsOption = None,
     max_seconds: SecondsOption = None,
     max_memory: MemoryOption = None,
@@ -124,6 +134,8 @@ def boundary(
     If a limit stops it, what was done so far is written, marked as incomplete, and the exit code is 3.
     """
     with _one_line_faults():
+        if error is not None and not (mesh and 0 < error < math.inf):
+            raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
         written = _check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
         result = _boundary_of(scene, threads, max_seconds, None if max_memory is None else _read_size(max_memory))
         if output:
@@ -132,9 +144,9 @@ def boundary(
             kept = f"; what was done is in {output}" if output else ""
             _fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
         if mesh:
-            from cfree.mesh import boundary_mesh, save_mesh
+            from cfree.mesh import robot_radius, save_mesh
 
-            save_mesh(boundary_mesh(result), mesh)
+            save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
         if picture:
             from cfree.plot import plot_overview, save_figure
 

@@ -27,6 +27,7 @@ from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, Iso
 
 if TYPE_CHECKING:
     from cfree.cell_complex import CellComplex
+    from cfree.mesh import Mesh
     from cfree.slice import Slice
 
 VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
@@ -377,6 +378,46 @@ class Boundary:
 
         self.require_complete()
         return Slice(self, theta)
+
+    def mesh(self, error: float, *, angle_scale: float | None = None) -> Mesh:
+        """Closed triangle meshes within a stated distance of the boundary.
+
+        Parameters
+        ----------
+        error : float
+            Greatest distance of a point of a triangle to the boundary, in the scene's unit of length.
+        angle_scale : float, optional
+            Length per radian, w below; the robot's radius about its reference point if not given.
+
+        Returns
+        -------
+        Mesh
+
+        Raises
+        ------
+        ValueError
+            If `error` or `angle_scale` is not positive and finite.
+        UnsupportedError
+            If there would be more than 10 million triangles; the message names an error that is possible.
+
+        Notes
+        -----
+        Distances are those of dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory.md, "Meshes", for exact
+        arithmetic; points are computed in doubles. Time is about linear in the triangles. Isolated parts have none.
+
+        Examples
+        --------
+        >>> triangles = Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
+        >>> mesh = boundary(triangles).mesh(0.01)
+        >>> mesh.error, mesh.angle_scale
+        (0.01, 2.0)
+        >>> len(mesh.vertices) - len(mesh.seam) - len(mesh.triangles) // 2   # V - E + F of a torus
+        0
+        """
+        from cfree.mesh import triangulated
+
+        self.require_complete()
+        return triangulated(self, error, angle_scale)
 
     @cached_property
     def slicer(self) -> Any:

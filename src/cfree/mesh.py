@@ -1,17 +1,10 @@
-r"""Triangle meshes of the boundary, and files of them.
+"""Triangle meshes of the boundary with a proved bound of their error, and files of them.
 
-Every trapezoid gets a plain grid: rows of constant theta, and as many columns as the twist of the surface asks for
-(one if it is v-e: those do not twist). Two triangles a cell, counter-clockwise as seen from the free side, to which
-S_t x S_phi points; the diagonals alternate, so that what they add on one side of the surface they take on the other.
+Every closed surface of the boundary becomes a closed mesh: faces of the cell complex share the points on their common
+edges. Angles become heights: z = angle_scale * theta, theta from -pi/2 to 3 pi/2, where the charts end; there the
+mesh is cut, and `Mesh.seam` lists which vertices at the bottom and at the top are one pose.
 
-    theta + step   o-------o-------o
-                   |     / | \     |
-                   |   /   |   \   |
-                   | /     |     \ |
-    theta          o-------o-------o    t ->
-
-Angles become heights: z = angle_scale * theta, theta in [0, 2 pi]. Neighbouring trapezoids do not share vertices: the
-mesh is for the eye, and carries no bound of its error.
+The bound and the choice of the points are in docs/theory.md, "Meshes"; the work is done in `mesh.cpp`.
 """
 
 from __future__ import annotations
@@ -25,50 +18,74 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.errors import UnsupportedError
+from cfree.errors import InvariantError, UnsupportedError
 from cfree.files import replacing
-from cfree.strips import Strips, step_for, strips
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.scene import Scene
 
 Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+Ints = NDArray[np.int32]
 
 KINDS = {1: "v-e", 2: "e-v", 3: "bound"}
 COLOURS = {1: "#d7301f", 2: "#3a9a3a", 3: "#b4b9c1"}
 """Colour of each kind of patch: the paper's red and green, and light grey for the bounds."""
 
 MESH_SUFFIXES = (".glb", ".ply", ".obj", ".stl")
-STEPS = math.radians(2), math.radians(10)
-ROWS = 200_000  # the step is as small as this many rows allow
-TWIST = 4
-"""How many steps the normal may turn across a cell."""
+MOST_TRIANGLES = 10_000_000
+"""Larger meshes are refused: they would take some gigabytes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Mesh:
-    """Triangles of a boundary, counter-clockwise as seen from the free side.
+    """Closed surfaces of triangles, counter-clockwise as seen from the free side; see `Boundary.mesh`.
 
     Attributes
     ----------
     vertices : (n, 3) float64
-        x, y, angle_scale * theta, in the scene's unit of length.
-    triangles : (m, 3) int64
-    patch : (m,) int64
+        x, y, angle_scale * theta, in the scene's unit of length; theta from -pi/2 to 3 pi/2.
+    triangles : (m, 3) int32
+    trapezoid : (m,) int32
+        Trapezoid of each triangle.
+    patch : (m,) int32
         Patch of each triangle.
     kind : (m,) uint8
         Kind of that patch: 1 v-e, 2 e-v, 3 bound.
+    seam : (k, 2) int32
+        Vertices at theta = -pi/2 and at 3 pi/2 that are the same pose.
+    error : float
+        No point of a triangle is farther from the boundary.
     angle_scale : float
         Length per radian.
+    least : float
+        Triangles that the best known density asks for on the e-v patches.
     """
 
     vertices: Floats
     triangles: Ints
+    trapezoid: Ints
     patch: Ints
     kind: NDArray[np.uint8]
+    seam: Ints
+    error: float
     angle_scale: float
+    least: float
+
+    @property
+    def ratio(self) -> float:
+        """Triangles on e-v patches over those of the best known density; NaN if there is no such patch.
+
+        The density (sqrt(3)/4) sqrt(-K) / error of Atariah, Rote and Wintraecken holds for small errors: 1.033 is what
+        vertices on the surface can reach, and small patches need more for their rims.
+        """
+        return int(np.count_nonzero(self.kind == 2)) / self.least if self.least > 0 else math.nan
+
+    @property
+    def normals(self) -> Floats:
+        """Unit normals of the triangles, (m, 3), to the free side; 0 for triangles without area."""
+        a, b, c = (self.vertices[self.triangles[:, k]] for k in range(3))
+        return _unit(np.cross(b - a, c - a))
 
     @property
     def colours(self) -> NDArray[np.uint8]:
@@ -79,73 +96,50 @@ class Mesh:
         return table[self.kind]
 
 
-def boundary_mesh(boundary: Boundary, *, step: float | None = None, angle_scale: float | None = None) -> Mesh:
-    """Mesh of all patches.
+def triangulated(boundary: Boundary, error: float, angle_scale: float | None) -> Mesh:
+    """The mesh of `Boundary.mesh`."""
+    from cfree import _core
 
-    Parameters
-    ----------
-    boundary : Boundary
-    step : float, radians, optional
-        Greatest height of a cell; if not given, 2 degrees, or up to 10 where the boundary is large.
-    angle_scale : float, optional
-        Length per radian; the robot's radius about its reference point if not given.
-
-    Returns
-    -------
-    Mesh
-
-    Notes
-    -----
-    Time and memory grow with the number of trapezoids plus the sum of their heights over `step`.
-
-    Examples
-    --------
-    >>> from cfree.forbidden import boundary
-    >>> from cfree.io import load_scene
-    >>> mesh = boundary_mesh(boundary(load_scene("examples/scenes/paper_fig9.json")))
-    >>> float(mesh.vertices[:, 2].max() / mesh.angle_scale) == 2 * math.pi
-    True
-    """
     scale = robot_radius(boundary.scene) if angle_scale is None else angle_scale
-    step = step_for(boundary, ROWS, STEPS) if step is None else step
-    if not (0 < step < math.inf and 0 < scale < math.inf):
-        raise ValueError(f"step {step} and angle_scale {scale} must be finite and positive")
-    rows = strips(boundary, step)
-    columns = _columns(boundary, rows, scale, TWIST * step)
-    # vertices: the points of each row
-    width = columns[rows.part] + 1
-    row = np.repeat(np.arange(len(width)), width)
-    start = np.cumsum(width) - width
-    share = ((np.arange(len(row)) - start[row]) / (width[row] - 1))[:, None]
-    xy = (1 - share) * rows.points[row, 0] + share * rows.points[row, 1]
-    vertices = np.column_stack((xy, scale * rows.theta[row]))
-    # triangles: two of each cell between two rows
-    cells = columns[rows.part[rows.joined]]
-    lower = np.repeat(rows.joined, cells)
-    column = np.arange(len(lower)) - np.repeat(np.cumsum(cells) - cells, cells)
-    a, d = start[lower] + column, start[lower + 1] + column
-    b, c = a + 1, d + 1
-    rising = ((column + lower) % 2 == 0)[:, None]
-    corners = np.where(rising, np.stack((a, b, c, a, c, d), axis=1), np.stack((a, b, d, b, c, d), axis=1))
-    patch = np.repeat(boundary.trapezoids.patch[rows.trapezoid[lower]], 2).astype(np.int64)
-    return Mesh(vertices, corners.reshape(-1, 3), patch, boundary.patch_kind[patch], scale)
+    if not 0 < error < math.inf:
+        raise ValueError(f"error: {error}; give a length above 0, such as {robot_radius(boundary.scene) / 100:.1g}")
+    if not 0 < scale < math.inf:
+        raise ValueError(f"angle_scale: {scale}; give a length per radian above 0")
+    f, t, c = boundary.features, boundary.trapezoids, boundary.complex
+    try:
+        found = _core.mesh(
+            f.robot.core_shape(), f.obstacles.core_shape(), f.robot.xy.ravel(), f.obstacles.xy.ravel(),
+            boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
+            t.patch, t.chart, t.lower, t.upper,
+            c.first, c.face, c.side, c.twin, c.edge, c.vertex, c.x, c.y, c.theta, c.edges,
+            error, scale, MOST_TRIANGLES,
+        )  # fmt: skip
+    except RuntimeError as fault:
+        raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
+    xyz, corners, trapezoid, seam, least, coarsest, expected = found
+    if expected > MOST_TRIANGLES:
+        raise UnsupportedError(_too_many(error, coarsest, expected))
+    vertices = xyz.reshape(-1, 3)
+    vertices[:, 2] *= scale
+    patch = t.patch[trapezoid]
+    kind = boundary.patch_kind[patch]
+    return Mesh(vertices, corners.reshape(-1, 3), trapezoid, patch, kind, seam.reshape(-1, 2), error, scale, least)
 
 
-def _columns(boundary: Boundary, rows: Strips, scale: float, twist: float) -> Ints:
-    """Columns of each part, so that the normal turns by `twist` radians at most across a cell.
+def _too_many(error: float, coarsest: float, expected: float) -> str:
+    size = f"a mesh with error {error:g} would have about {expected:.2g} triangles, more than {MOST_TRIANGLES:,}"
+    if coarsest > MOST_TRIANGLES:
+        return f"{size}, and at least {coarsest:.2g} with any error; mesh a smaller scene"
+    # what accuracy adds grows at most as 1 / error, and at least as its root
+    larger = error * ((expected - coarsest) / (MOST_TRIANGLES - coarsest)) ** 2
+    digit = 10.0 ** math.floor(math.log10(larger))
+    return f"{size}; an error of {math.ceil(larger / digit) * digit:g} is possible"
 
-    Notes
-    -----
-    Along a row of an e-v surface the normal turns by atan(s / scale), s the position of the contact on the robot's
-    edge, from the foot of the perpendicular from the reference point.
-    """
-    a, g = np.split(boundary.ruled[boundary.trapezoids.patch[rows.trapezoid], 4:], 2, axis=1)
-    length = np.hypot(*g.T)
-    along = np.divide((a * g).sum(axis=1), length, out=np.zeros(len(g)), where=length > 0)
-    turn = np.ptp(np.arctan((along[:, None] + rows.t * length[:, None]) / scale), axis=1)
-    most = np.zeros(rows.part.max(initial=-1) + 1)
-    np.maximum.at(most, rows.part, turn)
-    return np.maximum(1, np.ceil(most / twist)).astype(np.int64)
+
+def _unit(vectors: Floats) -> Floats:
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    units: Floats = np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0)
+    return units
 
 
 def robot_radius(scene: Scene) -> float:
@@ -160,8 +154,9 @@ def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     ----------
     mesh : Mesh
     path : path
-        ``.glb`` has one coloured mesh for each kind of patch, theta upwards; ``.ply`` has colours and patch ids of
-        the triangles; ``.obj`` has colours of the vertices; ``.stl`` triangles only.
+        ``.glb`` has one coloured mesh for each kind of patch, theta upwards, its patches apart with a sharp edge
+        between them; ``.ply`` has colours and patch ids of the triangles; ``.obj`` has colours of the vertices;
+        ``.stl`` triangles only. All have normals, towards the free side.
 
     Raises
     ------
@@ -176,13 +171,15 @@ def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     if suffix == ".glb":
         data = _by_kind(mesh).export(file_type="glb")
     else:
-        shape: Any = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False)
+        corners = mesh.triangles
+        shape: Any = trimesh.Trimesh(mesh.vertices, corners, vertex_normals=_normals_at(mesh, corners), process=False)
         if suffix == ".obj":
             shape.visual.vertex_colors = _vertex_colours(mesh)
         if suffix == ".ply":
             shape.visual.face_colors = mesh.colours
             shape.face_attributes["patch"] = mesh.patch.astype(np.int32)
-        data = shape.export(file_type=suffix[1:])
+        options = {".ply": {"vertex_normal": True}, ".obj": {"include_normals": True}}.get(suffix, {})
+        data = shape.export(file_type=suffix[1:], **options)
     with replacing(path) as unfinished:
         unfinished.write_bytes(data.encode() if isinstance(data, str) else data)
 
@@ -205,6 +202,14 @@ def check_mesh_path(path: str | PathLike[str]) -> str:
     return suffix
 
 
+def _normals_at(mesh: Mesh, corners: NDArray[np.integer[Any]]) -> Floats:
+    """Mean normals at the vertices that triangles with these corners have."""
+    normals = np.zeros((int(corners.max(initial=-1)) + 1, 3))
+    for column in corners.T:
+        np.add.at(normals, column, mesh.normals)
+    return _unit(normals)
+
+
 def _vertex_colours(mesh: Mesh) -> NDArray[np.uint8]:
     """Colours of the vertices: all triangles at one have the same."""
     colours = np.zeros((len(mesh.vertices), 4), dtype=np.uint8)
@@ -219,8 +224,12 @@ def _by_kind(mesh: Mesh) -> Any:
     visual: Any = trimesh.visual
     upright = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
     scene = trimesh.Scene()
+    # a vertex for each patch at it
+    at, corners = np.unique(mesh.patch[:, None] * np.int64(len(mesh.vertices)) + mesh.triangles, return_inverse=True)
+    corners, vertices = corners.reshape(-1, 3), mesh.vertices[at % len(mesh.vertices)]
+    normals = _normals_at(mesh, corners)
     for kind, name in KINDS.items():
-        faces = mesh.triangles[mesh.kind == kind]
+        faces = corners[mesh.kind == kind]
         if not len(faces):
             continue
         used, faces = np.unique(faces, return_inverse=True)
@@ -233,7 +242,8 @@ def _by_kind(mesh: Mesh) -> Any:
             roughnessFactor=0.9,
             doubleSided=True,
         )
-        shape = trimesh.Trimesh(mesh.vertices[used], faces.reshape(-1, 3), process=False)
+        faces = faces.reshape(-1, 3)
+        shape = trimesh.Trimesh(vertices[used], faces, vertex_normals=normals[used], process=False)
         shape.visual = visual.TextureVisuals(material=material)
         scene.add_geometry(shape, node_name=name, geom_name=name, transform=upright)
     return scene
