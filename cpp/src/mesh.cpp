@@ -85,11 +85,14 @@ private:
     void triangulate(Index f);
     void add_lattice(const Sheet& sheet);
     void improve(Index f, std::size_t most);
-    bool flip_to_close(const Sheet& sheet, Index t);
+    bool flip_to_better(const Sheet& sheet, Index t);
     void simplify(const Sheet& sheet, Index rim, Index lattice);
-    bool is_close(const Sheet& sheet, Index t) const {
+    double excess(const Sheet& sheet, Index p, Index q, Index r) const {
+        return sheet.excess({&points[p], &points[q], &points[r]});
+    }
+    double excess(const Sheet& sheet, Index t) const {
         const auto& c = net.triangles[t].corner;
-        return sheet.is_close({&points[c[0]], &points[c[1]], &points[c[2]]});
+        return excess(sheet, c[0], c[1], c[2]);
     }
     Index add_point(const Sheet& sheet, const MeshPoint& p);
     template <std::size_t n>
@@ -225,7 +228,7 @@ double Mesher::scale_of_lattice(const Sheet& sheet) const {
                 const double u = low + wide * k / 16 + stretch * scale * unit * (x[c] - 0.76) - sheet.shear * dy;
                 p[c] = {in.angle_scale * std::sinh(u), phi + dy, {0, 0}};
             }
-            if (!sheet.fits_inside({&p[0], &p[1], &p[2]})) return false;
+            if (sheet.excess_inside({&p[0], &p[1], &p[2]}) > 1) return false;
         }
         return true;
     };
@@ -268,7 +271,7 @@ void Mesher::improve(Index f, std::size_t most) {
     while (!open.empty()) {
         const Index t = open.back();
         open.pop_back();
-        if (is_close(sheet, t) || flip_to_close(sheet, t)) continue;
+        if (excess(sheet, t) <= 1 || flip_to_better(sheet, t)) continue;
         if (net.triangles.size() > most) throw std::logic_error("no triangles close enough on trapezoid " + std::to_string(f));
         const int k = net.longest_inner_edge(t);
         const auto& x = net.triangles[t].corner;
@@ -278,15 +281,22 @@ void Mesher::improve(Index f, std::size_t most) {
     }
 }
 
-// The other diagonal, if then both triangles are close.
-bool Mesher::flip_to_close(const Sheet& sheet, Index t) {
+// The other diagonal where that makes the worse of the two triangles better.
+bool Mesher::flip_to_better(const Sheet& sheet, Index t) {
+    int best = -1;
+    double least = 1;
     for (int k = 0; k < 3; ++k) {
         if (!net.can_flip(t, k)) continue;
-        const auto& x = net.triangles[t].corner;
-        const MeshPoint &a = points[x[k]], &b = points[x[(k + 1) % 3]], &c = points[x[(k + 2) % 3]], &d = points[net.opposite(t, k)];
-        if (sheet.is_close({&a, &b, &d}) && sheet.is_close({&d, &c, &a})) return net.flip(t, k), true;
+        const auto& x = net.triangles[t];
+        const Index a = x.corner[k], b = x.corner[(k + 1) % 3], c = x.corner[(k + 2) % 3], d = net.opposite(t, k);
+        const double before = std::max(excess(sheet, t), excess(sheet, x.across[k]));
+        const double now = std::max(excess(sheet, a, b, d), excess(sheet, d, c, a)) / before;
+        if (now < 0.99 * least) least = now, best = k;
     }
-    return false;
+    if (best < 0) return false;
+    net.changed.push_back(t), net.changed.push_back(net.triangles[t].across[best]);
+    net.flip(t, best);
+    return true;
 }
 
 // Takes out inner points that are not needed; those amid lattice points are.
@@ -299,7 +309,7 @@ void Mesher::simplify(const Sheet& sheet, Index rim, Index lattice) {
             const std::size_t n = star.link.size();
             const auto is_fine = [&](std::size_t k) {
                 const Index b = star.link[(from + k) % n], c = star.link[(from + k + 1) % n];
-                return sheet.is_close({&points[star.link[from]], &points[b], &points[c]});
+                return excess(sheet, star.link[from], b, c) <= 1;
             };
             bool fine = net.can_fan(star, from);
             for (std::size_t k = 1; fine && k + 1 < n; ++k) fine = is_fine(k);

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace cfree {
 
 namespace {
 constexpr Complex i_unit{0, 1};
-constexpr double pi = std::numbers::pi;
+constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 
 double square(double x) { return x * x; }
 
@@ -98,11 +99,11 @@ double Sheet::beyond(const Corners& c, const Spread& d) const {
     return most;
 }
 
-bool Sheet::is_close(const Corners& c) const {
+double Sheet::excess(const Corners& c) const {
     const Spread d(c);
-    if (d.angle > pi / 2) return false;
-    if (square(slice_distance(c, d)) + square(beyond(c, d)) <= square(eps)) return true;
-    return is_saddle && is_far(c, d) && fits_inside(c);
+    if (d.angle > pi / 2) return infinity;
+    const double plain = std::hypot(slice_distance(c, d), beyond(c, d)) / eps;
+    return plain <= 1 || !is_saddle || !is_far(c, d) ? plain : std::min(plain, excess_inside(c));
 }
 
 // Nothing outside the face is within `eps` of the triangle.
@@ -121,21 +122,22 @@ bool Sheet::is_far(const Corners& c, const Spread& d) const {
 }
 
 // The distance is at most that within the slice over a lower bound G of the gradient near by.
-bool Sheet::fits_inside(const Corners& c) const {
+double Sheet::excess_inside(const Corners& c) const {
     const Spread d(c);
     const double rest = d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
     const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * std::pow(d.angle, 3) / 48 +
                         eps * std::hypot(1, (std::abs(h) + eps * std::hypot(1, d.reach / w)) / w);
     const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;
     const double G = std::hypot(1, r), slope = std::copysign(r / (w * G), s);  // the tangent of a convex function
+    double most = 0;
     for (int k = 0; k < 3; ++k) {
         const MeshPoint &p = *c[k], &q = *c[(k + 1) % 3];
         const double Gp = G + slope * (p.s - s), Gq = G + slope * (q.s - s);
         const double off = std::abs(form(p, q)), tilt = eps * std::abs(Gq - Gp);
-        if (tilt >= off ? rest > eps * std::min(Gp, Gq) : off / 4 + square(tilt) / (4 * off) + rest > eps * 0.5 * (Gp + Gq))
-            return false;
+        most = std::max(most, tilt >= off ? rest / (eps * std::min(Gp, Gq))
+                                          : (off / 4 + square(tilt) / (4 * off) + rest) / (eps * 0.5 * (Gp + Gq)));
     }
-    return true;
+    return most;
 }
 
 }  // namespace cfree

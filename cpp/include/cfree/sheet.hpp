@@ -25,10 +25,11 @@ public:
     MeshPoint point(double s, double phi) const;
     double position(Complex x, double phi) const;
     Complex at(double s, double phi) const;
-    // Is every point of the triangle proved to be within `error` of the face?
-    bool is_close(const Corners& corners) const;
+    // At most 1 if every point of the triangle is proved to be within `error` of the face.
+    double excess(const Corners& corners) const;
     // The same for an e-v triangle far from the face's sides.
-    bool fits_inside(const Corners& corners) const;
+    double excess_inside(const Corners& corners) const;
+
     // Coordinates in which an e-v edge (dx, dy) is off by w |dx dy| / 4, about: u = arsinh(s / w) + shear * phi, and phi.
     double u(double s) const { return std::asinh(s / w); }
     double width_u(double phi) const;  // of the face at an angle
