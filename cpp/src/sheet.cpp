@@ -73,14 +73,18 @@ double Sheet::form(const MeshPoint& p, const MeshPoint& q) const {
     return phi * (q.s - p.s + 0.5 * h * phi);
 }
 
+double Sheet::most_form(const Corners& c) const {
+    return std::max({std::abs(form(*c[0], *c[1])), std::abs(form(*c[1], *c[2])), std::abs(form(*c[2], *c[0]))});
+}
+
+double Sheet::third_order(const Spread& d) const {
+    return d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
+}
+
 double Sheet::slice_distance(const Corners& c, const Spread& d) const {
-    if (!is_saddle) {
-        const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
-        return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
-    }
-    double most = 0;
-    for (int k = 0; k < 3; ++k) most = std::max(most, std::abs(form(*c[k], *c[(k + 1) % 3])));
-    return most / 4 + d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
+    if (is_saddle) return most_form(c) / 4 + third_order(d);
+    const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
+    return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
 }
 
 // How far the foot on the line may be beyond the face's curves.
@@ -102,29 +106,40 @@ double Sheet::beyond(const Corners& c, const Spread& d) const {
 double Sheet::excess(const Corners& c) const {
     const Spread d(c);
     if (d.angle > pi / 2) return infinity;
-    const double plain = std::hypot(slice_distance(c, d), beyond(c, d)) / eps;
-    return plain <= 1 || !is_saddle || !is_far(c, d) ? plain : std::min(plain, excess_inside(c));
+    const double over = beyond(c, d), plain = std::hypot(slice_distance(c, d), over) / eps;
+    if (plain <= 1 || !is_saddle) return plain;
+    return std::min(plain, std::max(std::hypot(slice_distance_near_sides(c, d), over) / eps, excess_inside(c)));
 }
 
-// Nothing outside the face is within `eps` of the triangle.
-bool Sheet::is_far(const Corners& c, const Spread& d) const {
-    const double margin = eps / w;
-    if (d.low - from < margin || to - d.high < margin) return false;
-    for (int side = 0; side < 2; ++side) {
-        const auto in = [&](int k) { return c[k]->inward[side]; };
-        const double speed = curves[side].speed(d.low - margin, d.high + margin), bend = curves[side].bend(d.low, d.high);
-        const double least = std::min({in(0), in(1), in(2)}) * std::cos(d.angle) - bend * square(d.angle) / 8;
-        const double width = std::max({c[0]->inward[0] + c[0]->inward[1], c[1]->inward[0] + c[1]->inward[1],
-                                       c[2]->inward[0] + c[2]->inward[1]});
-        if (least <= eps * (1 + (speed + width + eps) / w)) return false;
-    }
-    return true;
+// Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
+double Sheet::slice_distance_near_sides(const Corners& c, const Spread& d) const {
+    const double all = slice_distance(c, d), forms = most_form(c), turn = std::cos(d.angle), margin = eps / w;
+    double most = 0;
+    // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
+    const auto add = [&](std::array<double, 3> height, double near_by, double bend) {
+        std::array<int, 3> k{0, 1, 2};
+        std::sort(k.begin(), k.end(), [&](int x, int y) { return height[x] < height[y]; });
+        const double bow = bend * square(d.angle), two = square(c[k[0]]->phi - c[k[1]]->phi);
+        if (height[k[0]] - bow / 8 > near_by) return;
+        const auto share = [](double part, double whole) { return whole > part ? part / whole : 1.0; };
+        const double by_one = forms * share(near_by, height[k[1]] - bow / 2);
+        const double by_two = std::abs(form(*c[k[0]], *c[k[1]])) / 4 +
+                              forms * share(near_by + bend * two / 8, height[k[2]] - bow / 2);
+        most = std::max(most, std::min({all, by_one + third_order(d), by_two + third_order(d)}));
+    };
+    add({c[0]->phi - from, c[1]->phi - from, c[2]->phi - from}, margin, 0);
+    add({to - c[0]->phi, to - c[1]->phi, to - c[2]->phi}, margin, 0);
+    const double low = std::max(from, d.low - margin), high = std::min(to, d.high + margin);
+    for (int side = 0; side < 2; ++side)
+        add({c[0]->inward[side] * turn, c[1]->inward[side] * turn, c[2]->inward[side] * turn},
+            margin * (curves[side].speed(low, high) + all), curves[side].bend(d.low, d.high));
+    return most;
 }
 
 // The distance is at most that within the slice over a lower bound G of the gradient near by.
 double Sheet::excess_inside(const Corners& c) const {
     const Spread d(c);
-    const double rest = d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
+    const double rest = third_order(d);
     const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * std::pow(d.angle, 3) / 48 +
                         eps * std::hypot(1, (std::abs(h) + eps * std::hypot(1, d.reach / w)) / w);
     const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;

@@ -42,9 +42,11 @@ public:
 
 private:
     struct Spread;  // of a triangle's corners
+    double most_form(const Corners& corners) const;
+    double third_order(const Spread& d) const;
     double slice_distance(const Corners& corners, const Spread& d) const;
     double beyond(const Corners& corners, const Spread& d) const;
-    bool is_far(const Corners& corners, const Spread& d) const;
+    double slice_distance_near_sides(const Corners& corners, const Spread& d) const;
     double form(const MeshPoint& p, const MeshPoint& q) const;
 
     double eps, w;
