@@ -25,7 +25,6 @@ from cfree import (
     Polygon,
     Scene,
     boundary,
-    boundary_mesh,
     load_boundary,
     load_scene,
 )
@@ -438,7 +437,7 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
         questions = (
             lambda part=part: part.slice(0.1),
             lambda part=part: part.complex,
-            lambda part=part: boundary_mesh(part),
+            lambda part=part: part.mesh(0.1),
         )
         for ask in questions:
             with pytest.raises(IncompleteError, match=r"of \d+ patches were trimmed"):

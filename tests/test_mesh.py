@@ -1,4 +1,4 @@
-"""Meshes: on the boundary, facing the free side, with the volume of theory; files that can be read again."""
+"""Meshes: closed, within their error of the boundary, facing the free side; files that can be read again."""
 
 import math
 import random
@@ -9,16 +9,21 @@ import numpy as np
 import pytest
 import trimesh
 
+import cfree.mesh
 import oracles
 import shapes
-from cfree.errors import UnsupportedError
+from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden import Boundary, boundary
 from cfree.io import load_scene
-from cfree.mesh import COLOURS, MESH_SUFFIXES, Mesh, boundary_mesh, robot_radius, save_mesh
+from cfree.mesh import COLOURS, MESH_SUFFIXES, Mesh, robot_radius, save_mesh
 from cfree.polygon import Polygon
 from cfree.scene import Scene
 
-SCENES = Path("examples/scenes")
+ROOT = Path(__file__).parents[1]
+SCENES = ROOT / "examples/scenes"
+SMALL = sorted(p for p in SCENES.glob("*.json") if p.stat().st_size < 20_000)
+CASES = sorted((ROOT / "tests/cases").glob("*.json"))
+ERRORS = (0.3, 0.03)  # in robot's radii
 
 
 @pytest.fixture(scope="module")
@@ -34,26 +39,280 @@ def make(plain: shapes.PlainScene) -> Scene:
     return Scene(robot=robot, obstacles=obstacles, bounds=plain.bounds, workspace=workspace)
 
 
+# closed surfaces
+
+
+def check_closed(mesh: Mesh, result: Boundary) -> None:
+    """Every edge has one triangle on each side, and every surface the Euler number of its cells."""
+    cells = result.complex
+    assert np.isfinite(mesh.vertices).all()
+    low, high = mesh.seam.T
+    assert np.array_equal(mesh.vertices[low, :2], mesh.vertices[high, :2])
+    if len(mesh.seam):
+        assert set(mesh.vertices[low, 2]) == {-0.5 * math.pi * mesh.angle_scale}
+        assert set(mesh.vertices[high, 2]) == {1.5 * math.pi * mesh.angle_scale}
+    assert len(np.unique(low)) == len(np.unique(high)) == len(mesh.seam)
+    identified = np.arange(len(mesh.vertices))
+    identified[high] = low
+    corners = identified[mesh.triangles]
+    start, end = corners.ravel(), np.roll(corners, -1, axis=1).ravel()
+    assert np.all(start != end)
+    edges = np.stack([start, end], axis=1)
+    found, count = np.unique(edges, axis=0, return_counts=True)
+    assert np.all(count == 1)
+    assert np.array_equal(found, np.unique(edges[:, ::-1], axis=0))
+    component = cells.component[mesh.trapezoid]
+    of_vertex = np.full(len(mesh.vertices), -1)
+    of_vertex[corners] = component[:, None]
+    assert np.all(of_vertex[corners] == component[:, None])
+    counts = (of_vertex[of_vertex >= 0], np.repeat(component, 3), component)
+    v, h, f = (np.bincount(x, minlength=cells.components) for x in counts)
+    assert np.array_equal(v - h // 2 + f, cells.euler)
+    check_fans(corners)
+
+
+def check_fans(corners: Any) -> None:
+    """The triangles at each vertex are one fan: nothing is pinched."""
+    after = {}
+    for a, b, c in corners.tolist():
+        after[a, b], after[b, c], after[c, a] = c, a, b
+    seen: set[tuple[int, int]] = set()
+    fans: dict[int, int] = {}
+    for a, b in after:
+        if (a, b) in seen:
+            continue
+        fans[a] = fans.get(a, 0) + 1
+        while (a, b) not in seen:
+            seen.add((a, b))
+            b = after[a, b]
+    assert set(fans.values()) <= {1}
+
+
+@pytest.mark.parametrize("path", SMALL + CASES, ids=lambda path: path.stem)
+def test_meshes_are_closed_and_close(path: Path) -> None:
+    result = boundary(load_scene(path), threads=1)
+    size = np.abs([result.complex.x, result.complex.y]).max(initial=0.0)
+    for share in ERRORS:
+        error = share * robot_radius(result.scene)
+        if error < 1e-10 * size:
+            with pytest.raises(UnsupportedError, match="no less than"):
+                result.mesh(error)
+        mesh = result.mesh(max(error, 1e-9 * size))
+        check_closed(mesh, result)
+        check_error(mesh, result)
+
+
+@pytest.mark.parametrize("kind", shapes.KINDS)
+def test_random_meshes_are_closed_and_close(kind: str) -> None:
+    for seed in range(4):
+        result = boundary(make(shapes.random_scene(seed, kind)), threads=1)
+        for share in ERRORS:
+            mesh = result.mesh(share * robot_radius(result.scene))
+            check_closed(mesh, result)
+            check_error(mesh, result)
+
+
+def test_pinched_surfaces_have_vertices_of_their_own() -> None:
+    room = [(-1, -1), (6, -1), (6, 6), (-1, 6)]
+    result = boundary(Scene([(-3, -1), (-4, 0), (-4, -2)], [[(1, 2), (3, 4), (1, 4)]], workspace=room))
+    assert len(result.complex.pinched) > 0
+    mesh = result.mesh(0.01)
+    check_closed(mesh, result)
+    same = np.unique(mesh.vertices, axis=0)
+    assert len(same) < len(mesh.vertices)
+
+
+# the error
+
+
+def check_error(mesh: Mesh, result: Boundary) -> None:
+    """Points of triangles are within the error of their trapezoids, as evaluated by other code."""
+    height = result.trapezoids.theta_to - result.trapezoids.theta_from
+    (known,) = np.nonzero((height > 1e-9)[mesh.trapezoid])  # the curves of others have no place in doubles
+    chosen = np.random.default_rng(1).choice(known, size=2000 if len(known) else 0)
+    weights = np.random.default_rng(2).dirichlet((1, 1, 1), len(chosen))
+    weights[::2] = np.array([[1, 1, 0], [0, 1, 1], [1, 0, 1]])[chosen[::2] % 3] / 2  # there it is largest
+    points = (mesh.vertices[mesh.triangles[chosen]] * weights[..., None]).sum(axis=1)
+    distance = distances(result, mesh.trapezoid[chosen], points, mesh.angle_scale, mesh.error)
+    rounding = 1e-13 * np.abs(mesh.vertices).max(initial=0.0)
+    assert distance.max(initial=0.0) <= mesh.error * (1 + 1e-6) + rounding
+
+
+def distances(result: Boundary, trapezoid: Any, points: Any, scale: float, reach: float, steps: int = 41) -> Any:
+    """Upper bounds of the distances to trapezoids: to the segments of slices near by."""
+    table = result.trapezoids
+    least = np.full(len(points), np.inf)
+    for k in np.linspace(-1, 1, steps):
+        theta = points[:, 2] / scale + k * reach / scale
+        theta = np.clip(theta, table.theta_from[trapezoid], table.theta_to[trapezoid])
+        a, b = (result.evaluate(table.patch[trapezoid], t, theta) for t in result.limits(trapezoid, theta))
+        along = ((points[:, :2] - a) * (b - a)).sum(axis=1)
+        length = ((b - a) ** 2).sum(axis=1)
+        share = np.divide(along, length, out=np.zeros_like(along), where=length > 0).clip(0, 1)
+        foot = a + share[:, None] * (b - a)
+        across = points[:, :2] - foot
+        least = np.minimum(least, np.hypot(np.hypot(*across.T), scale * theta - points[:, 2]))
+    return least
+
+
+@pytest.mark.parametrize("scale", [0.2, 1.0, 5.0])
+def test_error_holds_in_the_metric_asked_for(triangles: Boundary, scale: float) -> None:
+    for error in (0.2, 0.02, 0.002):
+        mesh = triangles.mesh(error, angle_scale=scale)
+        check_closed(mesh, triangles)
+        check_error(mesh, triangles)
+
+
+def test_robots_far_from_their_reference_point(triangles: Boundary) -> None:
+    for shift in (5, 40):
+        robot = [(x + shift, y - 3) for x, y in [(-1, -0.6), (1.2, -0.4), (-0.3, 1)]]
+        result = boundary(Scene(robot=robot, obstacles=triangles.scene.obstacles))
+        for scale in (1.0, float(shift)):
+            mesh = result.mesh(0.05, angle_scale=scale)
+            check_closed(mesh, result)
+            check_error(mesh, result)
+
+
+def test_boundary_is_near_the_mesh(triangles: Boundary) -> None:
+    # the other direction is not proved, only measured: points of trapezoids to the mesh of these, within their slices
+    random_numbers, table = np.random.default_rng(3), triangles.trapezoids
+    for error in (0.1, 0.01):
+        mesh = triangles.mesh(error, angle_scale=1)
+        corners = mesh.vertices[mesh.triangles]
+        worst = 0.0
+        for k in random_numbers.integers(len(table), size=400):
+            theta = random_numbers.uniform(table.theta_from[k], table.theta_to[k])
+            lower, upper = triangles.limits([k], [theta])
+            x = triangles.evaluate(table.patch[[k]], random_numbers.uniform(lower, upper), [theta])[0]
+            worst = max(worst, distance_in_slice(corners[mesh.trapezoid == k], x, theta))
+        assert worst < 1.5 * error
+
+
+def distance_in_slice(corners: Any, x: Any, height: float) -> float:
+    """Distance of a point to triangles cut at its height."""
+    least = math.inf
+    for triangle in corners:
+        crossed = []
+        for p, q in zip(triangle, np.roll(triangle, -1, axis=0), strict=True):
+            if p[2] != q[2] and (p[2] - height) * (q[2] - height) <= 0:
+                crossed.append((p + (height - p[2]) / (q[2] - p[2]) * (q - p))[:2])
+        if len(crossed) >= 2:
+            a, b = crossed[0], crossed[1]
+            length = float((b - a) @ (b - a))
+            share = min(1.0, max(0.0, float((x - a) @ (b - a)) / length)) if length > 0 else 0.0
+            least = min(least, float(np.hypot(*(a + share * (b - a) - x))))
+    return least
+
+
+def test_half_the_error_is_not_met(triangles: Boundary) -> None:
+    # the bound is sharp: with few triangles to spare, some points are almost as far as allowed
+    mesh = triangles.mesh(0.001)
+    middles = mesh.vertices[mesh.triangles][:, [0, 1]].mean(axis=1)
+    distance = distances(triangles, mesh.trapezoid, middles, mesh.angle_scale, mesh.error)
+    assert distance.max() > 0.95 * mesh.error
+
+
+# how many triangles
+
+
+def test_large_patches_need_few_triangles_more_than_the_best_known() -> None:
+    result = boundary(load_scene(SCENES / "paper_fig9.json"))
+    radius = robot_radius(result.scene)
+    ratios = [result.mesh(share * radius).ratio for share in (1e-2, 1e-3, 1e-4)]
+    assert ratios == sorted(ratios, reverse=True)
+    assert ratios[0] < 2 and ratios[2] < 1.15
+
+
+def test_least_is_the_formula_of_theory(triangles: Boundary) -> None:
+    # (sqrt 3 / 8) w phi_range [arsinh(s / w)] / error for each whole e-v patch
+    mesh = triangles.mesh(0.01, angle_scale=0.7)
+    robot, expected = triangles.scene.robot[0], 0.0
+    for patch in triangles.patches:
+        if patch.kind == "e-v":
+            a, edge = robot.vertices[patch.robot.index], robot.edge(patch.robot.index)
+            length = np.hypot(*edge)
+            ends = np.array([a @ edge / length, a @ edge / length + length])
+            expected += math.sqrt(3) / 8 * 0.7 * patch.phi_range * np.ptp(np.arcsinh(ends / 0.7)) / 0.01
+    assert mesh.least == pytest.approx(expected, rel=1e-6)
+    assert mesh.ratio == np.count_nonzero(mesh.kind == 2) / mesh.least
+
+
+def test_patches_without_twist_are_strips(triangles: Boundary) -> None:
+    # of a v-e surface every vertex is on the rim of its trapezoid
+    mesh = triangles.mesh(0.001)
+    count = np.bincount(mesh.trapezoid)
+    strip = np.flatnonzero((np.bincount(mesh.trapezoid, mesh.kind == 1) > 0) & (count > 8))
+    assert len(strip) > 5
+    for k in strip:
+        corners = mesh.triangles[mesh.trapezoid == k]
+        assert len(np.unique(corners)) == len(corners) + 2
+
+
+def test_errors_that_make_no_sense_are_refused(triangles: Boundary) -> None:
+    for wrong in (0, -1, math.inf, math.nan):
+        with pytest.raises(ValueError, match="error: .* above 0"):
+            triangles.mesh(wrong)
+        with pytest.raises(ValueError, match="angle_scale: .* above 0"):
+            triangles.mesh(0.1, angle_scale=wrong)
+
+
+def test_meshes_too_large_are_refused_before_they_are_made(
+    triangles: Boundary, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with pytest.raises(UnsupportedError, match=r"about .* triangles, more than 10,000,000; an error of .* is possible"):
+        triangles.mesh(1e-9)
+    monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", 3000)
+    with pytest.raises(UnsupportedError, match="is possible") as raised:
+        triangles.mesh(1e-4)
+    possible = float(str(raised.value).split("an error of ")[1].split()[0])
+    assert len(triangles.mesh(possible).triangles) <= 3000
+    monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", 10)
+    with pytest.raises(UnsupportedError, match="with any error; mesh a smaller scene"):
+        triangles.mesh(1.0)
+
+
+def test_estimates_are_near_the_truth(triangles: Boundary, monkeypatch: pytest.MonkeyPatch) -> None:
+    for error in (0.1, 0.01, 0.001):
+        count = len(triangles.mesh(error).triangles)
+        monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", count // 2)
+        with pytest.raises(UnsupportedError):
+            triangles.mesh(error)
+        monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", 2 * count)
+        triangles.mesh(error)
+
+
+def test_a_fault_of_the_core_is_named(triangles: Boundary, monkeypatch: pytest.MonkeyPatch) -> None:
+    from cfree import _core
+
+    def broken(*_: object) -> None:
+        raise RuntimeError("no triangles close enough on trapezoid 3")
+
+    monkeypatch.setattr(_core, "mesh", broken)
+    with pytest.raises(InvariantError, match="trapezoid 3"):
+        triangles.mesh(0.1)
+
+
+# one convex pair
+
+
 def normals(mesh: Mesh) -> Any:
     """Normals of the triangles, as long as twice their areas."""
     a, b, c = (mesh.vertices[mesh.triangles[:, k]] for k in range(3))
     return np.cross(b - a, c - a)
 
 
-# one convex pair
-
-
 def test_counts_of_the_papers_example(triangles: Boundary) -> None:
-    mesh = boundary_mesh(triangles, step=math.radians(5))
+    mesh = triangles.mesh(0.1)
     assert set(mesh.patch) == set(range(18))
-    assert np.bincount(mesh.kind).tolist()[0] == 0 and set(mesh.kind) == {1, 2}
-    assert mesh.triangles.min() == 0 and mesh.triangles.max() == len(mesh.vertices) - 1
+    assert np.array_equal(mesh.kind, triangles.patch_kind[mesh.patch]) and set(mesh.kind) == {1, 2}
+    assert np.array_equal(mesh.patch, triangles.trapezoids.patch[mesh.trapezoid])
+    assert set(np.unique(mesh.triangles)) == set(range(len(mesh.vertices)))
 
 
 @pytest.mark.parametrize("scale", [1.0, 2.5])
 def test_volume_inside_is_that_of_theory(triangles: Boundary, scale: float) -> None:
-    # divergence theorem for (x, y, 0) / 2: the sections at 0 and 360 degrees do not count
-    mesh = boundary_mesh(triangles, step=math.radians(0.5), angle_scale=scale)
+    # divergence theorem for (x, y, 0) / 2: the sections at the seam do not count
+    mesh = triangles.mesh(2e-4, angle_scale=scale)
     middle = mesh.vertices[mesh.triangles].mean(axis=1)
     volume = 0.25 * float((middle[:, :2] * normals(mesh)[:, :2]).sum())
     (robot,), (obstacle,) = triangles.scene.robot, triangles.scene.obstacles
@@ -63,7 +322,7 @@ def test_volume_inside_is_that_of_theory(triangles: Boundary, scale: float) -> N
 
 def test_areas_of_edge_vertex_patches_are_those_of_theory(triangles: Boundary) -> None:
     # docs/theory.md: area = phi_range * integral of sqrt(1 + s^2) ds along the robot's edge, angle_scale 1
-    mesh = boundary_mesh(triangles, step=math.radians(0.5), angle_scale=1)
+    mesh = triangles.mesh(2e-4, angle_scale=1)
     area = np.bincount(mesh.patch, 0.5 * np.linalg.norm(normals(mesh), axis=1))
     robot = triangles.scene.robot[0]
     for patch in triangles.patches:
@@ -81,10 +340,12 @@ def test_areas_of_edge_vertex_patches_are_those_of_theory(triangles: Boundary) -
 @pytest.mark.parametrize("kind", ["nonconvex", "holed", "overlapping", "several_robots", "bounds", "workspace"])
 def test_triangles_lie_on_the_boundary_and_face_the_free_side(kind: str) -> None:
     plain = shapes.random_scene(3, kind)
-    mesh = boundary_mesh(boundary(make(plain)))
+    result = boundary(make(plain))
+    mesh = result.mesh(0.003 * robot_radius(result.scene))
     middle, normal = mesh.vertices[mesh.triangles].mean(axis=1), normals(mesh)
     x, y, z = middle.T
     large = np.flatnonzero(np.linalg.norm(normal, axis=1) > 1e-3)
+    assert np.allclose(mesh.normals[large], normal[large] / np.linalg.norm(normal[large], axis=1)[:, None])
     assert len(large) > 50
     for k in random.Random(1).sample(large.tolist(), 25):
         theta = z[k] / mesh.angle_scale
@@ -97,34 +358,14 @@ def test_triangles_lie_on_the_boundary_and_face_the_free_side(kind: str) -> None
 
 def test_vertices_lie_on_the_boundary_up_to_rounding() -> None:
     plain = shapes.random_scene(5, "nonconvex")
-    mesh = boundary_mesh(boundary(make(plain)))
+    mesh = boundary(make(plain)).mesh(0.5)
     for x, y, z in random.Random(2).sample(mesh.vertices.tolist(), 40):
         pose = x, y, z / mesh.angle_scale
         assert oracles.boundary_contact_distance(plain.robot, plain.obstacles, pose) < 1e-6
 
 
-@pytest.mark.parametrize("name", ["comb_hook", "degenerate_collinear_walls", "degenerate_exact_fit", "flat"])
-def test_parallel_edges_leave_no_gaps_in_the_numbers(name: str) -> None:
-    result = boundary(load_scene(SCENES / f"{name}.json"))
-    mesh = boundary_mesh(result)
-    assert np.isfinite(mesh.vertices).all()
-    assert set(mesh.patch) == set(result.trapezoids.patch)
-
-
-def test_nothing_crosses_theta_zero(triangles: Boundary) -> None:
-    mesh = boundary_mesh(triangles, angle_scale=1)
-    heights = mesh.vertices[mesh.triangles][..., 2]
-    assert mesh.vertices[:, 2].min() == 0 and mesh.vertices[:, 2].max() == 2 * math.pi
-    assert np.ptp(heights, axis=1).max() <= math.radians(2) + 1e-12
-
-
 def test_angle_scale_is_the_robots_radius_unless_given(triangles: Boundary) -> None:
-    assert boundary_mesh(triangles).angle_scale == robot_radius(triangles.scene) == math.hypot(1.2, 0.4)
-    for wrong in (0, -1, math.inf, math.nan):
-        with pytest.raises(ValueError, match="positive"):
-            boundary_mesh(triangles, angle_scale=wrong)
-        with pytest.raises(ValueError, match="positive"):
-            boundary_mesh(triangles, step=wrong)
+    assert triangles.mesh(0.1).angle_scale == robot_radius(triangles.scene) == math.hypot(1.2, 0.4)
 
 
 # files
@@ -132,7 +373,7 @@ def test_angle_scale_is_the_robots_radius_unless_given(triangles: Boundary) -> N
 
 @pytest.fixture(scope="module")
 def bounded_mesh() -> Mesh:
-    return boundary_mesh(boundary(load_scene(SCENES / "paper_fig9.json")), step=math.radians(10))
+    return boundary(load_scene(SCENES / "paper_fig9.json")).mesh(0.05)
 
 
 @pytest.mark.parametrize("suffix", MESH_SUFFIXES)
@@ -153,13 +394,17 @@ def test_files_hold_the_same_triangles(bounded_mesh: Mesh, suffix: str, tmp_path
         assert (patch.ravel() == bounded_mesh.patch).all()
     if suffix == ".obj":
         assert (again.visual.vertex_colors[again.faces[:, 0]] == bounded_mesh.colours).all()
+    if suffix != ".glb":
+        assert np.allclose(again.face_normals, bounded_mesh.normals, atol=1e-3)
+    if suffix in (".ply", ".obj"):
+        assert (np.einsum("ij,ij->i", again.vertex_normals[again.faces[:, 0]], bounded_mesh.normals) > 0).all()
 
 
 def test_files_without_a_mesh_are_refused(bounded_mesh: Mesh, tmp_path: Path) -> None:
     with pytest.raises(UnsupportedError, match=r"no mesh format; name the file \.glb, \.ply"):
         save_mesh(bounded_mesh, tmp_path / "mesh.dae")
-    empty = boundary_mesh(boundary(Scene(robot=[(0, 0), (1, 0), (0, 1)])))
-    assert len(empty.triangles) == 0
+    empty = boundary(Scene(robot=[(0, 0), (1, 0), (0, 1)])).mesh(0.1)
+    assert len(empty.triangles) == 0 and math.isnan(empty.ratio)
     with pytest.raises(UnsupportedError, match="empty"):
         save_mesh(empty, tmp_path / "mesh.glb")
     assert not list(tmp_path.iterdir())

@@ -17,7 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double on_curves = 0.6;   // share of the error that sampled curves may take
 constexpr double most_turn = pi / 4;  // between two samples of a curve
-constexpr double rim_step = 2;   // greatest step along the rim of a wide e-v face, in units of the lattice
+constexpr double rim_step = 2.5;  // greatest step along the rim of a wide e-v face, in units of the lattice
 constexpr double rim_gap = 0.2;     // least distance of lattice points from the rim, in the same units
 constexpr double stretch = 1.4;
 constexpr double golden = std::numbers::phi;
@@ -134,7 +134,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
         return most;
     };
     Samples samples;
-    for (double at = a; at < b;) {
+    for (double at = a; at < b - 1e-9;) {
         double step = b - at;
         for (;;) {
             const double most = std::min(limit, std::sqrt(8 * on_curves * in.error / std::max(bend(at, at + step), 1e-300)));
@@ -194,7 +194,9 @@ void Mesher::add_run(Index h, Index first_coedge, const Samples& samples) {
         const Index begin = static_cast<Index>(out.xyz.size() / 3);
         const Sheet& sheet = sheets[in.face[first_coedge]];
         for (const double sample : samples) {
-            const Complex z = curve ? sheet.curves[in.side[first_coedge] == 1].at(sample) : p + sample * (q - p);
+            const Complex z = !curve             ? p + sample * (q - p)
+                              : sheet.is_thin() ? 0.5 * (p + q)
+                                                : sheet.curves[in.side[first_coedge] == 1].at(sample);
             add_vertex(z.real(), z.imag(), curve ? sample : angle(x));
         }
         runs[x] = {begin, count, forwards(x)};
@@ -373,7 +375,7 @@ void Mesher::triangulate(Index f) {
     };
     split(rim[0], corner(1)), split(rim[2], corner(3));
 
-    const double ideal = sheet.is_saddle ? [&] {
+    const double ideal = sheet.is_saddle && !sheet.is_thin() ? [&] {
         double sum = 0;  // Simpson's rule
         const int parts = 16;
         for (int k = 0; k <= parts; ++k)
@@ -482,6 +484,7 @@ MeshEstimate Mesher::estimate() const {
     for (Index f = 0; f < in.faces; ++f) {
         const Sheet& sheet = sheets[f];
         const double high = sheet.to - sheet.from;
+        if (sheet.is_thin()) continue;
         if (sheet.is_saddle) result.triangles += 1.1 * best_density * in.angle_scale * high * sheet.most_width_u() / in.error;
         for (const ContactCurve& c : sheet.curves)
             result.triangles += high * std::sqrt(c.bend(0.75 * sheet.from + 0.25 * sheet.to, 0.25 * sheet.from + 0.75 * sheet.to) /

@@ -31,9 +31,9 @@ struct Sheet::Spread {
 
 Sheet::Sheet(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first, double last,
              double error, double angle_scale)
-    : is_saddle(on.kind == Kind::edge_vertex), from(first), to(last),
-      curves{ContactCurve(places, on, lower, first, last), ContactCurve(places, on, upper, first, last)}, eps(error),
-      w(angle_scale) {
+    : is_saddle(on.kind == Kind::edge_vertex), from(first), to(last), eps(error), w(angle_scale) {
+    if (!is_thin())
+        curves = {ContactCurve(places, on, lower, first, last), ContactCurve(places, on, upper, first, last)};
     const auto parts = places.parts(on);
     direction = parts.edge;
     const Complex normal = -i_unit * direction;
@@ -44,7 +44,7 @@ Sheet::Sheet(const Places& places, const Feature& on, const Feature& lower, cons
     fixed = parts.b, h = dot(normal, parts.a);
     const double start = dot(parts.a, direction), middle = start + 0.5 * parts.length;
     shear = 0.5 * h / std::hypot(w, middle);
-    for (int k = 0; k <= 8; ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
+    for (int k = 0; k <= 8 && !is_thin(); ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
 }
 
 double Sheet::position(Complex x, double phi) const {
@@ -104,6 +104,7 @@ double Sheet::beyond(const Corners& c, const Spread& d) const {
 }
 
 double Sheet::excess(const Corners& c) const {
+    if (is_thin()) return 0;
     const Spread d(c);
     if (d.angle > pi / 2) return infinity;
     const double over = beyond(c, d), plain = std::hypot(slice_distance(c, d), over) / eps;

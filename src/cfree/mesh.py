@@ -35,6 +35,8 @@ COLOURS = {1: "#d7301f", 2: "#3a9a3a", 3: "#b4b9c1"}
 MESH_SUFFIXES = (".glb", ".ply", ".obj", ".stl")
 MOST_TRIANGLES = 10_000_000
 """Larger meshes are refused: they would take some gigabytes."""
+ROUNDING = 1e-10
+"""Errors must be above this part of the largest coordinate: places are computed in doubles."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +108,9 @@ def triangulated(boundary: Boundary, error: float, angle_scale: float | None) ->
     if not 0 < scale < math.inf:
         raise ValueError(f"angle_scale: {scale}; give a length per radian above 0")
     f, t, c = boundary.features, boundary.trapezoids, boundary.complex
+    size = max(float(np.abs(xy).max(initial=0.0)) for xy in (c.x, c.y))
+    if error < ROUNDING * size:
+        raise UnsupportedError(f"error: {error:g}; doubles of {size:g} allow for no less than {ROUNDING * size:g}")
     try:
         found = _core.mesh(
             f.robot.core_shape(), f.obstacles.core_shape(), f.robot.xy.ravel(), f.obstacles.xy.ravel(),
@@ -128,7 +133,7 @@ def triangulated(boundary: Boundary, error: float, angle_scale: float | None) ->
 
 def _too_many(error: float, coarsest: float, expected: float) -> str:
     size = f"a mesh with error {error:g} would have about {expected:.2g} triangles, more than {MOST_TRIANGLES:,}"
-    if coarsest > MOST_TRIANGLES:
+    if coarsest >= MOST_TRIANGLES:
         return f"{size}, and at least {coarsest:.2g} with any error; mesh a smaller scene"
     # what accuracy adds grows at most as 1 / error, and at least as its root
     larger = error * ((expected - coarsest) / (MOST_TRIANGLES - coarsest)) ** 2
@@ -154,9 +159,10 @@ def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     ----------
     mesh : Mesh
     path : path
-        ``.glb`` has one coloured mesh for each kind of patch, theta upwards, its patches apart with a sharp edge
-        between them; ``.ply`` has colours and patch ids of the triangles; ``.obj`` has colours of the vertices;
-        ``.stl`` triangles only. All have normals, towards the free side.
+        ``.glb`` has one coloured mesh for each kind of patch, theta upwards; ``.obj`` has colours of the vertices. In
+        both each patch has vertices of its own, so that edges between patches look sharp. ``.ply`` has colours and
+        patch ids of the triangles, and shared vertices: closed surfaces; ``.stl`` triangles only. All have normals,
+        towards the free side.
 
     Raises
     ------
@@ -171,10 +177,12 @@ def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     if suffix == ".glb":
         data = _by_kind(mesh).export(file_type="glb")
     else:
-        corners = mesh.triangles
-        shape: Any = trimesh.Trimesh(mesh.vertices, corners, vertex_normals=_normals_at(mesh, corners), process=False)
+        vertices, corners = _patches_apart(mesh) if suffix == ".obj" else (mesh.vertices, mesh.triangles)
+        shape: Any = trimesh.Trimesh(vertices, corners, vertex_normals=_normals_at(mesh, corners), process=False)
         if suffix == ".obj":
-            shape.visual.vertex_colors = _vertex_colours(mesh)
+            colours = np.zeros((len(vertices), 4), dtype=np.uint8)
+            colours[corners] = mesh.colours[:, None, :]
+            shape.visual.vertex_colors = colours
         if suffix == ".ply":
             shape.visual.face_colors = mesh.colours
             shape.face_attributes["patch"] = mesh.patch.astype(np.int32)
@@ -210,11 +218,11 @@ def _normals_at(mesh: Mesh, corners: NDArray[np.integer[Any]]) -> Floats:
     return _unit(normals)
 
 
-def _vertex_colours(mesh: Mesh) -> NDArray[np.uint8]:
-    """Colours of the vertices: all triangles at one have the same."""
-    colours = np.zeros((len(mesh.vertices), 4), dtype=np.uint8)
-    colours[mesh.triangles] = mesh.colours[:, None, :]
-    return colours
+def _patches_apart(mesh: Mesh) -> tuple[Floats, NDArray[np.int64]]:
+    """Vertices and corners, with a vertex for each patch at it."""
+    count = len(mesh.vertices)
+    at, corners = np.unique(mesh.patch[:, None] * np.int64(count) + mesh.triangles, return_inverse=True)
+    return mesh.vertices[at % count], corners.reshape(-1, 3)
 
 
 def _by_kind(mesh: Mesh) -> Any:
@@ -224,9 +232,7 @@ def _by_kind(mesh: Mesh) -> Any:
     visual: Any = trimesh.visual
     upright = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
     scene = trimesh.Scene()
-    # a vertex for each patch at it
-    at, corners = np.unique(mesh.patch[:, None] * np.int64(len(mesh.vertices)) + mesh.triangles, return_inverse=True)
-    corners, vertices = corners.reshape(-1, 3), mesh.vertices[at % len(mesh.vertices)]
+    vertices, corners = _patches_apart(mesh)
     normals = _normals_at(mesh, corners)
     for kind, name in KINDS.items():
         faces = corners[mesh.kind == kind]

@@ -29,6 +29,7 @@ struct Places {
 
 class ContactCurve {
 public:
+    ContactCurve() = default;
     // Between two angles, which decide what happens at removable poles.
     ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to);
     Complex at(double phi) const;

@@ -35,6 +35,9 @@ public:
     double width_u(double phi) const;  // of the face at an angle
     double most_width_u() const { return most_width; }
 
+    // Is there less between its angles than doubles can tell apart? Then its corners are all that is known of it.
+    bool is_thin() const { return to - from < 1e-9; }
+
     bool is_saddle;
     double from, to;      // angles
     double shear = 0;
