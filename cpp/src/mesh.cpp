@@ -15,7 +15,7 @@ namespace cfree {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double on_curves = 0.6;   // share of the error that sampled curves may take
+constexpr double on_curves = 0.7;   // share of the error that sampled curves may take
 constexpr double most_turn = pi / 4;  // between two samples of a curve
 constexpr double rim_step = 2.5;  // greatest step along the rim of a wide e-v face, in units of the lattice
 constexpr double rim_gap = 0.2;     // least distance of lattice points from the rim, in the same units
