@@ -15,11 +15,11 @@ namespace cfree {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double on_curves = 0.7;   // share of the error that sampled curves may take
-constexpr double most_turn = pi / 4;  // between two samples of a curve
-constexpr double rim_step = 4;  // greatest step along the rim of a wide e-v face, in units of the lattice
+constexpr double on_curves = 0.7;     // share of the error that sampled curves may take: strips need it below sqrt(1/2)
+constexpr double most_turn = pi / 4;    // between two samples of a curve
+constexpr double rim_step = 4;        // greatest step along the rim of a wide e-v face, in units of the lattice
 constexpr double rim_gap = 0.1;     // least distance of lattice points from the rim, in the same units
-constexpr double stretch = 1.6;
+constexpr double stretch = 1.6;       // of the lattice along u: where h is large that is where the shear varies less
 constexpr double golden = std::numbers::phi;
 constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles a unit of w du dphi / error
 
