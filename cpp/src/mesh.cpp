@@ -250,7 +250,8 @@ void Mesher::add_lattice(const Sheet& sheet) {
     const auto rows = static_cast<Index>(std::ceil(wide * golden + high / golden)) + 2;
     std::vector<std::array<double, 2>> found;
     for (Index j = -rows; j <= rows; ++j) {
-        const auto from = static_cast<Index>(std::floor((-high + j) / golden)), to = static_cast<Index>(std::ceil((high + j) / golden));
+        const auto from = static_cast<Index>(std::floor((-high + j) / golden));
+        const auto to = static_cast<Index>(std::ceil((high + j) / golden));
         for (Index i = from; i <= to; ++i) {
             const double x = x0 + unit * (i / golden + j), phi = (y0 + unit * (i * golden - j)) / stretch;
             if (x < left || x > right || phi < sheet.from + gap / stretch || phi > sheet.to - gap / stretch) continue;
@@ -453,7 +454,8 @@ bool Mesher::part_equal_edges() {
                 is_cut[t] = 1, any = true;
                 int c = 0;  // the corner off the edge
                 while (out.corners[3 * t + c] == x.p || out.corners[3 * t + c] == x.q) ++c;
-                const Index a = out.corners[3 * t + c], p = out.corners[3 * t + (c + 1) % 3], q = out.corners[3 * t + (c + 2) % 3];
+                const auto corner = [&](int k) { return out.corners[3 * t + (c + k) % 3]; };
+                const Index a = corner(0), p = corner(1), q = corner(2);
                 out.corners[3 * t] = a, out.corners[3 * t + 1] = p, out.corners[3 * t + 2] = m;
                 out.corners.insert(out.corners.end(), {a, m, q});
                 out.face.push_back(x.face);
@@ -486,9 +488,10 @@ MeshEstimate Mesher::estimate() const {
         const double high = sheet.to - sheet.from;
         if (sheet.is_thin()) continue;
         if (sheet.is_saddle) result.triangles += 1.1 * best_density * in.angle_scale * high * sheet.most_width_u() / in.error;
-        for (const ContactCurve& c : sheet.curves)
-            result.triangles += high * std::sqrt(c.bend(0.75 * sheet.from + 0.25 * sheet.to, 0.25 * sheet.from + 0.75 * sheet.to) /
-                                                 (8 * on_curves * in.error));
+        for (const ContactCurve& c : sheet.curves) {
+            const double bend = c.bend(sheet.from + 0.25 * high, sheet.to - 0.25 * high);
+            result.triangles += high * std::sqrt(bend / (8 * on_curves * in.error));
+        }
     }
     result.triangles += result.coarsest;
     return result;
