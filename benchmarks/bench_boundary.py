@@ -45,7 +45,7 @@ class Build:
 def run(quick: bool) -> Report:
     report = Report(
         "Whole boundary, one thread: core time a patch against the trial",
-        ("scene", "patches", "live", "trapezoids", "features ms", "setup ms", "trim ms", "collect ms",
+        ("scene", "patches", "live", "trapezoids", "features ms", "trim ms", "collect ms",
          "trim µs/patch", "trial", "ratio", "checksum"),
     )  # fmt: skip
     for case, (patches, seconds) in TRIAL.items():
@@ -58,7 +58,7 @@ def run(quick: bool) -> Report:
         ratio = trial / (trim.best / stats.patches)
         report.rows.append((
             case, f"{stats.patches:,}", f"{stats.live_patches:,}", f"{stats.trapezoids:,}",
-            *(build.times(phase).text() for phase in ("features", "setup", "trim", "collect")),
+            *(build.times(phase).text() for phase in ("features", "trim", "collect")),
             trim.text("µs", stats.patches), f"{1e6 * trial:.0f}", f"{ratio:.1f}", build.checksum(),
         ))  # fmt: skip
         report.figure("core time a patch, times faster than the trial", case, ratio, ">=", AT_LEAST)

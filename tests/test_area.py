@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from cfree import area
-from cfree.area import patch_areas, trapezoid_areas
 from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
-from cfree.development import develop
-from cfree.elliptic import second_kind
 from cfree.errors import IncompleteError
 from cfree.forbidden import boundary
-from cfree.geometry import local_geometry
+from cfree.geometry.area import patch_areas, trapezoid_areas
+from cfree.geometry.development import develop
+from cfree.geometry.elliptic import second_kind
+from cfree.geometry.local import local_geometry
 from cfree.io import load_scene
 from cfree.polygon import Polygon
 from cfree.scene import Scene

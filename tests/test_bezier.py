@@ -13,11 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.bezier import BezierPatch, bezier_patch, bezier_patches, save_bezier
 from cfree.contact import EdgeVertex, VertexEdge, contacts
 from cfree.polygon import Polygon
 from cfree.predicates import Location
-from cfree.rational import RationalSurface, rational_surface
+from cfree.rational.bezier import BezierPatch, bezier_patch, bezier_patches, save_bezier
+from cfree.rational.model import RationalSurface, rational_surface
 from cfree.surface import contact_surface
 from shapes import Shape
 

@@ -14,11 +14,8 @@ from hypothesis import strategies as st
 import strategies
 from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
 from cfree.forbidden import boundary
-from cfree.geometry import LocalGeometry, local_geometry
-from cfree.io import load_scene
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.rulings import (
+from cfree.geometry.local import LocalGeometry, local_geometry
+from cfree.geometry.rulings import (
     distribution_parameters,
     is_developable,
     is_helicoid,
@@ -28,6 +25,9 @@ from cfree.rulings import (
     striction_parameter,
     striction_parameters,
 )
+from cfree.io import load_scene
+from cfree.polygon import Polygon
+from cfree.pose import Pose
 from cfree.surface import Surface, contact_surface, helix_through
 from cfree.touch import is_forbidden
 from shapes import Shape

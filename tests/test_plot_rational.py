@@ -11,8 +11,8 @@ from matplotlib.colors import to_rgb
 
 from cfree.contact import EdgeVertex, VertexEdge, angle_range
 from cfree.mesh import COLOURS
-from cfree.plot_rational import SHOWN, plot_models
 from cfree.polygon import Polygon
+from cfree.rational.plot import SHOWN, plot_models
 
 A = Polygon([(-1, -1), (2, -1), (0, 2)])
 O = Polygon([(3, 0), (6, 1), (4, 4)])
@@ -44,8 +44,8 @@ def test_both_halves_show_the_patch_in_its_colour(contact: VertexEdge | EdgeVert
 
 
 def test_cells_are_on_the_surface_and_the_patch_is_phi() -> None:
-    from cfree.plot_rational import cells
-    from cfree.rational import rational_surface
+    from cfree.rational.model import rational_surface
+    from cfree.rational.plot import cells
 
     S = rational_surface(A, O, VertexEdge(1, 0))
     outlines, on_patch = cells(S, 180)

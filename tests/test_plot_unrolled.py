@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from cfree.area import patch_areas
 from cfree.contact import EdgeVertex, VertexEdge, angle_range
-from cfree.plot_unrolled import plot_development
+from cfree.geometry.area import patch_areas
+from cfree.geometry.plot import plot_development
 from cfree.polygon import Polygon
 from cfree.surface import contact_surface
 

@@ -29,7 +29,7 @@ from cfree.errors import InvalidPoseError
 from cfree.polygon import Polygon
 from cfree.pose import Pose, chart_intervals, half_tangent
 from cfree.predicates import Location
-from cfree.rational import (
+from cfree.rational.model import (
     RationalHelix,
     RationalPoint,
     RationalSegment,
@@ -41,7 +41,7 @@ from cfree.rational import (
     to_geometrical,
     to_rational,
 )
-from cfree.surd import Surd
+from cfree.rational.surd import Surd
 from cfree.touch import is_contact
 from shapes import Shape
 
@@ -308,10 +308,10 @@ def test_remark_4_no_function_of_an_angle_is_called() -> None:
     program = """
 import cmath, math, numpy
 import cfree._core
-from cfree.bezier import bezier_patches
+from cfree.rational.bezier import bezier_patches
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
 from cfree.polygon import Polygon
-from cfree.rational import rational_helix, rational_segment, rational_surface
+from cfree.rational.model import rational_helix, rational_segment, rational_surface
 A, O = Polygon([(0, 0), (2, 0), (1, 3)]), Polygon([(5, 0), (8, 1), (6, 4)])
 def refused(*_, **__):
     raise AssertionError("a function of an angle")

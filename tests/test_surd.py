@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 import strategies
 from cfree.pose import half_angle_rotation
 from cfree.predicates import Order, Orientation, turn
-from cfree.surd import ExactAngle, Surd
+from cfree.rational.surd import ExactAngle, Surd
 
 rationals = strategies.fractions()
 radicands = st.integers(0, 60) | st.integers(0, 10**30)

@@ -17,8 +17,8 @@ from cfree.figures import draw
 # %%
 # A robot and a pose (section 1.1)
 # --------------------------------
-# The robot is a polygon around its reference point, which is the origin of its own coordinates. A pose q = (x, y, theta)
-# places it: a_i(q) = r + R(theta) a_i, eq. (3). Numbers are exact: fractions, integers, or doubles as they are.
+# The robot is a polygon around its reference point, which is the origin of its own coordinates. A pose q = (x, y,
+# theta) places it: a_i(q) = r + R(theta) a_i, eq. (3). Numbers are exact: fractions, integers, or doubles as they are.
 
 robot = cfree.Polygon([(-1, "-1/2"), (1, "-1/2"), (0, 1)])
 obstacle = cfree.Polygon([(-1, -1), ("3/2", "-1/2"), (0, "3/2")])
@@ -36,8 +36,8 @@ print(pose.apply_exact(robot.exact_vertices))
 # %%
 # Contact and pseudo contact (section 1.2)
 # ----------------------------------------
-# Boundaries meet. If the interiors do not, it is a contact: free, because the forbidden space is open. If they do, it is
-# a pseudo contact. A contact type says which features meet, and nothing about the interiors.
+# Boundaries meet. If the interiors do not, it is a contact: free, because the forbidden space is open. If they do, it
+# is a pseudo contact. A contact type says which features meet, and nothing about the interiors.
 
 figure = draw(2)
 
@@ -69,9 +69,9 @@ print(S(t=[0, 0.5, 1], phi=0.3).round(4))
 figure = draw(7)
 
 # %%
-# Only a part of it are contacts. The vertex's two edges have to leave the obstacle's edge to the right, which is so from
-# phi_min on, where E_i lies along the edge, over phi_range = pi - rho_i (section 3.1.1). No arccosine is needed: the
-# direction of phi_min is that of (-E_i . E_j, -E_i x E_j).
+# Only a part of it are contacts. The vertex's two edges have to leave the obstacle's edge to the right, which is so
+# from phi_min on, where E_i lies along the edge, over phi_range = pi - rho_i (section 3.1.1). No arccosine is needed:
+# the direction of phi_min is that of (-E_i . E_j, -E_i x E_j).
 
 Phi = cfree.angle_range(robot, obstacle, on_edge)
 print(f"phi_min = {np.degrees(Phi.phi_min):.3f} degrees, phi_range = {np.degrees(Phi.phi_range):.3f} degrees")
@@ -159,7 +159,7 @@ print(cut, cut.forbidden.area)
 
 exact = cfree.rational_surface(robot, obstacle, on_vertex)
 x, y, tau = exact.point("1/3", "2/5")
-a = [(2 * p + q) / 3 for p, q in zip(robot.exact_vertices[1], robot.exact_vertices[2])]  # a_1 + t E_1 at t = 1/3
+a = [(2 * p + q) / 3 for p, q in zip(*robot.exact_vertices[1:], strict=True)]  # a_1 + t E_1 at t = 1/3
 (contact,) = cfree.Pose(x, y, {"tau": tau}).apply_exact([a])
 print((x, y, tau), contact == obstacle.exact_vertices[0])
 figure = cfree.plot_models(robot, obstacle, on_vertex)

@@ -4,17 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from cfree.area import patch_areas as patch_areas
-    from cfree.area import trapezoid_areas as trapezoid_areas
-    from cfree.bezier import BezierPatch as BezierPatch
-    from cfree.bezier import bezier_patch as bezier_patch
-    from cfree.bezier import bezier_patches as bezier_patches
-    from cfree.bezier import save_bezier as save_bezier
     from cfree.cell_complex import CellComplex as CellComplex
-    from cfree.congruence import arc_classes as arc_classes
-    from cfree.congruence import helix_classes as helix_classes
-    from cfree.congruence import patch_classes as patch_classes
-    from cfree.congruence import surface_classes as surface_classes
     from cfree.contact import AngleRange as AngleRange
     from cfree.contact import EdgeEdge as EdgeEdge
     from cfree.contact import EdgeVertex as EdgeVertex
@@ -24,7 +14,6 @@ if TYPE_CHECKING:
     from cfree.contact import contact_curves as contact_curves
     from cfree.contact import contacts as contacts
     from cfree.contact import edge_edge_range as edge_edge_range
-    from cfree.development import develop as develop
     from cfree.errors import CfreeError as CfreeError
     from cfree.errors import FormatError as FormatError
     from cfree.errors import IncompleteError as IncompleteError
@@ -35,8 +24,24 @@ if TYPE_CHECKING:
     from cfree.film import save_film as save_film
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
-    from cfree.geometry import LocalGeometry as LocalGeometry
-    from cfree.geometry import local_geometry as local_geometry
+    from cfree.geometry.area import patch_areas as patch_areas
+    from cfree.geometry.area import trapezoid_areas as trapezoid_areas
+    from cfree.geometry.congruence import arc_classes as arc_classes
+    from cfree.geometry.congruence import helix_classes as helix_classes
+    from cfree.geometry.congruence import patch_classes as patch_classes
+    from cfree.geometry.congruence import surface_classes as surface_classes
+    from cfree.geometry.development import develop as develop
+    from cfree.geometry.local import LocalGeometry as LocalGeometry
+    from cfree.geometry.local import local_geometry as local_geometry
+    from cfree.geometry.plot import plot_development as plot_development
+    from cfree.geometry.rulings import distribution_parameters as distribution_parameters
+    from cfree.geometry.rulings import is_developable as is_developable
+    from cfree.geometry.rulings import is_helicoid as is_helicoid
+    from cfree.geometry.rulings import is_minimal as is_minimal
+    from cfree.geometry.rulings import striction_curve as striction_curve
+    from cfree.geometry.rulings import striction_is_on_patch as striction_is_on_patch
+    from cfree.geometry.rulings import striction_parameter as striction_parameter
+    from cfree.geometry.rulings import striction_parameters as striction_parameters
     from cfree.io import load_polygons as load_polygons
     from cfree.io import load_scene as load_scene
     from cfree.mesh import Mesh as Mesh
@@ -45,34 +50,29 @@ if TYPE_CHECKING:
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
     from cfree.plot import plot_workspace as plot_workspace
-    from cfree.plot_rational import plot_models as plot_models
-    from cfree.plot_unrolled import plot_development as plot_development
     from cfree.polygon import Polygon as Polygon
     from cfree.pose import Pose as Pose
     from cfree.pose import Poses as Poses
-    from cfree.rational import RationalHelix as RationalHelix
-    from cfree.rational import RationalRange as RationalRange
-    from cfree.rational import RationalSegment as RationalSegment
-    from cfree.rational import RationalSurface as RationalSurface
-    from cfree.rational import rational_helix as rational_helix
-    from cfree.rational import rational_range as rational_range
-    from cfree.rational import rational_segment as rational_segment
-    from cfree.rational import rational_surface as rational_surface
-    from cfree.rational import to_geometrical as to_geometrical
-    from cfree.rational import to_rational as to_rational
-    from cfree.rulings import distribution_parameters as distribution_parameters
-    from cfree.rulings import is_developable as is_developable
-    from cfree.rulings import is_helicoid as is_helicoid
-    from cfree.rulings import is_minimal as is_minimal
-    from cfree.rulings import striction_curve as striction_curve
-    from cfree.rulings import striction_is_on_patch as striction_is_on_patch
-    from cfree.rulings import striction_parameter as striction_parameter
-    from cfree.rulings import striction_parameters as striction_parameters
+    from cfree.rational.bezier import BezierPatch as BezierPatch
+    from cfree.rational.bezier import bezier_patch as bezier_patch
+    from cfree.rational.bezier import bezier_patches as bezier_patches
+    from cfree.rational.bezier import save_bezier as save_bezier
+    from cfree.rational.model import RationalHelix as RationalHelix
+    from cfree.rational.model import RationalRange as RationalRange
+    from cfree.rational.model import RationalSegment as RationalSegment
+    from cfree.rational.model import RationalSurface as RationalSurface
+    from cfree.rational.model import rational_helix as rational_helix
+    from cfree.rational.model import rational_range as rational_range
+    from cfree.rational.model import rational_segment as rational_segment
+    from cfree.rational.model import rational_surface as rational_surface
+    from cfree.rational.model import to_geometrical as to_geometrical
+    from cfree.rational.model import to_rational as to_rational
+    from cfree.rational.plot import plot_models as plot_models
+    from cfree.rational.surd import ExactAngle as ExactAngle
+    from cfree.rational.surd import Surd as Surd
     from cfree.scene import Scene as Scene
     from cfree.slice import Slice as Slice
     from cfree.storage import load_boundary as load_boundary
-    from cfree.surd import ExactAngle as ExactAngle
-    from cfree.surd import Surd as Surd
     from cfree.surface import EdgeEdgeSegment as EdgeEdgeSegment
     from cfree.surface import Helix as Helix
     from cfree.surface import Surface as Surface
@@ -91,33 +91,33 @@ __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
-    "area": "patch_areas trapezoid_areas",
-    "bezier": "BezierPatch bezier_patch bezier_patches save_bezier",
     "cell_complex": "CellComplex",
-    "congruence": "arc_classes helix_classes patch_classes surface_classes",
     "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
     "edge_edge_range",
-    "development": "develop",
     "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
     "UnsupportedError",
     "film": "save_film",
     "forbidden": "Boundary boundary",
-    "geometry": "LocalGeometry local_geometry",
+    "geometry.area": "patch_areas trapezoid_areas",
+    "geometry.congruence": "arc_classes helix_classes patch_classes surface_classes",
+    "geometry.development": "develop",
+    "geometry.local": "LocalGeometry local_geometry",
+    "geometry.plot": "plot_development",
+    "geometry.rulings": "distribution_parameters is_developable is_helicoid is_minimal striction_curve "
+    "striction_is_on_patch striction_parameter striction_parameters",
     "io": "load_polygons load_scene",
     "mesh": "Mesh save_mesh",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
-    "plot_rational": "plot_models",
-    "plot_unrolled": "plot_development",
     "polygon": "Polygon",
     "pose": "Pose Poses",
-    "rational": "RationalHelix RationalRange RationalSegment RationalSurface rational_helix rational_range "
+    "rational.bezier": "BezierPatch bezier_patch bezier_patches save_bezier",
+    "rational.model": "RationalHelix RationalRange RationalSegment RationalSurface rational_helix rational_range "
     "rational_segment rational_surface to_geometrical to_rational",
-    "rulings": "distribution_parameters is_developable is_helicoid is_minimal striction_curve striction_is_on_patch "
-    "striction_parameter striction_parameters",
+    "rational.plot": "plot_models",
+    "rational.surd": "ExactAngle Surd",
     "scene": "Scene",
     "slice": "Slice",
     "storage": "load_boundary",
-    "surd": "ExactAngle Surd",
     "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface helix_through "
     "rotation_about rotation_of_combination",
     "touch": "contact_features is_contact is_forbidden is_pseudo_contact",

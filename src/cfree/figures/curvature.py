@@ -14,9 +14,9 @@ from matplotlib import colormaps
 from cfree.contact import EdgeVertex
 from cfree.figures.space import curve, draw_frame, new_space, paint, sheet
 from cfree.figures.style import GREY, INK, Palette, new_figure
-from cfree.geometry import local_geometry
+from cfree.geometry.local import local_geometry
+from cfree.geometry.rulings import striction_parameter
 from cfree.polygon import Polygon
-from cfree.rulings import striction_parameter
 from cfree.surface import contact_surface
 
 if TYPE_CHECKING:

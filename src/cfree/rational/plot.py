@@ -17,7 +17,7 @@ from cfree.contact import EdgeVertex, VertexEdge
 from cfree.mesh import COLOURS
 from cfree.polygon import Polygon
 from cfree.predicates import Location
-from cfree.rational import RationalSurface, rational_surface, to_rational
+from cfree.rational.model import RationalSurface, rational_surface, to_rational
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

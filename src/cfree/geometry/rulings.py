@@ -13,7 +13,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cfree.ruled import Floats, check_scale, read_ruled
+from cfree.geometry.ruled import Floats, check_scale, read_ruled
 from cfree.surface import Helix, Surface
 
 

@@ -25,7 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cfree.ruled import Floats, check_scale, finite, read_ruled
+from cfree.geometry.ruled import Floats, check_scale, finite, read_ruled
 
 
 @dataclass(frozen=True, eq=False)

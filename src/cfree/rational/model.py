@@ -6,7 +6,7 @@ Paper, eq. (2) and section 5. The rotation by theta is the rational matrix
 
 so eqs. (4), (5), (8) and the curves of section 3.3 are rational functions of tau and t, and map fractions to
 fractions. tau runs through all numbers and infinity, which is one point, the half turn: None where numbers are exact,
-inf in arrays. The sub-domain Phi ends at numbers with one square root (`cfree.surd`).
+inf in arrays. The sub-domain Phi ends at numbers with one square root (`cfree.rational.surd`).
 
     contact     surface or curve                     on fractions                 a contact for
     v-e, e-v    S(t, tau) = p + t q - M (a + t g)    x, y, tau fractions          t in [0, 1], tau in Phi
@@ -30,7 +30,7 @@ from cfree.exact import Number, to_fraction
 from cfree.polygon import Polygon
 from cfree.pose import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
 from cfree.predicates import Location, Order, compare_directions, locate_in_sector
-from cfree.surd import ExactAngle, Surd
+from cfree.rational.surd import ExactAngle, Surd
 from cfree.surface import Helix, Surface, contact_helix, contact_surface
 
 Floats = NDArray[np.float64]

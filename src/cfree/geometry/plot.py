@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cfree.contact import VertexEdge, angle_range
-from cfree.development import develop
+from cfree.geometry.development import develop
 from cfree.mesh import COLOURS
 from cfree.polygon import Polygon
 from cfree.surface import contact_surface

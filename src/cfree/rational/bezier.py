@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.files import replacing
 from cfree.pose import chart_intervals, seen_in_chart
-from cfree.rational import RationalSurface
+from cfree.rational.model import RationalSurface
 from cfree.surface import Surface
 
 Floats = NDArray[np.float64]
@@ -175,7 +175,7 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
     ----------
     patch : RationalSurface
     bits : int, optional
-        Precision of the ends, see `cfree.rational.RationalRange.inside`.
+        Precision of the ends, see `cfree.rational.model.RationalRange.inside`.
 
     Returns
     -------
@@ -191,7 +191,7 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
     --------
     >>> from cfree.contact import VertexEdge
     >>> from cfree.polygon import Polygon
-    >>> from cfree.rational import rational_surface
+    >>> from cfree.rational.model import rational_surface
     >>> triangle, square = Polygon([(0, 0), (2, 0), (1, 1)]), Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     >>> patch = rational_surface(triangle, square, VertexEdge(1, 2))     # from -135 to 0 degrees
     >>> [(part.chart, *map(str, part.interval)) for part in bezier_patches(patch, bits=8)]
