@@ -8,7 +8,7 @@ import flint
 import numpy as np
 import pytest
 
-from cfree import area
+from cfree.geometry import area
 from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
 from cfree.errors import IncompleteError
 from cfree.forbidden import boundary
