@@ -8,10 +8,10 @@ import flint
 import numpy as np
 import pytest
 
-from cfree.geometry import area
 from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
 from cfree.errors import IncompleteError
 from cfree.forbidden import boundary
+from cfree.geometry import area
 from cfree.geometry.area import patch_areas, trapezoid_areas
 from cfree.geometry.development import develop
 from cfree.geometry.elliptic import second_kind
