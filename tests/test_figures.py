@@ -230,10 +230,10 @@ def test_figure_6_keeps_edges_together_beyond_t_1() -> None:
         (Fraction(1), {VertexVertex(0, 1), EdgeEdge(0, 0)}),
         (Fraction(5, 4), {EdgeEdge(0, 0)}),
     ):
-        q = C.surface.pose(t, 0)
+        q = C.surface.pose(t, 0, beyond=True)
         assert is_contact(robot, obstacle, q)
         assert kinds <= set(contact_features(robot, obstacle, q))
-    assert not contact_features(robot, obstacle, C.surface.pose(end + Fraction(1, 100), 0))
+    assert not contact_features(robot, obstacle, C.surface.pose(end + Fraction(1, 100), 0, beyond=True))
 
 
 def test_the_triangles_and_the_five_obstacles_are_those_of_the_examples() -> None:

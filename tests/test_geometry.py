@@ -415,7 +415,7 @@ def test_remark_5_helices_are_congruent_in_pairs_about_the_striction_curve(shape
     assert middle is not None
 
     def radius_squared(t: Fraction) -> Fraction:
-        return sum((c * c for c in S.helix(t).fixed), Fraction(0))
+        return sum((c * c for c in S.helix(t, beyond=True).fixed), Fraction(0))
 
     assert radius_squared(t) == radius_squared(2 * middle - t)
     assert (radius_squared(t) == radius_squared(other)) == (other in (t, 2 * middle - t))

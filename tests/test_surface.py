@@ -194,7 +194,7 @@ def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon
         S = contact_surface(A, O, VertexEdge(contact.i, contact.j))
         low, high = contact_segment(A, O, contact).t_range if contact in found else (1.0, 0.0)
         for t in (Fraction(k, 8) for k in range(-4, 30)):
-            q = S.pose(t, theta)
+            q = S.pose(t, theta, beyond=True)
             touching = is_contact(A, O, q)
             if touching and contact in contact_features(A, O, q):
                 assert low <= t <= high
@@ -253,3 +253,18 @@ def test_huge_coordinates_do_not_matter() -> None:
     S = contact_surface(big, big, VertexEdge(0, 2))
     np.testing.assert_allclose(S(0.5, 0.0), [1e100, 2e100, 0])
     assert is_contact(big, big, S.pose("1/3", "45deg"))
+
+
+@pytest.mark.parametrize("t", [-0.1, 1.5, [0, 1, 2], math.nan])
+def test_beyond_the_edge_is_on_the_surface_only_if_one_says_so(t: float | list[float]) -> None:
+    S = contact_surface(SQUARE, SQUARE, VertexEdge(0, 2))
+    for evaluate in (lambda: S(t, 0.3), lambda: S.grid(np.atleast_1d(t), [0.3])):
+        with pytest.raises(ValueError, match="beyond=True|not finite"):
+            evaluate()
+    if isinstance(t, float) and math.isfinite(t):
+        with pytest.raises(ValueError, match="beyond=True"):
+            S.pose(t, 0)
+        q = S.pose(t, 0, beyond=True)
+        np.testing.assert_allclose(S(t, 0, beyond=True), [float(q.x), float(q.y), 0], atol=1e-15)
+    with pytest.raises(ValueError, match="phi: nan is not finite"):
+        S(0.5, math.nan)

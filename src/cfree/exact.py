@@ -14,6 +14,7 @@ from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 Number = int | float | Fraction | Decimal | str
 ExactPoint = tuple[Fraction, Fraction]
@@ -121,6 +122,14 @@ def angle(x: int, y: int) -> float:
     """
     size = max(abs(x), abs(y))
     return math.atan2(y / size, x / size)
+
+
+def finite(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """Values as doubles, none of them NaN or infinite."""
+    array = np.asarray(values, dtype=np.float64)
+    if not np.isfinite(array).all():
+        raise ValueError(f"{name}: {array[~np.isfinite(array)][0]} is not finite; give finite numbers")
+    return array
 
 
 def _decimal_ratio(value: Decimal) -> tuple[int, int]:

@@ -110,7 +110,7 @@ def triangulated(boundary: Boundary, error: float, angle_scale: float | None) ->
     f, t, c = boundary.features, boundary.trapezoids, boundary.complex
     size = max(float(np.abs(xy).max(initial=0.0)) for xy in (c.x, c.y))
     if error < ROUNDING * size:
-        raise UnsupportedError(f"error: {error:g}; doubles of {size:g} allow for no less than {ROUNDING * size:g}")
+        raise UnsupportedError(f"mesh error {error:g}: doubles of {size:g} allow for no less than {ROUNDING * size:g}")
     try:
         found = _core.mesh(
             f.robot.core_shape(), f.obstacles.core_shape(), f.robot.xy.ravel(), f.obstacles.xy.ravel(),

@@ -239,7 +239,7 @@ class Patch:
         return len(self.trapezoids) > 0
 
     def surface(self, t: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
-        """Points S(t, phi) = (x, y, phi) of the whole contact surface, eqs. (5) and (8); arguments broadcast."""
+        """Points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8); t beyond [0, 1] is on the edge's line."""
         from cfree import _core
 
         ts, phis = np.broadcast_arrays(np.asarray(t, float), np.asarray(phi, float))

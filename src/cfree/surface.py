@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
-from cfree.exact import ExactPoint, Number, to_fraction
+from cfree.exact import ExactPoint, Number, finite, to_fraction
 from cfree.polygon import Polygon
 from cfree.pose import Angle, Pose
 
@@ -61,17 +61,31 @@ class Surface:
         """p, q, a, g as doubles, (8,): a row as of `Boundary.ruled`."""
         return np.array([float(c) for point in (self.p, self.q, self.a, self.g) for c in point])
 
-    def __call__(self, t: ArrayLike, phi: ArrayLike) -> Floats:
-        """Points (x, y, phi) at t and phi in radians, broadcast against each other: (..., 3)."""
+    def __call__(self, t: ArrayLike, phi: ArrayLike, *, beyond: bool = False) -> Floats:
+        """Points (x, y, phi) at t and phi in radians, broadcast against each other: (..., 3).
+
+        Parameters
+        ----------
+        t : (...) float, in [0, 1]
+        phi : (...) float
+            All angles: those outside Phi, see `angle_range`, are on the surface, and not on the patch.
+        beyond : bool
+            Allow any t: the edge's line then stands for the edge, as on e-e segments.
+
+        Raises
+        ------
+        ValueError
+            If a number is not finite, or t is outside [0, 1] and `beyond` is not set.
+        """
         from cfree import _core
 
-        t, phi = np.broadcast_arrays(np.asarray(t, dtype=np.float64), np.asarray(phi, dtype=np.float64))
+        t, phi = np.broadcast_arrays(_on_edge(t, beyond), finite("phi", phi))
         xy = np.empty((t.size, 2))
         _core.evaluate_points(self.ruled, np.ravel(t), np.ravel(phi), xy)
         return np.concatenate((xy.reshape(*t.shape, 2), phi[..., None]), axis=-1)
 
     def grid(self, t: ArrayLike, phi: ArrayLike) -> Floats:
-        """Positions at all pairs of t and phi: (len(phi), len(t), 2). Faster than a call: a row is a line.
+        """Positions at all pairs of t in [0, 1] and phi: (len(phi), len(t), 2). Faster than a call: a row is a line.
 
         Examples
         --------
@@ -82,20 +96,34 @@ class Surface:
         """
         from cfree import _core
 
-        t, phi = np.ascontiguousarray(t, dtype=np.float64), np.ascontiguousarray(phi, dtype=np.float64)
+        t, phi = np.ascontiguousarray(_on_edge(t, False)), np.ascontiguousarray(finite("phi", phi))
         xy = np.empty((len(phi), len(t), 2))
         _core.evaluate_grid(self.ruled, t, phi, xy)
         return xy
 
-    def helix(self, t: Number) -> Helix:
-        """The curve phi -> S(t, phi), along which a point of the robot is fixed."""
+    def helix(self, t: Number, *, beyond: bool = False) -> Helix:
+        """The curve phi -> S(t, phi), along which a point of the robot is fixed; t as in a call."""
         s = to_fraction(t)
+        if not (beyond or 0 <= s <= 1):
+            raise _not_on_edge(t)
         (px, py), (qx, qy), (ax, ay), (gx, gy) = self.p, self.q, self.a, self.g
         return Helix((px + s * qx, py + s * qy), (ax + s * gx, ay + s * gy))
 
-    def pose(self, t: Number, theta: Angle) -> Pose:
-        """The exact pose at t and theta."""
-        return self.helix(t).pose(theta)
+    def pose(self, t: Number, theta: Angle, *, beyond: bool = False) -> Pose:
+        """The exact pose at t and theta, as in a call."""
+        return self.helix(t, beyond=beyond).pose(theta)
+
+
+def _on_edge(t: ArrayLike, beyond: bool) -> Floats:
+    t = finite("t", t)
+    outside = np.ravel(t[(t < 0) | (t > 1)])
+    if len(outside) and not beyond:
+        raise _not_on_edge(float(outside[0]))
+    return t
+
+
+def _not_on_edge(t: Number) -> ValueError:
+    return ValueError(f"t = {t}; the edge is [0, 1]: give beyond=True to mean its whole line")
 
 
 @dataclass(frozen=True, slots=True)
@@ -155,8 +183,8 @@ class EdgeEdgeSegment:
     t_range: tuple[float, float]
 
     def __call__(self, t: ArrayLike) -> Floats:
-        """Points (x, y, phi): (..., 3)."""
-        return self.surface(t, self.phi)
+        """Points (x, y, phi): (..., 3); any t, a contact within `t_range`."""
+        return self.surface(t, self.phi, beyond=True)
 
 
 def contact_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> Surface:

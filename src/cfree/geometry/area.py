@@ -13,8 +13,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cfree.exact import finite
 from cfree.geometry.development import distance_across
-from cfree.geometry.ruled import Floats, Ruled, check_scale, finite, read_ruled
+from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary

@@ -10,8 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cfree.exact import finite
 from cfree.geometry.elliptic import second_kind
-from cfree.geometry.ruled import Floats, Ruled, check_scale, finite, read_ruled
+from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 
 
 def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:

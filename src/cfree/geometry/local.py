@@ -25,7 +25,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from cfree.geometry.ruled import Floats, check_scale, finite, read_ruled
+from cfree.exact import finite
+from cfree.geometry.ruled import Floats, check_scale, read_ruled
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.exact import finite
+
 Floats = NDArray[np.float64]
 
 
@@ -77,14 +79,6 @@ def read_ruled(ruled: ArrayLike) -> Ruled:
         row = rows[moves == turns][0]
         raise ValueError(f"ruled: row {row} is no contact surface; one of q and g must be 0, the other not")
     return Ruled(rows[..., 0:2], rows[..., 2:4], rows[..., 4:6], rows[..., 6:8])
-
-
-def finite(name: str, values: ArrayLike) -> Floats:
-    """Values as doubles, none of them NaN or infinite."""
-    array = np.asarray(values, dtype=np.float64)
-    if not np.isfinite(array).all():
-        raise ValueError(f"{name}: {array[~np.isfinite(array)][0]} is not finite; give finite numbers")
-    return array
 
 
 def check_scale(angle_scale: float) -> float:

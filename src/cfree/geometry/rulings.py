@@ -86,7 +86,7 @@ def striction_parameter(surface: Surface) -> Fraction | None:
 def striction_curve(surface: Surface) -> Helix | None:
     """The curve phi -> S(t_*, phi) of an e-v surface: the helix of the foot of the perpendicular, or its axis."""
     t = striction_parameter(surface)
-    return None if t is None else surface.helix(t)
+    return None if t is None else surface.helix(t, beyond=True)
 
 
 def striction_is_on_patch(surface: Surface) -> bool:

@@ -250,7 +250,7 @@ class RationalSegment:
         s, (low, high) = to_fraction(t), self.t_range
         if self.locate(s) is Location.OUTSIDE:
             raise _beyond(s, str(low), str(high))
-        (x, y), (ax, ay) = self.surface.helix(s).centre, self.surface.a
+        (x, y), (ax, ay) = self.surface.helix(s, beyond=True).centre, self.surface.a
         cos, sin, n = self.angle.c, self.angle.s, self.angle.n
         return Surd(x, (sin * ay - cos * ax) / n, n), Surd(y, -(sin * ax + cos * ay) / n, n), self.angle.tau
 
