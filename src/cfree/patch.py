@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.errors import InvariantError
 from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.pose import theta_in
+from cfree.surface import evaluate
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -239,13 +240,8 @@ class Patch:
         return len(self.trapezoids) > 0
 
     def surface(self, t: ArrayLike, phi: ArrayLike) -> NDArray[np.float64]:
-        """Points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8); t beyond [0, 1] is on the edge's line."""
-        from cfree import _core
-
-        ts, phis = np.broadcast_arrays(np.asarray(t, float), np.asarray(phi, float))
-        points = np.empty((ts.size, 2))
-        _core.evaluate_points(self._ruled, np.ascontiguousarray(ts.ravel()), np.ascontiguousarray(phis.ravel()), points)
-        return np.concatenate([points.reshape(*ts.shape, 2), phis[..., None]], axis=-1)
+        """Points S(t, phi) = (x, y, phi) of the contact surface, eqs. (5) and (8), as a call of `Surface`."""
+        return evaluate(self._ruled, t, phi)
 
 
 class Patches(Sequence[Patch]):

@@ -77,12 +77,7 @@ class Surface:
         ValueError
             If a number is not finite, or t is outside [0, 1] and `beyond` is not set.
         """
-        from cfree import _core
-
-        t, phi = np.broadcast_arrays(_on_edge(t, beyond), finite("phi", phi))
-        xy = np.empty((t.size, 2))
-        _core.evaluate_points(self.ruled, np.ravel(t), np.ravel(phi), xy)
-        return np.concatenate((xy.reshape(*t.shape, 2), phi[..., None]), axis=-1)
+        return evaluate(self.ruled, t, phi, beyond=beyond)
 
     def grid(self, t: ArrayLike, phi: ArrayLike) -> Floats:
         """Positions at all pairs of t in [0, 1] and phi: (len(phi), len(t), 2). Faster than a call: a row is a line.
@@ -112,6 +107,16 @@ class Surface:
     def pose(self, t: Number, theta: Angle, *, beyond: bool = False) -> Pose:
         """The exact pose at t and theta, as in a call."""
         return self.helix(t, beyond=beyond).pose(theta)
+
+
+def evaluate(ruled: Floats, t: ArrayLike, phi: ArrayLike, *, beyond: bool = False) -> Floats:
+    """Points of the surface with the numbers p, q, a, g; see `Surface`."""
+    from cfree import _core
+
+    t, phi = np.broadcast_arrays(_on_edge(t, beyond), finite("phi", phi))
+    xy = np.empty((t.size, 2))
+    _core.evaluate_points(ruled, np.ravel(t), np.ravel(phi), xy)
+    return np.concatenate((xy.reshape(*t.shape, 2), phi[..., None]), axis=-1)
 
 
 def _on_edge(t: ArrayLike, beyond: bool) -> Floats:
