@@ -259,7 +259,7 @@ def test_huge_coordinates_do_not_matter() -> None:
 def test_beyond_the_edge_is_on_the_surface_only_if_one_says_so(t: float | list[float]) -> None:
     S = contact_surface(SQUARE, SQUARE, VertexEdge(0, 2))
     for evaluate in (lambda: S(t, 0.3), lambda: S.grid(np.atleast_1d(t), [0.3])):
-        with pytest.raises(ValueError, match="beyond=True|not finite"):
+        with pytest.raises(ValueError, match=r"beyond=True|not finite"):
             evaluate()
     if isinstance(t, float) and math.isfinite(t):
         with pytest.raises(ValueError, match="beyond=True"):
