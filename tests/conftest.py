@@ -1,9 +1,14 @@
 """Examples that hypothesis draws are the same in every run of continuous integration, new ones elsewhere."""
 
 import os
+import signal
 
 from hypothesis import settings
 
 settings.register_profile("anywhere", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "anywhere")
+
+# programs that tests interrupt inherit what is done with SIGINT, and background jobs are started with it ignored
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)

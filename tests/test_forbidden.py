@@ -403,7 +403,7 @@ print("done", flush=True)
     child.send_signal(signal.SIGINT)
     start = time.perf_counter()
     output, errors = child.communicate(timeout=20)
-    assert time.perf_counter() - start < 1.5  # a second, and the interpreter's end
+    assert time.perf_counter() - start < 5  # a second, and a busy machine
     assert "KeyboardInterrupt" in errors
     assert "done" not in output
 
