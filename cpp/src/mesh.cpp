@@ -454,7 +454,7 @@ bool Mesher::part_equal_edges() {
                 is_cut[t] = 1, any = true;
                 int c = 0;  // the corner off the edge
                 while (out.corners[3 * t + c] == x.p || out.corners[3 * t + c] == x.q) ++c;
-                const auto corner = [&](int k) { return out.corners[3 * t + (c + k) % 3]; };
+                const auto corner = [&](int step) { return out.corners[3 * t + (c + step) % 3]; };
                 const Index a = corner(0), p = corner(1), q = corner(2);
                 out.corners[3 * t] = a, out.corners[3 * t + 1] = p, out.corners[3 * t + 2] = m;
                 out.corners.insert(out.corners.end(), {a, m, q});
