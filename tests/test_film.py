@@ -18,7 +18,6 @@ from typer.testing import CliRunner
 
 import cfree
 from cfree.cli import app
-from cfree.describe import is_free
 from cfree.errors import UnsupportedError
 from cfree.features import WORKSPACE
 from cfree.film.frame import Stage, caption
@@ -27,6 +26,7 @@ from cfree.film.reel import LATER, check_options, shots_of, views
 from cfree.film.route import Clearance, route
 from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
 from cfree.forbidden import Boundary, boundary
+from cfree.free_pose import is_free
 from cfree.io import load_scene
 from cfree.mesh import robot_radius
 from cfree.plot import extent

@@ -5,6 +5,7 @@
 
 #include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
+#include "cfree/cells.hpp"
 #include "cfree/mesh.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
@@ -165,6 +166,50 @@ NB_MODULE(_core, m) {
         return nb::make_tuple(array_of(std::move(found.xyz)), array_of(std::move(found.corners)), array_of(std::move(found.face)),
                               array_of(std::move(found.seam)), found.least, estimate.coarsest, estimate.triangles);
     });
+    m.def("turns", [](Column<int> first, Column<int> face, Column<int> twin, Column<int> component, Column<std::int8_t> steps,
+                      int components) {
+        auto x = cfree::turns(vector_of(first), vector_of(face), vector_of(twin), vector_of(component), vector_of(steps),
+                              components);
+        return nb::make_tuple(array_of(std::move(x.divisor)), array_of(std::move(x.lift)));
+    });
+    nb::class_<cfree::Rays>(m, "Rays")
+        .def("__init__", [](cfree::Rays* rays, const cfree::Shape& robot, const cfree::Shape& obstacles, int shift,
+                            Column<int> component, Column<std::uint8_t> kind, Column<int> patch_robot,
+                            Column<int> patch_obstacle, Column<int> patch, Column<std::uint8_t> chart,
+                            Column<std::uint64_t> lower, Column<std::uint64_t> upper, Column<std::uint64_t> from_first,
+                            Column<std::uint64_t> from_second, In1 from_lo, In1 from_hi, Column<std::uint8_t> from_place,
+                            Column<std::uint64_t> to_first, Column<std::uint64_t> to_second, In1 to_lo, In1 to_hi,
+                            Column<std::uint8_t> to_place) {
+            new (rays) cfree::Rays(
+                {robot, obstacles}, shift, {vector_of(kind), vector_of(patch_robot), vector_of(patch_obstacle)},
+                {vector_of(patch), vector_of(chart), vector_of(lower), vector_of(upper), vector_of(from_first),
+                 vector_of(from_second), vector_of(to_first), vector_of(to_second), vector_of(from_lo), vector_of(from_hi),
+                 vector_of(to_lo), vector_of(to_hi), vector_of(from_place), vector_of(to_place)},
+                vector_of(component));
+        })
+        .def("nesting", [](const cfree::Rays& rays) {
+            cfree::Rays::Nesting x;
+            {
+                nb::gil_scoped_release release;
+                x = rays.nesting();
+            }
+            return nb::make_tuple(array_of(std::move(x.start)), array_of(std::move(x.around)), array_of(std::move(x.free_inside)));
+        })
+        .def("locate", [](const cfree::Rays& rays, Limbs poses, Column<int> chart, Column<int> depth, Column<int> cell,
+                          Column<std::uint8_t> free_inside, int outside) {
+            const std::size_t n = poses.shape(0), limbs = poses.shape(2);
+            if (poses.shape(1) != 5 || limbs == 0 || chart.shape(0) != n)
+                throw std::invalid_argument("poses must have the shape (n, 5, limbs)");
+            const cfree::Rays::Cells cells{vector_of(depth), vector_of(cell), vector_of(free_inside), outside};
+            std::vector<int> found(n);
+            nb::gil_scoped_release release;
+            for (std::size_t k = 0; k < n; ++k) {
+                const auto at = [&](std::size_t c) { return integer(poses.data() + (5 * k + c) * limbs, limbs); };
+                found[k] = rays.locate({at(0), at(1), at(2), chart.data()[k], at(3), at(4)}, cells);
+            }
+            nb::gil_scoped_acquire acquire;
+            return array_of(std::move(found));
+        });
     nb::class_<cfree::Slicer>(m, "Slicer")
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,
                             In1 obstacle_xy, Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle,

@@ -311,12 +311,12 @@ def ranks(group: Sequence[int], keys: Sequence[Any]) -> list[int]:
     return rank
 
 
-def limbs(points: Sequence[Point]) -> NDArray[np.int64]:
-    """Coordinates as two's complement 64-bit limbs, least first: (n, 2, limbs)."""
-    widest = max((max(x.bit_length(), y.bit_length()) for x, y in points), default=0)
+def limbs(rows: Sequence[Sequence[int]], columns: int = 2) -> NDArray[np.int64]:
+    """Integers as two's complement 64-bit limbs, least first: (n, columns, limbs)."""
+    widest = max((c.bit_length() for row in rows for c in row), default=0)
     count = widest // 64 + 1
-    data = b"".join(c.to_bytes(8 * count, "little", signed=True) for p in points for c in p)
-    return np.frombuffer(data, np.int64).reshape(len(points), 2, count)
+    data = b"".join(c.to_bytes(8 * count, "little", signed=True) for row in rows for c in row)
+    return np.frombuffer(data, np.int64).reshape(len(rows), columns, count)
 
 
 def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:

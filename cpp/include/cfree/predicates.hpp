@@ -155,6 +155,7 @@ public:
 
 private:
     friend class Junction;  // the same polynomials, at critical angles
+    friend class Rays;      // and at rational ones
     template <class T>
     Trig<T> offset_trig(Index s, Index v) const;
     template <class T>

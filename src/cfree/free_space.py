@@ -1,0 +1,339 @@
+"""Cells of the free space: what the closed surfaces of a boundary bound, and which cell a pose is in.
+
+Cells are the components of the interior of C_free. The components of `Boundary.complex` are closed surfaces; each has
+an inside, and which are inside which is found by rays, exactly. docs/theory.md, "Cells", has the proofs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.errors import InvariantError
+from cfree.features import BOUNDS, WORKSPACE, limbs
+from cfree.forbidden import Boundary
+from cfree.free_pose import is_free
+from cfree.pose import Pose, Poses, chart_of
+from cfree.trapezoids import COLUMNS, Ints
+
+if TYPE_CHECKING:
+    from cfree.cell_complex import CellComplex
+
+FORBIDDEN, NO_CELL = -1, -2
+NEAR = 1e-6  # far more than rounding: what is farther from an exact fit is not looked at exactly
+
+
+@dataclass(frozen=True, eq=False)
+class Cell:
+    """A component of the interior of C_free.
+
+    Attributes
+    ----------
+    index : int
+        Its number in `FreeSpace.cells`.
+    components : tuple of int
+        The closed surfaces that bound it: of a bounded cell, first the one around it, then those of the islands in it.
+    bounded : bool
+        Whether positions in it are: always with `bounds` or `workspace`, else for all cells but one.
+    caged : bool
+        Whether obstacles alone enclose it: no face of its boundary belongs to `bounds` or `workspace`.
+    turns : int
+        The loops in it go round in theta by the multiples of this number of full turns: 0 if the robot always has to
+        come back the way it turned, 1 if it can turn round and be where it was.
+    theta_range : (float, float), radians
+        The orientations in it, from the first in [0, 2 pi) to the last: more than a turn apart if it winds up without
+        closing. (0, 2 pi) if `turns` is not 0.
+    """
+
+    index: int
+    components: tuple[int, ...]
+    bounded: bool
+    caged: bool
+    turns: int
+    theta_range: tuple[float, float]
+    free_space: FreeSpace = field(repr=False)
+
+    @property
+    def full_turn(self) -> bool:
+        """Whether it contains a loop that goes round once in theta."""
+        return self.turns == 1
+
+
+class FreeSpace:
+    """Cells of the free space of a boundary; see `free_space`.
+
+    Attributes
+    ----------
+    boundary : Boundary
+    walls : Boundary
+        The one whose closed surfaces bound the cells: `boundary`, or where `bounds` may leave slits of no width, which
+        are not in the interior, ``boundary.regularized``.
+    parent : (C,) int32
+        Of each closed surface: the next around it, or -1.
+    free_inside : (C,) bool
+        Whether space is free just inside it: it is then the outer boundary of a cell, else of an island.
+    cell_of : (C,) int32
+        The cell it bounds.
+    cells : tuple of Cell
+        An unbounded one comes first.
+    """
+
+    def __init__(
+        self, boundary: Boundary, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
+    ) -> None:
+        self.boundary = boundary
+        self.walls = walls_of(boundary)
+        self.parent = parent
+        self.free_inside = free_inside
+        self.turns, self.lift = turns, lift
+        self.outside = 0 if boundary.features.rim is None else FORBIDDEN
+        self.cell_of = _cells_of(parent, free_inside, self.outside)
+        for array in (parent, free_inside, turns, lift, self.cell_of):
+            array.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.cells)
+
+    def __repr__(self) -> str:
+        n, caged = len(self.cells), sum(cell.caged for cell in self.cells)
+        return f"FreeSpace({n} cell{'s' * (n != 1)}, {caged} caged, {len(self.parent)} closed surfaces)"
+
+    @property
+    def complex(self) -> CellComplex:
+        """The closed surfaces, of `walls`."""
+        return self.walls.complex
+
+    @cached_property
+    def cells(self) -> tuple[Cell, ...]:
+        count = int(self.cell_of.max(initial=self.outside)) + 1
+        members: list[list[int]] = [[] for _ in range(count)]
+        for k in np.lexsort((np.arange(len(self.parent)), ~self.free_inside)).tolist():
+            members[self.cell_of[k]].append(k)
+        on_wall = np.zeros(len(self.parent), bool)
+        on_wall[self.complex.component[self._on_wall]] = True
+        ranges = self._theta_ranges()
+        cells = []
+        for k, of in enumerate(members):
+            bounded = k != self.outside
+            turns = int(np.gcd.reduce(self.turns[of])) if bounded else 1
+            theta = ranges[of[0]] if bounded and turns == 0 else (0.0, math.tau)
+            cells.append(Cell(k, tuple(of), bounded, bounded and not on_wall[of].any(), turns, theta, self))
+        return tuple(cells)
+
+    @property
+    def _on_wall(self) -> NDArray[np.bool_]:
+        """(F,) whether a face belongs to bounds or workspace."""
+        b = self.walls
+        owner = b.features.obstacles.owner_polygon[b.contact_obstacle[b.trapezoids.patch]]
+        on_wall: NDArray[np.bool_] = (owner == BOUNDS) | (owner == WORKSPACE)
+        return on_wall
+
+    def _theta_ranges(self) -> list[tuple[float, float]]:
+        """Of each closed surface that does not go round in theta."""
+        table, component, turn = self.walls.trapezoids, self.complex.component, math.tau * self.lift
+        low, high = np.full(len(self.parent), np.inf), np.full(len(self.parent), -np.inf)
+        np.minimum.at(low, component, table.theta_from + turn)
+        np.maximum.at(high, component, table.theta_to + turn)
+        start = np.mod(low, math.tau)
+        return list(zip(start.tolist(), (start + (high - low)).tolist(), strict=True))
+
+    def faces(self, cell: int) -> Ints:
+        """Trapezoids of `walls` that bound a cell."""
+        return np.flatnonzero(self.cell_of[self.complex.component] == range(len(self))[cell]).astype(np.int32)
+
+    def locate(self, poses: Pose | Poses | Iterable[Pose]) -> Any:
+        """Cell of each pose, exactly.
+
+        Parameters
+        ----------
+        poses : Pose, Poses or sequence of Pose
+            The doubles of `Poses` are taken as they are: the orientation is that of the rounded tangent of its half.
+
+        Returns
+        -------
+        int, or (n,) int32
+            Number of the cell; -1 if forbidden. A pose on the boundary is free: the first cell that a face through it
+            bounds. -2 if it is free and on no face: an exact fit, which is in the closure of no cell.
+
+        Notes
+        -----
+        Time per pose is proportional to the faces at its orientation.
+        """
+        if isinstance(poses, Pose):
+            return int(self.locate([poses])[0])
+        chosen = poses if isinstance(poses, Poses) else list(poses)
+        if len(chosen) == 0:
+            return np.empty(0, np.int32)
+        chart, rows = _exact_rows(chosen, self.boundary.features.scale)
+        inside = self.free_inside.view(np.uint8)
+        found: Ints = self._rays.locate(limbs(rows, 5), chart, self.depth, self.cell_of, inside, self.outside)
+        for k in self._may_fit(chosen, found):
+            pose = chosen[k]
+            if is_free(self.boundary.scene, pose):
+                found[k] = NO_CELL
+        return found
+
+    def _may_fit(self, poses: Poses | list[Pose], found: Ints) -> Ints:
+        """Poses in no cell that are near an exact fit, or on the bounds where these leave slits."""
+        outside = np.flatnonzero(found == FORBIDDEN)
+        table = self.boundary.isolated
+        if len(outside) == 0 or (len(table) == 0 and self.walls is self.boundary):
+            return outside[:0].astype(np.int32)
+        places = poses if isinstance(poses, Poses) else Poses.from_poses(poses)
+        xy, theta = places.xy[outside], places.theta[outside]
+        near = np.zeros(len(outside), bool)
+        slack = NEAR * max(1.0, float(np.abs(self.boundary.features.obstacles.xy).max(initial=0)))
+        for k in range(len(table)):
+            turned = table.theta_from[k] + np.mod(theta - table.theta_from[k] + NEAR, math.tau) - NEAR
+            at = np.flatnonzero(~near & (turned <= table.theta_to[k] + NEAR))
+            first, last = (self.boundary.evaluate(np.full(len(at), table.patch[k]), t, theta[at]) for t in (0.0, 1.0))
+            U, d = last - first, xy[at] - first
+            length = np.hypot(*U.T)
+            across = np.abs(U[:, 0] * d[:, 1] - U[:, 1] * d[:, 0])
+            along = (U * d).sum(axis=1)
+            near[at] = (across <= slack * length) & (abs(along - length**2 / 2) <= (length / 2 + slack) * length)
+        if self.walls is not self.boundary:
+            x0, y0, x1, y1 = map(float, self.boundary.scene.bounds or ())
+            near |= np.any(np.abs(xy[:, [0, 1, 0, 1]] - (x0, y0, x1, y1)) <= slack, axis=1)
+        return outside[near].astype(np.int32)
+
+    @cached_property
+    def depth(self) -> Ints:
+        """(C,) how many closed surfaces are around each."""
+        depth = np.zeros(len(self.parent), np.int32)
+        above = self.parent
+        while np.any(above >= 0):
+            depth += above >= 0
+            above = np.where(above >= 0, self.parent[above], -1)
+        return depth
+
+    @cached_property
+    def _rays(self) -> Any:
+        return _rays(self.walls)
+
+
+def free_space(boundary: Boundary) -> FreeSpace:
+    """Cells of the free space of a boundary.
+
+    Parameters
+    ----------
+    boundary : Boundary
+        Complete.
+
+    Returns
+    -------
+    FreeSpace
+
+    Raises
+    ------
+    IncompleteError
+        If the boundary is incomplete.
+    InvariantError
+        If the computation contradicts itself: a fault of cfree.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> hollow = cfree.Polygon([(-1, -1), (10, -1), (10, 10), (-1, 10)], [[(0, 0), (0, 9), (9, 9), (9, 0)]])
+    >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[hollow])
+    >>> space = cfree.free_space(cfree.boundary(scene))
+    >>> space
+    FreeSpace(2 cells, 1 caged, 2 closed surfaces)
+    >>> space.locate([cfree.Pose(20, 0), cfree.Pose(4, 4), cfree.Pose(8, 8)]).tolist()
+    [0, 1, -1]
+    >>> space.cells[1].caged, space.cells[1].full_turn
+    (True, True)
+    """
+    from cfree import _core
+
+    boundary.require_complete()
+    walls = walls_of(boundary)
+    cells = walls.complex
+    start, around, free_inside = _rays(walls).nesting()
+    parent = _parents(start, around, free_inside, boundary.features.rim is None)
+    chart, last, first = walls.trapezoids.chart[cells.face], cells.side == 2, cells.side == 0
+    leaves = last & first[cells.twin] & (chart == 1) & (chart[cells.twin] == 0)  # over theta = 3 pi / 2
+    steps = leaves.astype(np.int8) - leaves[cells.twin].astype(np.int8)
+    turns, lift = _core.turns(cells.first, cells.face, cells.twin, cells.component, steps, cells.components)
+    return FreeSpace(boundary, parent, free_inside.astype(bool), turns, lift)
+
+
+def walls_of(boundary: Boundary) -> Boundary:
+    """The boundary of the interior of the free space."""
+    return boundary.regularized if _may_have_slits(boundary) else boundary
+
+
+def _may_have_slits(boundary: Boundary) -> bool:
+    """Whether the robot has a vertex at its reference point, and an edge of an obstacle is on the bounds' other side."""
+    scene = boundary.scene
+    if scene.bounds is None or not any((0, 0) in polygon.numerators for polygon in scene.robot):
+        return False
+    obstacles = boundary.features.obstacles
+    on_bounds = obstacles.owner_polygon == BOUNDS
+    ends = [(obstacles.vertices[v], obstacles.vertices[w]) for v, w in obstacles.edges[: len(on_bounds)]]
+    lines = {_line(q, p) for (p, q), own in zip(ends, on_bounds, strict=True) if own}
+    return any(_line(p, q) in lines for (p, q), own in zip(ends, on_bounds, strict=True) if not own)
+
+
+def _line(p: tuple[int, int], q: tuple[int, int]) -> tuple[int, int, int]:
+    dx, dy = q[0] - p[0], q[1] - p[1]
+    divisor = math.gcd(dx, dy)
+    dx, dy = dx // divisor, dy // divisor
+    return dx, dy, dx * p[1] - dy * p[0]
+
+
+def _rays(boundary: Boundary) -> Any:
+    from cfree import _core
+
+    features = boundary.features
+    shapes = features.robot.core_shape(), features.obstacles.core_shape(), features.robot.shift
+    patches = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
+    columns = (getattr(boundary.trapezoids, name) for name in COLUMNS)
+    return _core.Rays(*shapes, boundary.complex.component, *patches, *columns)
+
+
+def _parents(start: Ints, around: Ints, free_inside: NDArray[np.uint8], unbounded: bool) -> Ints:
+    """Of each closed surface the next around it; free and forbidden sides alternate, or something is wrong."""
+    sets = [frozenset(around[i:j].tolist()) for i, j in pairwise(start.tolist())]
+    parent = np.full(len(sets), -1, np.int32)
+    for k, outer in enumerate(sets):
+        if outer:
+            parent[k] = max(outer, key=lambda x: len(sets[x]))
+        above = int(parent[k])
+        if outer != (sets[above] | {above} if outer else outer):
+            raise InvariantError(f"closed surface {k} is inside {sorted(outer)}, which are not inside each other")
+        if bool(free_inside[k]) == (bool(free_inside[above]) if outer else unbounded):
+            raise InvariantError(f"closed surface {k} has the wrong side free for its place inside {sorted(outer)}")
+    return parent
+
+
+def _cells_of(parent: Ints, free_inside: NDArray[np.bool_], outside: int) -> Ints:
+    """The cell that each closed surface bounds; cells in the order of the surfaces around them."""
+    own = np.cumsum(free_inside) + outside  # the unbounded cell is 0
+    above = np.where(parent >= 0, own[parent], outside) if len(parent) else own
+    cell_of: Ints = np.where(free_inside, own, above).astype(np.int32)
+    return cell_of
+
+
+def _exact_rows(poses: Poses | list[Pose], scale: int) -> tuple[Ints, list[tuple[int, ...]]]:
+    """Charts, and rows (X, Y, W, p, r): positions (X, Y) / W in the core's integers, tau = p / r in the chart."""
+    places: Iterable[tuple[Any, Any, int, Any]]
+    if isinstance(poses, Poses):
+        chart, tau = chart_of(poses.theta)
+        places = zip(*poses.xy.T.tolist(), chart.tolist(), tau.tolist(), strict=True)
+    else:
+        places = ((q.x, q.y, *q.chart) for q in poses)
+    charts, rows = [], []
+    for x, y, c, t in places:
+        (xn, xd), (yn, yd) = x.as_integer_ratio(), y.as_integer_ratio()
+        w = math.lcm(xd, yd)
+        charts.append(c)
+        rows.append((xn * (w // xd) * scale, yn * (w // yd) * scale, w, *t.as_integer_ratio()))
+    return np.array(charts, np.int32), rows
