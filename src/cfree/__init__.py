@@ -24,9 +24,9 @@ if TYPE_CHECKING:
     from cfree.film import save_film as save_film
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
-    from cfree.free_space import Cell as Cell
-    from cfree.free_space import FreeSpace as FreeSpace
-    from cfree.free_space import free_space as free_space
+    from cfree.cells import Cell as Cell
+    from cfree.cells import FreeSpace as FreeSpace
+    from cfree.cells import free_space as free_space
     from cfree.geometry.area import patch_areas as patch_areas
     from cfree.geometry.area import trapezoid_areas as trapezoid_areas
     from cfree.geometry.congruence import arc_classes as arc_classes
@@ -101,7 +101,7 @@ _HOMES = {
     "UnsupportedError",
     "film": "save_film",
     "forbidden": "Boundary boundary",
-    "free_space": "Cell FreeSpace free_space",
+    "cells": "Cell FreeSpace free_space",
     "geometry.area": "patch_areas trapezoid_areas",
     "geometry.congruence": "arc_classes helix_classes patch_classes surface_classes",
     "geometry.development": "develop",
