@@ -20,7 +20,7 @@ from shapes import PlainScene, Shape
 
 
 class Flood(NamedTuple):
-    """Poses with room around them, and two numbers each: equal `certain` are in one cell, other `possible` in another."""
+    """Poses with room around them. Those of equal `certain` are in one cell, of different `possible` in different."""
 
     xy: NDArray[np.float64]
     theta: NDArray[np.float64]

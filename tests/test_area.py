@@ -11,7 +11,7 @@ import pytest
 from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
 from cfree.errors import IncompleteError
 from cfree.forbidden import boundary
-from cfree.geometry import area
+from cfree.geometry import quadrature
 from cfree.geometry.area import patch_areas, trapezoid_areas
 from cfree.geometry.development import develop
 from cfree.geometry.elliptic import second_kind
@@ -158,7 +158,7 @@ def test_more_nodes_change_nothing(name: str, w: float, monkeypatch: pytest.Monk
     result = boundary(load_scene(f"examples/scenes/{name}.json"))
     areas = trapezoid_areas(result, angle_scale=w)
     assert areas.shape == (len(result.trapezoids),) and (areas >= 0).all()
-    monkeypatch.setattr(area, "NODES", 40)
+    monkeypatch.setattr(quadrature, "NODES", 40)
     np.testing.assert_allclose(areas, trapezoid_areas(result, angle_scale=w), atol=1e-10 * areas.sum())
 
 

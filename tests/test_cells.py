@@ -11,10 +11,23 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import FreeSpace, Polygon, Pose, Poses, Scene, boundary, free_space, load_scene
+from cfree import (
+    FormatError,
+    FreeSpace,
+    InvariantError,
+    Pose,
+    Poses,
+    Scene,
+    boundary,
+    free_space,
+    load_boundary,
+    load_scene,
+)
+from cfree.cells import _parents
+from cfree.storage import CELL_COLUMNS, save_boundary
 from compared import plain_of, scene_of
 from flood import flood
-from shapes import KINDS, PlainScene, box, random_scene
+from shapes import KINDS, PlainScene, box, mapped, random_scene
 
 ROOT = Path(__file__).parents[1]
 SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 6_000)
@@ -137,3 +150,138 @@ def test_removing_an_obstacle_never_splits_a_cell(seed: int) -> None:
     for more, fewer in pairwise(space.locate(poses) for space in spaces):
         assert np.all(fewer >= 0)
         assert len(np.unique(np.column_stack([more, fewer]), axis=0)) == len(np.unique(more))
+
+
+def length(ring: list[tuple[float, float]]) -> float:
+    return sum(math.dist(p, q) for p, q in zip(ring, ring[1:] + ring[:1], strict=True))
+
+
+def area(ring: list[tuple[float, float]]) -> float:
+    return float(sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(ring, ring[1:] + ring[:1], strict=True)) / 2)
+
+
+def test_volume_around_a_convex_pair() -> None:
+    A, O, wide = [(0, 0), (3, 0), (1, 2)], [(5, 5), (9, 6), (8, 9), (5, 8)], 100
+    forbidden = 2 * math.pi * (area(A) + area(O)) + length(A) * length(O)
+    (cell,) = free_space(boundary(Scene(A, [O], bounds=(-wide, -wide, wide, wide)))).cells
+    assert cell.volume == pytest.approx(2 * math.pi * (2 * wide) ** 2 - forbidden, rel=1e-13)
+    (open_cell,) = free_space(boundary(Scene(A, [O]))).cells
+    assert open_cell.volume == math.inf
+
+
+def test_volume_of_a_square_in_a_square() -> None:
+    # a unit square about its middle, turned by less than a quarter turn, is |cos| + |sin| wide
+    room = PlainScene([box(0, 0, 1, 1)], [hollow((-1, -1, 5, 5), (0, 0, 4, 4))])
+    width = np.array([4.0, 1.0])  # integral over the quarter turn of (4 - c - s)^2
+    quarter = width[0] ** 2 * math.pi / 2 - 2 * width[0] * 2 + (math.pi / 2 + 1)
+    assert space_of(room).cells[1].volume == pytest.approx(4 * quarter, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", ["bounds", "workspace"])
+def test_volumes_agree_with_random_poses(kind: str) -> None:
+    rng = np.random.default_rng(1)
+    for seed in range(4):
+        space = space_of(random_scene(seed, kind))
+        assert space.boundary.features.rim is not None
+        x0, y0, x1, y1 = space.boundary.features.rim
+        n, whole = 3000, 2 * math.pi * (x1 - x0) * (y1 - y0)
+        where = space.locate(Poses(rng.uniform((x0, y0), (x1, y1), (n, 2)), rng.uniform(0, math.tau, n)))
+        share = np.bincount(where + 1, minlength=len(space) + 1)[1:] / n
+        expected = space.volumes / whole
+        assert np.all(np.abs(share - expected) <= 5 * np.sqrt(expected / n) + 5 / n)
+
+
+def test_roomiest_poses_are_in_their_cells_and_have_that_room() -> None:
+    scene = load_scene(ROOT / "examples/scenes/flat.json")
+    space = free_space(boundary(scene))
+    plain = plain_of(scene)
+    for cell in space.cells:
+        assert cell.roomiest is not None
+        pose, room = cell.roomiest
+        assert space.locate(pose) == cell.index and room > 0
+        around = room * 0.999 * np.exp(1j * np.arange(0, math.tau, 0.3))
+        for step in around:
+            x, y = float(pose.x) + step.real, float(pose.y) + step.imag
+            assert not oracles.overlaps(plain.robot, plain.obstacles, (x, y, pose.theta))
+
+
+def test_motions_of_the_scene_change_nothing() -> None:
+    # turned by the angle of (3, 4), and moved; the robot is turned in its own frame, too
+    def image(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
+        return Fraction(3 * x - 4 * y, 5) + 7, Fraction(4 * x + 3 * y, 5) - 11
+
+    def turned(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
+        return -y, x
+
+    for seed in range(3):
+        plain = random_scene(seed, "holed")
+        plain = PlainScene([ROD], [TIGHT]) if seed == 0 else plain_of(scene_of(plain))
+        moved = PlainScene(
+            [mapped(shape, turned) for shape in plain.robot],
+            [mapped(shape, lambda x, y: image(Fraction(x), Fraction(y))) for shape in plain.obstacles],
+        )
+        facts = []
+        for each in (plain, moved):
+            cells = space_of(each).cells
+            facts.append(sorted((c.caged, c.turns, len(c.components), c.volume, np.ptp(c.theta_range)) for c in cells))
+        assert [f[:3] for f in facts[0]] == [f[:3] for f in facts[1]]
+        np.testing.assert_allclose([f[3:] for f in facts[0]], [f[3:] for f in facts[1]], rtol=1e-9)
+
+
+def test_cells_in_a_file(tmp_path: Path) -> None:
+    space = space_of(PlainScene([ROD], [TIGHT]))
+    path = tmp_path / "cells.npz"
+    space.save(path)
+    again = FreeSpace.load(path)
+    assert [c.theta_range for c in again.cells] == [c.theta_range for c in space.cells]
+    assert again.locate([Pose(0, 0), Pose(9, 9)]).tolist() == space.locate([Pose(0, 0), Pose(9, 9)]).tolist()
+    assert len(load_boundary(path).trapezoids) == len(space.component)
+    space.boundary.save(path)
+    with pytest.raises(FormatError, match="no cells are in it"):
+        FreeSpace.load(path)
+    for name, wrong in (
+        ("parent", space.parent + 1),
+        ("component", space.component + 1),
+        ("turns", space.turns * 1.0),
+    ):
+        columns = {f"cells_{c}": getattr(space, c) for c in CELL_COLUMNS} | {f"cells_{name}": wrong}
+        save_boundary(space.boundary, path, columns)
+        with pytest.raises(FormatError, match=f"cells_{name}"):
+            FreeSpace.load(path)
+
+
+def test_nesting_that_cannot_be_is_an_error() -> None:
+    def parents(sets: list[list[int]], free_inside: list[int]) -> list[int]:
+        start = np.cumsum([0, *map(len, sets)], dtype=np.int32)
+        around = np.array([x for each in sets for x in each], np.int32)
+        return _parents(start, around, np.array(free_inside, np.uint8), True).tolist()
+
+    assert parents([[], [0], [0, 1]], [0, 1, 0]) == [-1, 0, 1]
+    with pytest.raises(InvariantError, match="not inside each other"):
+        parents([[], [], [0, 1]], [0, 0, 1])
+    with pytest.raises(InvariantError, match="wrong side"):
+        parents([[], [0]], [0, 0])
+    with pytest.raises(InvariantError, match="wrong side"):
+        parents([[]], [1])
+
+
+def test_slits_of_bounds_are_in_no_cell() -> None:
+    # below the obstacle, its vertex at the reference point upwards, the robot can only slide along the bounds
+    scene = Scene(robot=[(0, 0), (-1, -2), (1, -2)], obstacles=[box(1, 0, 4, 3)[0]], bounds=(0, 0, 5, 5))
+    space = free_space(boundary(scene))
+    assert space.walls is not space.boundary and len(space) == 1
+    check_against_flood(plain_of(scene), space, 60)
+    poses = [Pose(2, 0), Pose(2, 0, {"tau": "1/9"}), Pose(2, 0, {"tau": 1}), Pose(2, Fraction(1, 10**30)), Pose(1, 0)]
+    assert space.locate(poses).tolist() == [-2, -2, -1, -1, 0]
+
+
+def test_a_touching_pair_parts_the_plane_at_one_height_only() -> None:
+    # rays through vertices and along level edges: every position of a grid of half integers
+    plain = PlainScene([box(0, 0, 1, 1)], [box(0, 0, 2, 2), box(2, 2, 4, 4), hollow((-4, -4, 8, 8), (-3, -3, 7, 7))])
+    space = space_of(plain)
+    steps = [Fraction(k, 2) for k in range(-8, 16)]
+    found = space.locate([Pose(x, y) for x in steps for y in steps]).reshape(len(steps), -1)
+    for i, x in enumerate(steps):
+        for j, y in enumerate(steps):
+            forbidden = oracles.exact_is_forbidden(plain.robot, plain.obstacles, x, y, Fraction(0))
+            assert (found[i, j] == -1) == forbidden

@@ -5,6 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from cfree.cell_complex import CellComplex as CellComplex
+    from cfree.cells import Cell as Cell
+    from cfree.cells import FreeSpace as FreeSpace
+    from cfree.cells import free_space as free_space
     from cfree.contact import AngleRange as AngleRange
     from cfree.contact import EdgeEdge as EdgeEdge
     from cfree.contact import EdgeVertex as EdgeVertex
@@ -24,9 +27,6 @@ if TYPE_CHECKING:
     from cfree.film import save_film as save_film
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
-    from cfree.cells import Cell as Cell
-    from cfree.cells import FreeSpace as FreeSpace
-    from cfree.cells import free_space as free_space
     from cfree.geometry.area import patch_areas as patch_areas
     from cfree.geometry.area import trapezoid_areas as trapezoid_areas
     from cfree.geometry.congruence import arc_classes as arc_classes

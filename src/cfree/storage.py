@@ -6,10 +6,12 @@ import json
 import os
 import zipfile
 import zlib
+from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cfree.errors import FormatError
 from cfree.features import SceneFeatures, scene_features, unpacked
@@ -17,12 +19,15 @@ from cfree.files import replacing
 from cfree.forbidden import Boundary, Stats
 from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 
+CELL_COLUMNS = ("component", "parent", "free_inside", "turns", "lift")
 PATCH_COLUMNS = ("contact_kind", "contact_robot", "contact_obstacle", "trimmed")
 FORMAT, VERSION = "cfree-boundary", 2
 
 
-def save_boundary(boundary: Boundary, path: str | os.PathLike[str]) -> None:
-    """Write a boundary; equal boundaries make equal files."""
+def save_boundary(
+    boundary: Boundary, path: str | os.PathLike[str], cells: Mapping[str, NDArray[Any]] | None = None
+) -> None:
+    """Write a boundary, with its cells if given; equal boundaries make equal files."""
     from cfree.io import scene_text
 
     stats = {key: value for key, value in asdict(boundary.stats).items() if key != "seconds"}
@@ -32,6 +37,7 @@ def save_boundary(boundary: Boundary, path: str | os.PathLike[str]) -> None:
     arrays |= {key: getattr(boundary, key) for key in PATCH_COLUMNS}
     arrays |= {name: getattr(boundary.trapezoids, name) for name in COLUMNS}
     arrays |= {f"isolated_{name}": getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS}
+    arrays |= cells or {}
     with replacing(path) as unfinished, unfinished.open("wb") as file:
         np.savez_compressed(file, **arrays)
 
@@ -79,6 +85,36 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
     if wrong:
         raise fault(f"{wrong} does not fit the rest; make it again with `cfree boundary`")
     return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, trimmed)
+
+
+def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArray[Any]]]:
+    """Read a boundary and the columns of its cells, written by `FreeSpace.save`; errors as of `load_boundary`."""
+    boundary = load_boundary(path)
+    with np.load(path, allow_pickle=False) as archive:
+        columns = {name: archive[f"cells_{name}"] for name in CELL_COLUMNS if f"cells_{name}" in archive}
+    wrong = "no cells are in it" if len(columns) < len(CELL_COLUMNS) else _cells_misfit(**columns)
+    if wrong:
+        name = os.fspath(path)
+        raise FormatError(f"{name}: {wrong}; make it again with `FreeSpace.save`", path=str(name))
+    return boundary, columns
+
+
+def _cells_misfit(component: Any, parent: Any, free_inside: Any, turns: Any, lift: Any) -> str:
+    """What cannot be right, or nothing."""
+    faces, count = np.size(component), np.size(parent)
+    types = {"component": (component, "i4", faces), "parent": (parent, "i4", count)}
+    types |= {"free_inside": (free_inside, "?", count), "turns": (turns, "i4", count), "lift": (lift, "i4", faces)}
+    for name, (array, dtype, length) in types.items():
+        if array.dtype != dtype or array.shape != (length,):
+            return f"cells_{name} does not fit the rest"
+    if not np.array_equal(np.unique(component), np.arange(count)):
+        return "cells_component does not number closed surfaces"
+    above = parent
+    for _ in range(count):
+        if np.any((above < -1) | (above >= count)) or np.all(above == -1):
+            break
+        above = np.where(above >= 0, parent[above], -1)
+    return "" if np.all(above == -1) else "cells_parent is no nesting"
 
 
 def misfit(

@@ -15,15 +15,12 @@ from numpy.typing import ArrayLike
 
 from cfree.exact import finite
 from cfree.geometry.development import distance_across
+from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.trapezoids import Ints
-
-NODES = 8  # of the quadrature over an interval of orientations
-CLOSE = 1e-12
-HALVINGS = 12
 
 
 def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
@@ -97,33 +94,12 @@ def trapezoid_areas(boundary: Boundary, *, angle_scale: float = 1.0) -> Floats:
     """
     w = check_scale(angle_scale)
     boundary.require_complete()
-    table = boundary.trapezoids
-    rows = boundary.ruled[table.patch]
-    nodes, weights = np.polynomial.legendre.leggauss(NODES)
+    rows = boundary.ruled[boundary.trapezoids.patch]
 
-    def integrals(which: Ints, start: Floats, stop: Floats) -> Floats:
-        ruled, half, total = read_ruled(rows[which]), (stop - start) / 2, np.zeros(len(which))
-        for node, weight in zip(nodes, weights, strict=True):
-            theta = start + half * (1 + node)
-            lower, upper = (np.clip(t, 0, 1) for t in boundary.limits(which, theta))
-            total += weight * half * _ruling_areas(ruled, lower, np.maximum(lower, upper), theta, w)
-        return total
+    def along_t(which: Ints, lower: Floats, upper: Floats, theta: Floats) -> Floats:
+        return _ruling_areas(read_ruled(rows[which]), lower, upper, theta, w)
 
-    which, start, stop = np.arange(len(table), dtype=np.int32), table.theta_from, table.theta_to
-    coarse = integrals(which, start, stop)
-    areas, whole = np.zeros(len(table)), coarse.sum()
-    for _ in range(HALVINGS):
-        middle = (start + stop) / 2
-        parts = integrals(which, start, middle), integrals(which, middle, stop)
-        fine = parts[0] + parts[1]
-        done = abs(fine - coarse) <= CLOSE * np.maximum(fine, whole / max(1, len(table)))
-        np.add.at(areas, which[done], fine[done])
-        rest = ~done
-        coarse = np.concatenate([part[rest] for part in parts])
-        start, stop = np.concatenate((start[rest], middle[rest])), np.concatenate((middle[rest], stop[rest]))
-        which = np.concatenate((which[rest], which[rest]))
-    np.add.at(areas, which, coarse)
-    return areas
+    return trapezoid_integrals(boundary, along_t)
 
 
 def _ruling_areas(rows: Ruled, lower: Floats, upper: Floats, phi: Floats, w: float) -> Floats:

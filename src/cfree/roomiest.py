@@ -1,0 +1,36 @@
+"""A pose of a cell with much room around it: discs inscribed in slices."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.cells import Cell
+
+ORIENTATIONS = 9
+PRECISION = 1e-3  # of a disc's radius, relative to its slice's extent
+
+
+def roomiest(cell: Cell) -> tuple[Pose, float] | None:
+    """The centre of the largest disc found, and its radius; see `Cell.roomiest`."""
+    boundary = cell.free_space.walls
+    start, stop = cell.theta_range
+    best: tuple[Pose, float] | None = None
+    for k in range(ORIENTATIONS):
+        theta = float(np.mod(start + (stop - start) * (k + 0.5) / ORIENTATIONS, 2 * np.pi))
+        forbidden = boundary.slice(theta).forbidden
+        frame = boundary.features.rim or shapely.buffer(forbidden, 1).bounds
+        for part in shapely.get_parts(shapely.box(*frame).difference(forbidden)).tolist():
+            disc = shapely.maximum_inscribed_circle(part, PRECISION * part.length)
+            (x, y), radius = disc.coords[0], shapely.length(disc)
+            if best is not None and radius <= best[1]:
+                continue
+            pose = Pose(x, y, theta)
+            if cell.free_space.locate(pose) == cell.index:
+                best = pose, float(radius)
+    return best
