@@ -10,6 +10,7 @@ import math
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -22,7 +23,7 @@ from cfree.features import BOUNDS, WORKSPACE, limbs
 from cfree.forbidden import Boundary
 from cfree.free_pose import is_free
 from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.pose import Pose, Poses, chart_of
+from cfree.pose import Pose, Poses, chart_of, tau_in_chart
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
 from cfree.trapezoids import COLUMNS, Floats, Ints
 
@@ -46,7 +47,8 @@ class Cell:
     bounded : bool
         Whether positions in it are: always with `bounds` or `workspace`, else for all cells but one.
     caged : bool
-        Whether obstacles alone enclose it: no face of its boundary belongs to `bounds` or `workspace`.
+        Whether obstacles alone enclose it: it is bounded, and no face of its boundary belongs to `bounds` or
+        `workspace`. A face that they have in common with an obstacle belongs to one of the two.
     turns : int
         The loops in it go round in theta by the multiples of this number of full turns: 0 if the robot always has to
         come back the way it turned, 1 if it can turn round and be where it was.
@@ -226,9 +228,8 @@ class FreeSpace:
         boundary, columns = load_cells(path)
         space = cls(boundary, **columns)
         if len(space.component) != len(space.walls.trapezoids):
-            raise FormatError(
-                f"{os.fspath(path)}: cells_component does not fit the rest; make it again", path=str(path)
-            )
+            fault = "cells_component does not fit the rest; make it again with `FreeSpace.save`"
+            raise FormatError(f"{os.fspath(path)}: {fault}", path=str(path))
         return space
 
     def locate(self, poses: Pose | Poses | Iterable[Pose]) -> Any:
@@ -258,8 +259,9 @@ class FreeSpace:
         inside = self.free_inside.view(np.uint8)
         found: Ints = self._rays.locate(limbs(rows, 5), chart, self.depth, self.cell_of, inside, self.outside)
         for k in self._may_fit(chosen, found):
-            pose = chosen[k]
-            if is_free(self.boundary.scene, pose):
+            X, Y, W, p, r = rows[k]
+            unit, tau = W * self.boundary.features.scale, tau_in_chart(int(chart[k]), Fraction(p, r))
+            if is_free(self.boundary.scene, Pose(Fraction(X, unit), Fraction(Y, unit), {"tau": tau})):
                 found[k] = NO_CELL
         return found
 
@@ -272,7 +274,7 @@ class FreeSpace:
         places = poses if isinstance(poses, Poses) else Poses.from_poses(poses)
         xy, theta = places.xy[outside], places.theta[outside]
         near = np.zeros(len(outside), bool)
-        slack = NEAR * max(1.0, float(np.abs(self.boundary.features.obstacles.xy).max(initial=0)))
+        slack = NEAR * float(np.abs(self.boundary.ruled).max(initial=0))
         for k in range(len(table)):
             turned = table.theta_from[k] + np.mod(theta - table.theta_from[k] + NEAR, math.tau) - NEAR
             at = np.flatnonzero(~near & (turned <= table.theta_to[k] + NEAR))
