@@ -35,7 +35,9 @@ def pose_of(values: tuple[Fraction, Fraction, Fraction | None]) -> Pose:
 
 small = st.fractions(-6, 6, max_denominator=3)
 points = st.tuples(small, small)
-turns = st.one_of(st.sampled_from(["90deg", "-90deg", "180deg", "-180deg", "0deg"]), st.builds(lambda t: {"tau": t}, small))
+turns = st.one_of(
+    st.sampled_from(["90deg", "-90deg", "180deg", "-180deg", "0deg"]), st.builds(lambda t: {"tau": t}, small)
+)
 motions = st.one_of(st.builds(Translation, points), st.builds(Rotation, points, turns))
 poses = st.builds(pose_of, strategies.poses(6))
 
@@ -119,7 +121,9 @@ def test_bounds_and_workspaces_hold(
     check(scene, pose, motion)
 
 
-@pytest.mark.parametrize("name", ["shared_edge", "identical", "square_pair", "two_part_robot", "workspace_with_hole", "l_in_u"])
+@pytest.mark.parametrize(
+    "name", ["shared_edge", "identical", "square_pair", "two_part_robot", "workspace_with_hole", "l_in_u"]
+)
 def test_motions_in_degenerate_scenes(name: str) -> None:
     scene = load_scene(f"tests/cases/{name}.json")
     pose = scene.start or Pose(0, 0)
@@ -147,7 +151,16 @@ def test_a_polygon_turns_in_the_hull_of_its_circle() -> None:
     """The robot's corners are on a circle that the walls of an octagonal hole touch."""
     robot = Polygon([(5, 0), (3, 4), (-3, 4), (-5, 0), (-3, -4), (3, -4)])
     outer = [(9, 9), (-9, 9), (-9, -9), (9, -9)]
-    directions = [(1, 0), (F(3, 5), F(4, 5)), (0, 1), (F(-3, 5), F(4, 5)), (-1, 0), (F(-3, 5), F(-4, 5)), (0, -1), (F(3, 5), F(-4, 5))]
+    directions = [
+        (1, 0),
+        (F(3, 5), F(4, 5)),
+        (0, 1),
+        (F(-3, 5), F(4, 5)),
+        (-1, 0),
+        (F(-3, 5), F(-4, 5)),
+        (0, -1),
+        (F(3, 5), F(-4, 5)),
+    ]
 
     def hole(radius: Fraction) -> list[tuple[Fraction, Fraction]]:
         corners = []

@@ -203,18 +203,17 @@ private:
         if (left.empty()) return;
         const double mid = 0.5 * (lo + hi);
         for (const Index k : left)
-            if (overlap(mid, k)) {
+            if (lo < horizon && overlap(mid, k)) {
                 collides = true;
                 if (stops) {
                     horizon = 0;
                     return;
                 }
-                horizon = std::min(horizon, mid);
                 decide(k);
             }
         if (depth < most_halvings) return halves(lo, hi, depth, &left);
         for (const Index k : left)
-            if (!is_decided(k)) decide(k);
+            if (lo < horizon && !is_decided(k)) decide(k);
     }
     void halves(double lo, double hi, int depth, const std::vector<Index>* candidates) {
         const double mid = 0.5 * (lo + hi);
@@ -334,8 +333,9 @@ private:
             now = *next;
         }
         collides = true;
-        if (stops) horizon = 0;
         if (!first || compare(now.at, first->at) < 0) first = now;
+        for (int k = 0; k < most_halvings; ++k) now.at.halve();
+        horizon = stops ? 0 : std::min(horizon, now.at.hi.rounded_up());
     }
 
     const MotionChecker& checker;
