@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
+from cfree.contact import VertexEdge
 from cfree.describe import is_free
 from cfree.errors import InvalidPoseError
 from cfree.io import load_scene
@@ -177,6 +178,35 @@ def test_a_polygon_turns_in_the_hull_of_its_circle() -> None:
             start = turn.apply(start)
 
 
+@pytest.mark.parametrize("reverse", [False, True])
+def test_first_contacts_name_the_features(reverse: bool) -> None:
+    room = [(-5, -5), (5, -5), (5, 5), (-5, 5)]
+    scene = Scene(
+        robot=[[(-9, -9), (-8, -9), (-8, -8)], [(-1, 0), (0, -1), (1, 0), (0, 1)]][::-1],
+        obstacles=[[(3, 1), (3, -1), (4, 0)], [(-3, 0), (-4, 1), (-4, -1)]],
+        workspace=[(x * 10, y * 10) for x, y in room[:: -1 if reverse else 1]],
+    )
+    checker = MotionChecker(scene)
+
+    def contact(motion: Motion) -> tuple[Surd, int, int, object]:
+        found = checker.first_contact(Pose(0, 0), motion)
+        assert found is not None
+        return found.at, found.robot, found.obstacle, found.contact
+
+    at, robot, obstacle, met = contact(Translation((4, 0)))
+    assert (at, robot, obstacle) == (Surd("1/2"), 0, 0) and isinstance(met, VertexEdge)
+    assert scene.robot[0].exact_vertices[met.i] == (1, 0)
+    assert abs(scene.obstacles[0].edge(met.j)).tolist() == [0, 2]
+    at, robot, obstacle, met = contact(Translation((-4, 0)))
+    assert (at, robot, obstacle) == (Surd("1/2"), 0, 1)
+    at, robot, obstacle, met = contact(Translation((0, 98)))
+    assert (at, robot, obstacle) == (Surd("1/2"), 0, -2) and isinstance(met, VertexEdge)
+    assert scene.robot[0].exact_vertices[met.i] == (0, 1)
+    assert scene.workspace is not None
+    j = met.j
+    assert {scene.workspace.exact_vertices[k] for k in (j, int(scene.workspace.next[j]))} == {(50, 50), (-50, 50)}
+
+
 def test_the_angle_of_the_first_contact_is_that_of_a_sine() -> None:
     rod = Polygon([(0, -1), (7, -1), (7, 0), (0, 0)])
     for height in (1, 2, 3, 5, 6):
@@ -214,7 +244,7 @@ def test_long_turns_are_divided(angle: float) -> None:
 def test_faults_of_motions_name_the_remedy() -> None:
     with pytest.raises(InvalidPoseError, match=r"more than half a turn; divide it, as cfree\.rotations does"):
         Rotation((0, 0), "181deg")
-    with pytest.raises(InvalidPoseError, match="vector: .*; give two finite numbers"):
+    with pytest.raises(InvalidPoseError, match=r"vector: .*; give two finite numbers"):
         Translation((1, math.inf))
     with pytest.raises(InvalidPoseError, match="pole"):
         Rotation((1, 2, 3), 1)  # type: ignore[arg-type]

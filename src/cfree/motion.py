@@ -1,7 +1,7 @@
 """Motions of the robot: translations, and rotations about a pole of at most half a turn; exact.
 
-Every displacement of the plane is one of these two (Chasles). A pure rotation moves on the helix of its pole (the paper's
-Lemma 1 and Remark 2), a translation on a straight line of the configuration space.
+Every displacement of the plane is one of these two (Chasles). A pure rotation moves on the helix of its pole (the
+paper's Lemma 1 and Remark 2), a translation on a straight line of the configuration space.
 
 A motion has a parameter u in [0, 1] in which all of it is rational. Of a translation it is the share of the vector. Of
 a rotation half the angle turned at u is the angle of (1 - u) (L, 0) + u (q, p), where tau = p / q belongs to the whole
@@ -95,8 +95,8 @@ class Rotation:
     pole : pair of numbers
         In the world.
     angle : float in radians, or "-90deg", or {"tau": "p/q"}
-        Counter-clockwise if positive. {"tau": "inf"} is half a turn counter-clockwise, {"tau": "-inf"} clockwise. What has
-        no rational tangent of its half is replaced as `Pose` does.
+        Counter-clockwise if positive. {"tau": "inf"} is half a turn counter-clockwise, {"tau": "-inf"} clockwise.
+        What has no rational tangent of its half is replaced as `Pose` does.
 
     Attributes
     ----------

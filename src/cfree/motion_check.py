@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from cfree.contact import EdgeVertex, VertexEdge
 from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
@@ -27,15 +27,15 @@ class FirstContact:
     Attributes
     ----------
     at : Surd
-        The motion is free up to this parameter, itself included, and forbidden right after it; see `cfree.motion`. 0 may
-        also mean that the first pose is forbidden.
+        The motion is free up to this parameter, itself included, and forbidden right after it; see `cfree.motion`.
+        0 may also mean that the first pose is forbidden.
     robot : int
         The robot's polygon.
     obstacle : int
         The obstacle; -1 stands for the bounds, -2 for the workspace.
     contact : VertexEdge or EdgeVertex, optional
-        The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None for a pose that is
-        forbidden from the beginning, for bounds, and where a diagonal of the convex pieces parts them last.
+        The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None for a pose
+        that is forbidden from the beginning, for bounds, and where a diagonal of the convex pieces parts them last.
     """
 
     at: Surd
@@ -62,7 +62,8 @@ class MotionChecker:
     >>> from cfree.motion import Translation
     >>> from cfree.scene import Scene
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    >>> checker = MotionChecker(Scene(robot=square, obstacles=[[(3, 0), (4, 0), (4, 1)], [(0, 1), (2, 1), (2, 2), (0, 2)]]))
+    >>> walls = [[(3, 0), (4, 0), (4, 1)], [(0, 1), (2, 1), (2, 2), (0, 2)]]
+    >>> checker = MotionChecker(Scene(robot=square, obstacles=walls))
     >>> checker.is_free(Pose(0, 0), Translation((2, 0))), checker.is_free(Pose(0, 0), Translation(("2.001", 0)))
     (True, False)
     >>> checker.first_contact(Pose(0, 0), Translation((4, 0)))
@@ -98,7 +99,7 @@ class MotionChecker:
         """Where a motion becomes forbidden for the first time; None if it is free."""
         if (outside := self._outside(pose)) is not None:
             return FirstContact(Surd(0), outside[0], outside[1], None)
-        found = self._core.first_collision(*self._integers(pose, motion))
+        found: Any = self._core.first_collision(*self._integers(pose, motion))
         if found is None:
             return None
         polynomial, robot_piece, obstacle_piece, kind, i, j = found
@@ -107,8 +108,10 @@ class MotionChecker:
         contact: VertexEdge | EdgeVertex | None = None
         count = len(robot.previous), len(obstacles.previous)
         if kind and obstacle != BOUNDS and i < count[0] and j < count[1] and obstacles.owner_vertex[j] >= 0:
-            contact_type = VertexEdge if kind == 1 else EdgeVertex
-            contact = contact_type(int(robot.owner_vertex[i]), int(obstacles.owner_vertex[j]))
+            i, j = int(robot.owner_vertex[i]), int(obstacles.owner_vertex[j])
+            if kind == 1 and obstacle == WORKSPACE and self._scene.workspace:
+                j = int(self._scene.workspace.previous[j])  # its complement runs the other way
+            contact = VertexEdge(i, j) if kind == 1 else EdgeVertex(i, j)
         return FirstContact(_crossing(polynomial) if kind else Surd(0), part, obstacle, contact)
 
     def _outside(self, pose: Pose) -> tuple[int, int] | None:
@@ -133,8 +136,8 @@ class MotionChecker:
         turns = isinstance(motion, Rotation)
         vx, vy = motion.pole if isinstance(motion, Rotation) else motion.vector
         unit = math.lcm(pose.x.denominator, pose.y.denominator, vx.denominator, vy.denominator)
-        lengths = (int(v.numerator * (unit // v.denominator)) * self._features.scale for v in (pose.x, pose.y, vx, vy))
-        x, y, along, across = lengths
+        scale = unit * self._features.scale
+        x, y, along, across = (v.numerator * (scale // v.denominator) for v in (pose.x, pose.y, vx, vy))
         half = (motion.first, *motion.half) if isinstance(motion, Rotation) else (1, 1, 0)
         return turns, (*pose.rotation, x, y, unit, along, across, *half)
 
