@@ -246,5 +246,7 @@ def test_faults_of_motions_name_the_remedy() -> None:
         Rotation((0, 0), "181deg")
     with pytest.raises(InvalidPoseError, match=r"vector: .*; give two finite numbers"):
         Translation((1, math.inf))
+    with pytest.raises(InvalidPoseError, match="'1e9' is more than 1000 half turns; give less"):
+        rotations((0, 0), "1e9")
     with pytest.raises(InvalidPoseError, match="pole"):
         Rotation((1, 2, 3), 1)  # type: ignore[arg-type]

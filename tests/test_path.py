@@ -161,3 +161,16 @@ def test_no_sample_has_less_than_the_least_clearance(
     assert found.least <= least + 1e-9
     assert found.least >= found.found - 0.05 - 1e-9
     assert least >= found.found - 0.05 - 1e-9
+
+
+def test_the_example_of_the_format_page_is_what_is_written(request: pytest.FixtureRequest, tmp_path: FilePath) -> None:
+    page = (request.config.rootpath / "docs" / "answer-format.md").read_text()
+    example = page.split("```json\n")[1].split("```")[0]
+    file = tmp_path / "way.json"
+    Path(Pose(0, 0), [Translation((2, "1/3")), Rotation((2, 1), "-90deg")], units="m").save(file)
+    assert file.read_text() == example
+    fault = page.split("```\nway.json:")[1].split("\n")[0]
+    file.write_text(example.replace('"tau": "-1"}}', '"tau": "x"}}'))
+    with pytest.raises(FormatError) as caught:
+        load_path(file)
+    assert str(caught.value) == f"{file}:{fault}"

@@ -27,6 +27,7 @@ void bind_motion(nb::module_& m) {
             if (!found) return nb::none();
             nb::list polynomial;
             for (const cfree::Int& c : found->at.p) polynomial.append(integer(c));
-            return nb::make_tuple(polynomial, found->robot_piece, found->obstacle_piece, found->kind, found->robot, found->obstacle);
+            return nb::make_tuple(polynomial, found->robot_piece, found->obstacle_piece, found->kind, found->robot,
+                                  found->obstacle);
         }, "turns"_a, "numbers"_a);
 }

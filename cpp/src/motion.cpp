@@ -188,7 +188,8 @@ private:
         std::vector<Index> left;
         const Frame<Approx> back = on(obstacles, lo, hi);
         const auto keep = [&](Index k) {
-            if (O.piece_layer[k] == A.piece_layer[piece] && !is_decided(k) && !are_apart(frame, back, points, k)) left.push_back(k);
+            if (O.piece_layer[k] != A.piece_layer[piece] || is_decided(k)) return;
+            if (!are_apart(frame, back, points, k)) left.push_back(k);
         };
         const auto box = swept(frame, points);
         if (parents) {
@@ -239,7 +240,8 @@ private:
     }
 
     // Whether one edge parts two pieces on the whole interval of the frames; false: not certain.
-    bool are_apart(const Frame<Approx>& frame, const Frame<Approx>& back, const std::vector<Point<Approx>>& points, Index k) const {
+    bool are_apart(const Frame<Approx>& frame, const Frame<Approx>& back, const std::vector<Point<Approx>>& points,
+                   Index k) const {
         const auto parts = [](const Shape& s, Index e, const Point<Approx>& point, const Frame<Approx>& f) {
             const Vec<Approx> d = edge<Approx>(s, e);
             const Approx x = x_of<Approx>(s, s.v[e]), y = y_of<Approx>(s, s.v[e]);
@@ -290,7 +292,8 @@ private:
 
     void add_lines(std::vector<Line>& lines, int kind, const Shape& s, Index k, const Shape& moving, Index j,
                    const Frame<Int>& f) const {
-        std::vector<Index> vertices(moving.piece_vertex.begin() + moving.piece[j], moving.piece_vertex.begin() + moving.piece[j + 1]);
+        const auto all = moving.piece_vertex.begin();
+        const std::vector<Index> vertices(all + moving.piece[j], all + moving.piece[j + 1]);
         std::vector<Point<Int>> points;
         for (const Index v : vertices) points.push_back(moved(f, moving.X[v], moving.Y[v]));
         for (Index e = s.piece[k]; e < s.piece[k + 1]; ++e) {

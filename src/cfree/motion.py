@@ -24,6 +24,7 @@ from cfree.exact import angle as angle_of
 from cfree.pose import Angle, Pose, Poses
 
 Floats = NDArray[np.float64]
+MOST_HALVES = 1000
 
 
 @dataclass(frozen=True, init=False)
@@ -203,12 +204,19 @@ def rotations(pole: tuple[Number, Number], angle: Number) -> tuple[Rotation, ...
     angle : number in radians or "400deg"
         Half turns come first. Within an ulp of a multiple of pi/2 radians mean it.
 
+    Raises
+    ------
+    InvalidPoseError
+        If it is more than a thousand half turns, or no number.
+
     Examples
     --------
     >>> [move.turn / math.pi for move in rotations((0, 0), "-450deg")]
     [-1.0, -1.0, -0.5]
     """
     clockwise, size = _size(angle)
+    if size > MOST_HALVES * math.pi:
+        raise InvalidPoseError(f"angle {angle!r} is more than {MOST_HALVES} half turns; give less")
     halves = round(size / math.pi)
     rest = _without_halves(angle, halves)
     if rest != 0:

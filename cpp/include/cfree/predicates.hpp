@@ -1,4 +1,4 @@
-// Every sign and every order is decided by this class (predicates.cpp, roots.cpp, angles.cpp), and nowhere else.
+// Every sign and every order of the boundary is decided by this class (predicates.cpp, roots.cpp, angles.cpp), and nowhere else.
 //
 // At an orientation theta a contact surface is a line, a pillar a convex polygon, and what is asked are signs of
 //   f(theta) = a + b cos(theta) + c sin(theta)                  (Trig: offsets, parallels, numerators, denominators)

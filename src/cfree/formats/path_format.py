@@ -134,7 +134,7 @@ def path_from_json(findings: Findings, data: object) -> Path:
             elif item["type"] == "literal_error":
                 findings.under(path, f"expected {item['ctx']['expected']}, got {{got}}".replace("'", '"'))
             elif item["type"] in ("model_type", "model_attributes_type"):
-                findings.under(path, "expected an object {{...}}, got {got}".replace("{{...}}", "{...}"))
+                findings.under(path, "expected an object {...}, got {got}")
             else:
                 report(findings, path, item, _keys_at)
         findings.fail_if_any()
@@ -152,8 +152,9 @@ def path_text(path: Path) -> str:
         "goal": _configuration(path.goal),
         "exact": {"start": _exact(path.start), "goal": _exact(path.goal)},
     }
-    lines = ",\n".join(f"    {json.dumps(_record(motion))}" for motion in path.motions)
-    return json.dumps(head, indent=1)[:-2] + ',\n "motions": [' + (f"\n{lines}\n ]" if lines else "]") + "\n}\n"
+    lines = ",\n".join(f"  {json.dumps(_record(motion))}" for motion in path.motions)
+    members = [*(f'"{key}": {json.dumps(value)}' for key, value in head.items()), f'"motions": [\n{lines}\n]']
+    return "{" + ",\n ".join(members) + "}\n"
 
 
 def csv_text(poses: Poses) -> str:
