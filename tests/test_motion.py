@@ -250,3 +250,17 @@ def test_faults_of_motions_name_the_remedy() -> None:
         rotations((0, 0), "1e9")
     with pytest.raises(InvalidPoseError, match="pole"):
         Rotation((1, 2, 3), 1)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("unit", [F(10) ** 140, F(1, 10**140), F(10**20 + 1, 3**30)])
+def test_units_do_not_matter(unit: Fraction) -> None:
+    """The corridor, the turning rod and their poses, much larger, much smaller, and with long numbers."""
+    walls = [box(-9 * unit, unit, 9 * unit, 2 * unit), box(-9 * unit, -2 * unit, 9 * unit, -unit)]
+    checker = MotionChecker(Scene(robot=box(-2 * unit, -unit, 2 * unit, unit), obstacles=walls))
+    for far in (1, 10**200):
+        assert checker.is_free(Pose(-20 * unit * far, 0), Translation((40 * unit * far, 0)))
+        assert not checker.is_free(Pose(-20 * unit * far, 0), Translation((40 * unit * far, unit / 10**9)))
+        assert not checker.is_free(Pose(0, 0), Rotation((0, far * unit), {"tau": F(1, 10**30)}))
+        assert checker.is_free(Pose(0, 5 * unit), Rotation((0, unit), {"tau": F(1, 10**30)}))
+    found = checker.first_contact(Pose(0, 5 * unit), Translation((0, -4 * unit)))
+    assert found is not None and found.at == Surd(F(1, 2)) and found.obstacle == 0

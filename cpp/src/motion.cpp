@@ -230,12 +230,12 @@ private:
             const Approx& W = frame.W.c[k];
             if (!(W.v > W.m * 0x1p-4)) return {};
             for (const Point<Approx>& p : points) {
+                if (!std::isfinite(p.x.c[k].m + p.y.c[k].m)) return {};
                 const double dx = error_of(p.x.c[k]), dy = error_of(p.y.c[k]);
                 box.add((p.x.c[k].v - dx) / W.v, (p.y.c[k].v - dy) / W.v);
                 box.add((p.x.c[k].v + dx) / W.v, (p.y.c[k].v + dy) / W.v);
             }
         }
-        if (!std::isfinite(box.x0 + box.x1 + box.y0 + box.y1)) return {};
         return grown(box);
     }
 
@@ -283,61 +283,67 @@ private:
 
     // --- exactly ---
 
-    struct Line {  // an edge of one piece, and where the vertices of the other are
+    // A piece at rest and the vertices of one that moves past it.
+    struct View {
+        const Shape& still;
+        Index piece;
+        const Frame<Int>& frame;
         int kind;
-        Index edge;
         std::vector<Index> vertices;
-        std::vector<Poly> sides;
-    };
-
-    void add_lines(std::vector<Line>& lines, int kind, const Shape& s, Index k, const Shape& moving, Index j,
-                   const Frame<Int>& f) const {
-        const auto all = moving.piece_vertex.begin();
-        const std::vector<Index> vertices(all + moving.piece[j], all + moving.piece[j + 1]);
         std::vector<Point<Int>> points;
-        for (const Index v : vertices) points.push_back(moved(f, moving.X[v], moving.Y[v]));
-        for (Index e = s.piece[k]; e < s.piece[k + 1]; ++e) {
-            const Index d = s.piece_edge[e];
-            if (!s.has_extent(d)) continue;
-            Line line{kind, d, vertices, {}};
-            const auto direction = cfree::edge<Int>(s, d);
-            for (const auto& p : points) {
-                const auto at = [&](int i) { return side(direction, s.X[s.v[d]], s.Y[s.v[d]], p, f, i); };
-                line.sides.push_back(Poly{at(0), at(1), at(2)});
+
+        View(const Shape& s, Index k, const Shape& moving, Index j, const Frame<Int>& f, int kind_of_contact)
+            : still(s), piece(k), frame(f), kind(kind_of_contact) {
+            for (Index v = moving.piece[j]; v < moving.piece[j + 1]; ++v) {
+                vertices.push_back(moving.piece_vertex[v]);
+                points.push_back(moved(f, moving.X[vertices.back()], moving.Y[vertices.back()]));
             }
-            lines.push_back(std::move(line));
         }
-    }
+        // Where the vertices are beside an edge, if just after a parameter none is on its inner side.
+        std::optional<std::vector<Poly>> parted(Index e, RealRoot& from) const {
+            const auto direction = edge<Int>(still, e);
+            std::vector<Poly> sides;
+            for (const auto& p : points) {
+                const auto at = [&](int i) {
+                    return side(direction, still.X[still.v[e]], still.Y[still.v[e]], p, frame, i);
+                };
+                sides.push_back(Poly{at(0), at(1), at(2)});
+                if (!sides.back().empty() && sign_after(sides.back(), from) > 0) return {};
+            }
+            return sides;
+        }
+    };
 
     // Goes from one edge that parts the two pieces to the next, as far as each holds. The pieces are apart on a closed set:
     // it is enough to look just after each end.
     void decide(Index k) {
         decided.push_back(k);
-        std::vector<Line> lines;
-        add_lines(lines, 1, O, k, A, piece, exact.robot);
-        add_lines(lines, 2, A, piece, O, k, exact.obstacles);
-        Collision now{{Poly{0, 1}, {0, 0}, {0, 0}}, piece, k, 0, -1, -1};
+        const View views[2] = {{O, k, A, piece, exact.robot, 1}, {A, piece, O, k, exact.obstacles, 2}};
+        Collision now{{Poly{0, 1}, {0, 0}, {0, 0}}, piece, k};
         for (;;) {
             std::optional<Collision> next;
-            for (const Line& line : lines) {
-                const auto outside = [&](const Poly& f) { return f.empty() || sign_after(f, now.at) <= 0; };
-                if (!std::all_of(line.sides.begin(), line.sides.end(), outside)) continue;
-                std::optional<Collision> end;
-                for (std::size_t i = 0; i < line.sides.size(); ++i) {
-                    auto x = crossing(line.sides[i]);
-                    if (!x || compare(*x, now.at) <= 0 || (end && compare(*x, end->at) >= 0)) continue;
-                    end = Collision{*x, piece, k, line.kind, line.vertices[i], line.edge};
-                    if (line.kind == 2) std::swap(end->robot, end->obstacle);
+            for (const View& view : views)
+                for (Index e = view.still.piece[view.piece]; e < view.still.piece[view.piece + 1]; ++e) {
+                    const Index d = view.still.piece_edge[e];
+                    if (!view.still.has_extent(d)) continue;
+                    const auto sides = view.parted(d, now.at);
+                    if (!sides) continue;
+                    std::optional<Collision> end;
+                    for (std::size_t i = 0; i < sides->size(); ++i) {
+                        auto x = crossing((*sides)[i]);
+                        if (!x || compare(*x, now.at) <= 0 || (end && compare(*x, end->at) >= 0)) continue;
+                        end = Collision{*x, piece, k, view.kind, view.vertices[i], d};
+                        if (view.kind == 2) std::swap(end->robot, end->obstacle);
+                    }
+                    if (!end) return;  // parts them to the end of the motion
+                    if (!next || compare(end->at, next->at) > 0) next = end;
                 }
-                if (!end) return;  // parts them to the end of the motion
-                if (!next || compare(end->at, next->at) > 0) next = end;
-            }
             if (!next) break;
             now = *next;
         }
         collides = true;
         if (!first || compare(now.at, first->at) < 0) first = now;
-        for (int k = 0; k < most_halvings; ++k) now.at.halve();
+        for (int i = 0; i < most_halvings; ++i) now.at.halve();
         horizon = stops ? 0 : std::min(horizon, now.at.hi.rounded_up());
     }
 
