@@ -139,6 +139,8 @@ def test_a_path_that_touches_has_no_clearance() -> None:
     assert found is not None and (found.least, found.found, found.motion) == (0, 0, 1)
     with pytest.raises(ValueError, match="the path is not free"):
         Path(Pose(0, 4), [Translation((0, -5))]).clearance(scene)
+    with pytest.raises(ValueError, match="tolerance 0: give a positive one"):
+        path.clearance(scene, tolerance=0)
     assert not Path(Pose(0, -2), []).is_free(MotionChecker(scene))
 
 

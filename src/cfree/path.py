@@ -182,7 +182,7 @@ class Path:
         Raises
         ------
         ValueError
-            If the path is not free.
+            If the path is not free, or the tolerance not positive.
 
         Notes
         -----

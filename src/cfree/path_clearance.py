@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.features import WORKSPACE
-from cfree.motion import Motion, Translation
+from cfree.motion import Motion, Rotation, Translation
 from cfree.path import Clearance, Path
 from cfree.pose import Pose
 
@@ -34,9 +34,11 @@ def least_clearance(path: Path, scene: Scene, tolerance: float | None) -> Cleara
     radius = float(np.hypot(robot[..., 0], robot[..., 1]).max())
     if tolerance is None:
         tolerance = 1e-3 * radius
-    size = float(
-        max(np.abs(segments).max(), max(abs(c) for q in path.poses for c in (float(q.x), float(q.y))) + radius)
-    )
+    if not tolerance > 0:
+        raise ValueError(f"tolerance {tolerance}: give a positive one")
+    poles = [c for m in path.motions if isinstance(m, Rotation) for c in m.pole]
+    places = [c for q in path.poses for c in (q.x, q.y)]
+    size = float(max(np.abs(segments).max(), max(abs(float(c)) for c in places + poles) + radius))
     motions = path.motions or (Translation((0, 0)),)
     reach = np.array([_reach(q, m, robot) for q, m in zip(path.poses, motions, strict=False)])
     motion, low, high = np.arange(len(motions)), np.zeros(len(motions)), np.ones(len(motions))
