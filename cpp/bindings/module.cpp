@@ -66,10 +66,12 @@ static std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> integers(cons
     return result;
 }
 
+void bind_motion(nb::module_& m);
 void bind_predicates(nb::module_& m);
 
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
+    bind_motion(m);
     bind_predicates(m);
     nb::class_<cfree::Shape>(m, "Shape")
         .def("__init__", [](cfree::Shape* s, Limbs coordinates, int shift, Column<int> point, Column<int> v, Column<int> w,

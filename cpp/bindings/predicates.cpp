@@ -10,6 +10,7 @@
 #include "cfree/critical_angle.hpp"
 #include "cfree/fingerprint.hpp"
 #include "cfree/junction.hpp"
+#include "integers.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -22,14 +23,6 @@ using SampleTuple = std::tuple<double, std::optional<DyadicPair>>;
 using FilteredTuple = std::array<double, 4>;  // a, b, c, err
 using Coefficients = std::vector<nb::int_>;
 using RootTuple = std::tuple<Coefficients, DyadicPair, DyadicPair>;  // the only root of a polynomial in [lo, hi]
-
-static cfree::Int integer(const nb::int_& n) {
-    return cfree::Int(nb::steal<nb::str>(PyNumber_ToBase(n.ptr(), 16)).c_str());
-}
-static nb::int_ integer(const cfree::Int& n) {
-    const auto digits = cfree::Int(abs(n)).str(0, std::ios_base::hex);
-    return nb::steal<nb::int_>(PyLong_FromString(((n.sign() < 0 ? "-" : "") + digits).c_str(), nullptr, 16));
-}
 
 static cfree::Dyadic dyadic(const DyadicPair& d) { return {integer(d.first), d.second}; }
 static DyadicPair dyadic(const cfree::Dyadic& d) { return {integer(d.n), d.k}; }

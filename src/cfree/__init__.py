@@ -49,6 +49,16 @@ if TYPE_CHECKING:
     from cfree.io import load_scene as load_scene
     from cfree.mesh import Mesh as Mesh
     from cfree.mesh import save_mesh as save_mesh
+    from cfree.motion import Rotation as Rotation
+    from cfree.motion import Translation as Translation
+    from cfree.motion import rotations as rotations
+    from cfree.motion_check import FirstContact as FirstContact
+    from cfree.motion_check import MotionChecker as MotionChecker
+    from cfree.motion_check import first_contact as first_contact
+    from cfree.motion_check import is_free_motion as is_free_motion
+    from cfree.path import Clearance as Clearance
+    from cfree.path import Path as Path
+    from cfree.path import load_path as load_path
     from cfree.plot import plot_boundary as plot_boundary
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
@@ -111,6 +121,9 @@ _HOMES = {
     "striction_is_on_patch striction_parameter striction_parameters",
     "io": "load_polygons load_scene",
     "mesh": "Mesh save_mesh",
+    "motion": "Rotation Translation rotations",
+    "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
+    "path": "Clearance Path load_path",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
     "polygon": "Polygon",
     "pose": "Pose Poses",

@@ -5,6 +5,13 @@ import numpy
 from numpy.typing import NDArray
 
 
+class MotionChecker:
+    def __init__(self, robot: Shape, obstacles: Shape, shift: int) -> None: ...
+
+    def is_free(self, turns: bool, numbers: Sequence[int]) -> bool: ...
+
+    def first_collision(self, turns: bool, numbers: Sequence[int]) -> object: ...
+
 class Predicates:
     def __init__(self, robot: Shape, obstacles: Shape, contact: int, chart: int) -> None: ...
 

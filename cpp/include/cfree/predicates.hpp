@@ -1,5 +1,5 @@
-// Every sign and every order is decided by this class (predicates.cpp, roots.cpp, angles.cpp), and nowhere else but in cells.cpp,
-// which compares with poses.
+// Every sign and every order of the boundary is decided by this class (predicates.cpp, roots.cpp, angles.cpp), and nowhere
+// else; cells.cpp compares with poses, motion.cpp decides along motions.
 //
 // At an orientation theta a contact surface is a line, a pillar a convex polygon, and what is asked are signs of
 //   f(theta) = a + b cos(theta) + c sin(theta)                  (Trig: offsets, parallels, numerators, denominators)

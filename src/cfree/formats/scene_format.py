@@ -163,15 +163,18 @@ Configuration = Annotated[
     BeforeValidator(_list_of(3, "[x, y, theta]")),
     AfterValidator(_pose),
 ]
+Version = Annotated[int, PlainValidator(_known_version), WithJsonSchema({"const": VERSION})]
 Text = Annotated[str, Field(max_length=100_000)]
 Plain = Annotated[dict[str, Any], AfterValidator(_plain)]
 
 
-class _Strict(BaseModel):
+class Strict(BaseModel):
+    """Keys that are not known are faults."""
+
     model_config = ConfigDict(extra="forbid")
 
 
-class PolygonModel(_Strict):
+class PolygonModel(Strict):
     """A polygon: an outer ring and the holes in it, in any orientation, closing point optional."""
 
     outer: list[Point]
@@ -197,10 +200,10 @@ class ObstacleModel(PolygonModel):
     name: Annotated[str, Field(max_length=1000)] | None = None
 
 
-class SceneModel(_Strict):
+class SceneModel(Strict):
     """A robot, what it may not overlap, and where it may be."""
 
-    version: Annotated[int, PlainValidator(_known_version), WithJsonSchema({"const": VERSION})] = VERSION
+    version: Version = VERSION
     name: Text = ""
     note: Text = ""
     units: Text = ""
@@ -241,13 +244,19 @@ def scene_from_json(findings: Findings, data: object) -> Scene:
     )
 
 
-def report(findings: Findings, path: Path, item: ErrorDetails) -> None:
+def _keys_at(path: Path) -> list[str]:
+    keys = [step for step in path if isinstance(step, str)]
+    models: dict[tuple[str, ...], type[BaseModel]] = {(): SceneModel, ("obstacles",): ObstacleModel}
+    return list(models.get(tuple(keys), PolygonModel).model_fields)
+
+
+def report(findings: Findings, path: Path, item: ErrorDetails, keys_at: Callable[[Path], list[str]] = _keys_at) -> None:
     """Say a fault of the validator in our own words: place, value, remedy."""
     kind, context = item["type"], item.get("ctx", {})
     if kind == "missing":
         findings.under(path[:-1], f'key "{path[-1]}" is missing; add it')
     elif kind == "extra_forbidden":
-        key, known = str(path[-1]), _keys_at(path[:-1])
+        key, known = str(path[-1]), keys_at(path[:-1])
         guess = get_close_matches(key, known, 1)
         remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(known)}"
         findings.under(path, f'unknown key "{shortened(key)}"; {remedy}', key=True)
@@ -265,9 +274,3 @@ def report(findings: Findings, path: Path, item: ErrorDetails) -> None:
 
 
 _PLAIN_FIELDS = ("bounds", "start", "goal", "units", "version", "name", "note", "source", "check")
-
-
-def _keys_at(path: Path) -> list[str]:
-    keys = [step for step in path if isinstance(step, str)]
-    models: dict[tuple[str, ...], type[BaseModel]] = {(): SceneModel, ("obstacles",): ObstacleModel}
-    return list(models.get(tuple(keys), PolygonModel).model_fields)

@@ -1,0 +1,16 @@
+// Python's integers and the core's.
+#pragma once
+#include <nanobind/nanobind.h>
+
+#include "cfree/number.hpp"
+
+inline cfree::Int integer(const nanobind::int_& n) {
+    int overflow;
+    const long long small = PyLong_AsLongLongAndOverflow(n.ptr(), &overflow);
+    if (!overflow) return small;
+    return cfree::Int(nanobind::steal<nanobind::str>(PyNumber_ToBase(n.ptr(), 16)).c_str());
+}
+inline nanobind::int_ integer(const cfree::Int& n) {
+    const auto digits = cfree::Int(abs(n)).str(0, std::ios_base::hex);
+    return nanobind::steal<nanobind::int_>(PyLong_FromString(((n.sign() < 0 ? "-" : "") + digits).c_str(), nullptr, 16));
+}

@@ -1,0 +1,206 @@
+"""The JSON path, version 1, as pydantic models, and texts of sampled paths; `docs/answer-format.md` describes them.
+
+Where `exact` is given it counts, and the decimals beside it are for people. Import this module inside functions.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from fractions import Fraction
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PlainValidator, ValidationError, model_validator
+
+from cfree.errors import InvalidPoseError
+from cfree.formats.findings import Findings
+from cfree.formats.scene_format import Configuration, Point, Strict, Text, Version, fault, report
+from cfree.motion import Motion, Rotation, Translation, rotations
+from cfree.path import Path
+from cfree.pose import Pose, Poses
+
+CLOSE = 1e-6  # of the path's size: how far decimals alone may lead from the goal
+
+
+def _turning(value: Any) -> Any:
+    """What `rotations` takes as an angle."""
+    try:
+        rotations((0, 0), value)
+        return value
+    except ValueError:
+        raise fault('expected radians or "90deg", got {got}') from None
+
+
+def _half_tangent(value: Any) -> Any:
+    try:
+        Rotation((0, 0), {"tau": value})
+        return value
+    except InvalidPoseError:
+        raise fault('expected the tangent of half the angle, "p/q", "inf" or "-inf", got {got}') from None
+
+
+class ExactTranslation(Strict):
+    """The vector as it is."""
+
+    vector: Point
+
+
+class TranslationModel(Strict):
+    """Straight motion."""
+
+    type: Literal["translation"]
+    vector: Point
+    exact: ExactTranslation | None = None
+
+    @property
+    def motions(self) -> tuple[Motion, ...]:
+        return (Translation((self.exact or self).vector),)
+
+
+class ExactRotation(Strict):
+    """Pole and half-angle tangent as they are."""
+
+    pole: Point
+    tau: Annotated[Any, PlainValidator(_half_tangent)]
+
+
+class RotationModel(Strict):
+    """Turn about a pole."""
+
+    type: Literal["rotation"]
+    pole: Point
+    angle: Annotated[Any, PlainValidator(_turning)]
+    exact: ExactRotation | None = None
+
+    @property
+    def motions(self) -> tuple[Motion, ...]:
+        if self.exact:
+            return (Rotation(self.exact.pole, {"tau": self.exact.tau}),)
+        return rotations(self.pole, self.angle)
+
+
+class ExactEnds(Strict):
+    """Start and goal as they are."""
+
+    start: Configuration
+    goal: Configuration
+
+
+class PathModel(Strict):
+    """A start, motions, and the goal they lead to."""
+
+    version: Version = 1
+    units: Text = ""
+    frame: Text = "world"
+    answer: Literal["path"]
+    start: Configuration
+    goal: Configuration
+    motions: list[Annotated[TranslationModel | RotationModel, Field(discriminator="type")]]
+    exact: ExactEnds | None = None
+
+    @model_validator(mode="after")
+    def _arrives(self) -> PathModel:
+        ends: Any = self.exact or self
+        path, goal = self.path, ends.goal
+        if self.exact and all(motion.exact for motion in self.motions):
+            if path.goal != goal:
+                raise fault("the motions do not lead to the exact goal; correct one of them")
+            return self
+        size = 1 + max(abs(float(c)) for q in path.poses for c in (q.x, q.y))
+        apart = abs(float(path.goal.x - goal.x)), abs(float(path.goal.y - goal.y))
+        turned = abs(math.remainder(path.goal.theta - goal.theta, math.tau))
+        if max(*apart, turned * size) > CLOSE * size:
+            x, y, theta = float(path.goal.x), float(path.goal.y), path.goal.theta
+            raise fault(f"the motions lead to [{x:.9g}, {y:.9g}, {theta:.9g}] and not to the goal; correct one of them")
+        return self
+
+    @property
+    def path(self) -> Path:
+        ends: Any = self.exact or self
+        return Path(ends.start, (m for model in self.motions for m in model.motions), self.units, self.frame)
+
+
+def path_from_json(findings: Findings, data: object) -> Path:
+    """Path of a decoded JSON value; raises every problem there is through `findings`."""
+    try:
+        return PathModel.model_validate(data).path
+    except ValidationError as error:
+        for item in error.errors(include_url=False, include_input=False):
+            path = item["loc"]
+            if path[:1] == ("motions",) and len(path) > 2:
+                path = (*path[:2], *path[3:])  # without the tag of the union
+            if item["type"].startswith("union_tag"):
+                findings.under(path, 'expected a motion with "type": "translation" or "rotation", got {got}')
+            elif item["type"] == "literal_error":
+                findings.under(path, f"expected {item['ctx']['expected']}, got {{got}}".replace("'", '"'))
+            elif item["type"] in ("model_type", "model_attributes_type"):
+                findings.under(path, "expected an object {...}, got {got}")
+            else:
+                report(findings, path, item, _keys_at)
+        findings.fail_if_any()
+        raise
+
+
+def path_text(path: Path) -> str:
+    """JSON of a path; `path_from_json` gives an equal one."""
+    head = {
+        "version": 1,
+        "units": path.units,
+        "frame": path.frame,
+        "answer": "path",
+        "start": _configuration(path.start),
+        "goal": _configuration(path.goal),
+        "exact": {"start": _exact(path.start), "goal": _exact(path.goal)},
+    }
+    lines = ",\n".join(f"  {json.dumps(_record(motion))}" for motion in path.motions)
+    members = [*(f'"{key}": {json.dumps(value)}' for key, value in head.items()), f'"motions": [\n{lines}\n]']
+    return "{" + ",\n ".join(members) + "}\n"
+
+
+def csv_text(poses: Poses) -> str:
+    """Poses as lines x,y,theta."""
+    rows = zip(poses.xy.tolist(), poses.theta.tolist(), strict=True)
+    return "x,y,theta\n" + "".join(f"{x!r},{y!r},{theta!r}\n" for (x, y), theta in rows)
+
+
+def ros_text(poses: Poses, frame: str) -> str:
+    """Poses as a ROS 2 message nav_msgs/Path in YAML; all stamps are zero."""
+    header = f"{{stamp: {{sec: 0, nanosec: 0}}, frame_id: {json.dumps(frame)}}}"
+    lines = [f"header: {header}", "poses:"]
+    for (x, y), theta in zip(poses.xy.tolist(), poses.theta.tolist(), strict=True):
+        z, w = math.sin(theta / 2), math.cos(theta / 2)
+        lines += [
+            f"- header: {header}",
+            "  pose:",
+            f"    position: {{x: {x!r}, y: {y!r}, z: 0.0}}",
+            f"    orientation: {{x: 0.0, y: 0.0, z: {z!r}, w: {w!r}}}",
+        ]
+    return "\n".join(lines) + "\n"
+
+
+def _record(motion: Motion) -> dict[str, Any]:
+    if isinstance(motion, Translation):
+        vector = motion.vector
+        return {"type": "translation", "vector": [*map(float, vector)], "exact": {"vector": [*map(str, vector)]}}
+    tau = ("-inf" if motion.clockwise else "inf") if motion.tau is None else str(motion.tau)
+    exact = {"pole": [*map(str, motion.pole)], "tau": tau}
+    return {"type": "rotation", "pole": [*map(float, motion.pole)], "angle": motion.turn, "exact": exact}
+
+
+def _configuration(pose: Pose) -> list[float]:
+    return [float(pose.x), float(pose.y), pose.theta]
+
+
+def _exact(pose: Pose) -> list[Any]:
+    return [str(pose.x), str(pose.y), {"tau": _tau(pose.tau)}]
+
+
+def _tau(tau: Fraction | None) -> str:
+    return "inf" if tau is None else str(tau)
+
+
+def _keys_at(path: tuple[str | int, ...]) -> list[str]:
+    keys = [step for step in path if isinstance(step, str)]
+    if keys == ["exact"]:
+        return list(ExactEnds.model_fields)
+    return list(PathModel.model_fields) if not keys else ["type", "vector", "pole", "angle", "exact", "tau"]

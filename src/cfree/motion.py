@@ -1,0 +1,251 @@
+"""Motions of the robot: translations, and rotations about a pole of at most half a turn; exact.
+
+Every displacement of the plane is one of these two (Chasles). A pure rotation moves on the helix of its pole (the
+paper's Lemma 1 and Remark 2), a translation on a straight line of the configuration space.
+
+A motion has a parameter u in [0, 1] in which all of it is rational. Of a translation it is the share of the vector. Of
+a rotation half the angle turned at u is the angle of (1 - u) (L, 0) + u (q, p), where tau = p / q belongs to the whole
+and L is the length of (q, p) without its fraction: nearly, but not exactly, the share of the angle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.errors import InvalidPoseError
+from cfree.exact import ExactPoint, Number, to_fraction
+from cfree.exact import angle as angle_of
+from cfree.pose import Angle, Pose, Poses
+
+Floats = NDArray[np.float64]
+MOST_HALVES = 1000
+
+
+@dataclass(frozen=True, init=False)
+class Translation:
+    """Straight motion without turning.
+
+    Parameters
+    ----------
+    vector : pair of numbers
+        In the world, in the scene's unit of length.
+
+    Raises
+    ------
+    InvalidPoseError
+        If it is no pair of finite numbers.
+
+    Examples
+    --------
+    >>> move = Translation(("1/3", 2))
+    >>> move.apply(Pose(0, 0, "90deg")) == Pose("1/3", 2, "90deg")
+    True
+    """
+
+    vector: ExactPoint
+
+    def __init__(self, vector: tuple[Number, Number]) -> None:
+        object.__setattr__(self, "vector", _point("vector", vector))
+
+    @property
+    def length(self) -> float:
+        """How far the reference point moves."""
+        return math.hypot(*map(float, self.vector))
+
+    @property
+    def displacement(self) -> Pose:
+        """The whole motion as an element of SE(2)."""
+        return Pose(*self.vector)
+
+    def apply(self, pose: Pose) -> Pose:
+        """Where a pose ends, exactly."""
+        return self.displacement @ pose
+
+    def at(self, pose: Pose, u: Number) -> Pose:
+        """Where a pose is at the parameter u in [0, 1], exactly."""
+        return self.until(u).apply(pose)
+
+    def until(self, u: Number) -> Translation:
+        """The motion as far as u."""
+        share = to_fraction(u)
+        return Translation((share * self.vector[0], share * self.vector[1]))
+
+    def reversed(self) -> Translation:
+        """The way back."""
+        return Translation((-self.vector[0], -self.vector[1]))
+
+    def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
+        """Poses at shares of the length, (n,), in double precision."""
+        s = np.asarray(shares, dtype=np.float64)
+        start, vector = np.array([float(pose.x), float(pose.y)]), np.array([float(v) for v in self.vector])
+        return Poses(start + s[:, None] * vector, np.full(len(s), pose.theta))
+
+
+@dataclass(frozen=True, init=False)
+class Rotation:
+    """Turn about a point that stays in place, by at most half a turn.
+
+    Parameters
+    ----------
+    pole : pair of numbers
+        In the world.
+    angle : float in radians, or "-90deg", or {"tau": "p/q"}
+        Counter-clockwise if positive. {"tau": "inf"} is half a turn counter-clockwise, {"tau": "-inf"} clockwise.
+        What has no rational tangent of its half is replaced as `Pose` does.
+
+    Attributes
+    ----------
+    tau : Fraction or None
+        Tangent of half the angle; None is half a turn.
+    clockwise : bool
+    angle_error : float, radians
+        Bound on what the angle differs from the one given.
+
+    Raises
+    ------
+    InvalidPoseError
+        If the angle is more than half a turn (see `rotations`), or something is no number.
+
+    Examples
+    --------
+    >>> move = Rotation((1, 0), "-90deg")
+    >>> move.apply(Pose(0, 0)) == Pose(1, 1, "270deg"), move.turn
+    (True, -1.5707963267948966)
+    """
+
+    pole: ExactPoint
+    tau: Fraction | None
+    clockwise: bool
+    angle_error: float = field(compare=False)
+
+    def __init__(self, pole: tuple[Number, Number], angle: Angle) -> None:
+        turned = Pose(0, 0, angle)
+        if isinstance(angle, Mapping):
+            clockwise = angle["tau"] in ("-inf", -math.inf) if turned.tau is None else turned.tau < 0
+        else:
+            clockwise, most = _size(angle)
+            if most > math.pi * (1 + 2**-51):
+                raise InvalidPoseError(f"angle {angle!r} is more than half a turn; divide it, as cfree.rotations does")
+        values = (_point("pole", pole), turned.tau, clockwise, turned.theta_error)
+        for name, value in zip(("pole", "tau", "clockwise", "angle_error"), values, strict=True):
+            object.__setattr__(self, name, value)
+
+    @property
+    def turn(self) -> float:
+        """Signed angle in radians, in [-pi, pi]."""
+        return 2 * angle_of(*self.half)
+
+    @property
+    def half(self) -> tuple[int, int]:
+        """Integers (q, p), q >= 0, along the direction of half the angle: tau = p / q."""
+        if self.tau is None:
+            return 0, -1 if self.clockwise else 1
+        return self.tau.denominator, self.tau.numerator
+
+    @property
+    def displacement(self) -> Pose:
+        """The whole motion as an element of SE(2)."""
+        turned = Pose(0, 0, {"tau": self.tau})
+        ((x, y),) = turned.apply_exact([self.pole])
+        return Pose(self.pole[0] - x, self.pole[1] - y, {"tau": self.tau})
+
+    def apply(self, pose: Pose) -> Pose:
+        """Where a pose ends, exactly."""
+        return self.displacement @ pose
+
+    def at(self, pose: Pose, u: Number) -> Pose:
+        """Where a pose is at the parameter u in [0, 1], exactly."""
+        return self.until(u).apply(pose)
+
+    def until(self, u: Number) -> Rotation:
+        """The motion as far as u."""
+        share, (q, p) = to_fraction(u), self.half
+        cosine, sine = (1 - share) * self.first + share * q, share * p
+        if cosine:
+            return Rotation(self.pole, {"tau": sine / cosine})
+        return Rotation(self.pole, {"tau": "-inf" if sine < 0 else "inf"})
+
+    @property
+    def first(self) -> int:
+        """The L of the parameter."""
+        q, p = self.half
+        return math.isqrt(q * q + p * p)
+
+    def reversed(self) -> Rotation:
+        """The way back."""
+        if self.tau is None:
+            return Rotation(self.pole, {"tau": "inf" if self.clockwise else "-inf"})
+        return Rotation(self.pole, {"tau": -self.tau})
+
+    def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
+        """Poses at shares of the angle, (n,), in double precision."""
+        phi = np.asarray(shares, dtype=np.float64) * self.turn
+        arm = float(pose.x - self.pole[0]), float(pose.y - self.pole[1])
+        c, s = np.cos(phi), np.sin(phi)
+        x, y = (float(v) for v in self.pole)
+        xy = np.stack((x + c * arm[0] - s * arm[1], y + s * arm[0] + c * arm[1]), axis=1)
+        return Poses(xy, pose.theta + phi)
+
+
+Motion = Translation | Rotation
+
+
+def rotations(pole: tuple[Number, Number], angle: Number) -> tuple[Rotation, ...]:
+    """A turn of any size about a pole, as rotations of at most half a turn each, all of one direction.
+
+    Parameters
+    ----------
+    angle : number in radians or "400deg"
+        Half turns come first. Within an ulp of a multiple of pi/2 radians mean it.
+
+    Raises
+    ------
+    InvalidPoseError
+        If it is more than a thousand half turns, or no number.
+
+    Examples
+    --------
+    >>> [move.turn / math.pi for move in rotations((0, 0), "-450deg")]
+    [-1.0, -1.0, -0.5]
+    """
+    clockwise, size = _size(angle)
+    if size > MOST_HALVES * math.pi:
+        raise InvalidPoseError(f"angle {angle!r} is more than {MOST_HALVES} half turns; give less")
+    halves = round(size / math.pi)
+    rest = _without_halves(angle, halves)
+    if rest != 0:
+        halves = math.floor(size / math.pi)
+        rest = _without_halves(angle, halves)
+    last = () if rest == 0 else (Rotation(pole, {"tau": rest}),)
+    return (*[Rotation(pole, {"tau": "-inf" if clockwise else "inf"})] * halves, *last)
+
+
+def _without_halves(angle: Number, halves: int) -> Fraction | None:
+    """Half-angle tangent of an angle less some half turns."""
+    tau = Pose(0, 0, angle).tau
+    if halves % 2 == 0:
+        return tau
+    return Fraction(0) if tau is None else -1 / tau if tau else None
+
+
+def _size(angle: Number) -> tuple[bool, float]:
+    """Is an angle negative, and its size in radians?"""
+    if isinstance(angle, str) and angle.strip().endswith("deg"):
+        degrees = to_fraction(angle.strip().removesuffix("deg"))
+        return degrees < 0, math.radians(float(abs(degrees)))
+    radians = to_fraction(angle)
+    return radians < 0, float(abs(radians))
+
+
+def _point(name: str, values: tuple[Number, Number]) -> ExactPoint:
+    try:
+        x, y = values
+        return to_fraction(x), to_fraction(y)
+    except (TypeError, ValueError) as error:
+        raise InvalidPoseError(f"{name}: {error}; give two finite numbers") from None

@@ -1,0 +1,197 @@
+"""Is a whole motion free? Decided exactly, in closed form and without steps: theory, section 14.
+
+The core decides; here motions become integers, and its answers objects.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from cfree.contact import EdgeVertex, VertexEdge
+from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
+from cfree.motion import Motion, Rotation
+from cfree.pose import Pose
+from cfree.rational.surd import Surd
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
+
+
+@dataclass(frozen=True)
+class FirstContact:
+    """Where a motion becomes forbidden.
+
+    Attributes
+    ----------
+    at : Surd
+        The motion is free up to this parameter, itself included, and forbidden right after it; see `cfree.motion`.
+        0 may also mean that the first pose is forbidden.
+    robot : int
+        The robot's polygon.
+    obstacle : int
+        The obstacle; -1 stands for the bounds, -2 for the workspace.
+    contact : VertexEdge or EdgeVertex, optional
+        The contact that is entered, in the numbering of the two polygons, the workspace's for -2. None for a pose
+        that is forbidden from the beginning, for bounds, and where a diagonal of the convex pieces parts them last.
+    """
+
+    at: Surd
+    robot: int
+    obstacle: int
+    contact: VertexEdge | EdgeVertex | None
+
+
+class MotionChecker:
+    """Exact checks of many motions in one scene.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Notes
+    -----
+    The scene is prepared once, in O((n + m) log(n + m)) time and a few times as much as `Polygon.pieces` takes. A check
+    looks at the obstacles near the motion only, in doubles with proven bounds; pairs of convex pieces of p and q edges
+    that touch on the way are decided in exact integers, in O((p q)^2) time.
+
+    Examples
+    --------
+    >>> from cfree.motion import Translation
+    >>> from cfree.scene import Scene
+    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> walls = [[(3, 0), (4, 0), (4, 1)], [(0, 1), (2, 1), (2, 2), (0, 2)]]
+    >>> checker = MotionChecker(Scene(robot=square, obstacles=walls))
+    >>> checker.is_free(Pose(0, 0), Translation((2, 0))), checker.is_free(Pose(0, 0), Translation(("2.001", 0)))
+    (True, False)
+    >>> checker.first_contact(Pose(0, 0), Translation((4, 0)))
+    FirstContact(at=Surd(p=Fraction(1, 2), q=Fraction(0, 1), n=0), robot=0, obstacle=0, contact=VertexEdge(i=1, j=2))
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        from cfree import _core
+
+        self._scene = scene
+        self._features: SceneFeatures = scene_features(scene)
+        robot, obstacles = self._features.robot, self._features.obstacles
+        self._core = _core.MotionChecker(robot.core_shape(), obstacles.core_shape(), robot.shift)
+        self._rim = None if scene.workspace is None else _extent(obstacles)
+
+    def is_free(self, pose: Pose, motion: Motion) -> bool:
+        """Is every pose of a motion free? Exact; touching is free, also all the way.
+
+        Examples
+        --------
+        >>> from cfree.motion import Rotation
+        >>> from cfree.scene import Scene
+        >>> rod, room = [(-4, -3), (4, -3), (4, 3), (-4, 3)], [(-5, -5), (5, -5), (5, 5), (-5, 5)]
+        >>> checker = MotionChecker(Scene(robot=rod, obstacles=[], workspace=room))
+        >>> checker.is_free(Pose(0, 0), Rotation((0, 0), "90deg"))  # its corners are 5 from the pole
+        True
+        >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
+        False
+        """
+        return self._outside(pose) is None and self._core.is_free(*self._integers(pose, motion))
+
+    def first_contact(self, pose: Pose, motion: Motion) -> FirstContact | None:
+        """Where a motion becomes forbidden for the first time; None if it is free."""
+        if (outside := self._outside(pose)) is not None:
+            return FirstContact(Surd(0), outside[0], outside[1], None)
+        found: Any = self._core.first_collision(*self._integers(pose, motion))
+        if found is None:
+            return None
+        polynomial, robot_piece, obstacle_piece, kind, i, j = found
+        robot, obstacles = self._features.robot, self._features.obstacles
+        part, obstacle = _polygon(robot, robot_piece), _polygon(obstacles, obstacle_piece)
+        contact: VertexEdge | EdgeVertex | None = None
+        count = len(robot.previous), len(obstacles.previous)
+        if kind and obstacle != BOUNDS and i < count[0] and j < count[1] and obstacles.owner_vertex[j] >= 0:
+            i, j = int(robot.owner_vertex[i]), int(obstacles.owner_vertex[j])
+            if kind == 1 and obstacle == WORKSPACE and self._scene.workspace:
+                j = int(self._scene.workspace.previous[j])  # its complement runs the other way
+            contact = VertexEdge(i, j) if kind == 1 else EdgeVertex(i, j)
+        return FirstContact(_crossing(polynomial) if kind else Surd(0), part, obstacle, contact)
+
+    def _outside(self, pose: Pose) -> tuple[int, int] | None:
+        """Robot polygon, and -1 or -2, if the first pose is outside the bounds or beyond the workspace's frame.
+
+        Later poses have to pass what is around the bounds and the workspace.
+        """
+        if self._scene.bounds is not None:
+            x0, y0, x1, y1 = self._scene.bounds
+            if not (x0 <= pose.x <= x1 and y0 <= pose.y <= y1):
+                return 0, BOUNDS
+        if self._rim is not None:
+            x0, y0, x1, y1 = self._rim
+            for k, part in enumerate(self._scene.robot):
+                ((x, y),) = pose.apply_exact([part.exact_vertices[0]])
+                if not (x0 < x < x1 and y0 < y < y1):
+                    return k, WORKSPACE
+        return None
+
+    def _integers(self, pose: Pose, motion: Motion) -> tuple[bool, tuple[int, ...]]:
+        """What the core calls a motion."""
+        turns = isinstance(motion, Rotation)
+        vx, vy = motion.pole if isinstance(motion, Rotation) else motion.vector
+        unit = math.lcm(pose.x.denominator, pose.y.denominator, vx.denominator, vy.denominator)
+        scale = unit * self._features.scale
+        x, y, along, across = (v.numerator * (scale // v.denominator) for v in (pose.x, pose.y, vx, vy))
+        half = (motion.first, *motion.half) if isinstance(motion, Rotation) else (1, 1, 0)
+        return turns, (*pose.rotation, x, y, unit, along, across, *half)
+
+
+def is_free_motion(scene: Scene, pose: Pose, motion: Motion) -> bool:
+    """Is every pose of a motion free? Exact; for many motions in one scene use a `MotionChecker`.
+
+    Examples
+    --------
+    >>> from cfree.motion import Rotation
+    >>> from cfree.scene import Scene
+    >>> square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    >>> scene = Scene(robot=square, obstacles=[[(2, -2), (3, -2), (3, 2), (2, 2)]])
+    >>> is_free_motion(scene, Pose(0, 0), Rotation((0, 0), "90deg"))
+    True
+    >>> is_free_motion(scene, Pose("0.6", 0), Rotation(("0.6", 0), "90deg"))
+    False
+    """
+    return MotionChecker(scene).is_free(pose, motion)
+
+
+def first_contact(scene: Scene, pose: Pose, motion: Motion) -> FirstContact | None:
+    """Where a motion becomes forbidden for the first time; None if it is free.
+
+    Examples
+    --------
+    >>> from cfree.motion import Rotation
+    >>> from cfree.scene import Scene
+    >>> rod = [(-5, -1), (5, -1), (5, 0), (-5, 0)]
+    >>> scene = Scene(robot=rod, obstacles=[[(-9, 3), (9, 3), (9, 9), (-9, 9)]])
+    >>> found = first_contact(scene, Pose(0, 0), Rotation((0, 0), "90deg"))  # (5, 0) arrives at (4, 3)
+    >>> print(found.at, found.contact)
+    1/3 VertexEdge(i=2, j=0)
+    """
+    return MotionChecker(scene).first_contact(pose, motion)
+
+
+def _crossing(polynomial: list[int]) -> Surd:
+    """Where a quadratic (or linear) polynomial, its constant first, grows through zero."""
+    c, b, a = (*polynomial, 0)[:3]
+    if a == 0:
+        return Surd(Fraction(-c, b))
+    return Surd(Fraction(-b, 2 * a), Fraction(1, 2 * a), b * b - 4 * a * c)
+
+
+def _polygon(shape: ShapeFeatures, piece: int) -> int:
+    if shape.piece_layer[piece] != BODY:
+        return BOUNDS if len(shape.pieces[piece]) > 1 else 0
+    return int(shape.owner_polygon[shape.pieces[piece][0]])
+
+
+def _extent(shape: ShapeFeatures) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+    """The outer rim of the frame around the workspace, which is around everything."""
+    layer = shape.rings["layer"]
+    points = [p for p, of in zip(shape.vertices, layer, strict=False) if of == BODY]
+    xs, ys = ([Fraction(c, shape.scale) for c in axis] for axis in zip(*points, strict=True))
+    return min(xs), min(ys), max(xs), max(ys)

@@ -1,0 +1,277 @@
+"""Paths: motions one after the other, from an exact pose to an exact pose.
+
+Between two motions the robot stands still, so every path is continuous. Files are described in `docs/answer-format.md`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from functools import cached_property
+from os import PathLike
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.errors import UnsupportedError
+from cfree.exact import Number, to_fraction
+from cfree.files import replacing
+from cfree.motion import Motion, Translation
+from cfree.motion_check import MotionChecker
+from cfree.pose import Pose, Poses
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """The least distance between robot and obstacles along a path.
+
+    Attributes
+    ----------
+    least : float
+        Certified: no pose of the path has less. 0 if the path touches, or comes closer than the tolerance.
+    found : float
+        The distance at the pose found, correct but for rounding.
+    motion : int
+    share : float
+        Where: the share of that motion.
+    robot : (polygon, edge)
+    obstacle : (obstacle, edge)
+        The two closest edges there; -2 stands for the workspace.
+    """
+
+    least: float
+    found: float
+    motion: int
+    share: float
+    robot: tuple[int, int]
+    obstacle: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Path:
+    """A start and motions.
+
+    Parameters
+    ----------
+    start : Pose
+    motions : sequence of Translation or Rotation
+        In world coordinates, applied one after the other.
+    units : str, optional
+        Unit of length; nothing is computed from it.
+    frame : str, optional
+        Name of the world's frame, for files.
+
+    Examples
+    --------
+    >>> from cfree.motion import Rotation
+    >>> path = Path(Pose(0, 0), [Translation((2, 0)), Rotation((2, 1), "90deg")])
+    >>> path.goal == Pose(3, 1, "90deg"), path.turning == math.pi / 2, path.length == 2 + math.pi / 2
+    (True, True, True)
+    """
+
+    start: Pose
+    motions: tuple[Motion, ...]
+    units: str = field(default="", compare=False)
+    frame: str = field(default="world", compare=False)
+
+    def __init__(self, start: Pose, motions: Iterable[Motion], units: str = "", frame: str = "world") -> None:
+        for name, value in (("start", start), ("motions", tuple(motions)), ("units", units), ("frame", frame)):
+            object.__setattr__(self, name, value)
+
+    @cached_property
+    def poses(self) -> tuple[Pose, ...]:
+        """The start, and where each motion ends; exact."""
+        poses = [self.start]
+        for motion in self.motions:
+            poses.append(motion.apply(poses[-1]))
+        return tuple(poses)
+
+    @property
+    def goal(self) -> Pose:
+        """Where the last motion ends, exactly."""
+        return self.poses[-1]
+
+    @property
+    def length(self) -> float:
+        """How far the reference point travels."""
+        return math.fsum(_distance(pose, motion) for pose, motion in zip(self.poses, self.motions, strict=False))
+
+    @property
+    def turning(self) -> float:
+        """All angles turned, without signs, in radians."""
+        return math.fsum(_turned(motion) for motion in self.motions)
+
+    def at(self, position: Number) -> Pose:
+        """Exact pose at a position: k + u is the parameter u of motion k, whole numbers the poses between motions.
+
+        Examples
+        --------
+        >>> path = Path(Pose(0, 0), [Translation((2, 0)), Translation((0, 3))])
+        >>> path.at("4/3") == Pose(2, 1)
+        True
+        """
+        exact = to_fraction(position)
+        if not 0 <= exact <= len(self.motions):
+            raise ValueError(f"position {position} is not on the path; give one from 0 to {len(self.motions)}")
+        k = min(math.floor(exact), max(len(self.motions) - 1, 0))
+        return self.motions[k].at(self.poses[k], exact - k) if self.motions else self.start
+
+    def sample(self, step: float, turn: float = math.radians(5)) -> Poses:
+        """Poses along the path, the ends of all motions among them.
+
+        Parameters
+        ----------
+        step : float
+            The reference point moves at most this far from one pose to the next.
+        turn : float, radians
+            And the robot turns at most this much.
+
+        Returns
+        -------
+        Poses
+
+        Raises
+        ------
+        ValueError
+            If step or turn is not positive.
+        """
+        if not (step > 0 and turn > 0):
+            raise ValueError(f"step {step}, turn {turn}: give positive ones")
+        parts = [Poses.from_poses([self.start])]
+        for pose, motion in zip(self.poses, self.motions, strict=False):
+            count = max(1, math.ceil(_distance(pose, motion) / step), math.ceil(_turned(motion) / turn))
+            parts.append(motion.sample(pose, np.arange(1, count + 1) / count))
+        return Poses(np.concatenate([p.xy for p in parts]), np.concatenate([p.theta for p in parts]))
+
+    def is_free(self, checker: MotionChecker) -> bool:
+        """Is every pose on the path free? Exact.
+
+        Examples
+        --------
+        >>> from cfree.scene import Scene
+        >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        >>> checker = MotionChecker(Scene(robot=square, obstacles=[[(2, 0), (3, 0), (3, 3)]]))
+        >>> Path(Pose(0, 0), [Translation((1, 0)), Translation((0, 4))]).is_free(checker)
+        True
+        """
+        motions = self.motions or (Translation((0, 0)),)
+        return all(checker.is_free(pose, motion) for pose, motion in zip(self.poses, motions, strict=False))
+
+    def clearance(self, scene: Scene, tolerance: float | None = None) -> Clearance | None:
+        """The least distance to obstacles and workspace, with a certified lower bound.
+
+        Parameters
+        ----------
+        scene : Scene
+            In which the path is free; bounds are no bodies and have no distance.
+        tolerance : float, optional
+            How far `least` may be below the truth; a thousandth of the robot's size unless given.
+
+        Returns
+        -------
+        Clearance, or None if there is nothing to be near to
+
+        Raises
+        ------
+        ValueError
+            If the path is not free, or the tolerance not positive.
+
+        Notes
+        -----
+        Every motion is halved until no part of it can hold a distance smaller, by more than the tolerance, than the
+        least one found: a pose is at most as much closer as the robot's farthest vertex travels. The time is that of
+        about (length / tolerance) distances for a path that keeps its distance from a wall, and mostly much less.
+
+        Examples
+        --------
+        >>> from cfree.scene import Scene
+        >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        >>> scene = Scene(robot=square, obstacles=[(2, "1.25"), (5, "1.25"), (5, 3), (2, 3)])
+        >>> found = Path(Pose(0, 0), [Translation((7, 0))]).clearance(scene, tolerance=1e-3)
+        >>> found.found, found.least > 0.249, found.obstacle
+        (0.25, True, (0, 0))
+        """
+        from cfree.path_clearance import least_clearance
+
+        if not self.is_free(MotionChecker(scene)):
+            raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
+        return least_clearance(self, scene, tolerance)
+
+    def save(self, path: str | PathLike[str], step: float | None = None, turn: float = math.radians(5)) -> None:
+        """Write the path to a file, whole or not at all.
+
+        Parameters
+        ----------
+        path : path
+            ``.json`` holds the motions, exactly. ``.csv`` holds poses x, y, theta, and ``.yaml`` the same as a ROS
+            nav_msgs/Path.
+        step, turn : float
+            As in `sample`; step is needed for ``.csv`` and ``.yaml``.
+
+        Raises
+        ------
+        UnsupportedError
+            If the file's name ends otherwise.
+        ValueError
+            If step is missing.
+        """
+        from cfree.formats.path_format import csv_text, path_text, ros_text
+
+        suffix = FilePath(path).suffix.lower()
+        if suffix == ".json":
+            text = path_text(self)
+        elif suffix not in (".csv", ".yaml"):
+            raise UnsupportedError(f"{path}: paths are written as .json, .csv or .yaml; name the file so")
+        elif step is None:
+            raise ValueError(f"{path}: no step; give the longest distance between poses")
+        else:
+            poses = self.sample(step, turn)
+            text = csv_text(poses) if suffix == ".csv" else ros_text(poses, self.frame)
+        with replacing(path) as unfinished:
+            unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def load_path(path: str | PathLike[str]) -> Path:
+    """Read a path from a JSON file.
+
+    Raises
+    ------
+    FormatError
+        Place, value and remedy of every fault; also if the motions do not lead to the goal.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> way = Path(Pose(0, 0, {"tau": "1/3"}), [Translation(("1/3", 2))])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     way.save(f"{folder}/way.json")
+    ...     load_path(f"{folder}/way.json") == way
+    True
+    """
+    from cfree.formats.findings import Findings, read_text
+    from cfree.formats.json_text import read_json
+    from cfree.formats.path_format import path_from_json
+
+    file = FilePath(path)
+    findings = Findings(str(file), read_text(file))
+    return path_from_json(findings, read_json(findings))
+
+
+def _distance(pose: Pose, motion: Motion) -> float:
+    """How far the reference point travels."""
+    if isinstance(motion, Translation):
+        return motion.length
+    arm = math.hypot(float(pose.x - motion.pole[0]), float(pose.y - motion.pole[1]))
+    return arm * abs(motion.turn)
+
+
+def _turned(motion: Motion) -> float:
+    return 0.0 if isinstance(motion, Translation) else abs(motion.turn)

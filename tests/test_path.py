@@ -1,0 +1,178 @@
+from __future__ import annotations
+
+import json
+import math
+from fractions import Fraction
+from pathlib import Path as FilePath
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import cfree
+import strategies
+from cfree.errors import FormatError, UnsupportedError
+from cfree.motion import Rotation, Translation
+from cfree.motion_check import MotionChecker
+from cfree.path import Path, load_path
+from cfree.pose import Pose
+from cfree.scene import Scene
+from test_motion import box, motions, pose_of
+
+poses = st.builds(pose_of, strategies.poses(6))
+paths = st.builds(Path, poses, st.lists(motions, max_size=4))
+WAY = Path(Pose(0, 0), [Translation((2, "1/3")), Rotation((2, 1), "-90deg"), Rotation((0, 0), "180deg")], "m", "map")
+
+
+@settings(max_examples=100, deadline=None)
+@given(paths)
+def test_files_hold_paths_exactly(tmp_path_factory: pytest.TempPathFactory, path: Path) -> None:
+    file = tmp_path_factory.mktemp("paths") / "way.json"
+    path.save(file)
+    again = load_path(file)
+    assert again == path and again.poses == path.poses
+
+
+def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
+    WAY.save(tmp_path / "way.json")
+    data = json.loads((tmp_path / "way.json").read_text())
+    assert data["answer"] == "path" and data["motions"][0]["vector"] == [2, 1 / 3]
+    del data["exact"]
+    for motion in data["motions"]:
+        del motion["exact"]
+    (tmp_path / "way.json").write_text(json.dumps(data))
+    again = load_path(tmp_path / "way.json")
+    assert (again.units, again.frame) == ("m", "map")
+    assert float(again.goal.x) == pytest.approx(float(WAY.goal.x), abs=1e-12)
+    assert again.motions[1:] == WAY.motions[1:]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"answer": "path"', '"answer": "way"', r'answer: expected "path", got "way"'),
+        ('"type": "rotation"', '"type": "turn"', r'motions\[1\]: expected a motion with "type"'),
+        ('"vector": [2.0', '"vectr": [2.0', r'motions\[0\].vectr: unknown key "vectr"; did you mean "vector"\?'),
+        ('"tau": "-1"', '"tau": "x"', r'motions\[1\].exact.tau: expected the tangent of half the angle, .*got "x"'),
+        ('"tau": "-1"', '"tau": "-1/2"', "the motions do not lead to the exact goal; correct one of them"),
+        ('"pole": [2.0, 1.0]', '"pole": [2.0]', r"motions\[1\].pole: expected a point \[x, y\], got \[2.0\]"),
+        ('"motions": [', '"motions": [7, ', r"motions\[0\]: expected .*got 7"),
+        ('"version": 1', '"version": 2', "version: expected version 1"),
+        ('"goal"', '"gaol"', "gaol: unknown key"),
+    ],
+)
+def test_faults_of_files_say_place_value_and_remedy(tmp_path: FilePath, old: str, new: str, message: str) -> None:
+    file = tmp_path / "way.json"
+    WAY.save(file)
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+    with pytest.raises(FormatError, match=message):
+        load_path(file)
+
+
+def test_motions_that_miss_the_goal_are_refused(tmp_path: FilePath) -> None:
+    file = tmp_path / "way.json"
+    move = {"type": "translation", "vector": [1, 0]}
+    file.write_text(json.dumps({"answer": "path", "start": [0, 0, 0], "goal": [1, 1, 0], "motions": [move]}))
+    with pytest.raises(FormatError, match=r"the motions lead to \[1, 0, 0\] and not to the goal"):
+        load_path(file)
+
+
+@settings(max_examples=50, deadline=None)
+@given(paths, st.floats(0.1, 2), st.floats(0.1, 2))
+def test_samples_are_close_together_and_on_the_path(path: Path, step: float, turn: float) -> None:
+    samples = path.sample(step, turn)
+    moved = np.hypot(*np.diff(samples.xy, axis=0).T)
+    assert (moved <= step + 1e-9).all()
+    assert moved.sum() <= path.length + 1e-9
+    turned = np.abs((np.diff(samples.theta) + np.pi) % math.tau - np.pi)
+    assert (turned <= turn + 1e-9).all()
+    assert turned.sum() == pytest.approx(path.turning)
+    assert np.allclose(samples.xy[-1], [float(path.goal.x), float(path.goal.y)])
+
+
+def test_positions_count_motions() -> None:
+    assert [WAY.at(k) for k in range(4)] == list(WAY.poses)
+    assert WAY.at("1/2") == Pose(1, "1/6")
+    assert Path(Pose(1, 2), []).at(0) == Pose(1, 2)
+    with pytest.raises(ValueError, match="position 4 is not on the path; give one from 0 to 3"):
+        WAY.at(4)
+
+
+def test_exports_for_others(tmp_path: FilePath) -> None:
+    WAY.save(tmp_path / "way.csv", step=0.5)
+    header, *rows = (tmp_path / "way.csv").read_text().splitlines()
+    samples = WAY.sample(0.5)
+    assert header == "x,y,theta"
+    assert np.array_equal([[*map(float, row.split(","))] for row in rows], np.c_[samples.xy, samples.theta])
+    WAY.save(tmp_path / "way.yaml", step=0.5, turn=0.5)
+    text = (tmp_path / "way.yaml").read_text()
+    assert text.startswith('header: {stamp: {sec: 0, nanosec: 0}, frame_id: "map"}\nposes:\n- header: ')
+    assert text.count("orientation: {x: 0.0, y: 0.0, z: ") == len(WAY.sample(0.5, 0.5))
+    with pytest.raises(UnsupportedError, match=r"way\.txt: paths are written as"):
+        WAY.save(tmp_path / "way.txt")
+    with pytest.raises(ValueError, match="no step"):
+        WAY.save(tmp_path / "way.csv")
+
+
+@pytest.mark.parametrize("gap", [Fraction(1), Fraction(1, 100)])
+def test_clearance_is_known_beside_a_turning_rod(gap: Fraction) -> None:
+    """The end of the rod runs on a circle of radius 5, and a wall is 5 + gap away."""
+    scene = Scene(robot=[(-5, 0), (0, -1), (5, 0), (0, 1)], obstacles=box(5 + gap, -9, 7, 9))
+    path = Path(Pose(0, 0, "30deg"), [Rotation((0, 0), "-60deg"), Translation((-1, 0))])
+    found = path.clearance(scene)
+    assert found is not None
+    assert found.least <= gap <= found.found + 1e-12
+    assert found.least > gap - Fraction("0.0051")
+    assert found.motion == 0 and found.obstacle == (0, 3)
+    assert found.share == pytest.approx(0.5, abs=0.05)
+    assert path.clearance(Scene(robot=scene.robot, obstacles=[])) is None
+
+
+def test_a_path_that_touches_has_no_clearance() -> None:
+    scene = Scene(robot=box(-1, -1, 1, 1), obstacles=box(-9, -3, 9, -1), workspace=box(-9, -9, 9, 9))
+    path = Path(Pose(0, 4), [Translation((0, -4)), Translation((3, 0))])
+    assert path.is_free(MotionChecker(scene))
+    found = path.clearance(scene)
+    assert found is not None and (found.least, found.found, found.motion) == (0, 0, 1)
+    with pytest.raises(ValueError, match="the path is not free"):
+        Path(Pose(0, 4), [Translation((0, -5))]).clearance(scene)
+    with pytest.raises(ValueError, match="tolerance 0: give a positive one"):
+        path.clearance(scene, tolerance=0)
+    assert not Path(Pose(0, -2), []).is_free(MotionChecker(scene))
+
+
+@settings(max_examples=25, deadline=None)
+@given(strategies.convex_polygons(3), strategies.simple_polygons(5), poses, st.lists(motions, min_size=1, max_size=2))
+def test_no_sample_has_less_than_the_least_clearance(
+    robot: strategies.Shape, obstacle: strategies.Shape, start: Pose, moves: list[cfree.Translation | cfree.Rotation]
+) -> None:
+    import shapely
+
+    scene = Scene(robot=robot[0], obstacles=cfree.Polygon(*obstacle))
+    path = Path(start, moves)
+    if not path.is_free(MotionChecker(scene)):
+        return
+    found = path.clearance(scene, tolerance=0.05)
+    assert found is not None
+    samples = path.sample(0.05, 0.02)
+    rings = samples.apply(scene.robot[0].vertices)
+    least = shapely.distance(shapely.polygons(rings), scene.obstacles[0].to_shapely()).min()
+    assert found.least <= least + 1e-9
+    assert found.least >= found.found - 0.05 - 1e-9
+    assert least >= found.found - 0.05 - 1e-9
+
+
+def test_the_example_of_the_format_page_is_what_is_written(request: pytest.FixtureRequest, tmp_path: FilePath) -> None:
+    page = (request.config.rootpath / "docs" / "answer-format.md").read_text()
+    example = page.split("```json\n")[1].split("```")[0]
+    file = tmp_path / "way.json"
+    Path(Pose(0, 0), [Translation((2, "1/3")), Rotation((2, 1), "-90deg")], units="m").save(file)
+    assert file.read_text() == example
+    fault = page.split("```\nway.json:")[1].split("\n")[0]
+    file.write_text(example.replace('"tau": "-1"}}', '"tau": "x"}}'))
+    with pytest.raises(FormatError) as caught:
+        load_path(file)
+    assert str(caught.value) == f"{file}:{fault}"
