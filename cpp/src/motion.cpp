@@ -50,10 +50,6 @@ T x_of(const Shape& s, Index v);
 template <class T>
 T y_of(const Shape& s, Index v);
 template <>
-Int x_of(const Shape& s, Index v) { return s.X[v]; }
-template <>
-Int y_of(const Shape& s, Index v) { return s.Y[v]; }
-template <>
 Approx x_of(const Shape& s, Index v) { return {s.x[v], std::abs(s.x[v])}; }
 template <>
 Approx y_of(const Shape& s, Index v) { return {s.y[v], std::abs(s.y[v])}; }
