@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 import strategies
 from cfree.contact import VertexEdge
-from cfree.describe import is_free
 from cfree.errors import InvalidPoseError
+from cfree.free import is_free
 from cfree.io import load_scene
 from cfree.motion import Motion, Rotation, Translation, rotations
 from cfree.motion_check import FirstContact, MotionChecker

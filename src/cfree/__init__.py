@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from cfree.film import save_film as save_film
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
+    from cfree.free import Checker as Checker
+    from cfree.free import is_free as is_free
     from cfree.geometry.area import patch_areas as patch_areas
     from cfree.geometry.area import trapezoid_areas as trapezoid_areas
     from cfree.geometry.congruence import arc_classes as arc_classes
@@ -112,6 +114,7 @@ _HOMES = {
     "film": "save_film",
     "forbidden": "Boundary boundary",
     "cells": "Cell FreeSpace free_space",
+    "free": "Checker is_free",
     "geometry.area": "patch_areas trapezoid_areas",
     "geometry.congruence": "arc_classes helix_classes patch_classes surface_classes",
     "geometry.development": "develop",

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from cfree.errors import FormatError, InvariantError
 from cfree.features import BOUNDS, WORKSPACE, limbs
 from cfree.forbidden import Boundary
-from cfree.free_pose import is_free
+from cfree.free import is_free
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.pose import Pose, Poses, chart_of, tau_in_chart
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
@@ -261,7 +261,7 @@ class FreeSpace:
         for k in self._may_fit(chosen, found):
             X, Y, W, p, r = rows[k]
             unit, tau = W * self.boundary.features.scale, tau_in_chart(int(chart[k]), Fraction(p, r))
-            if is_free(self.boundary.scene, Pose(Fraction(X, unit), Fraction(Y, unit), {"tau": tau})):
+            if is_free(self.boundary, Pose(Fraction(X, unit), Fraction(Y, unit), {"tau": tau})):
                 found[k] = NO_CELL
         return found
 

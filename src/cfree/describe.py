@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from cfree.features import BODY, scene_features
-from cfree.free_pose import is_free
+from cfree.free import is_free
 from cfree.mesh import KINDS
 from cfree.polygon import Polygon
 from cfree.pose import Pose

@@ -27,6 +27,7 @@ from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, Iso
 
 if TYPE_CHECKING:
     from cfree.cell_complex import CellComplex
+    from cfree.free import Checker
     from cfree.mesh import Mesh
     from cfree.slice import Slice
 
@@ -271,6 +272,13 @@ class Boundary:
 
         self.require_complete()
         return glue(self)
+
+    @cached_property
+    def checker(self) -> Checker:
+        """The scene prepared for `cfree.is_free`; when first asked for."""
+        from cfree.free import Checker
+
+        return Checker(self.scene, self.features)
 
     @cached_property
     def regularized(self) -> Boundary:

@@ -1,0 +1,333 @@
+#include "cfree/free.hpp"
+
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "parallel.hpp"
+
+namespace cfree {
+
+// The error of a distance n . p - h. u = 2^-53; M bounds all coordinates that are compared, the robot's placed: those of the
+// obstacles plus twice the robot's. To first order in u:
+//   placed vertex   x + (c a_x - s a_y): 16 u (|a_x| + |a_y|) from c and s, 3 u of that from rounding, 2 u M from x and the
+//                   sum; below 40 u M in each coordinate, 57 u M along n
+//   edge's normal   3 u in each component (an exact difference, rounded; its length; the quotient), 40 u more when it is
+//                   turned; times |p - v| <= 2 M in each coordinate: 172 u M
+//   n . p, h and their difference: 10 u M
+// In all below 239 u M; 512 u M is allowed. A range of poses adds its width: a point of the robot moves by at most
+// shift + turn |a|, a point b of an obstacle, seen from the robot, by shift + turn |b - r|.
+namespace {
+constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
+constexpr double most_cells = 1 << 16, cells_in_reach = 8;
+constexpr std::size_t chunk = 1024, sectors = 32, outside = std::numeric_limits<std::size_t>::max();
+constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
+
+Vec<double> unit_normal(const Vec<Int>& e) {
+    const auto bits = static_cast<int>(std::max(e.x.is_zero() ? 0 : msb(abs(e.x)), e.y.is_zero() ? 0 : msb(abs(e.y))));
+    const double dx = ball(e.x, bits).hi, dy = ball(e.y, bits).hi, length = std::sqrt(dx * dx + dy * dy);
+    return {dy / length, -dx / length};
+}
+}  // namespace
+
+Checker::Pieces Checker::pieces_of(const Shape& shape, const double* xy) {
+    Pieces p;
+    p.first.push_back(0);
+    for (Index k = 0; k < shape.pieces(); ++k) {
+        const Index begin = shape.piece[k], end = shape.piece[k + 1];
+        if (end - begin < 3 || shape.piece_layer[k] != 0) continue;
+        p.number.push_back(k);
+        for (Index m = begin; m < end; ++m) {
+            const Index v = shape.piece_vertex[m], w = shape.piece_vertex[m + 1 < end ? m + 1 : begin];
+            const auto n = unit_normal(difference<Int>(shape, w, v));
+            p.x.push_back(xy[2 * v]), p.y.push_back(xy[2 * v + 1]);
+            p.nx.push_back(n.x), p.ny.push_back(n.y), p.h.push_back(n.x * xy[2 * v] + n.y * xy[2 * v + 1]);
+        }
+        p.first.push_back(static_cast<Index>(p.x.size()));
+    }
+    return p;
+}
+
+Checker::Checker(std::shared_ptr<const Scene> s, Int unit, const double* robot_xy, const double* obstacle_xy,
+                 std::array<double, 4> bounds)
+    : scene(std::move(s)), scale(std::move(unit)), limits(bounds), robot(pieces_of(scene->robot, robot_xy)),
+      obstacles(pieces_of(scene->obstacles, obstacle_xy)) {
+    double largest = 0;
+    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, std::hypot(robot.x[k], robot.y[k]));
+    for (std::size_t k = 0; k < obstacles.x.size(); ++k)
+        largest = std::max({largest, std::abs(obstacles.x[k]), std::abs(obstacles.y[k])});
+    margin = margin_by_size * (largest + 4 * reach) + least_margin;
+    reach += margin;
+    for (Index j = 0; j < obstacles.count(); ++j) {
+        const auto [x0, x1] = std::minmax_element(&obstacles.x[obstacles.first[j]], &obstacles.x[0] + obstacles.first[j + 1]);
+        const auto [y0, y1] = std::minmax_element(&obstacles.y[obstacles.first[j]], &obstacles.y[0] + obstacles.first[j + 1]);
+        box.push_back({*x0 - margin, *y0 - margin, *x1 + margin, *y1 + margin});
+    }
+}
+
+// The robot in a pose, in doubles; memory is kept from one pose to the next.
+struct Checker::Placed {
+    const Pieces& at_rest;
+    Placement at{};
+    std::vector<double> x, y;
+    std::vector<Ranges> box;
+    explicit Placed(const Pieces& p) : at_rest(p) {
+        x.resize(p.x.size()), y.resize(p.x.size()), box.resize(p.number.size());
+    }
+    void place(const Placement& pose) {
+        at = pose;
+        const Pieces& p = at_rest;
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            x[k] = at.x + (at.c * p.x[k] - at.s * p.y[k]);
+            y[k] = at.y + (at.s * p.x[k] + at.c * p.y[k]);
+        }
+        for (Index i = 0; i < p.count(); ++i) {
+            Ranges r{x[p.first[i]], y[p.first[i]], x[p.first[i]], y[p.first[i]]};
+            for (Index k = p.first[i] + 1; k < p.first[i + 1]; ++k) {
+                r.x0 = std::min(r.x0, x[k]), r.x1 = std::max(r.x1, x[k]);
+                r.y0 = std::min(r.y0, y[k]), r.y1 = std::max(r.y1, y[k]);
+            }
+            box[i] = r;
+        }
+    }
+    Vec<double> normal(Index k) const {
+        return {at.c * at_rest.nx[k] - at.s * at_rest.ny[k], at.s * at_rest.nx[k] + at.c * at_rest.ny[k]};
+    }
+};
+
+// Is the outer side of a line n . p = h, by the margin, free of points? A point that is certainly inside is tried first the
+// next time, where the next edge of a ring most likely has one.
+static Verdict beyond(const Vec<double>& n, double h, double margin, const double* x, const double* y, Index count, Index& first) {
+    double least = std::numeric_limits<double>::infinity();
+    Index k = first;
+    for (Index tried = 0; tried < count; ++tried) {
+        const double d = n.x * x[k] + n.y * y[k] - h;
+        if (d <= -margin) {
+            first = k;
+            return Verdict::forbidden;
+        }
+        least = std::min(least, d);
+        if (++k == count) k = 0;
+    }
+    return least >= margin ? Verdict::free : Verdict::uncertain;
+}
+
+Verdict Checker::meet(const Placed& placed, Index i, Index j, const Range& range) const {
+    const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
+    Verdict all = Verdict::forbidden;
+    double slack = margin + range.shift + range.turn * reach;
+    Index first = 0;
+    for (Index k = b; k < b + m; ++k) {
+        const Verdict v = beyond({obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], slack, &placed.x[a], &placed.y[a], n, first);
+        if (v == Verdict::free) return v;
+        if (v == Verdict::uncertain) all = v;
+    }
+    if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
+        const double dx = std::max(box[j].x1 - placed.at.x, placed.at.x - box[j].x0);
+        const double dy = std::max(box[j].y1 - placed.at.y, placed.at.y - box[j].y0);
+        slack = margin + range.shift + range.turn * (std::abs(dx) + std::abs(dy));
+    }
+    first = 0;
+    for (Index k = a; k < a + n; ++k) {
+        const auto normal = placed.normal(k);
+        const double h = normal.x * placed.x[k] + normal.y * placed.y[k];
+        const Verdict v = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
+        if (v == Verdict::free) return v;
+        if (v == Verdict::uncertain) all = v;
+    }
+    return all;
+}
+
+// All pieces of the robot against some of the obstacles'; `decide` is asked about pairs that are uncertain.
+template <class F>
+Verdict Checker::against(const Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
+    Verdict all = Verdict::free;
+    const double slack = range.shift + range.turn * reach;
+    for (Index i = 0; i < robot.count(); ++i) {
+        Ranges r = placed.box[i];
+        r.x0 -= slack, r.y0 -= slack, r.x1 += slack, r.y1 += slack;
+        for (std::size_t m = 0; m < count; ++m) {
+            const Index j = list[m];
+            const Ranges& o = box[j];
+            if (r.x0 > o.x1 || o.x0 > r.x1 || r.y0 > o.y1 || o.y0 > r.y1) continue;
+            Verdict v = meet(placed, i, j, range);
+            if (v == Verdict::uncertain) v = decide(i, j);
+            if (v == Verdict::forbidden) return v;
+            if (v == Verdict::uncertain) all = v;
+        }
+    }
+    return all;
+}
+
+// Of a point from a piece, within the margin; 0 inside. Thin pieces are why the margin decides which edges count: ahead of
+// the tip of one, the distances of lines are small, and may have any sign.
+double Checker::distance(const Pieces& p, Index piece, double x, double y) const {
+    const Index begin = p.first[piece], end = p.first[piece + 1];
+    double least = std::numeric_limits<double>::infinity();
+    bool inside = true;
+    for (Index k = begin; k < end; ++k) {
+        const Index next = k + 1 < end ? k + 1 : begin;
+        const double d = p.nx[k] * x + p.ny[k] * y - p.h[k];
+        if (d <= -margin) continue;
+        inside = false;
+        const double ex = p.x[next] - p.x[k], ey = p.y[next] - p.y[k], dx = x - p.x[k], dy = y - p.y[k];
+        const double t = std::clamp((dx * ex + dy * ey) / std::max(ex * ex + ey * ey, least_square), 0.0, 1.0);
+        least = std::min(least, std::hypot(dx - t * ex, dy - t * ey));
+    }
+    return inside ? 0 : least;
+}
+
+void Checker::fill(Grid& g) const {
+    Ranges around{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Ranges& b : box) {
+        around.x0 = std::min(around.x0, b.x0 - reach), around.x1 = std::max(around.x1, b.x1 + reach);
+        around.y0 = std::min(around.y0, b.y0 - reach), around.y1 = std::max(around.y1, b.y1 + reach);
+    }
+    around = {std::max(around.x0, limits[0]), std::max(around.y0, limits[1]), std::min(around.x1, limits[2]),
+              std::min(around.y1, limits[3])};
+    const double width = around.x1 - around.x0, height = around.y1 - around.y0;
+    if (!(width >= 0 && height >= 0)) return;  // nothing is near
+    const double side = std::max({std::sqrt(width / most_cells) * std::sqrt(height), width / most_cells, height / most_cells,
+                                  reach / cells_in_reach});
+    g.x0 = around.x0, g.y0 = around.y0, g.per_unit = 1 / side;
+    g.nx = static_cast<Index>(width / side) + 1, g.ny = static_cast<Index>(height / side) + 1;
+    const auto cell = [&](double offset, Index n) {
+        return static_cast<Index>(std::clamp(offset * g.per_unit, 0.0, static_cast<double>(n - 1)));
+    };
+    // of a disc around a cell, and what rounding moves to the next cell; margin: the error of a distance
+    g.side = side;
+    const double radius = g.radius = std::sqrt(0.5) * side * (1 + 0x1p-20) + margin;
+    double core = 0;  // of a disc in the robot, around its reference point
+    for (Index i = 0; i < robot.count(); ++i)
+        core = std::max(core, *std::min_element(&robot.h[robot.first[i]], robot.h.data() + robot.first[i + 1]) - margin);
+    std::vector<std::pair<Index, Index>> found;  // cell, piece
+    std::vector<char> blocked(static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(g.ny));
+    for (Index j = 0; j < obstacles.count(); ++j) {
+        const Ranges& b = box[j];
+        const double r = reach + radius;
+        const Index c0 = cell(b.x0 - r - g.x0, g.nx), c1 = cell(b.x1 + r - g.x0, g.nx);
+        const Index r0 = cell(b.y0 - r - g.y0, g.ny), r1 = cell(b.y1 + r - g.y0, g.ny);
+        for (Index row = r0; row <= r1; ++row)
+            for (Index column = c0; column <= c1; ++column) {
+                const Index cell_number = row * g.nx + column;
+                if (blocked[cell_number]) continue;
+                const double x = g.x0 + (column + 0.5) * side, y = g.y0 + (row + 0.5) * side;
+                const double d = distance(obstacles, j, x, y);
+                if (d + radius < core) blocked[cell_number] = true;
+                else if (d < reach + radius) found.emplace_back(cell_number, j);
+            }
+    }
+    std::erase_if(found, [&](const auto& item) { return blocked[item.first]; });
+    g.start.assign(blocked.size() + 1, 0);
+    for (const auto& [c, j] : found) ++g.start[c + 1];
+    std::partial_sum(g.start.begin(), g.start.end(), g.start.begin());
+    g.member.resize(found.size());
+    std::vector<Index> next(g.start.begin(), g.start.end() - 1);
+    for (const auto& [c, j] : found) g.member[next[c]++] = j;
+    g.known = std::vector<std::atomic<State>>(blocked.size() * sectors);
+    for (std::size_t c = 0; c < blocked.size(); ++c)
+        if (blocked[c] || g.start[c] == g.start[c + 1])
+            std::fill_n(&g.known[c * sectors], sectors, blocked[c] ? State::forbidden : State::free);
+}
+
+Checker::Grid& Checker::near() const {
+    std::call_once(once, [this] { fill(grid); });
+    return grid;
+}
+
+// Box of a pose in the grid: its cell times `sectors`, and its sector.
+std::size_t Checker::Grid::slot(double x, double y, double theta) const {
+    const double column = (x - x0) * per_unit, row = (y - y0) * per_unit;
+    if (!(column >= 0 && column < nx && row >= 0 && row < ny)) return outside;
+    const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(column);
+    return cell * sectors + std::min<std::size_t>(static_cast<std::size_t>(theta * (sectors / two_pi)), sectors - 1);
+}
+
+Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
+    const std::size_t cell = slot / sectors, width = static_cast<std::size_t>(g.nx);
+    const Index first = g.start[cell], end = g.start[cell + 1];
+    const auto at = [&](double x, double y, double theta, const Range& range) {
+        placed.place({x, y, std::cos(theta), std::sin(theta)});
+        return against(placed, &g.member[first], static_cast<std::size_t>(end - first), range,
+                       [](Index, Index) { return Verdict::uncertain; });
+    };
+    const State state = g.known[slot].load(std::memory_order_relaxed);
+    if (state == State::unseen) {
+        g.known[slot].store(State::seen, std::memory_order_relaxed);
+    } else if (state == State::seen) {
+        const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
+        const double theta = (static_cast<double>(slot % sectors) + 0.5) * (two_pi / sectors);
+        const Verdict all = at(g.x0 + x * g.side, g.y0 + y * g.side, theta, {g.radius, half_sector});
+        g.known[slot].store(all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed,
+                            std::memory_order_relaxed);
+        if (all != Verdict::uncertain) return all;
+    }
+    return at(pose[0], pose[1], pose[2], {});
+}
+
+void Checker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
+    Grid& g = near();
+    std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0;
+    in_parallel(threads, stop, [&] {
+        Placed placed(robot);
+        std::vector<std::size_t> slots(chunk);
+        for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
+            const std::size_t end = std::min(count, begin + chunk);
+            for (std::size_t k = begin; k < end; ++k) {
+                const double* q = poses + 3 * k;
+                const bool is_within = limits[0] <= q[0] && q[0] <= limits[2] && limits[1] <= q[1] && q[1] <= limits[3];
+                out[k] = is_within ? Verdict::free : Verdict::forbidden;
+                slots[k - begin] = is_within ? g.slot(q[0], q[1], q[2]) : outside;
+            }
+            for (std::size_t k = begin; k < end; ++k) {
+                const std::size_t slot = slots[k - begin];
+                if (slot == outside) continue;
+                const State state = g.known[slot].load(std::memory_order_relaxed);
+                if (state == State::free) continue;
+                out[k] = state == State::forbidden ? Verdict::forbidden : verdict(g, slot, poses + 3 * k, placed);
+            }
+        }
+    });
+}
+
+bool Checker::is_free(const Placement& at, const ExactPlacement& exact) const {
+    Placed placed(robot);
+    placed.place(at);
+    std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
+    std::iota(all.begin(), all.end(), 0);
+    return against(placed, all.data(), all.size(), {}, [&](Index i, Index j) {
+        return overlap(exact, i, j) ? Verdict::forbidden : Verdict::free;
+    }) == Verdict::free;
+}
+
+// Everything times scale * w * unit.
+bool Checker::overlap(const ExactPlacement& at, Index i, Index j) const {
+    using Ring = std::vector<Vec<Int>>;
+    const auto ring = [](const Shape& shape, Index piece, auto&& place) {
+        Ring r;
+        for (Index m = shape.piece[piece]; m < shape.piece[piece + 1]; ++m)
+            r.push_back(place(shape.X[shape.piece_vertex[m]], shape.Y[shape.piece_vertex[m]]));
+        return r;
+    };
+    const Int dx = at.x * scale * at.w, dy = at.y * scale * at.w, unit = at.w * at.unit;
+    const Ring a = ring(scene->robot, robot.number[i], [&](const Int& x, const Int& y) {
+        return Vec<Int>{(at.c * x - at.s * y) * at.unit + dx, (at.s * x + at.c * y) * at.unit + dy};
+    });
+    const Ring b = ring(scene->obstacles, obstacles.number[j], [&](const Int& x, const Int& y) {
+        return Vec<Int>{x * unit, y * unit};
+    });
+    const auto separates = [](const Ring& own, const Ring& other) {
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            const Vec<Int>&v = own[k], &w = own[k + 1 < own.size() ? k + 1 : 0], e{w.x - v.x, w.y - v.y};
+            if (std::all_of(other.begin(), other.end(),
+                            [&](const Vec<Int>& p) { return cross(e, Vec<Int>{p.x - v.x, p.y - v.y}) <= 0; }))
+                return true;
+        }
+        return false;
+    };
+    return !separates(a, b) && !separates(b, a);
+}
+
+}  // namespace cfree

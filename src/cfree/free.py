@@ -1,0 +1,167 @@
+"""Is a pose free? One, or millions; exact for each.
+
+The core compares convex pieces in doubles with a proven error bound, and says which poses that leaves uncertain: those
+in contact, or within about 1e-13 of the size of the scene. These are decided in integers, one by one.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from fractions import Fraction
+from typing import overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.collector import collection_paused
+from cfree.errors import InvalidPoseError
+from cfree.features import SceneFeatures, scene_features
+from cfree.forbidden import Boundary
+from cfree.pose import Floats, Pose, Poses
+from cfree.scene import Scene
+
+FREE, UNCERTAIN = 1, 2  # the core's verdicts
+BLOCK = 1 << 22  # poses between two looks at Ctrl-C
+FARTHEST = Fraction(10**300)  # what is further away is as far as this
+
+Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | float]
+
+
+@overload
+def is_free(scene: Scene | Boundary, poses: Pose, *, threads: int | None = None) -> bool: ...
+@overload
+def is_free(scene: Scene | Boundary, poses: Poses | ArrayLike, *, threads: int | None = None) -> NDArray[np.bool_]: ...
+def is_free(
+    scene: Scene | Boundary, poses: Pose | Poses | ArrayLike, *, threads: int | None = None
+) -> bool | NDArray[np.bool_]:
+    """Are poses free? Exact; touching is free, because the forbidden space is open.
+
+    Parameters
+    ----------
+    scene : Scene or Boundary
+        A boundary is asked for its scene only; what has been prepared is kept with it. `Checker` keeps it for a scene.
+    poses : Pose, Poses, or (n, 3) float64
+        Columns x, y, theta in radians. Row k means the exact pose ``Poses(...)[k]``: x and y are the numbers that the
+        doubles are, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
+    threads : int, optional
+        All cores by default. The result does not depend on it.
+
+    Returns
+    -------
+    bool, or (n,) bool
+
+    Raises
+    ------
+    InvalidPoseError
+        If poses are not finite, or have another shape.
+
+    Notes
+    -----
+    A pose is free if no interior of a convex piece of the robot meets that of a piece of the obstacles (or of the
+    complement of the workspace), and the reference point is in the bounds. Preparing takes time about linear in the
+    vertices; a pose takes time in the number of pieces near by. An uncertain pose (see above) takes some 100
+    microseconds.
+
+    Examples
+    --------
+    >>> from cfree.scene import Scene
+    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> scene = Scene(robot=square, obstacles=square, bounds=(-2, -2, 2, 2))
+    >>> is_free(scene, Pose(1, 0)), is_free(scene, Pose("0.999", 0)), is_free(scene, Pose(3, 0))
+    (True, False, False)
+    >>> is_free(scene, [[1, 0, 0], [1, 1, math.pi / 2], [1, 1, math.pi]])
+    array([ True,  True, False])
+    """
+    checker = scene.checker if isinstance(scene, Boundary) else Checker(scene)
+    return checker.is_free(poses, threads=threads)
+
+
+class Checker:
+    """A scene prepared for many calls of `is_free`.
+
+    Parameters
+    ----------
+    scene : Scene
+
+    Examples
+    --------
+    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> checker = Checker(Scene(robot=square, obstacles=square))
+    >>> [checker.is_free(Pose(x, 0, "45deg")) for x in (1, 2)]
+    [False, True]
+    """
+
+    def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
+        from cfree import _core
+
+        with collection_paused():
+            features = features or scene_features(scene)
+            self.limits = _limits(scene)
+            x0, y0, x1, y1 = self.limits
+            limits = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
+            robot, obstacles = features.robot, features.obstacles
+            self._core = _core.Checker(
+                robot.core_shape(), obstacles.core_shape(), features.scale, robot.xy, obstacles.xy, limits
+            )
+
+    @overload
+    def is_free(self, poses: Pose, *, threads: int | None = None) -> bool: ...
+    @overload
+    def is_free(self, poses: Poses | ArrayLike, *, threads: int | None = None) -> NDArray[np.bool_]: ...
+    def is_free(self, poses: Pose | Poses | ArrayLike, *, threads: int | None = None) -> bool | NDArray[np.bool_]:
+        """See `cfree.is_free`."""
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads: {threads}; give at least 1")
+        if isinstance(poses, Pose):
+            return self._is_free_exactly(poses)
+        table = _table(poses)
+        verdicts = np.empty(len(table), np.uint8)
+        for k in range(0, len(table), BLOCK):
+            rows = slice(k, k + BLOCK)
+            self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+        for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
+            verdicts[k] = self._is_free_exactly(Pose(*table[k].tolist()))
+        free: NDArray[np.bool_] = verdicts == FREE
+        return free
+
+    def _is_free_exactly(self, pose: Pose) -> bool:
+        x0, y0, x1, y1 = self.limits
+        if not (x0 <= pose.x <= x1 and y0 <= pose.y <= y1):
+            return False
+        (c, s, w), unit = pose.rotation, math.lcm(pose.x.denominator, pose.y.denominator)
+        x, y = (float(max(-FARTHEST, min(FARTHEST, value))) for value in (pose.x, pose.y))
+        free: bool = self._core.is_free([x, y, c / w, s / w], c, s, w, int(pose.x * unit), int(pose.y * unit), unit)
+        return free
+
+
+def _table(poses: Poses | ArrayLike) -> Floats:
+    """Rows x, y, theta of finite numbers, theta in [0, 2 pi)."""
+    if isinstance(poses, Poses):
+        return np.column_stack([poses.xy, poses.theta])
+    table = np.ascontiguousarray(poses, dtype=np.float64)
+    if table.ndim != 2 or table.shape[1] != 3:
+        raise InvalidPoseError(f"poses have the shape {table.shape}; give (n, 3): x, y, theta")
+    theta = table[:, 2]
+    if np.isfinite(table).all() and theta.min(initial=0) >= 0 and theta.max(initial=0) < math.tau:
+        return table
+    return _table(Poses(table[:, :2], theta))
+
+
+def _limits(scene: Scene) -> Limits:
+    """Where the reference point may be: in the bounds, and no further outside the workspace than the robot reaches.
+
+    The core knows only a frame around the workspace: twice as thick as the robot reaches.
+    """
+    x0, y0, x1, y1 = scene.bounds or (-math.inf, -math.inf, math.inf, math.inf)
+    if scene.workspace is None:
+        return x0, y0, x1, y1
+    reach = max(abs(x) + abs(y) for part in scene.robot for x, y in part.exact_vertices)
+    xs, ys = zip(*scene.workspace.exact_vertices, strict=True)
+    return max(x0, min(xs) - reach), max(y0, min(ys) - reach), min(x1, max(xs) + reach), min(y1, max(ys) + reach)
+
+
+def _least_double(value: Fraction | float) -> float:
+    """The least double that is not below."""
+    double = float(value)
+    return double if double >= value else math.nextafter(double, math.inf)
