@@ -69,12 +69,14 @@ static std::pair<std::vector<cfree::Int>, std::vector<cfree::Int>> integers(cons
 void bind_motion(nb::module_& m);
 void bind_predicates(nb::module_& m);
 void bind_free(nb::module_& m);
+void bind_search(nb::module_& m);
 
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
     bind_motion(m);
     bind_predicates(m);
     bind_free(m);
+    bind_search(m);
     nb::class_<cfree::Shape>(m, "Shape")
         .def("__init__", [](cfree::Shape* s, Limbs coordinates, int shift, Column<int> point, Column<int> v, Column<int> w,
                             Column<int> line, Column<int> direction, int ring_vertices, Column<int> previous,

@@ -76,8 +76,13 @@ class MotionChecker:
         self._scene = scene
         self._features: SceneFeatures = scene_features(scene)
         robot, obstacles = self._features.robot, self._features.obstacles
-        self._core = _core.MotionChecker(robot.core_shape(), obstacles.core_shape(), robot.shift)
+        self.core = _core.MotionChecker(robot.core_shape(), obstacles.core_shape(), robot.shift)
         self._rim = None if scene.workspace is None else _extent(obstacles)
+
+    @property
+    def units(self) -> tuple[int, int]:
+        """The core's integers are coordinates times the first, its doubles those halved as often as the second says."""
+        return self._features.scale, self._features.robot.shift
 
     def is_free(self, pose: Pose, motion: Motion) -> bool:
         """Is every pose of a motion free? Exact; touching is free, also all the way.
@@ -93,13 +98,13 @@ class MotionChecker:
         >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
         False
         """
-        return self._outside(pose) is None and self._core.is_free(*self._integers(pose, motion))
+        return self._outside(pose) is None and self.core.is_free(*self._integers(pose, motion))
 
     def first_contact(self, pose: Pose, motion: Motion) -> FirstContact | None:
         """Where a motion becomes forbidden for the first time; None if it is free."""
         if (outside := self._outside(pose)) is not None:
             return FirstContact(Surd(0), outside[0], outside[1], None)
-        found: Any = self._core.first_collision(*self._integers(pose, motion))
+        found: Any = self.core.first_collision(*self._integers(pose, motion))
         if found is None:
             return None
         polynomial, robot_piece, obstacle_piece, kind, i, j = found

@@ -1,0 +1,83 @@
+"""A quick search for paths, and shorter ones: random poses, joined by motions that are proved free.
+
+The core does both, in doubles where it guesses and exactly where it decides. A search that finds nothing has shown nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+from cfree.motion import Motion, Rotation, Translation
+from cfree.motion_check import MotionChecker
+from cfree.pose import Pose
+
+Places = tuple[float, float, float, float]
+PLACE_BITS, ANGLE_BITS = 24, 20  # of random poses: few, for short integers
+FINE_PLACE_BITS, FINE_ANGLE_BITS = 40, 36  # of poses on paths
+
+
+def motion_between(a: Pose, b: Pose) -> Motion:
+    """The translation from one pose to another, or the rotation by at most half a turn: Chasles.
+
+    Examples
+    --------
+    >>> motion_between(Pose(1, 0), Pose(0, 1, "90deg"))
+    Rotation(pole=(Fraction(0, 1), Fraction(0, 1)), tau=Fraction(1, 1), clockwise=False, angle_error=0.0)
+    """
+    dx, dy = b.x - a.x, b.y - a.y
+    if a.tau == b.tau:
+        return Translation((dx, dy))
+    turned = b @ a.inverse()
+    cotangent = 0 if turned.tau is None else 1 / turned.tau
+    pole = (a.x + b.x - cotangent * dy) / 2, (a.y + b.y + cotangent * dx) / 2
+    return Rotation(pole, {"tau": turned.tau})
+
+
+class Searcher:
+    """Searches in one scene."""
+
+    def __init__(self, checker: MotionChecker, area: Places, angle_scale: float, seed: int = 0) -> None:
+        self.checker = checker
+        self._scale, self._shift = checker.units
+        self._unit = self._scale * 0.5**self._shift  # of lengths in the core's doubles
+        self._area = [c * self._unit for c in area]
+        self._extent = math.frexp(max(abs(c) for c in self._area) or 1.0)[1]
+        self._weight = angle_scale * self._unit
+        self._seed = seed
+
+    def search(self, start: Pose, goal: Pose) -> Any:
+        """To be run by ``run(checks)``, until it returns poses; see `poses`."""
+        from cfree import _core
+
+        (p, at), (q, to) = map(self._configuration, (start, goal))
+        grid = self._grid(PLACE_BITS, ANGLE_BITS)
+        return _core.Search(self.checker.core, grid, self._area, self._weight, p, at, q, to, self._seed)
+
+    def shortener(self, poses: Sequence[Pose]) -> Any:
+        """To be run by ``run(checks)``; ``path()`` is the best so far."""
+        from cfree import _core
+
+        numbers, places = zip(*map(self._configuration, poses), strict=True)
+        grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
+        return _core.Shortener(self.checker.core, grid, self._weight, list(numbers), list(places), self._seed)
+
+    def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
+        """Exact poses from those of the core."""
+        poses = []
+        for hx, hy, x, y, unit in found:
+            tau = Fraction(hy, hx) if hx else None
+            poses.append(Pose(Fraction(x, unit * self._scale), Fraction(y, unit * self._scale), {"tau": tau}))
+        return poses
+
+    def _grid(self, place_bits: int, angle_bits: int) -> list[int]:
+        return [self._shift, place_bits - self._extent, angle_bits]
+
+    def _configuration(self, pose: Pose) -> tuple[list[int], list[float]]:
+        unit = math.lcm(pose.x.denominator, pose.y.denominator)
+        hx, hy = (0, 1) if pose.tau is None else (pose.tau.denominator, pose.tau.numerator)
+        numbers = [hx, hy, int(pose.x * unit) * self._scale, int(pose.y * unit) * self._scale, unit]
+        theta = math.remainder(pose.theta, math.tau)
+        return numbers, [float(pose.x) * self._unit, float(pose.y) * self._unit, theta]
