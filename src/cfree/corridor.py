@@ -1,0 +1,185 @@
+"""Which trapezoids a path along the boundary of a cell crosses: the shortest way over common sides, in doubles.
+
+Nothing is decided here: `walk` makes poses of it, exactly. Where a cell has several closed surfaces, free segments at one
+orientation link them, found by rays.
+"""
+
+from __future__ import annotations
+
+import heapq
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.pose import Pose
+from cfree.trapezoids import Floats, Ints
+
+if TYPE_CHECKING:
+    from cfree.cells import FreeSpace
+
+UPPER, LAST, LOWER = 1, 2, 3
+
+
+Place = tuple[float, float, float]
+FAR = -1  # in place of a face: to the left of everything
+
+
+@dataclass(frozen=True)
+class Landing:
+    """A pose on a face, or `FAR`."""
+
+    face: int
+    pose: Pose
+
+    @property
+    def place(self) -> Place:
+        """Its x, y, theta."""
+        return float(self.pose.x), float(self.pose.y), self.pose.theta
+
+
+Link = tuple[Landing, Landing]  # the ends of a free segment
+
+
+class Corridors:
+    """Shortest ways over the faces of a free space.
+
+    Notes
+    -----
+    Lengths are travel plus `angle_scale` times turning between the middles of sides. A search takes O(H log H) time in
+    the number H of sides.
+    """
+
+    def __init__(self, space: FreeSpace, angle_scale: float) -> None:
+        self.space = space
+        self.angle_scale = angle_scale
+
+    @cached_property
+    def middles(self) -> Floats:
+        """(H, 3) places x, y, theta in the middle of coedges."""
+        walls, cells = self.space.walls, self.space.complex
+        table = walls.trapezoids
+        start = np.arange(len(cells.face))
+        stop = np.where(np.isin(start + 1, cells.first), cells.first[cells.face], start + 1)
+        a, b = cells.vertex[start], cells.vertex[stop]
+        xy = np.stack((cells.x[a] + cells.x[b], cells.y[a] + cells.y[b]), axis=1) / 2
+        low, high = table.theta_from[cells.face], table.theta_to[cells.face]
+        ends = [np.clip(_near(cells.theta[v], (low + high) / 2), low, high) for v in (a, b)]
+        theta = np.where(cells.side == 0, low, np.where(cells.side == LAST, high, (ends[0] + ends[1]) / 2))
+        on_curve = np.flatnonzero((cells.side == LOWER) | (cells.side == UPPER))
+        lower, upper = walls.limits(cells.face[on_curve], theta[on_curve])
+        t = np.where(cells.side[on_curve] == LOWER, lower, upper)
+        xy[on_curve] = walls.evaluate(table.patch[cells.face[on_curve]], t, theta[on_curve])
+        return np.column_stack((xy, theta))
+
+    def shortest(
+        self,
+        starts: list[Landing],
+        goals: list[Landing],
+        links: list[Link],
+        closed: NDArray[np.bool_],
+    ) -> list[tuple[int, int]] | None:
+        """Coedges to leave faces by, from one of the starts to one of the goals.
+
+        Returns
+        -------
+        list of (face, coedge)
+            A face, and by which coedge it is left. Coedges from H on stand for links: H + 2 k is the first end of link k,
+            H + 2 k + 1 the second; after them comes the end of the way. None if there is no way.
+        """
+        cells = self.space.complex
+        base = len(cells.face)
+        ends = [end for link in links for end in link]
+        places: list[Place] = [*map(tuple, self.middles.tolist()), *(end.place for end in ends)]  # type: ignore[arg-type]
+        first, twin, face_of = cells.first.tolist(), cells.twin.tolist(), cells.face.tolist()
+        at_face: dict[int, list[int]] = {}
+        for k, end in enumerate(ends):
+            at_face.setdefault(end.face, []).append(base + k)
+        at_goal: dict[int, list[Place]] = {}
+        for goal in goals:
+            at_goal.setdefault(goal.face, []).append(goal.place)
+        came: dict[int, tuple[int, int]] = {}  # the coedge before, and the face after that
+        heap: list[tuple[float, int, int, int]] = []
+
+        def relax(cost: float, face: int, at: Place, before: int) -> None:
+            sides = range(first[face], first[face + 1]) if face != FAR else ()
+            for h in (*sides, *at_face.get(face, ())):
+                if h not in came and not (h < base and closed[face_of[twin[h]]]):
+                    heapq.heappush(heap, (cost + self.apart(at, places[h]), h, before, face))
+            for place in at_goal.get(face, ()):
+                heapq.heappush(heap, (cost + self.apart(at, place), len(places), before, face))
+
+        for start in starts:
+            relax(0.0, start.face, start.place, -1)
+        while heap:
+            cost, h, before, face = heapq.heappop(heap)
+            if h in came:
+                continue
+            came[h] = before, face
+            if h == len(places):
+                way = []
+                while h >= 0:
+                    before, face = came[h]
+                    way.append((face, h))
+                    h = before
+                return way[::-1]
+            if h < base:
+                relax(cost, face_of[twin[h]], places[h], h)
+            else:
+                other = base + ((h - base) ^ 1)
+                relax(cost + self.apart(places[h], places[other]), ends[other - base].face, places[other], h)
+        return None
+
+    def apart(self, a: Place, b: Place) -> float:
+        """Length of the way between two places."""
+        turn = math.remainder(b[2] - a[2], math.tau)
+        return math.hypot(b[0] - a[0], b[1] - a[1]) + self.angle_scale * abs(turn)
+
+    def faces_at(self, chart: int, tau: float) -> Ints:
+        """Faces that an orientation is within, with doubles."""
+        t = self.space.walls.trapezoids
+        return np.flatnonzero((t.chart == chart) & (t.from_hi < tau) & (t.to_lo > tau)).astype(np.int32)
+
+    def may_be_critical(self, chart: int, tau: Fraction) -> bool:
+        """Whether an orientation is in the interval that isolates a critical angle."""
+        t, x = self.space.walls.trapezoids, float(tau)
+        near = ((t.from_lo <= x) & (x <= t.from_hi)) | ((t.to_lo <= x) & (x <= t.to_hi))
+        return bool(np.any(near & (t.chart == chart)))
+
+    def holding(self, pose: Pose) -> int | None:
+        """The face nearest to a pose at its orientation."""
+        chart, tau = pose.chart
+        faces = self.faces_at(chart, float(tau))
+        if len(faces) == 0:
+            return None
+        P, U = self._segments(faces, pose.theta)
+        d = (float(pose.x), float(pose.y)) - P
+        share = np.clip((U * d).sum(axis=1) / np.maximum((U * U).sum(axis=1), 1e-300), 0, 1)
+        return int(faces[np.hypot(*(d - share[:, None] * U).T).argmin()])
+
+    def crossings(self, pose: Pose) -> Floats:
+        """Where boundaries cross the ray from a pose towards -x, from right to left."""
+        chart, tau = pose.chart
+        P, U = self._segments(self.faces_at(chart, float(tau)), pose.theta)
+        above, end = float(pose.y) - P[:, 1], U[:, 1]
+        cut = (above > 0) != (above > end)
+        x = P[cut, 0] + above[cut] / end[cut] * U[cut, 0]
+        return -np.sort(-x[x < float(pose.x)])
+
+    def _segments(self, faces: Ints, theta: float) -> tuple[Floats, Floats]:
+        """Starts and vectors of faces at an orientation."""
+        walls = self.space.walls
+        patch, at = walls.trapezoids.patch[faces], np.full(len(faces), theta)
+        lower, upper = walls.limits(faces, at)
+        P = walls.evaluate(patch, lower, at)
+        return P, walls.evaluate(patch, upper, at) - P
+
+
+def _near(theta: Floats, to: Floats) -> Floats:
+    """The same angles within half a turn of others."""
+    near: Floats = theta + math.tau * np.round((to - theta) / math.tau)
+    return near

@@ -1,0 +1,203 @@
+"""Can the robot get from start to goal? A path of motions that are proved free, or a proof that there is none.
+
+Cheap things come first: one motion, a turn and a straight way, then a search with random poses. What they do not
+settle, the cells of the free space do: they name the answer, and a walk along a cell's boundary is a path.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Literal
+
+from cfree.errors import IncompleteError, InvalidPoseError
+from cfree.forbidden import boundary
+from cfree.motion_check import MotionChecker
+from cfree.path import Path
+from cfree.pose import Pose
+from cfree.search import Places, Searcher, motion_between
+
+if TYPE_CHECKING:
+    from cfree.cells import FreeSpace
+    from cfree.scene import Scene
+    from cfree.separated import Separated
+    from cfree.walk import Walker
+
+Objective = Literal["short", "clear"]
+SEARCH = 8_000  # motions checked before the free space is built
+REFINE = 400  # motions checked to shorten a first path
+BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
+
+
+def plan(
+    scene: Scene,
+    start: Pose | None = None,
+    goal: Pose | None = None,
+    *,
+    improve: float = 0.0,
+    max_seconds: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Path | Separated:
+    """A path from start to goal, each motion of it proved free, or a proof that there is none.
+
+    Parameters
+    ----------
+    scene : Scene
+    start, goal : Pose, optional
+        Those of the scene unless given.
+    improve : float, seconds
+        How long to shorten a path.
+    max_seconds : float, optional
+        Give up when the free space is not known by then.
+    progress : callable, optional
+        Called with the share of the free space that is computed, if it has to be.
+
+    Returns
+    -------
+    Path or Separated
+
+    Raises
+    ------
+    InvalidPoseError
+        If there is no start or goal, or the robot overlaps an obstacle there.
+    IncompleteError
+        If `max_seconds` were not enough.
+
+    Notes
+    -----
+    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. To a
+    scene and its poses belongs one answer; improved paths depend on the machine's speed.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> wall = [(2, -9), (3, -9), (3, 1), (2, 1)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], bounds=(-5, -5, 5, 5))
+    >>> path = plan(scene, cfree.Pose(0, 0), cfree.Pose(4, 0))
+    >>> path.is_free(cfree.MotionChecker(scene)), path.goal == cfree.Pose(4, 0)
+    (True, True)
+    """
+    planner = Planner(scene, max_seconds=max_seconds, progress=progress)
+    return planner.plan(_given(start or scene.start, "start"), _given(goal or scene.goal, "goal"), improve=improve)
+
+
+@dataclass(eq=False)
+class Planner:
+    """Answers many questions about one scene; what they need is computed once.
+
+    Parameters
+    ----------
+    scene : Scene
+    space : FreeSpace, optional
+        Computed when needed, unless given.
+    max_seconds, progress
+        As in `plan`, for that computation.
+    """
+
+    scene: Scene
+    space: FreeSpace | None = None
+    max_seconds: float | None = None
+    progress: Callable[[float], object] | None = None
+
+    @cached_property
+    def checker(self) -> MotionChecker:
+        return MotionChecker(self.scene)
+
+    @cached_property
+    def angle_scale(self) -> float:
+        """Length per radian: the robot's radius about its reference point."""
+        corners = [vertex for part in self.scene.robot for vertex in part.exact_vertices]
+        return max(math.hypot(float(x), float(y)) for x, y in corners)
+
+    @cached_property
+    def _walker(self) -> Walker:
+        from cfree.walk import Walker
+
+        return Walker(self.free_space, self.checker, self.angle_scale)
+
+    @property
+    def free_space(self) -> FreeSpace:
+        """The cells, computed when first asked for."""
+        from cfree.cells import free_space
+
+        if self.space is None:
+            found = boundary(self.scene, max_seconds=self.max_seconds, progress=self.progress)
+            if not found.complete:
+                raise IncompleteError(f"{self.max_seconds} seconds were not enough to compute the free space; give more")
+            self.space = free_space(found)
+        return self.space
+
+    def plan(self, start: Pose, goal: Pose, *, improve: float = 0.0) -> Path | Separated:
+        """See `cfree.plan`."""
+        for pose, name in ((start, "start"), (goal, "goal")):
+            if not self.is_free([pose, pose]):
+                raise InvalidPoseError(f"{name} {pose} is forbidden")
+        poses = self._direct(start, goal) or self._searched(start, goal)
+        if poses is None:
+            cell = self.common_cell(start, goal)
+            if cell is None:
+                from cfree.separated import separation
+
+                return separation(self.free_space, start, goal)
+            poses = self._walker.walk(start, goal, cell)
+        return self.path(self.shortened(poses, improve))
+
+    def is_free(self, poses: Sequence[Pose]) -> bool:
+        """Are the motions between poses free?"""
+        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in zip(poses, poses[1:], strict=False))
+
+    def common_cell(self, start: Pose, goal: Pose) -> int | None:
+        """A cell that both are in, or on whose boundary."""
+        first, second = self.free_space.locate([start, goal]).tolist()
+        return first if first == second >= 0 else None
+
+    def path(self, poses: Sequence[Pose]) -> Path:
+        motions = [motion_between(a, b) for a, b in zip(poses, poses[1:], strict=False)]
+        return Path(poses[0], motions, self.scene.units)
+
+    def shortened(self, poses: Sequence[Pose], seconds: float) -> Sequence[Pose]:
+        """A shorter path: after a number of attempts, and then some time."""
+        shortener = self._searcher(poses).shortener(poses)
+        shortener.run(REFINE)
+        end = time.perf_counter() + seconds
+        while time.perf_counter() < end:
+            shortener.run(BLOCK)
+        return self._searcher(poses).poses(shortener.path())
+
+    def _direct(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+        """One motion, or a turn and a straight way."""
+        turned, moved = (Pose(p.x, p.y, {"tau": q.tau}) for p, q in ((start, goal), (goal, start)))
+        ways: list[list[Pose]] = [[start, turned, goal], [start, moved, goal], [start, goal]]
+        return next((way for way in ways if self.is_free(way)), None)
+
+    def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+        searcher = self._searcher([start, goal])
+        search = searcher.search(start, goal)
+        for _ in range(0, SEARCH, BLOCK):
+            if found := search.run(BLOCK):
+                return searcher.poses(found)
+        return None
+
+    def _searcher(self, poses: Sequence[Pose]) -> Searcher:
+        return Searcher(self.checker, self._area(poses), self.angle_scale)
+
+    def _area(self, poses: Sequence[Pose]) -> Places:
+        """Of positions to try."""
+        scene = self.scene
+        if scene.bounds is not None:
+            x0, y0, x1, y1 = map(float, scene.bounds)
+            return x0, y0, x1, y1
+        around = [scene.workspace] if scene.workspace else scene.obstacles
+        corners: list[Any] = [v for polygon in around for v in polygon.exact_vertices]
+        margin = 0.0 if scene.workspace else 2 * self.angle_scale
+        xs, ys = zip(*corners, *((pose.x, pose.y) for pose in poses), strict=True)
+        return float(min(xs)) - margin, float(min(ys)) - margin, float(max(xs)) + margin, float(max(ys)) + margin
+
+
+def _given(pose: Pose | None, name: str) -> Pose:
+    if pose is None:
+        raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give {name}=Pose(x, y, theta)")
+    return pose

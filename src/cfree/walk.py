@@ -1,0 +1,394 @@
+"""A path on the boundary of a cell, made of translations and rotations that are proved free.
+
+A trapezoid's lines of constant theta are translations, its lines of constant t are rotations about the point of contact:
+steps along them are free because the trapezoid is part of the boundary. They are taken where nothing better is; poses a
+little off the contact, half of the room there, are joined by one motion where that is free. theory, section 16.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
+from cfree.errors import InvariantError
+from cfree.exact import simplest_between
+from cfree.features import unpacked
+from cfree.motion import Translation
+from cfree.motion_check import MotionChecker
+from cfree.pose import Pose, half_angle_rotation, tau_in_chart
+from cfree.search import motion_between
+
+if TYPE_CHECKING:
+    from cfree.cells import FreeSpace
+
+MOST_HALVINGS = 200
+DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
+
+Vector = tuple[Fraction, Fraction]
+
+
+def between(low: Fraction, high: Fraction) -> Fraction:
+    """A simple fraction in the middle half of an interval."""
+    quarter = (high - low) / 4
+    low, high = low + quarter, high - quarter
+    if low > 0:
+        return simplest_between(low, high)
+    return -simplest_between(-high, -low) if high < 0 else Fraction(0)
+
+
+def _cross(u: Vector, v: Vector) -> Fraction:
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def _dot(u: Vector, v: Vector) -> Fraction:
+    return u[0] * v[0] + u[1] * v[1]
+
+
+def _minus(u: Vector, v: Vector) -> Vector:
+    return u[0] - v[0], u[1] - v[1]
+
+
+class Sheet:
+    """A trapezoid of the boundary, exactly: poses on it at rational t and tau."""
+
+    def __init__(self, space: FreeSpace, face: int) -> None:
+        walls = space.walls
+        table = walls.trapezoids
+        self.face = face
+        self.chart = int(table.chart[face])
+        self.low, self.high = Fraction(float(table.from_hi[face])), Fraction(float(table.to_lo[face]))
+        self.codes = int(table.lower[face]), int(table.upper[face])
+        self._features = walls.features
+        patch = int(table.patch[face])
+        kind, i, j = (int(c[patch]) for c in (walls.contact_kind, walls.contact_robot, walls.contact_obstacle))
+        self.line = self._line(kind, i, j)
+
+    def _line(self, kind: int, i: int, j: int) -> tuple[Vector, Vector, Vector, Vector]:
+        """p, q, a, g of a contact surface."""
+        A, O = self._features.robot, self._features.obstacles
+        zero = Fraction(0), Fraction(0)
+        if kind == 1:
+            p, e = self._point(O, O.v[j]), self._point(O, O.w[j])
+            return p, _minus(e, p), self._point(A, i), zero
+        a, e = self._point(A, A.v[i]), self._point(A, A.w[i])
+        return self._point(O, j), zero, a, _minus(e, a)
+
+    def _point(self, shape: object, vertex: int) -> Vector:
+        x, y = shape.vertices[int(vertex)]  # type: ignore[attr-defined]
+        return Fraction(x, self._features.scale), Fraction(y, self._features.scale)
+
+    def at(self, tau: Fraction, line: tuple[Vector, Vector, Vector, Vector] | None = None) -> tuple[Vector, Vector]:
+        """P and U: positions P + t U at an orientation."""
+        p, q, a, g = line or self.line
+        c, s, w = half_angle_rotation(tau_in_chart(self.chart, tau))
+
+        def turned(v: Vector) -> Vector:
+            return (c * v[0] - s * v[1]) / w, (s * v[0] + c * v[1]) / w
+
+        return _minus(p, turned(a)), _minus(q, turned(g))
+
+    def limits(self, tau: Fraction) -> tuple[Fraction, Fraction]:
+        """Of t, at an orientation strictly between the trapezoid's."""
+        P, U = self.at(tau)
+        lower, upper = (self._limit(code, tau, P, U) for code in self.codes)
+        return lower, upper
+
+    def _limit(self, code: int, tau: Fraction, P: Vector, U: Vector) -> Fraction:
+        kind, i, j = unpacked(code)
+        if kind == 3:
+            p, q, a, g = self.line
+            A, O = self._features.robot, self._features.obstacles
+            along, w = (q, _minus(self._point(O, j), p)) if any(q) else (g, _minus(self._point(A, i), a))
+            return _dot(w, along) / _dot(along, along)
+        Q, V = self.at(tau, self._line(kind, i, j))
+        return _cross(_minus(Q, P), V) / _cross(U, V)
+
+    def pose(self, t: Fraction, tau: Fraction) -> Pose:
+        """On it."""
+        P, U = self.at(tau)
+        return Pose(P[0] + t * U[0], P[1] + t * U[1], {"tau": tau_in_chart(self.chart, tau)})
+
+    def middle(self, tau: Fraction) -> Fraction:
+        """A simple t well within."""
+        return between(*self.limits(tau))
+
+    def away(self, tau: Fraction) -> Vector:
+        """The direction off the contact: to the right of U."""
+        _, (x, y) = self.at(tau)
+        return y, -x
+
+    def t_of(self, pose: Pose, tau: Fraction) -> Fraction:
+        """t of a pose on its line, at this orientation."""
+        P, U = self.at(tau)
+        return _dot(_minus((pose.x, pose.y), P), U) / _dot(U, U)
+
+    def holds(self, pose: Pose) -> bool:
+        """Is a pose on it, and not at its first or last orientation?"""
+        chart, tau = pose.chart
+        if chart != self.chart or not self.low < tau < self.high:
+            return False
+        P, U = self.at(tau)
+        low, high = self.limits(tau)
+        return _cross(U, _minus((pose.x, pose.y), P)) == 0 and low <= self.t_of(pose, tau) <= high
+
+    def contact_point(self, t: Fraction) -> Vector:
+        """In the robot's own coordinates."""
+        _, _, a, g = self.line
+        return a[0] + t * g[0], a[1] + t * g[1]
+
+
+def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
+    """The pose turned to an orientation about a point of the robot."""
+    ((X, Y),) = pose.apply_exact([point])
+    ((x, y),) = Pose(0, 0, {"tau": tau}).apply_exact([point])
+    return Pose(X - x, Y - y, {"tau": tau})
+
+
+class Walker:
+    """Paths along the boundaries of the cells of a free space."""
+
+    def __init__(self, space: FreeSpace, checker: MotionChecker, angle_scale: float) -> None:
+        self.space = space
+        self.checker = checker
+        self.corridors = Corridors(space, angle_scale)
+        self.reach = Fraction(angle_scale)
+        self._links: dict[int, list[Link]] = {}
+
+    # --- motions ---
+
+    def joins(self, poses: Sequence[Pose]) -> bool:
+        """Are all motions between these free?"""
+        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in zip(poses, poses[1:], strict=False))
+
+    def first_joining(self, *ways: Sequence[Pose]) -> Sequence[Pose] | None:
+        return next((way for way in ways if self.joins(way)), None)
+
+    def room(self, pose: Pose, direction: Vector) -> Fraction:
+        """A share of the direction, at most 1, as far as a translation is free."""
+        found = self.checker.first_contact(pose, Translation(direction))
+        return Fraction(1) if found is None else found.at.p
+
+    # --- on one sheet ---
+
+    def off(self, sheet: Sheet, t: Fraction, tau: Fraction) -> Pose:
+        """Half way from the contact at (t, tau) to the next."""
+        pose, (x, y) = sheet.pose(t, tau), sheet.away(tau)
+        longest = self.reach / (abs(x) + abs(y))
+        direction = x * longest, y * longest
+        room = self.room(pose, direction)
+        share = between(room / 4, 3 * room / 4) if room else room
+        return Pose(pose.x + share * direction[0], pose.y + share * direction[1], {"tau": pose.tau})
+
+    def along(self, sheet: Sheet, first: Fraction, last: Fraction) -> Iterator[Pose]:
+        """From off the middle at one orientation to the same at another; without the first pose."""
+        stack = [(first, last, 0)]
+        while stack:
+            tau, to, depth = stack.pop()
+            t, end = sheet.middle(tau), sheet.middle(to)
+            p, q = self.off(sheet, t, tau), self.off(sheet, end, to)
+            C, D = sheet.pose(t, tau), sheet.pose(end, to)
+            turned = rotated(C, sheet.contact_point(t), D.tau)
+            slid = Pose(*self._slid(sheet, end, tau), {"tau": C.tau})
+            slid_off = rotated(slid, sheet.contact_point(end), D.tau)
+            way = self.first_joining([p, q], [p, C, turned, D, q], [p, C, slid, slid_off, q])
+            if way is not None:
+                yield from way[1:]
+            elif depth == MOST_HALVINGS:
+                raise InvariantError(f"no way along trapezoid {sheet.face}", state=(first, last))
+            else:
+                middle = between(min(tau, to), max(tau, to))
+                stack += [(middle, to, depth + 1), (tau, middle, depth + 1)]
+
+    def _slid(self, sheet: Sheet, t: Fraction, tau: Fraction) -> Vector:
+        P, U = sheet.at(tau)
+        return P[0] + t * U[0], P[1] + t * U[1]
+
+    # --- from sheet to sheet ---
+
+    def over_curve(self, f: Sheet, g: Sheet, tau: Fraction, side: int) -> Sequence[Pose]:
+        """From off the middle of one to off the middle of the other, over a curve that they share."""
+        t, end = f.middle(tau), g.middle(tau)
+        p, q = self.off(f, t, tau), self.off(g, end, tau)
+        corner = f.pose(f.limits(tau)[side], tau)
+        way = self.first_joining([p, q], [p, f.pose(t, tau), corner, g.pose(end, tau), q])
+        if way is None:
+            raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=tau)
+        return way
+
+    def over_wall(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
+        """From off the middle of one to off that of the other, over a critical angle; the first is at tau now."""
+        cells = self.space.complex
+        ends = [s.high if cells.side[k] == LAST else s.low for s, k in ((f, h), (g, int(cells.twin[h])))]
+        aims = [tau, between(g.low, g.high)]
+        x, y, _ = self.corridors.middles[h]
+        aim = Pose(float(x), float(y))
+        for _ in range(MOST_HALVINGS):
+            sigma, tau = aims = [between(min(a, end), max(a, end)) for a, end in zip(aims, ends, strict=True)]
+            t, s = _near(f, aim, sigma), _near(g, aim, tau)
+            C, D = f.pose(t, sigma), g.pose(s, tau)
+            p, q = self.off(f, t, sigma), self.off(g, s, tau)
+            turned = rotated(C, f.contact_point(t), D.tau)
+            way = self.first_joining([p, q], [p, C, turned, D, q], [p, C, turned, q], [p, C, D, q])
+            if way is not None:
+                m, n = f.middle(sigma), g.middle(tau)
+                begin, end = self.off(f, m, sigma), self.off(g, n, tau)
+                head = self.first_joining([begin, p], [begin, f.pose(m, sigma), C, p])
+                tail = self.first_joining([q, end], [q, D, g.pose(n, tau), end])
+                assert head and tail
+                return sigma, [*head[1:-1], *way[:-1], *tail], tau
+        raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=aims)
+
+    # --- the whole way ---
+
+    def walk(self, start: Pose, goal: Pose, cell: int) -> list[Pose]:
+        """Poses from the start to the goal, both in the cell or on its boundary; the motions between them are free.
+
+        Raises
+        ------
+        InvariantError
+            If none is found, a fault of cfree.
+        """
+        head, tail = self.leave(start, cell), self.leave(goal, cell)
+        landings, takeoffs = self.landings(head[-1]), self.landings(tail[-1])
+        links = self.links(cell)
+        way = self.corridors.shortest(landings, takeoffs, links, self._closed)
+        if way is None:
+            raise InvariantError(f"no way in cell {cell}", state=(start, goal))
+        first = next(x for x in landings if x.face == way[0][0])
+        last = next(x for x in takeoffs if x.face == way[-1][0])
+        poses = [*head, *self._realized(way, links, first, last), *reversed(tail)]
+        return [a for k, a in enumerate(poses) if k == 0 or a != poses[k - 1]]
+
+    @cached_property
+    def _closed(self) -> NDArray[np.bool_]:
+        """(F,) faces whose orientations doubles do not hold apart."""
+        table = self.space.walls.trapezoids
+        closed: NDArray[np.bool_] = table.from_hi >= table.to_lo
+        return closed
+
+    def _realized(self, way: list[tuple[int, int]], links: list[Link], first: Landing, last: Landing) -> Iterator[Pose]:
+        """From a pose on the first face to one on the last."""
+        base = len(self.space.complex.face)
+        ends = [end for link in links for end in link]
+        entered: Landing | None = first  # None: over a side, and now off the middle
+        tau = Fraction(0)
+        for k, (face, h) in enumerate(way):
+            left = last if k + 1 == len(way) else ends[h - base] if h >= base else None
+            if face == FAR:
+                assert entered and left
+                yield from (entered.pose, _turned(entered.pose, left.pose), left.pose)
+            else:
+                f = Sheet(self.space, face)
+                if entered:
+                    tau = entered.pose.chart[1]
+                    yield from (entered.pose, f.pose(f.middle(tau), tau), self.off(f, f.middle(tau), tau))
+                if left:
+                    end = left.pose.chart[1]
+                    yield from (*self.along(f, tau, end), f.pose(f.middle(end), end), left.pose)
+                else:
+                    end, steps, after = self._over(f, Sheet(self.space, way[k + 1][0]), h, tau)
+                    yield from (*self.along(f, tau, end), *steps)
+                    tau = after
+            entered = ends[base + ((h - base) ^ 1) - base] if left and k + 1 < len(way) else None
+
+    def _over(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
+        """Over a side of f to g: at which orientation to go, poses up to off the middle of g, and the orientation there."""
+        cells = self.space.complex
+        if cells.side[h] in (LOWER, UPPER):
+            end = between(max(f.low, g.low), min(f.high, g.high))
+            return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
+        return self.over_wall(f, g, h, tau)
+
+    def leave(self, pose: Pose, cell: int) -> list[Pose]:
+        """From a pose to one in the interior of the cell, at an orientation of no critical angle."""
+        for k in range(3, MOST_HALVINGS):
+            small = Fraction(1, 2**k)
+            for x, y in ((0, 0), *DIRECTIONS):
+                moved = Pose(pose.x + x * small * self.reach, pose.y + y * small * self.reach, {"tau": pose.tau})
+                if not self.joins([pose, moved]):
+                    continue
+                for by in (small / 8, -small / 8):
+                    turned = _turned(moved, moved @ Pose(0, 0, {"tau": by}))
+                    if self.corridors.may_be_critical(*turned.chart) or not self.joins([moved, turned]):
+                        continue
+                    if self.space.locate(turned) == cell:
+                        return [pose, moved, turned]
+        raise InvariantError(f"no way from {pose} into cell {cell}")
+
+    def landings(self, pose: Pose) -> list[Landing]:
+        """Where straight ways from a pose lead to."""
+        return [landing for x, y in DIRECTIONS if (landing := self._landing(pose, x, y)) is not None]
+
+    def _landing(self, pose: Pose, x: int, y: int) -> Landing | None:
+        """Where a straight way leads to, if it is well within a face or far away; a way far away is one to the left."""
+        direction = x * self._extent, y * self._extent
+        contact = self.checker.first_contact(pose, Translation(direction))
+        if contact is None:
+            far = Pose(self._far, pose.y, {"tau": pose.tau})
+            return Landing(FAR, far) if y == 0 and x < 0 and self.joins([pose, far]) else None
+        there = Pose(pose.x + contact.at.p * direction[0], pose.y + contact.at.p * direction[1], {"tau": pose.tau})
+        face = self.corridors.holding(there)
+        return Landing(face, there) if face is not None and Sheet(self.space, face).holds(there) else None
+
+    @cached_property
+    def _extent(self) -> Fraction:
+        xs, ys = self.space.complex.x, self.space.complex.y
+        return Fraction(float(2 * (np.ptp(xs) + np.ptp(ys)))) + 2 * self.reach
+
+    @cached_property
+    def _far(self) -> Fraction:
+        return Fraction(float(self.space.complex.x.min())) - 2 * self.reach
+
+    def links(self, cell: int) -> list[Link]:
+        """Free segments that link all closed surfaces of a cell, and `FAR` if it is unbounded.
+
+        Notes
+        -----
+        All that lie on one ray towards -x, for each surface but the outer one. The ray leaves the cell and comes back
+        over the same surface, as no other bounds that part of the forbidden space from there: so they link its ends.
+        """
+        if cell not in self._links:
+            bounded = self.space.cells[cell].bounded
+            components = self.space.cells[cell].components[bounded:]
+            self._links[cell] = [link for component in components for link in self._links_of(component)]
+        return self._links[cell]
+
+    def _links_of(self, component: int) -> Iterator[Link]:
+        faces = np.flatnonzero((self.space.component == component) & ~self._closed)
+        table = self.space.walls.trapezoids
+        f = Sheet(self.space, int(faces[(table.tau_to - table.tau_from)[faces].argmax()]))
+        tau = between(f.low, f.high)
+        while self.corridors.may_be_critical(f.chart, tau):
+            tau = (tau + f.high) / 2
+        pose = self.off(f, f.middle(tau), tau)
+        yield Landing(f.face, f.pose(f.middle(tau), tau)), self._arrival(pose, -1)
+        crossings = self.corridors.crossings(pose).tolist()
+        for right, left in zip(crossings, [*crossings[1:], float(self._far)], strict=True):
+            middle = Pose((right + left) / 2, pose.y, {"tau": pose.tau})
+            if self.joins([middle, middle]):
+                yield self._arrival(middle, 1), self._arrival(middle, -1)
+
+    def _arrival(self, pose: Pose, x: int) -> Landing:
+        landing = self._landing(pose, x, 0)
+        if landing is None:
+            raise InvariantError(f"no face is to the {'right' if x > 0 else 'left'} of {pose}")
+        return landing
+
+
+def _turned(pose: Pose, to: Pose) -> Pose:
+    """In the same place, with the other's orientation."""
+    return Pose(pose.x, pose.y, {"tau": to.tau})
+
+
+def _near(sheet: Sheet, aim: Pose, tau: Fraction) -> Fraction:
+    """A simple t near that of a position, and well within."""
+    low, high = sheet.limits(tau)
+    margin = (high - low) / 8
+    t = min(max(sheet.t_of(aim, tau), low + margin), high - margin)
+    return between(t - margin / 8, t + margin / 8)
