@@ -156,27 +156,34 @@ class Corridors:
         faces = self.faces_at(chart, float(tau))
         if len(faces) == 0:
             return None
-        P, U = self._segments(faces, pose.theta)
-        d = (float(pose.x), float(pose.y)) - P
+        at = np.full(len(faces), pose.theta)
+        return int(faces[self.distances(faces, at, float(pose.x), float(pose.y)).argmin()])
+
+    def distances(self, faces: Ints, theta: Floats, x: float, y: float) -> Floats:
+        """Of a position from faces, each at an orientation of its own."""
+        P, U = self._segments(faces, theta)
+        d = (x, y) - P
         share = np.clip((U * d).sum(axis=1) / np.maximum((U * U).sum(axis=1), 1e-300), 0, 1)
-        return int(faces[np.hypot(*(d - share[:, None] * U).T).argmin()])
+        away: Floats = np.hypot(*(d - share[:, None] * U).T)
+        return away
 
     def crossings(self, pose: Pose) -> Floats:
         """Where boundaries cross the ray from a pose towards -x, from right to left."""
         chart, tau = pose.chart
-        P, U = self._segments(self.faces_at(chart, float(tau)), pose.theta)
+        faces = self.faces_at(chart, float(tau))
+        P, U = self._segments(faces, np.full(len(faces), pose.theta))
         above, end = float(pose.y) - P[:, 1], U[:, 1]
         cut = (above > 0) != (above > end)
         x = P[cut, 0] + above[cut] / end[cut] * U[cut, 0]
         return -np.sort(-x[x < float(pose.x)])
 
-    def _segments(self, faces: Ints, theta: float) -> tuple[Floats, Floats]:
-        """Starts and vectors of faces at an orientation."""
+    def _segments(self, faces: Ints, theta: Floats) -> tuple[Floats, Floats]:
+        """Starts and vectors of faces at orientations."""
         walls = self.space.walls
-        patch, at = walls.trapezoids.patch[faces], np.full(len(faces), theta)
-        lower, upper = walls.limits(faces, at)
-        P = walls.evaluate(patch, lower, at)
-        return P, walls.evaluate(patch, upper, at) - P
+        patch = walls.trapezoids.patch[faces]
+        lower, upper = walls.limits(faces, theta)
+        P = walls.evaluate(patch, lower, theta)
+        return P, walls.evaluate(patch, upper, theta) - P
 
 
 def _near(theta: Floats, to: Floats) -> Floats:

@@ -22,6 +22,7 @@ from cfree.search import Places, Searcher, motion_between
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
+    from cfree.passages import Passages
     from cfree.scene import Scene
     from cfree.separated import Separated
     from cfree.walk import Walker
@@ -118,6 +119,12 @@ class Planner:
 
         return Walker(self.free_space, self.checker, self.angle_scale)
 
+    @cached_property
+    def _passages(self) -> Passages:
+        from cfree.passages import Passages
+
+        return Passages(self._walker)
+
     @property
     def free_space(self) -> FreeSpace:
         """The cells, computed when first asked for."""
@@ -126,7 +133,9 @@ class Planner:
         if self.space is None:
             found = boundary(self.scene, max_seconds=self.max_seconds, progress=self.progress)
             if not found.complete:
-                raise IncompleteError(f"{self.max_seconds} seconds were not enough to compute the free space; give more")
+                raise IncompleteError(
+                    f"{self.max_seconds} seconds were not enough to compute the free space; give more"
+                )
             self.space = free_space(found)
         return self.space
 
@@ -137,22 +146,23 @@ class Planner:
                 raise InvalidPoseError(f"{name} {pose} is forbidden")
         poses = self._direct(start, goal) or self._searched(start, goal)
         if poses is None:
-            cell = self.common_cell(start, goal)
-            if cell is None:
-                from cfree.separated import separation
+            poses = self._walked(start, goal)
+        if poses is None:
+            from cfree.separated import separation
 
-                return separation(self.free_space, start, goal)
-            poses = self._walker.walk(start, goal, cell)
+            return separation(self.free_space, start, goal)
         return self.path(self.shortened(poses, improve))
 
     def is_free(self, poses: Sequence[Pose]) -> bool:
         """Are the motions between poses free?"""
         return all(self.checker.is_free(a, motion_between(a, b)) for a, b in zip(poses, poses[1:], strict=False))
 
-    def common_cell(self, start: Pose, goal: Pose) -> int | None:
-        """A cell that both are in, or on whose boundary."""
+    def _walked(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+        """Inside one cell, or through exact fits."""
         first, second = self.free_space.locate([start, goal]).tolist()
-        return first if first == second >= 0 else None
+        if first == second >= 0:
+            return self._walker.walk(start, goal, first)
+        return self._passages.path(start, goal)
 
     def path(self, poses: Sequence[Pose]) -> Path:
         motions = [motion_between(a, b) for a, b in zip(poses, poses[1:], strict=False)]

@@ -17,137 +17,17 @@ from numpy.typing import NDArray
 
 from cfree.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
 from cfree.errors import InvariantError
-from cfree.exact import simplest_between
-from cfree.features import unpacked
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
-from cfree.pose import Pose, half_angle_rotation, tau_in_chart
+from cfree.pose import Pose
 from cfree.search import motion_between
+from cfree.sheet import Sheet, Vector, between, rotated
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
 MOST_HALVINGS = 200
 DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
-
-Vector = tuple[Fraction, Fraction]
-
-
-def between(low: Fraction, high: Fraction) -> Fraction:
-    """A simple fraction in the middle half of an interval."""
-    quarter = (high - low) / 4
-    low, high = low + quarter, high - quarter
-    if low > 0:
-        return simplest_between(low, high)
-    return -simplest_between(-high, -low) if high < 0 else Fraction(0)
-
-
-def _cross(u: Vector, v: Vector) -> Fraction:
-    return u[0] * v[1] - u[1] * v[0]
-
-
-def _dot(u: Vector, v: Vector) -> Fraction:
-    return u[0] * v[0] + u[1] * v[1]
-
-
-def _minus(u: Vector, v: Vector) -> Vector:
-    return u[0] - v[0], u[1] - v[1]
-
-
-class Sheet:
-    """A trapezoid of the boundary, exactly: poses on it at rational t and tau."""
-
-    def __init__(self, space: FreeSpace, face: int) -> None:
-        walls = space.walls
-        table = walls.trapezoids
-        self.face = face
-        self.chart = int(table.chart[face])
-        self.low, self.high = Fraction(float(table.from_hi[face])), Fraction(float(table.to_lo[face]))
-        self.codes = int(table.lower[face]), int(table.upper[face])
-        self._features = walls.features
-        patch = int(table.patch[face])
-        kind, i, j = (int(c[patch]) for c in (walls.contact_kind, walls.contact_robot, walls.contact_obstacle))
-        self.line = self._line(kind, i, j)
-
-    def _line(self, kind: int, i: int, j: int) -> tuple[Vector, Vector, Vector, Vector]:
-        """p, q, a, g of a contact surface."""
-        A, O = self._features.robot, self._features.obstacles
-        zero = Fraction(0), Fraction(0)
-        if kind == 1:
-            p, e = self._point(O, O.v[j]), self._point(O, O.w[j])
-            return p, _minus(e, p), self._point(A, i), zero
-        a, e = self._point(A, A.v[i]), self._point(A, A.w[i])
-        return self._point(O, j), zero, a, _minus(e, a)
-
-    def _point(self, shape: object, vertex: int) -> Vector:
-        x, y = shape.vertices[int(vertex)]  # type: ignore[attr-defined]
-        return Fraction(x, self._features.scale), Fraction(y, self._features.scale)
-
-    def at(self, tau: Fraction, line: tuple[Vector, Vector, Vector, Vector] | None = None) -> tuple[Vector, Vector]:
-        """P and U: positions P + t U at an orientation."""
-        p, q, a, g = line or self.line
-        c, s, w = half_angle_rotation(tau_in_chart(self.chart, tau))
-
-        def turned(v: Vector) -> Vector:
-            return (c * v[0] - s * v[1]) / w, (s * v[0] + c * v[1]) / w
-
-        return _minus(p, turned(a)), _minus(q, turned(g))
-
-    def limits(self, tau: Fraction) -> tuple[Fraction, Fraction]:
-        """Of t, at an orientation strictly between the trapezoid's."""
-        P, U = self.at(tau)
-        lower, upper = (self._limit(code, tau, P, U) for code in self.codes)
-        return lower, upper
-
-    def _limit(self, code: int, tau: Fraction, P: Vector, U: Vector) -> Fraction:
-        kind, i, j = unpacked(code)
-        if kind == 3:
-            p, q, a, g = self.line
-            A, O = self._features.robot, self._features.obstacles
-            along, w = (q, _minus(self._point(O, j), p)) if any(q) else (g, _minus(self._point(A, i), a))
-            return _dot(w, along) / _dot(along, along)
-        Q, V = self.at(tau, self._line(kind, i, j))
-        return _cross(_minus(Q, P), V) / _cross(U, V)
-
-    def pose(self, t: Fraction, tau: Fraction) -> Pose:
-        """On it."""
-        P, U = self.at(tau)
-        return Pose(P[0] + t * U[0], P[1] + t * U[1], {"tau": tau_in_chart(self.chart, tau)})
-
-    def middle(self, tau: Fraction) -> Fraction:
-        """A simple t well within."""
-        return between(*self.limits(tau))
-
-    def away(self, tau: Fraction) -> Vector:
-        """The direction off the contact: to the right of U."""
-        _, (x, y) = self.at(tau)
-        return y, -x
-
-    def t_of(self, pose: Pose, tau: Fraction) -> Fraction:
-        """t of a pose on its line, at this orientation."""
-        P, U = self.at(tau)
-        return _dot(_minus((pose.x, pose.y), P), U) / _dot(U, U)
-
-    def holds(self, pose: Pose) -> bool:
-        """Is a pose on it, and not at its first or last orientation?"""
-        chart, tau = pose.chart
-        if chart != self.chart or not self.low < tau < self.high:
-            return False
-        P, U = self.at(tau)
-        low, high = self.limits(tau)
-        return _cross(U, _minus((pose.x, pose.y), P)) == 0 and low <= self.t_of(pose, tau) <= high
-
-    def contact_point(self, t: Fraction) -> Vector:
-        """In the robot's own coordinates."""
-        _, _, a, g = self.line
-        return a[0] + t * g[0], a[1] + t * g[1]
-
-
-def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
-    """The pose turned to an orientation about a point of the robot."""
-    ((X, Y),) = pose.apply_exact([point])
-    ((x, y),) = Pose(0, 0, {"tau": tau}).apply_exact([point])
-    return Pose(X - x, Y - y, {"tau": tau})
 
 
 class Walker:
@@ -230,7 +110,7 @@ class Walker:
         aim = Pose(float(x), float(y))
         for _ in range(MOST_HALVINGS):
             sigma, tau = aims = [between(min(a, end), max(a, end)) for a, end in zip(aims, ends, strict=True)]
-            t, s = _near(f, aim, sigma), _near(g, aim, tau)
+            t, s = f.near(aim, sigma), g.near(aim, tau)
             C, D = f.pose(t, sigma), g.pose(s, tau)
             p, q = self.off(f, t, sigma), self.off(g, s, tau)
             turned = rotated(C, f.contact_point(t), D.tau)
@@ -384,11 +264,3 @@ class Walker:
 def _turned(pose: Pose, to: Pose) -> Pose:
     """In the same place, with the other's orientation."""
     return Pose(pose.x, pose.y, {"tau": to.tau})
-
-
-def _near(sheet: Sheet, aim: Pose, tau: Fraction) -> Fraction:
-    """A simple t near that of a position, and well within."""
-    low, high = sheet.limits(tau)
-    margin = (high - low) / 8
-    t = min(max(sheet.t_of(aim, tau), low + margin), high - margin)
-    return between(t - margin / 8, t + margin / 8)

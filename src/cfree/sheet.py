@@ -1,0 +1,148 @@
+"""Trapezoids of a boundary, exactly: poses on them at rational t and tau."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from cfree.exact import simplest_between
+from cfree.features import SceneFeatures, ShapeFeatures, unpacked
+from cfree.pose import Pose, half_angle_rotation, tau_in_chart
+
+if TYPE_CHECKING:
+    from cfree.cells import FreeSpace
+
+Vector = tuple[Fraction, Fraction]
+Line = tuple[Vector, Vector, Vector, Vector]  # p, q, a, g of a surface
+
+
+def between(low: Fraction, high: Fraction) -> Fraction:
+    """A simple fraction in the middle half of an interval."""
+    quarter = (high - low) / 4
+    low, high = low + quarter, high - quarter
+    if low > 0:
+        return simplest_between(low, high)
+    return -simplest_between(-high, -low) if high < 0 else Fraction(0)
+
+
+def cross(u: Vector, v: Vector) -> Fraction:
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def dot(u: Vector, v: Vector) -> Fraction:
+    return u[0] * v[0] + u[1] * v[1]
+
+
+def minus(u: Vector, v: Vector) -> Vector:
+    return u[0] - v[0], u[1] - v[1]
+
+
+def vertex(shape: ShapeFeatures, index: int, scale: int) -> Vector:
+    """Coordinates of a vertex."""
+    x, y = shape.vertices[int(index)]
+    return Fraction(x, scale), Fraction(y, scale)
+
+
+def contact_line(features: SceneFeatures, kind: int, i: int, j: int) -> Line:
+    """p, q, a, g of a contact surface, by the features that touch."""
+    A, O, scale = features.robot, features.obstacles, features.scale
+    zero = Fraction(0), Fraction(0)
+    if kind == 1:
+        p = vertex(O, O.v[j], scale)
+        return p, minus(vertex(O, O.w[j], scale), p), vertex(A, i, scale), zero
+    a = vertex(A, A.v[i], scale)
+    return vertex(O, j, scale), zero, a, minus(vertex(A, A.w[i], scale), a)
+
+
+def positions(line: Line, tau: Fraction | None) -> tuple[Vector, Vector]:
+    """P and U: positions P + t U of contact at an orientation."""
+    p, q, a, g = line
+    c, s, w = half_angle_rotation(tau)
+
+    def turned(v: Vector) -> Vector:
+        return (c * v[0] - s * v[1]) / w, (s * v[0] + c * v[1]) / w
+
+    return minus(p, turned(a)), minus(q, turned(g))
+
+
+class Sheet:
+    """A trapezoid of the boundary, exactly: poses on it at rational t and tau."""
+
+    def __init__(self, space: FreeSpace, face: int) -> None:
+        walls = space.walls
+        table = walls.trapezoids
+        self.face = face
+        self.chart = int(table.chart[face])
+        self.low, self.high = Fraction(float(table.from_hi[face])), Fraction(float(table.to_lo[face]))
+        self.codes = int(table.lower[face]), int(table.upper[face])
+        self._features = walls.features
+        patch = int(table.patch[face])
+        kind, i, j = (int(c[patch]) for c in (walls.contact_kind, walls.contact_robot, walls.contact_obstacle))
+        self.line = contact_line(walls.features, kind, i, j)
+
+    def at(self, tau: Fraction) -> tuple[Vector, Vector]:
+        """P and U: positions P + t U, at tau in the chart."""
+        return positions(self.line, tau_in_chart(self.chart, tau))
+
+    def limits(self, tau: Fraction) -> tuple[Fraction, Fraction]:
+        """Of t, at an orientation strictly between the trapezoid's."""
+        P, U = self.at(tau)
+        lower, upper = (self._limit(code, tau, P, U) for code in self.codes)
+        return lower, upper
+
+    def _limit(self, code: int, tau: Fraction, P: Vector, U: Vector) -> Fraction:
+        kind, i, j = unpacked(code)
+        if kind == 3:
+            p, q, a, g = self.line
+            A, O, scale = self._features.robot, self._features.obstacles, self._features.scale
+            along, w = (q, minus(vertex(O, j, scale), p)) if any(q) else (g, minus(vertex(A, i, scale), a))
+            return dot(w, along) / dot(along, along)
+        Q, V = positions(contact_line(self._features, kind, i, j), tau_in_chart(self.chart, tau))
+        return cross(minus(Q, P), V) / cross(U, V)
+
+    def pose(self, t: Fraction, tau: Fraction) -> Pose:
+        """On it."""
+        P, U = self.at(tau)
+        return Pose(P[0] + t * U[0], P[1] + t * U[1], {"tau": tau_in_chart(self.chart, tau)})
+
+    def middle(self, tau: Fraction) -> Fraction:
+        """A simple t well within."""
+        return between(*self.limits(tau))
+
+    def away(self, tau: Fraction) -> Vector:
+        """The direction off the contact: to the right of U."""
+        _, (x, y) = self.at(tau)
+        return y, -x
+
+    def t_of(self, pose: Pose, tau: Fraction) -> Fraction:
+        """t of a pose on its line, at this orientation."""
+        P, U = self.at(tau)
+        return dot(minus((pose.x, pose.y), P), U) / dot(U, U)
+
+    def holds(self, pose: Pose) -> bool:
+        """Is a pose on it, and not at its first or last orientation?"""
+        chart, tau = pose.chart
+        if chart != self.chart or not self.low < tau < self.high:
+            return False
+        P, U = self.at(tau)
+        low, high = self.limits(tau)
+        return cross(U, minus((pose.x, pose.y), P)) == 0 and low <= self.t_of(pose, tau) <= high
+
+    def near(self, aim: Pose, tau: Fraction) -> Fraction:
+        """A simple t near that of a position, and well within."""
+        low, high = self.limits(tau)
+        margin = (high - low) / 8
+        t = min(max(self.t_of(aim, tau), low + margin), high - margin)
+        return between(t - margin / 8, t + margin / 8)
+
+    def contact_point(self, t: Fraction) -> Vector:
+        """In the robot's own coordinates."""
+        _, _, a, g = self.line
+        return a[0] + t * g[0], a[1] + t * g[1]
+
+
+def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
+    """The pose turned to an orientation about a point of the robot."""
+    ((X, Y),) = pose.apply_exact([point])
+    ((x, y),) = Pose(0, 0, {"tau": tau}).apply_exact([point])
+    return Pose(X - x, Y - y, {"tau": tau})
