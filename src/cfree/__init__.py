@@ -61,6 +61,10 @@ if TYPE_CHECKING:
     from cfree.path import Clearance as Clearance
     from cfree.path import Path as Path
     from cfree.path import load_path as load_path
+    from cfree.planning.planner import Planner as Planner
+    from cfree.planning.planner import plan as plan
+    from cfree.planning.planner import plan_many as plan_many
+    from cfree.planning.search import motion_between as motion_between
     from cfree.plot import plot_boundary as plot_boundary
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
@@ -127,6 +131,8 @@ _HOMES = {
     "motion": "Rotation Translation rotations",
     "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
     "path": "Clearance Path load_path",
+    "planning.planner": "Planner plan plan_many",
+    "planning.search": "motion_between",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
     "polygon": "Polygon",
     "pose": "Pose Poses",

@@ -29,6 +29,9 @@ from cfree.trapezoids import COLUMNS, Floats, Ints
 
 if TYPE_CHECKING:
     from cfree.cell_complex import CellComplex
+    from cfree.path import Path
+    from cfree.planning.planner import Planner
+    from cfree.separated import Separated
 
 FORBIDDEN, NO_CELL = -1, -2
 NEAR = 1e-6  # far more than rounding: what is farther from an exact fit is not looked at exactly
@@ -264,6 +267,22 @@ class FreeSpace:
             if is_free(self.boundary, Pose(Fraction(X, unit), Fraction(Y, unit), {"tau": tau})):
                 found[k] = NO_CELL
         return found
+
+    def plan(self, start: Pose, goal: Pose, *, improve: float = 0.0) -> Path | Separated:
+        """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
+
+        Notes
+        -----
+        Which of the two it is takes two calls of `locate`, unless exact fits join cells.
+        """
+        return self.planner.plan(start, goal, improve=improve)
+
+    @cached_property
+    def planner(self) -> Planner:
+        """What has been prepared for `plan`."""
+        from cfree.planning.planner import Planner
+
+        return Planner(self.boundary.scene, self)
 
     def _may_fit(self, poses: Poses | list[Pose], found: Ints) -> Ints:
         """Poses in no cell that are near an exact fit, or on the bounds where these leave slits."""

@@ -7,27 +7,28 @@ settle, the cells of the free space do: they name the answer, and a walk along a
 from __future__ import annotations
 
 import math
+import os
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
 
 from cfree.errors import IncompleteError, InvalidPoseError
 from cfree.forbidden import boundary
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
+from cfree.planning.search import Places, Searcher, motion_between
 from cfree.pose import Pose
-from cfree.search import Places, Searcher, motion_between
+from cfree.scene import Scene
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
-    from cfree.passages import Passages
-    from cfree.scene import Scene
+    from cfree.planning.passages import Passages
+    from cfree.planning.walk import Walker
     from cfree.separated import Separated
-    from cfree.walk import Walker
 
-Objective = Literal["short", "clear"]
 SEARCH = 8_000  # motions checked before the free space is built
 REFINE = 400  # motions checked to shorten a first path
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
@@ -115,13 +116,13 @@ class Planner:
 
     @cached_property
     def _walker(self) -> Walker:
-        from cfree.walk import Walker
+        from cfree.planning.walk import Walker
 
         return Walker(self.free_space, self.checker, self.angle_scale)
 
     @cached_property
     def _passages(self) -> Passages:
-        from cfree.passages import Passages
+        from cfree.planning.passages import Passages
 
         return Passages(self._walker)
 
@@ -144,28 +145,31 @@ class Planner:
         for pose, name in ((start, "start"), (goal, "goal")):
             if not self.is_free([pose, pose]):
                 raise InvalidPoseError(f"{name} {pose} is forbidden")
-        poses = self._direct(start, goal) or self._searched(start, goal)
+        poses = self._direct(start, goal)
+        if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
+            poses = self._searched(start, goal)
+        if poses is None and (cell := self.cell_of(start, goal)) is not None:
+            poses = self._walker.walk(start, goal, cell)
         if poses is None:
-            poses = self._walked(start, goal)
+            poses = self._passages.path(start, goal)
         if poses is None:
             from cfree.separated import separation
 
             return separation(self.free_space, start, goal)
         return self.path(self.shortened(poses, improve))
 
+    def cell_of(self, start: Pose, goal: Pose) -> int | None:
+        """The cell that both are in."""
+        first, second = self.free_space.locate([start, goal]).tolist()
+        return first if first == second >= 0 else None
+
     def is_free(self, poses: Sequence[Pose]) -> bool:
         """Are the motions between poses free?"""
-        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in zip(poses, poses[1:], strict=False))
-
-    def _walked(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
-        """Inside one cell, or through exact fits."""
-        first, second = self.free_space.locate([start, goal]).tolist()
-        if first == second >= 0:
-            return self._walker.walk(start, goal, first)
-        return self._passages.path(start, goal)
+        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
 
     def path(self, poses: Sequence[Pose]) -> Path:
-        motions = [motion_between(a, b) for a, b in zip(poses, poses[1:], strict=False)]
+        """Through these poses."""
+        motions = [motion_between(a, b) for a, b in pairwise(poses) if a != b]
         return Path(poses[0], motions, self.scene.units)
 
     def shortened(self, poses: Sequence[Pose], seconds: float) -> Sequence[Pose]:
@@ -178,10 +182,10 @@ class Planner:
         return self._searcher(poses).poses(shortener.path())
 
     def _direct(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
-        """One motion, or a turn and a straight way."""
+        """A turn and a straight way, or one motion."""
         turned, moved = (Pose(p.x, p.y, {"tau": q.tau}) for p, q in ((start, goal), (goal, start)))
         ways: list[list[Pose]] = [[start, turned, goal], [start, moved, goal], [start, goal]]
-        return next((way for way in ways if self.is_free(way)), None)
+        return next((list(dict.fromkeys(way)) for way in ways if self.is_free(way)), None)
 
     def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
@@ -211,3 +215,59 @@ def _given(pose: Pose | None, name: str) -> Pose:
     if pose is None:
         raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give {name}=Pose(x, y, theta)")
     return pose
+
+
+def plan_many(
+    scene: Scene | FreeSpace,
+    queries: Iterable[tuple[Pose, Pose]],
+    *,
+    improve: float = 0.0,
+    threads: int | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> list[Path | Separated]:
+    """Answers to many questions about one scene.
+
+    Parameters
+    ----------
+    scene : Scene or FreeSpace
+    queries : pairs (start, goal) of Pose
+    improve : float, seconds
+        As in `plan`, for each of them.
+    threads : int, optional
+        All cores by default. The answers do not depend on it, unless `improve` is given.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1.
+
+    Returns
+    -------
+    list of Path or Separated
+        In the order of the queries, as of `plan` with the free space known.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> wall = [(2, -9), (3, -9), (3, 1), (2, 1)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], bounds=(-5, -5, 5, 5))
+    >>> poses = [cfree.Pose(x, y) for x in (0, 4) for y in (-4, 4)]
+    >>> [type(answer).__name__ for answer in plan_many(scene, [(poses[0], q) for q in poses[1:]])]
+    ['Path', 'Path', 'Path']
+    """
+    from concurrent.futures import ThreadPoolExecutor
+
+    from cfree.cells import free_space
+
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; give at least 1")
+    space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
+    asked = list(queries)
+    answers = []
+    with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
+        try:
+            for answer in pool.map(lambda query: space.planner.plan(*query, improve=improve), asked):
+                answers.append(answer)
+                if progress is not None:
+                    progress(len(answers) / len(asked))
+        except BaseException:
+            pool.shutdown(cancel_futures=True)
+            raise
+    return answers

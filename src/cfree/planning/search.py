@@ -1,6 +1,6 @@
 """A quick search for paths, and shorter ones: random poses, joined by motions that are proved free.
 
-The core does both, in doubles where it guesses and exactly where it decides. A search that finds nothing has shown nothing.
+The core does both, in doubles where it guesses and exactly where it decides. A search that finds nothing shows nothing.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """A path on the boundary of a cell, made of translations and rotations that are proved free.
 
-A trapezoid's lines of constant theta are translations, its lines of constant t are rotations about the point of contact:
-steps along them are free because the trapezoid is part of the boundary. They are taken where nothing better is; poses a
-little off the contact, half of the room there, are joined by one motion where that is free. theory, section 16.
+A trapezoid's lines of constant theta are translations, its lines of constant t rotations about the point of contact;
+steps along them are free because the trapezoid is part of the boundary. They are taken where nothing better is: poses
+off the contact, by half of the room there, are joined by one motion where that is free. docs/theory.md, "Paths".
 """
 
 from __future__ import annotations
@@ -10,18 +10,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
 from cfree.errors import InvariantError
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
+from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
+from cfree.planning.search import motion_between
+from cfree.planning.sheet import Sheet, Vector, between, rotated
 from cfree.pose import Pose
-from cfree.search import motion_between
-from cfree.sheet import Sheet, Vector, between, rotated
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -44,7 +45,7 @@ class Walker:
 
     def joins(self, poses: Sequence[Pose]) -> bool:
         """Are all motions between these free?"""
-        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in zip(poses, poses[1:], strict=False))
+        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
 
     def first_joining(self, *ways: Sequence[Pose]) -> Sequence[Pose] | None:
         return next((way for way in ways if self.joins(way)), None)
@@ -175,10 +176,10 @@ class Walker:
                     end, steps, after = self._over(f, Sheet(self.space, way[k + 1][0]), h, tau)
                     yield from (*self.along(f, tau, end), *steps)
                     tau = after
-            entered = ends[base + ((h - base) ^ 1) - base] if left and k + 1 < len(way) else None
+            entered = ends[(h - base) ^ 1] if left and k + 1 < len(way) else None
 
     def _over(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
-        """Over a side of f to g: at which orientation to go, poses up to off the middle of g, and the orientation there."""
+        """Over a side of f to g: at which orientation, poses up to off the middle of g, and the orientation there."""
         cells = self.space.complex
         if cells.side[h] in (LOWER, UPPER):
             end = between(max(f.low, g.low), min(f.high, g.high))

@@ -18,12 +18,12 @@ import numpy as np
 
 from cfree.exact import simplest_between
 from cfree.features import SceneFeatures
+from cfree.planning.sheet import Vector, contact_line, cross, dot, minus, positions, vertex
 from cfree.pose import Pose, chart_of, tau_in_chart
 from cfree.trapezoids import CURVE
-from cfree.sheet import Vector, contact_line, cross, dot, minus, positions, vertex
 
 if TYPE_CHECKING:
-    from cfree.walk import Walker
+    from cfree.planning.walk import Walker
 
 NEAR = 1e-9  # of the scene's size: which contacts a place in doubles may be in
 STEPS = (4, 8, 14, 22, 32, 44)  # halvings of the robot's radius, and of a radian
@@ -83,16 +83,16 @@ class Passages:
                 if node in (ways := self.exits(pose)):
                     yield pose, ways[node][::-1]
         else:
-            for cell, way in self.exits(node).items():
-                yield cell, way
+            yield from self.exits(node).items()
             for pose in poses:
-                if pose.tau == node.tau and pose != node and self.walker.joins([node, pose]):
+                if pose != node and self.walker.joins([node, pose]):
                     yield pose, [node, pose]
 
     def exits(self, pose: Pose) -> dict[int, Way]:
         """Cells that short motions from a pose lead into, with these."""
         if pose not in self._known:
-            self._known[pose] = found = {}
+            found: dict[int, Way] = {}
+            self._known[pose] = found
             wanted = self._cells_near(pose)
             rays = [self._ray(pose, contact) for contact in self._contacts(pose)]
             for k in STEPS:
@@ -100,7 +100,9 @@ class Passages:
                 for way in ([pose, q] for q in firsts):
                     self._add(found, way)
                 seconds = ([pose, q, p] for q in firsts for p in self._moves(q, rays, k + 3))
-                while not wanted <= found.keys() and (way := next(seconds, None)):
+                for way in seconds:
+                    if wanted <= found.keys():
+                        break
                     if self.walker.joins(way[1:]):
                         self._add(found, way)
                 if wanted <= found.keys():
@@ -116,10 +118,9 @@ class Passages:
 
     def _cells_near(self, pose: Pose) -> set[int]:
         """Cells whose boundary is near, with doubles."""
-        chart, tau = pose.chart
         corridors, table = self.walker.corridors, self.space.walls.trapezoids
-        theta = pose.theta
-        turned = theta + math.tau * np.round((0.5 * (table.theta_from + table.theta_to) - theta) / math.tau)
+        turns = np.round((0.5 * (table.theta_from + table.theta_to) - pose.theta) / math.tau)
+        turned = pose.theta + math.tau * turns
         faces = np.flatnonzero((table.theta_from <= turned + NEAR) & (turned <= table.theta_to + NEAR))
         at = np.clip(turned[faces], table.theta_from[faces], table.theta_to[faces])
         away = corridors.distances(faces.astype(np.int32), at, float(pose.x), float(pose.y))
@@ -132,7 +133,7 @@ class Passages:
         for pole in self._poles(pose, rays):
             for sign in (1, -1):
                 yield _turned_about(pole, pose, sign * small)
-        for x, y in {d for _, (x, y) in rays for d in ((x, y), (y, -x))} | {(Fraction(1), Fraction(0))}:
+        for x, y in {(Fraction(1), Fraction(0))}.union(*({u, (u[1], -u[0])} for _, u in rays)):
             size = small * self.walker.reach / (abs(x) + abs(y))
             for sign in (1, -1):
                 yield Pose(pose.x + sign * size * x, pose.y + sign * size * y, {"tau": pose.tau})

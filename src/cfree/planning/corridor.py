@@ -1,7 +1,7 @@
 """Which trapezoids a path along the boundary of a cell crosses: the shortest way over common sides, in doubles.
 
-Nothing is decided here: `walk` makes poses of it, exactly. Where a cell has several closed surfaces, free segments at one
-orientation link them, found by rays.
+Nothing is decided here: `walk` makes poses of it, exactly. Where a cell has several closed surfaces, free segments
+link them.
 """
 
 from __future__ import annotations
@@ -88,8 +88,8 @@ class Corridors:
         Returns
         -------
         list of (face, coedge)
-            A face, and by which coedge it is left. Coedges from H on stand for links: H + 2 k is the first end of link k,
-            H + 2 k + 1 the second; after them comes the end of the way. None if there is no way.
+            A face, and by which coedge it is left. From H on they stand for links, H + 2 k for the first end of link k,
+            H + 2 k + 1 for the second; after them comes the end of the way. None if there is no way.
         """
         cells = self.space.complex
         base = len(cells.face)
