@@ -152,8 +152,8 @@ def collision(world: World, course: Course) -> Fraction | None:
             over = _sum((-1 if k < 2 else 1, (course.x, course.y)[k % 2]), (b if k < 2 else -b, course.d))
             if not is_nowhere_positive(over, (0, 1, 1)):
                 return next(u for u in _samples([over], (0, 1, 1)) if _value(over, u) > 0)
-    for part in world.parts:
-        found = _collision(world, course, part, (0, 1, 1), np.arange(len(world.walls), dtype=np.int32))
+    for ring in world.parts:
+        found = _collision(world, course, ring, (0, 1, 1), np.arange(len(world.walls), dtype=np.int32))
         if found is not None:
             return found
     return None

@@ -35,12 +35,8 @@ def is_inside(pose: Pose, scale: int, pieces: Iterable[Trapezoid]) -> bool:
     turn, q = Turn.of(chart, tau), (pose.x * scale, pose.y * scale)
     crossings = 0
     for piece in pieces:
-        for its_chart, here in turn.in_charts():
-            if (
-                piece.chart == its_chart
-                and piece.start <= here <= piece.stop
-                and _is_on(piece, Turn(its_chart, here), q)
-            ):
+        for where in (Turn(*place) for place in turn.in_charts() if place[0] == piece.chart):
+            if piece.start <= where.root <= piece.stop and _is_on(piece, where, q):
                 raise Fault("it is on the surface")
         if piece.chart == chart and piece.start <= turn.root < piece.stop:
             crossings += _is_crossed(piece, turn, q)

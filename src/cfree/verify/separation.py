@@ -1,4 +1,4 @@
-"""Is a separation a proof? Its pieces are contacts, they make a closed surface mod 2, and the poses are on two sides."""
+"""Is a separation a proof? Its pieces are contacts, mod 2 they have no boundary, and the poses are on two sides."""
 
 from __future__ import annotations
 
