@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 
 import cfree
 import strategies
+from cfree.answer import load_answer
 from cfree.errors import FormatError, UnsupportedError
 from cfree.motion import Rotation, Translation
 from cfree.motion_check import MotionChecker
-from cfree.path import Path, load_path
+from cfree.path import Path
 from cfree.pose import Pose
 from cfree.scene import Scene
 from test_motion import box, motions, pose_of
@@ -30,7 +31,7 @@ WAY = Path(Pose(0, 0), [Translation((2, "1/3")), Rotation((2, 1), "-90deg"), Rot
 def test_files_hold_paths_exactly(tmp_path_factory: pytest.TempPathFactory, path: Path) -> None:
     file = tmp_path_factory.mktemp("paths") / "way.json"
     path.save(file)
-    again = load_path(file)
+    again = load_answer(file)
     assert again == path and again.poses == path.poses
 
 
@@ -42,7 +43,7 @@ def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
     for motion in data["motions"]:
         del motion["exact"]
     (tmp_path / "way.json").write_text(json.dumps(data))
-    again = load_path(tmp_path / "way.json")
+    again = load_answer(tmp_path / "way.json")
     assert (again.units, again.frame) == ("m", "map")
     assert float(again.goal.x) == pytest.approx(float(WAY.goal.x), abs=1e-12)
     assert again.motions[1:] == WAY.motions[1:]
@@ -51,7 +52,7 @@ def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"answer": "path"', '"answer": "way"', r'answer: expected "path", got "way"'),
+        ('"answer": "path"', '"answer": "way"', r'answer: expected "path" or "separated", got "way"'),
         ('"type": "rotation"', '"type": "turn"', r'motions\[1\]: expected a motion with "type"'),
         ('"vector": [2.0', '"vectr": [2.0', r'motions\[0\].vectr: unknown key "vectr"; did you mean "vector"\?'),
         ('"tau": "-1"', '"tau": "x"', r'motions\[1\].exact.tau: expected the tangent of half the angle, .*got "x"'),
@@ -69,7 +70,7 @@ def test_faults_of_files_say_place_value_and_remedy(tmp_path: FilePath, old: str
     assert old in text
     file.write_text(text.replace(old, new, 1))
     with pytest.raises(FormatError, match=message):
-        load_path(file)
+        load_answer(file)
 
 
 def test_motions_that_miss_the_goal_are_refused(tmp_path: FilePath) -> None:
@@ -77,7 +78,7 @@ def test_motions_that_miss_the_goal_are_refused(tmp_path: FilePath) -> None:
     move = {"type": "translation", "vector": [1, 0]}
     file.write_text(json.dumps({"answer": "path", "start": [0, 0, 0], "goal": [1, 1, 0], "motions": [move]}))
     with pytest.raises(FormatError, match=r"the motions lead to \[1, 0, 0\] and not to the goal"):
-        load_path(file)
+        load_answer(file)
 
 
 @settings(max_examples=50, deadline=None)
@@ -174,5 +175,5 @@ def test_the_example_of_the_format_page_is_what_is_written(request: pytest.Fixtu
     fault = page.split("```\nway.json:")[1].split("\n")[0]
     file.write_text(example.replace('"tau": "-1"}}', '"tau": "x"}}'))
     with pytest.raises(FormatError) as caught:
-        load_path(file)
+        load_answer(file)
     assert str(caught.value) == f"{file}:{fault}"

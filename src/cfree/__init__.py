@@ -4,6 +4,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from cfree.answer import load_answer as load_answer
     from cfree.cell_complex import CellComplex as CellComplex
     from cfree.cells import Cell as Cell
     from cfree.cells import FreeSpace as FreeSpace
@@ -60,7 +61,6 @@ if TYPE_CHECKING:
     from cfree.motion_check import is_free_motion as is_free_motion
     from cfree.path import Clearance as Clearance
     from cfree.path import Path as Path
-    from cfree.path import load_path as load_path
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.planner import plan as plan
     from cfree.planning.planner import plan_many as plan_many
@@ -90,6 +90,9 @@ if TYPE_CHECKING:
     from cfree.rational.surd import ExactAngle as ExactAngle
     from cfree.rational.surd import Surd as Surd
     from cfree.scene import Scene as Scene
+    from cfree.separated import Pieces as Pieces
+    from cfree.separated import Separated as Separated
+    from cfree.separated import separation as separation
     from cfree.slice import Slice as Slice
     from cfree.storage import load_boundary as load_boundary
     from cfree.surface import EdgeEdgeSegment as EdgeEdgeSegment
@@ -110,6 +113,7 @@ __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
+    "answer": "load_answer",
     "cell_complex": "CellComplex",
     "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
     "edge_edge_range",
@@ -130,7 +134,7 @@ _HOMES = {
     "mesh": "Mesh save_mesh",
     "motion": "Rotation Translation rotations",
     "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
-    "path": "Clearance Path load_path",
+    "path": "Clearance Path",
     "planning.planner": "Planner plan plan_many",
     "planning.search": "motion_between",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
@@ -142,6 +146,7 @@ _HOMES = {
     "rational.plot": "plot_models",
     "rational.surd": "ExactAngle Surd",
     "scene": "Scene",
+    "separated": "Pieces Separated separation",
     "slice": "Slice",
     "storage": "load_boundary",
     "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface helix_through "

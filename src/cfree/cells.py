@@ -319,6 +319,11 @@ class FreeSpace:
         return depth
 
     @cached_property
+    def insets(self) -> dict[int, FreeSpace | None]:
+        """Free spaces of smaller robots, as far as they were needed; see `cfree.inset.inset_space`."""
+        return {}
+
+    @cached_property
     def _rays(self) -> Any:
         return _rays(self.walls, self.component)
 

@@ -251,31 +251,39 @@ def film(
 
 
 @app.command(
-    epilog="Examples: `cfree verify scene.json scene.npz`; `cfree verify scene.json scene.npz --sample 1000`. "
+    epilog="Examples: `cfree verify scene.json scene.npz`; `cfree verify scene.json answer.json`. "
     "Exit code 0: verified; 1: refuted; 2: a file that cannot be read."
 )
 def verify(
     scene: SceneArgument,
     file: Annotated[
-        Path, typer.Argument(metavar="BOUNDARY", help="Written by `cfree boundary -o`.", show_default=False)
+        Path,
+        typer.Argument(
+            metavar="FILE",
+            help="A boundary (`cfree boundary -o`), or an answer: a path or a proof.",
+            show_default=False,
+        ),
     ],
     sample: Annotated[
         int | None,
-        typer.Option(metavar="N", min=0, help="Check N trapezoids, and not their sides.", show_default="all"),
+        typer.Option(metavar="N", min=0, help="Of a boundary: check N trapezoids, no sides.", show_default="all"),
     ] = None,
-    slices: Annotated[int, typer.Option(metavar="N", min=0, help="Orientations to compute again.")] = 12,
+    slices: Annotated[int, typer.Option(metavar="N", min=0, help="Of a boundary: orientations to redo.")] = 12,
     seed: Annotated[int, typer.Option(metavar="N", help="Of the random choices.")] = 0,
     as_json: JsonOption = False,
 ) -> None:
-    """Check a boundary by independent exact code, and say what is proved and what is sampled."""
+    """Check a boundary or an answer by independent exact code, and say what is proved and what is sampled."""
     with _one_line_faults():
         import cfree.verify
         from cfree.io import load_scene
-        from cfree.storage import load_boundary
 
-        given, found = load_scene(scene), load_boundary(file)
+        given = load_scene(scene)
         with _bar("verify") as progress:
-            result = cfree.verify.boundary(found, given, sample=sample, slices=slices, seed=seed, progress=progress)
+            if _is_archive(file):
+                options = {"sample": sample, "slices": slices, "seed": seed}
+                result = cfree.verify.boundary(file, given, progress=progress, **options)  # type: ignore[arg-type]
+            else:
+                result = cfree.verify.answer(given, file, progress=progress)
         if as_json:
             _print_json({"file": str(file), "verified": result.verified, **asdict(result)})
         else:

@@ -239,32 +239,6 @@ class Path:
             unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
-def load_path(path: str | PathLike[str]) -> Path:
-    """Read a path from a JSON file.
-
-    Raises
-    ------
-    FormatError
-        Place, value and remedy of every fault; also if the motions do not lead to the goal.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> way = Path(Pose(0, 0, {"tau": "1/3"}), [Translation(("1/3", 2))])
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     way.save(f"{folder}/way.json")
-    ...     load_path(f"{folder}/way.json") == way
-    True
-    """
-    from cfree.formats.findings import Findings, read_text
-    from cfree.formats.json_text import read_json
-    from cfree.formats.path_format import path_from_json
-
-    file = FilePath(path)
-    findings = Findings(str(file), read_text(file))
-    return path_from_json(findings, read_json(findings))
-
-
 def _distance(pose: Pose, motion: Motion) -> float:
     """How far the reference point travels."""
     if isinstance(motion, Translation):

@@ -10,11 +10,10 @@ import math
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PlainValidator, ValidationError, model_validator
+from pydantic import Field, PlainValidator, model_validator
 
 from cfree.errors import InvalidPoseError
-from cfree.formats.findings import Findings
-from cfree.formats.scene_format import Configuration, Point, Strict, Text, Version, fault, report
+from cfree.formats.scene_format import Configuration, Point, Strict, Text, Version, fault
 from cfree.motion import Motion, Rotation, Translation, rotations
 from cfree.path import Path
 from cfree.pose import Pose, Poses
@@ -101,7 +100,7 @@ class PathModel(Strict):
     @model_validator(mode="after")
     def _arrives(self) -> PathModel:
         ends: Any = self.exact or self
-        path, goal = self.path, ends.goal
+        path, goal = self.result, ends.goal
         if self.exact and all(motion.exact for motion in self.motions):
             if path.goal != goal:
                 raise fault("the motions do not lead to the exact goal; correct one of them")
@@ -115,42 +114,21 @@ class PathModel(Strict):
         return self
 
     @property
-    def path(self) -> Path:
+    def result(self) -> Path:
         ends: Any = self.exact or self
         return Path(ends.start, (m for model in self.motions for m in model.motions), self.units, self.frame)
 
 
-def path_from_json(findings: Findings, data: object) -> Path:
-    """Path of a decoded JSON value; raises every problem there is through `findings`."""
-    try:
-        return PathModel.model_validate(data).path
-    except ValidationError as error:
-        for item in error.errors(include_url=False, include_input=False):
-            path = item["loc"]
-            if path[:1] == ("motions",) and len(path) > 2:
-                path = (*path[:2], *path[3:])  # without the tag of the union
-            if item["type"].startswith("union_tag"):
-                findings.under(path, 'expected a motion with "type": "translation" or "rotation", got {got}')
-            elif item["type"] == "literal_error":
-                findings.under(path, f"expected {item['ctx']['expected']}, got {{got}}".replace("'", '"'))
-            elif item["type"] in ("model_type", "model_attributes_type"):
-                findings.under(path, "expected an object {...}, got {got}")
-            else:
-                report(findings, path, item, _keys_at)
-        findings.fail_if_any()
-        raise
-
-
 def path_text(path: Path) -> str:
-    """JSON of a path; `path_from_json` gives an equal one."""
+    """JSON of a path; an equal one is read from it."""
     head = {
         "version": 1,
         "units": path.units,
         "frame": path.frame,
         "answer": "path",
-        "start": _configuration(path.start),
-        "goal": _configuration(path.goal),
-        "exact": {"start": _exact(path.start), "goal": _exact(path.goal)},
+        "start": configuration(path.start),
+        "goal": configuration(path.goal),
+        "exact": {"start": exact_configuration(path.start), "goal": exact_configuration(path.goal)},
     }
     lines = ",\n".join(f"  {json.dumps(_record(motion))}" for motion in path.motions)
     members = [*(f'"{key}": {json.dumps(value)}' for key, value in head.items()), f'"motions": [\n{lines}\n]']
@@ -187,20 +165,13 @@ def _record(motion: Motion) -> dict[str, Any]:
     return {"type": "rotation", "pole": [*map(float, motion.pole)], "angle": motion.turn, "exact": exact}
 
 
-def _configuration(pose: Pose) -> list[float]:
+def configuration(pose: Pose) -> list[float]:
     return [float(pose.x), float(pose.y), pose.theta]
 
 
-def _exact(pose: Pose) -> list[Any]:
+def exact_configuration(pose: Pose) -> list[Any]:
     return [str(pose.x), str(pose.y), {"tau": _tau(pose.tau)}]
 
 
 def _tau(tau: Fraction | None) -> str:
     return "inf" if tau is None else str(tau)
-
-
-def _keys_at(path: tuple[str | int, ...]) -> list[str]:
-    keys = [step for step in path if isinstance(step, str)]
-    if keys == ["exact"]:
-        return list(ExactEnds.model_fields)
-    return list(PathModel.model_fields) if not keys else ["type", "vector", "pole", "angle", "exact", "tau"]

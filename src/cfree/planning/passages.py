@@ -176,11 +176,11 @@ class Passages:
             count = len(shape.previous)
             starts, ends = corners[shape.v[:count]], corners[shape.w[:count]]
             U, d = ends - starts, points[:, None] - starts
-            t = np.clip((d * U).sum(axis=2) / np.maximum((U * U).sum(axis=1), 1e-300), 0, 1)
+            squared = (U * U).sum(axis=1)
+            t = np.clip((d * U).sum(axis=2) / np.maximum(squared, 1e-300), 0, 1)
             away = np.hypot(*np.moveaxis(d - t[..., None] * U, 2, 0))
-            found += [
-                (kind, k, e) if kind == 1 else (kind, e, k) for k, e in np.argwhere(away <= NEAR * self._size).tolist()
-            ]
+            pairs = np.argwhere((away <= NEAR * self._size) & (squared > 0)).tolist()  # the reference point has no edge
+            found += [(kind, k, e) if kind == 1 else (kind, e, k) for k, e in pairs]
         return found
 
     @cached_property

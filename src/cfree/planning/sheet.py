@@ -128,12 +128,12 @@ class Sheet:
         low, high = self.limits(tau)
         return cross(U, minus((pose.x, pose.y), P)) == 0 and low <= self.t_of(pose, tau) <= high
 
-    def near(self, aim: Pose, tau: Fraction) -> Fraction:
-        """A simple t near that of a position, and well within."""
+    def near(self, aim: Pose, tau: Fraction, share: Fraction) -> Fraction:
+        """A simple t near that of a position, and off the limits, both by a share of what is between them."""
         low, high = self.limits(tau)
-        margin = (high - low) / 8
+        margin = (high - low) * share
         t = min(max(self.t_of(aim, tau), low + margin), high - margin)
-        return between(t - margin / 8, t + margin / 8)
+        return between(t - margin / 2, t + margin / 2)
 
     def contact_point(self, t: Fraction) -> Vector:
         """In the robot's own coordinates."""

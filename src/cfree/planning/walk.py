@@ -109,9 +109,10 @@ class Walker:
         aims = [tau, between(g.low, g.high)]
         x, y, _ = self.corridors.middles[h]
         aim = Pose(float(x), float(y))
-        for _ in range(MOST_HALVINGS):
+        for k in range(3, MOST_HALVINGS):
+            share = Fraction(1, 2**k)
             sigma, tau = aims = [between(min(a, end), max(a, end)) for a, end in zip(aims, ends, strict=True)]
-            t, s = f.near(aim, sigma), g.near(aim, tau)
+            t, s = f.near(aim, sigma, share), g.near(aim, tau, share)
             C, D = f.pose(t, sigma), g.pose(s, tau)
             p, q = self.off(f, t, sigma), self.off(g, s, tau)
             turned = rotated(C, f.contact_point(t), D.tau)
@@ -135,8 +136,8 @@ class Walker:
         InvariantError
             If none is found, a fault of cfree.
         """
-        head, tail = self.leave(start, cell), self.leave(goal, cell)
-        landings, takeoffs = self.landings(head[-1]), self.landings(tail[-1])
+        head, landings = self.leave(start, cell)
+        tail, takeoffs = self.leave(goal, cell)
         links = self.links(cell)
         way = self.corridors.shortest(landings, takeoffs, links, self._closed)
         if way is None:
@@ -186,8 +187,8 @@ class Walker:
             return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
         return self.over_wall(f, g, h, tau)
 
-    def leave(self, pose: Pose, cell: int) -> list[Pose]:
-        """From a pose to one in the interior of the cell, at an orientation of no critical angle."""
+    def leave(self, pose: Pose, cell: int) -> tuple[list[Pose], list[Landing]]:
+        """From a pose to one in the interior of the cell from which straight ways lead well within faces, and these."""
         for k in range(3, MOST_HALVINGS):
             small = Fraction(1, 2**k)
             for x, y in ((0, 0), *DIRECTIONS):
@@ -196,10 +197,10 @@ class Walker:
                     continue
                 for by in (small / 8, -small / 8):
                     turned = _turned(moved, moved @ Pose(0, 0, {"tau": by}))
-                    if self.corridors.may_be_critical(*turned.chart) or not self.joins([moved, turned]):
+                    if not self.joins([moved, turned]) or self.space.locate(turned) != cell:
                         continue
-                    if self.space.locate(turned) == cell:
-                        return [pose, moved, turned]
+                    if landings := self.landings(turned):
+                        return [pose, moved, turned], landings
         raise InvariantError(f"no way from {pose} into cell {cell}")
 
     def landings(self, pose: Pose) -> list[Landing]:

@@ -28,9 +28,10 @@ Each file imports only from those before it: `algebra` (roots, numbers), `surfac
 `missing`, `angles`, `result`, `driver`.
 """
 
+from cfree.verify.answers import answer as answer
 from cfree.verify.driver import boundary as boundary
 from cfree.verify.result import Check as Check
 from cfree.verify.result import Finding as Finding
 from cfree.verify.result import Verification as Verification
 
-__all__ = ["Check", "Finding", "Verification", "boundary"]
+__all__ = ["Check", "Finding", "Verification", "answer", "boundary"]

@@ -10,7 +10,7 @@ SHOWN = 20  # findings in a report
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """Something wrong with a boundary.
+    """Something wrong with a boundary or an answer.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ class Check:
 
 @dataclass(frozen=True, slots=True)
 class Verification:
-    """Result of `cfree.verify.boundary`.
+    """Result of `cfree.verify.boundary` or `cfree.verify.answer`.
 
     Attributes
     ----------
@@ -51,12 +51,15 @@ class Verification:
     euler : tuple of int
         V - E + F of every closed surface, in order; empty if they were not matched.
     seconds : float
+    proved : str
+        Of an answer that is verified: what was proved, in one sentence.
     """
 
     checks: tuple[Check, ...]
     findings: tuple[Finding, ...]
     euler: tuple[int, ...]
     seconds: float
+    proved: str = ""
 
     @property
     def verified(self) -> bool:
@@ -72,6 +75,6 @@ class Verification:
     def verdict(self) -> str:
         """The last line of a report."""
         if self.verified:
-            return f"verified ({self.seconds:.1f} s)"
+            return f"{self.proved and self.proved + ' '}verified ({self.seconds:.1f} s)"
         more = len(self.findings) - SHOWN
         return f"REFUTED: {len(self.findings):,} findings{f', {more:,} not shown' * (more > 0)} ({self.seconds:.1f} s)"

@@ -1,0 +1,66 @@
+"""Which of the two kinds of answers a JSON value is, and what is wrong with it in our own words.
+
+Import this module inside functions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from cfree.formats.findings import Findings
+from cfree.formats.json_positions import Path as Place
+from cfree.formats.path_format import PathModel
+from cfree.formats.scene_format import report
+from cfree.formats.separation_format import SeparationModel
+from cfree.path import Path
+from cfree.separated import Separated
+
+
+def answer_from_json(findings: Findings, data: object) -> Path | Separated:
+    """Answer of a decoded JSON value; raises every problem there is through `findings`."""
+    kind = data.get("answer") if isinstance(data, dict) else None
+    if kind not in ("path", "separated"):
+        named = isinstance(data, dict) and "answer" in data
+        fault = 'expected "path" or "separated", got {got}' if named else 'no answer: "answer" is missing'
+        findings.under(("answer",) if named else (), f"{fault}; give a file that `save` of a path or a proof wrote")
+        findings.fail_if_any()
+    model: type[PathModel | SeparationModel] = SeparationModel if kind == "separated" else PathModel
+    try:
+        return model.model_validate(data).result
+    except ValidationError as error:
+        for item in error.errors(include_url=False, include_input=False):
+            path = item["loc"]
+            if path[:1] == ("motions",) and len(path) > 2:
+                path = (*path[:2], *path[3:])  # without the tag of the union
+            if item["type"].startswith("union_tag"):
+                findings.under(path, 'expected a motion with "type": "translation" or "rotation", got {got}')
+            elif item["type"] == "literal_error":
+                findings.under(path, f"expected {item['ctx']['expected']}, got {{got}}".replace("'", '"'))
+            elif item["type"] in ("model_type", "model_attributes_type"):
+                findings.under(path, "expected an object {...}, got {got}")
+            else:
+                report(findings, path, item, lambda place: _keys_at(model, place))
+        findings.fail_if_any()
+        raise
+
+
+def _keys_at(model: type[BaseModel], place: Place) -> list[str]:
+    """Names in the object at a place."""
+    found = {model}
+    for step in (step for step in place if isinstance(step, str)):
+        fields = [field for m in found for key, field in m.model_fields.items() if step in (key, field.alias)]
+        found = {inner for field in fields for inner in _models(field)}
+    return [f.alias or key for m in sorted(found, key=lambda m: m.__name__) for key, f in m.model_fields.items()]
+
+
+def _models(field: Any) -> Iterator[type[BaseModel]]:
+    """Models in a field's type."""
+    todo = [field.annotation]
+    while todo:
+        kind = todo.pop()
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            yield kind
+        todo += get_args(kind)

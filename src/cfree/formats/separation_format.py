@@ -1,0 +1,193 @@
+"""The JSON separation, version 1, as pydantic models; `docs/answer-format.md` describes it.
+
+Import this module inside functions.
+"""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import Field, PlainValidator, model_validator
+
+from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
+from cfree.formats.path_format import ExactEnds, configuration, exact_configuration
+from cfree.formats.scene_format import Bounds, Configuration, PolygonModel, Strict, Text, Version, fault
+from cfree.polygon import Polygon
+from cfree.separated import Pieces, Separated
+from cfree.trapezoids import CODED, COLUMNS, Trapezoids
+
+KINDS = {1: "vertex-edge", 2: "edge-vertex"}
+ENDS = ("from", "to")
+
+
+def _code(value: Any) -> int:
+    """A packed pair."""
+    if isinstance(value, list) and len(value) == 3 and all(type(part) is int for part in value):
+        kind, i, j = value
+        if 1 <= kind <= 4 and 0 <= i < MOST_ROBOT_FEATURES and 0 <= j < MOST_OBSTACLE_FEATURES:
+            return int(kind << 61 | i << 31 | j)
+    raise fault("expected [kind, robot feature, obstacle feature], kind from 1 to 4, got {got}")
+
+
+def _feature(value: Any) -> tuple[int, int]:
+    if isinstance(value, list) and len(value) == 2 and all(type(part) is int for part in value):
+        polygon, vertex = value
+        if -2 <= polygon < 2**31 and 0 <= vertex < 2**31:
+            return polygon, vertex
+    raise fault("expected [polygon, vertex], polygon -1 for the bounds and -2 for the workspace, got {got}")
+
+
+def _interval(value: Any) -> tuple[float, float]:
+    try:
+        lo, hi = map(float, value)
+    except (TypeError, ValueError):
+        raise fault("expected an interval [lo, hi], got {got}") from None
+    if not -2 <= lo <= hi <= 2:
+        raise fault("expected an interval [lo, hi] with -2 <= lo <= hi <= 2, got {got}")
+    return lo, hi
+
+
+Code = Annotated[int, PlainValidator(_code)]
+Feature = Annotated[tuple[int, int], PlainValidator(_feature)]
+
+
+class ContactModel(Strict):
+    """Which features touch."""
+
+    kind: Literal["vertex-edge", "edge-vertex"]
+    robot: Feature
+    obstacle: Feature
+
+
+class AngleModel(Strict):
+    """A critical angle: what defines it, and an interval of tau that isolates it."""
+
+    names: Annotated[list[Code], Field(max_length=2)]
+    tau: Annotated[tuple[float, float], PlainValidator(_interval)]
+    place: Annotated[int, Field(ge=0, le=4)] = 0
+
+
+class PieceModel(Strict):
+    """A trapezoid of a contact surface."""
+
+    contact: ContactModel
+    chart: Literal[0, 1]
+    from_: Annotated[AngleModel, Field(alias="from")]
+    to: AngleModel
+    lower: Code
+    upper: Code
+
+    @property
+    def row(self) -> list[Any]:
+        """In the order of `COLUMNS`, without the first."""
+        row: list[Any] = [self.chart, self.lower, self.upper]
+        for angle in (self.from_, self.to):
+            first, second, *_ = *angle.names, 0, 0
+            row += [first, second, *angle.tau, angle.place]
+        return row
+
+
+class SeparationModel(Strict):
+    """Two poses, and a closed surface between them."""
+
+    version: Version = 1
+    units: Text = ""
+    frame: Text = "world"
+    answer: Literal["separated"]
+    start: Configuration
+    goal: Configuration
+    exact: ExactEnds | None = None
+    of: Literal["closed", "interior"]
+    cells: Annotated[list[Annotated[int, Field(ge=-2, lt=2**31)]], Field(min_length=2, max_length=2)]
+    obstacles: list[Annotated[int, Field(ge=-2, lt=2**31)]]
+    smaller_robot: Annotated[list[PolygonModel], Field(default_factory=list)]
+    larger_bounds: Bounds | None = None
+    surface: list[PieceModel]
+
+    @model_validator(mode="after")
+    def _fits(self) -> SeparationModel:
+        if (self.of == "closed") != bool(self.smaller_robot):
+            raise fault('"smaller_robot" belongs to what is "of": "closed", and to nothing else; correct one of them')
+        if self.of == "interior" and self.larger_bounds:
+            raise fault('"larger_bounds" belong to what is "of": "closed"; leave them out')
+        if sorted(set(self.obstacles)) != sorted({piece.contact.obstacle[0] for piece in self.surface}):
+            raise fault('"obstacles" are not those of the surface; correct one of them')
+        return self
+
+    @property
+    def result(self) -> Separated:
+        ends: Any = self.exact or self
+        first, second = self.cells
+        return Separated(
+            start=ends.start,
+            goal=ends.goal,
+            of=self.of,
+            cells=(first, second),
+            pieces=_pieces(self.surface),
+            robot=tuple(part.polygon for part in self.smaller_robot),
+            bounds=self.larger_bounds,
+            units=self.units,
+            frame=self.frame,
+        )
+
+
+def _pieces(models: list[PieceModel]) -> Pieces:
+    of_kind = {name: kind for kind, name in KINDS.items()}
+    kind = np.array([of_kind[m.contact.kind] for m in models], np.uint8)
+    robot, obstacle = (
+        np.array([getattr(m.contact, name) for m in models], np.int32).reshape(-1, 2) for name in ("robot", "obstacle")
+    )
+    columns: dict[str, Any] = {"patch": np.arange(len(models), dtype=np.int32)}
+    rows = zip(*(model.row for model in models), strict=True) if models else [[]] * (len(COLUMNS) - 1)
+    for name, values in zip(COLUMNS[1:], rows, strict=True):
+        dtype = np.uint64 if name in CODED else np.float64 if name.endswith(("lo", "hi")) else np.uint8
+        columns[name] = np.array(values, dtype)
+    return Pieces(kind, robot, obstacle, Trapezoids(**columns))
+
+
+def separation_text(proof: Separated) -> str:
+    """JSON of a separation; an equal one is read from it."""
+    head: dict[str, Any] = {
+        "version": 1,
+        "units": proof.units,
+        "frame": proof.frame,
+        "answer": "separated",
+        "start": configuration(proof.start),
+        "goal": configuration(proof.goal),
+        "exact": {"start": exact_configuration(proof.start), "goal": exact_configuration(proof.goal)},
+        "of": proof.of,
+        "cells": proof.cells,
+        "obstacles": proof.obstacles,
+    }
+    if proof.robot:
+        head["smaller_robot"] = [_polygon(part) for part in proof.robot]
+    if proof.bounds:
+        head["larger_bounds"] = [*map(str, proof.bounds)]
+    lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
+    members = [*(f'"{key}": {json.dumps(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
+    return "{" + ",\n ".join(members) + "}\n"
+
+
+def _polygon(polygon: Polygon) -> dict[str, Any]:
+    points = [[str(x), str(y)] for x, y in polygon.exact_vertices]
+    outer, *holes = (points[i:j] for i, j in pairwise(polygon.ring_offsets))
+    return {"outer": outer, "holes": holes} if holes else {"outer": outer}
+
+
+def _records(pieces: Pieces) -> list[dict[str, Any]]:
+    t, records = pieces.table, []
+    rows = zip(pieces.kind.tolist(), pieces.robot.tolist(), pieces.obstacle.tolist(), strict=True)
+    columns = zip(*(getattr(t, name).tolist() for name in COLUMNS), strict=True)
+    for (kind, robot, obstacle), values in zip(rows, columns, strict=True):
+        row = dict(zip(COLUMNS, values, strict=True))
+        record: dict[str, Any] = {"contact": {"kind": KINDS[kind], "robot": robot, "obstacle": obstacle}}
+        record["chart"] = row["chart"]
+        for end in ENDS:
+            codes = [row[f"{end}_first"], row[f"{end}_second"]]
+            angle = {"names": [unpacked(c) for c in codes if c], "tau": [row[f"{end}_lo"], row[f"{end}_hi"]]}
+            record[end] = angle | ({"place": row[f"{end}_place"]} if row[f"{end}_place"] else {})
+        records.append(record | {side: unpacked(row[side]) for side in ("lower", "upper")})
+    return records

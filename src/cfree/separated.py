@@ -1,0 +1,206 @@
+"""Separations: closed surfaces in C that prove that no motion leads from one pose to another.
+
+docs/theory.md, "Separations", has the proofs, docs/answer-format.md the files, and `cfree.verify.answer` checks them
+without what is used here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import chain
+from os import PathLike
+from pathlib import Path as FilePath
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.cells import FORBIDDEN, FreeSpace
+from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
+from cfree.files import replacing
+from cfree.inset import inset_space, size_power
+from cfree.polygon import Polygon
+from cfree.pose import Pose
+from cfree.scene import Bounds
+from cfree.trapezoids import COLUMNS, Ints, Trapezoids
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+INSETS = (-20, -40, -80, -160)  # tried one after the other: powers of two, of the robot's size
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """A closed surface made of pieces of contact surfaces, as columns of equal length N.
+
+    Attributes
+    ----------
+    kind : (N,) uint8
+        Contacts: 1 a vertex of the robot on an edge of an obstacle, 2 an edge of the robot on a vertex of one.
+    robot, obstacle : (N, 2) int32
+        Polygon, and its vertex or the one where its edge begins. -1 is the bounds, and their reference point, -2 the
+        workspace's complement: vertices are the workspace's, whose rings it runs through the other way.
+    table : Trapezoids
+        Their angles and curves; patch k is that of contact k.
+    """
+
+    kind: NDArray[np.uint8]
+    robot: Ints
+    obstacle: Ints
+    table: Trapezoids
+
+    def __len__(self) -> int:
+        return len(self.kind)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Pieces):
+            return NotImplemented
+        return all(np.array_equal(mine, theirs) for mine, theirs in zip(self._columns, other._columns, strict=True))
+
+    @property
+    def _columns(self) -> Iterator[NDArray[Any]]:
+        return chain((self.kind, self.robot, self.obstacle), (getattr(self.table, name) for name in COLUMNS))
+
+    @classmethod
+    def of(cls, boundary: Boundary, faces: Ints) -> Pieces:
+        """Some trapezoids of a boundary."""
+        patch = boundary.trapezoids.patch[faces]
+        a, b = boundary.features.robot, boundary.features.obstacles
+        robot, obstacle = (
+            np.column_stack([shape.owner_polygon[of[patch]], shape.owner_vertex[of[patch]]])
+            for shape, of in ((a, boundary.contact_robot), (b, boundary.contact_obstacle))
+        )
+        columns = {name: getattr(boundary.trapezoids, name)[faces] for name in COLUMNS}
+        columns["patch"] = np.arange(len(faces), dtype=np.int32)
+        return cls(boundary.contact_kind[patch], robot, obstacle, Trapezoids(**columns))
+
+
+@dataclass(frozen=True)
+class Separated:
+    """A proof that no motion joins two poses.
+
+    Attributes
+    ----------
+    start, goal : Pose
+    of : "closed" or "interior"
+        "closed": no path at all joins them, not even one that touches obstacles all the way. "interior": no path that
+        keeps a distance from obstacles, bounds and workspace.
+    cells : (int, int)
+        Where the two are, as `FreeSpace.locate` says.
+    pieces : Pieces
+        The closed surface that is between them.
+    obstacles : tuple of int
+        Whose contacts form it; -1 is the bounds, -2 the workspace.
+    robot : tuple of Polygon
+        If closed: the surface is one of contacts of this robot, which is strictly inside the scene's.
+    bounds : four numbers, optional
+        If closed, and the scene has bounds: these, of which the scene's are strictly inside.
+    units, frame : str
+        Unit of length, and name of the world's frame, for files.
+    """
+
+    start: Pose
+    goal: Pose
+    of: Literal["closed", "interior"]
+    cells: tuple[int, int]
+    pieces: Pieces = field(repr=False)
+    robot: tuple[Polygon, ...] = field(default=(), repr=False)
+    bounds: Bounds | None = field(default=None, repr=False)
+    units: str = field(default="", compare=False, repr=False)
+    frame: str = field(default="world", compare=False, repr=False)
+
+    @cached_property
+    def obstacles(self) -> tuple[int, ...]:
+        return tuple(np.unique(self.pieces.obstacle[:, 0]).tolist())
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the proof to a ``.json`` file, exactly, whole or not at all.
+
+        Raises
+        ------
+        UnsupportedError
+            If the file's name ends otherwise.
+        """
+        from cfree.formats.separation_format import separation_text
+
+        if FilePath(path).suffix.lower() != ".json":
+            raise UnsupportedError(f"{path}: separations are written as .json; name the file so")
+        with replacing(path) as unfinished:
+            unfinished.write_text(separation_text(self), encoding="utf-8", newline="\n")
+
+
+def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:
+    """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
+
+    Parameters
+    ----------
+    space : FreeSpace
+    start, goal : Pose
+        Free.
+
+    Returns
+    -------
+    Separated, or None
+        ``of`` is "closed" if they are apart for a robot smaller by 2**-20 or 2**-40 of its size, else "interior".
+
+    Raises
+    ------
+    InvalidPoseError
+        If a pose is forbidden.
+
+    Notes
+    -----
+    The first proof in a space takes about as long as the space itself took: that of the smaller robot is kept.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> hollow = cfree.Polygon([(-1, -1), (10, -1), (10, 10), (-1, 10)], [[(0, 0), (0, 9), (9, 9), (9, 0)]])
+    >>> space = cfree.free_space(cfree.boundary(cfree.Scene([(0, 0), (2, 0), (0, 1)], [hollow])))
+    >>> proof = separation(space, cfree.Pose(4, 4), cfree.Pose(20, 0))
+    >>> proof.of, proof.cells, proof.obstacles
+    ('closed', (1, 0), (0,))
+    """
+    cells = space.locate([start, goal]).tolist()
+    for name, pose, cell in zip(("start", "goal"), (start, goal), cells, strict=True):
+        if cell == FORBIDDEN:
+            raise InvalidPoseError(f"{name} ({float(pose.x):g}, {float(pose.y):g}, {pose.theta:g}) is forbidden")
+    if start == goal or cells[0] == cells[1] >= 0:
+        return None
+    scene = space.boundary.scene
+    found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
+    found = replace(found, units=scene.units)
+    for power in INSETS:
+        smaller = inset_space(space, size_power(scene) + power)
+        if smaller is None:
+            continue
+        there = smaller.locate([start, goal]).tolist()
+        if min(there) < 0:
+            raise InvariantError(f"poses in the cells {cells} are in {there} of a smaller robot")
+        if there[0] != there[1]:
+            inner, pieces = smaller.boundary.scene, Pieces.of(smaller.walls, _between(smaller, *there))
+            return replace(found, of="closed", pieces=pieces, robot=inner.robot, bounds=inner.bounds)
+    return found
+
+
+def _between(space: FreeSpace, first: int, second: int) -> Ints:
+    """Faces of the closed surface with the fewest that is around one of two cells and not around the other."""
+    candidates = _around(space, first) ^ _around(space, second)
+    if not candidates:
+        return np.empty(0, np.int32)
+    sizes = np.bincount(space.component, minlength=len(space.parent))
+    chosen = min(candidates, key=lambda surface: (sizes[surface], surface))
+    return np.flatnonzero(space.component == chosen).astype(np.int32)
+
+
+def _around(space: FreeSpace, cell: int) -> set[int]:
+    """The closed surfaces around a cell."""
+    found: set[int] = set()
+    (surface,) = np.flatnonzero((space.cell_of == cell) & space.free_inside)[:1].tolist() or [-1]
+    while surface >= 0:
+        found.add(surface)
+        surface = int(space.parent[surface])
+    return found

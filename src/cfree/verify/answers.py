@@ -1,0 +1,129 @@
+"""Answers: is a path free, is a separation a proof? One finding for each thing that is wrong."""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from cfree.answer import load_answer
+from cfree.path import Path
+from cfree.verify.motions import CONTINUOUS, FREE, path_findings
+from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
+from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
+from cfree.verify.world import World
+
+if TYPE_CHECKING:
+    from cfree.pose import Pose
+    from cfree.scene import Scene
+    from cfree.separated import Separated
+
+ASKED, PIECES = "poses asked for", "convex pieces"
+
+
+def answer(
+    scene: Scene,
+    answer: Path | Separated | str | os.PathLike[str],
+    *,
+    progress: Callable[[float], object] | None = None,
+) -> Verification:
+    """Check a path, or a proof that there is none, from the scene's exact coordinates.
+
+    Parameters
+    ----------
+    scene : Scene
+        If it has a start and a goal, these have to be the answer's.
+    answer : Path, Separated or path
+        A file written by `Path.save` or `Separated.save`, or one in memory.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1.
+
+    Returns
+    -------
+    Verification
+        Its `proved` says in one sentence what is.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read.
+
+    Notes
+    -----
+    About 1 ms a piece of a separation; of a path a few for each motion and each convex piece near it.
+
+    Examples
+    --------
+    >>> import cfree, cfree.verify
+    >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)]])
+    >>> cfree.verify.answer(scene, cfree.Path(cfree.Pose(0, 0), [cfree.Translation((9, 2))])).proved
+    'A path of 1 motion leads from (0, 0, 0 deg) to (9, 2, 0 deg), and is free of collisions.'
+    >>> cfree.verify.answer(scene, cfree.Path(cfree.Pose(0, 0), [cfree.Translation((9, 9))])).verified
+    False
+    """
+    begin = time.perf_counter()
+    given = load_answer(answer) if isinstance(answer, (str, os.PathLike)) else answer
+
+    def report(done: float) -> None:
+        if progress is not None:
+            progress(done)
+
+    findings = _other_poses(scene, given)
+    if isinstance(given, Path):
+        world = World(scene)
+        findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
+        findings += path_findings(given, world, report)
+        extents = _of_path(given, world)
+    else:
+        findings += separation_findings(given, scene, report)
+        extents = _of_separation(given)
+    report(1.0)
+    extents = {ASKED: "start and goal, where the scene has them"} | extents
+    refuted = {finding.kind for finding in findings}
+    how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
+    how |= dict.fromkeys(refuted, REFUTED)
+    checks = tuple(Check(name, how[name], text) for name, text in extents.items())
+    return Verification(checks, tuple(findings), (), time.perf_counter() - begin, "" if findings else _sentence(given))
+
+
+def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
+    asked = {"start": (scene.start, given.start), "goal": (scene.goal, given.goal)}
+    return [
+        Finding(ASKED, name, f"it is {_text(its)}, and {_text(pose)} in the scene")
+        for name, (pose, its) in asked.items()
+        if pose is not None and pose != its
+    ]
+
+
+def _of_path(path: Path, world: World) -> dict[str, str]:
+    return {
+        PIECES: f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them",
+        CONTINUOUS: f"{len(path.motions):,} motions lead from the start to the goal, one after the other",
+        FREE: f"{len(path.motions):,} motions: at no pose does the robot overlap anything",
+    }
+
+
+def _of_separation(proof: Separated) -> dict[str, str]:
+    count = f"{len(proof.pieces):,} pieces"
+    smaller = {INSIDE: "strictly inside the robot; bounds, if any, are larger"} if proof.of == "closed" else {}
+    return smaller | {
+        CONTACTS: f"{count}: the robot touches something at every pose of them",
+        CLOSED: f"{count} without a boundary mod 2",
+        SIDES: "one ray meets it an even number of times, one an odd one",
+    }
+
+
+def _sentence(given: Path | Separated) -> str:
+    ends = _text(given.start), _text(given.goal)
+    if isinstance(given, Path):
+        count = f"{len(given.motions):,} motion{'s' * (len(given.motions) != 1)}"
+        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and is free of collisions."
+    if given.of == "closed":
+        return f"No path leads from {ends[0]} to {ends[1]}, not even one that touches."
+    return f"No path that keeps a distance from everything leads from {ends[0]} to {ends[1]}; one that touches may."
+
+
+def _text(pose: Pose) -> str:
+    return f"({float(pose.x):g}, {float(pose.y):g}, {math.degrees(pose.theta):g} deg)"

@@ -1,0 +1,70 @@
+"""Is a polygon in the interior of another? By signs of integers."""
+
+from __future__ import annotations
+
+from itertools import chain, pairwise
+
+import numpy as np
+
+from cfree.polygon import Polygon
+from cfree.verify.polygons import Ring, boxes, near
+from cfree.verify.surfaces import Vector, cross, dot, minus
+
+
+def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
+    """Is all of a polygon, its boundary included, in the interior of another?
+
+    Notes
+    -----
+    Exactly if no edge of one meets an edge of the other, every ring of the one begins inside the other, and no ring of
+    the other begins inside the one: it would be a hole.
+
+    Examples
+    --------
+    >>> ring = Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(4, 4), (5, 4), (5, 5), (4, 5)]])
+    >>> small = [(1, 1), (8, 1), (8, 8), (1, 8)]
+    >>> strictly_inside(Polygon(small), ring), strictly_inside(Polygon(small, [[(3, 3), (6, 3), (6, 6), (3, 6)]]), ring)
+    (False, True)
+    """
+    one, other = (_rings(p, inner.denominator * outer.denominator // p.denominator) for p in (inner, outer))
+    edges = [list(chain.from_iterable(map(_edges, rings))) for rings in (one, other)]
+    unit = max(abs(c) for ring in one + other for p in ring for c in p)
+    around = boxes(edges[1], unit)
+    for edge, box in zip(edges[0], boxes(edges[0], unit), strict=True):
+        if any(_meet(edge, edges[1][k]) for k in near(around, np.asarray(box))):
+            return False
+    return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
+
+
+def _rings(polygon: Polygon, factor: int) -> list[Ring]:
+    points = [(x * factor, y * factor) for x, y in polygon.numerators]
+    return [points[i:j] for i, j in pairwise(polygon.ring_offsets)]
+
+
+def _edges(ring: Ring) -> list[Ring]:
+    return [[p, q] for p, q in zip(ring, ring[1:] + ring[:1], strict=True)]
+
+
+def _meet(first: Ring, second: Ring) -> bool:
+    """Have two closed segments a point in common?"""
+    (a, b), (c, d) = first, second
+    sides = [_side(a, b, c), _side(a, b, d), _side(c, d, a), _side(c, d, b)]
+    if sides[0] * sides[1] < 0 and sides[2] * sides[3] < 0:
+        return True
+    triples = ((a, b, c), (a, b, d), (c, d, a), (c, d, b))
+    return any(side == 0 and dot(minus(p, r), minus(q, r)) <= 0 for side, (p, q, r) in zip(sides, triples, strict=True))
+
+
+def _side(p: Vector, q: Vector, r: Vector) -> int:
+    area = cross(minus(q, p), minus(r, p))
+    return bool(area > 0) - bool(area < 0)
+
+
+def encloses(rings: list[Ring], point: Vector) -> bool:
+    """Is a point that is on none of the rings inside an odd number of them? Crossings of a ray towards -x."""
+    crossings = 0
+    for ring in rings:
+        for p, q in _edges(ring):
+            if (p[1] > point[1]) != (q[1] > point[1]):
+                crossings += (_side(p, q, point) < 0) == (q[1] > p[1])
+    return crossings % 2 == 1

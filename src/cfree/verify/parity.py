@@ -1,0 +1,89 @@
+"""On which side of a closed surface is a pose? Pieces are counted along a ray towards -x, just after its orientation.
+
+The pose's own orientation may be critical. A pose that is on no piece keeps its side when it is turned a little, so
+all signs are those at tau + epsilon: of the first derivative that is not zero.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from math import lcm
+from typing import TYPE_CHECKING
+
+from flint import fmpz_poly
+
+from cfree.verify.algebra import sign
+from cfree.verify.surfaces import Curve, Fault, Surface, Turn, Vector, dot, polynomial
+from cfree.verify.trapezoids import Trapezoid
+
+if TYPE_CHECKING:
+    from cfree.pose import Pose
+
+
+def chart_of(pose: Pose) -> tuple[int, Fraction]:
+    """Chart and tau of an orientation; the end of a chart is the beginning of the next."""
+    tau = pose.tau
+    if tau is not None and -1 <= tau < 1:
+        return 0, tau
+    return 1, Fraction(0) if tau is None else -1 / tau
+
+
+def is_inside(pose: Pose, scale: int, pieces: Iterable[Trapezoid]) -> bool:
+    """Does the ray from a pose meet pieces an odd number of times? Raises Fault if the pose is on one of them."""
+    chart, tau = chart_of(pose)
+    turn, q = Turn.of(chart, tau), (pose.x * scale, pose.y * scale)
+    crossings = 0
+    for piece in pieces:
+        for where in (Turn(*place) for place in turn.in_charts() if place[0] == piece.chart):
+            if piece.start <= where.root <= piece.stop and _is_on(piece, where, q):
+                raise Fault("it is on the surface")
+        if piece.chart == chart and piece.start <= turn.root < piece.stop:
+            crossings += _is_crossed(piece, turn, q)
+    return crossings % 2 == 1
+
+
+def _is_on(piece: Trapezoid, turn: Turn, q: Vector) -> bool:
+    """Is a point on a piece at an orientation?"""
+    line = turn.line(piece.surface)
+    beyond = turn.w * q[0] - line.start[0], turn.w * q[1] - line.start[1]
+    if line.along[0] * beyond[1] != line.along[1] * beyond[0]:
+        return False
+    t = dot(beyond, line.along) / Fraction(dot(line.along, line.along))
+    return bool(piece.lower.at(turn.tau) <= t <= piece.upper.at(turn.tau))
+
+
+def _is_crossed(piece: Trapezoid, turn: Turn, q: Vector) -> bool:
+    """Does the ray from a point meet a piece just after an orientation?
+
+    Notes
+    -----
+    Ends that several pieces share count the same for all: as above the ray only if they are strictly above it.
+    """
+    lower, upper = (_is_above(curve, piece.surface, turn, q) for curve in (piece.lower, piece.upper))
+    if lower == upper:
+        return False
+    s, unit = piece.surface, lcm(q[0].denominator, q[1].denominator)
+    beta, alpha = (int(unit * (q[0] - s.b[0])), int(unit * (q[1] - s.b[1]))), (-unit * s.a[0], -unit * s.a[1])
+    side = _sign_after(polynomial(s.form(beta, alpha), turn.chart), turn.tau)  # of U x (q - S(0))
+    if side == 0:
+        raise Fault("it is on the surface")
+    return (side < 0) == upper
+
+
+def _is_above(curve: Curve, s: Surface, turn: Turn, q: Vector) -> bool:
+    """Is the point of a curve strictly above a point just after an orientation?"""
+    unit = q[1].denominator
+    fixed = polynomial((s.b[1] * unit - q[1].numerator, -s.a[1] * unit, -s.a[0] * unit), turn.chart)
+    along = polynomial((s.q[1] * unit, -s.g[1] * unit, -s.g[0] * unit), turn.chart)
+    height = _sign_after(fixed * curve.d + along * curve.n, turn.tau)
+    return height * _sign_after(curve.d, turn.tau) > 0
+
+
+def _sign_after(poly: fmpz_poly, tau: Fraction) -> int:
+    """Sign of a polynomial just after a number; 0 only if it vanishes everywhere."""
+    while poly:
+        if found := sign([int(c) for c in poly.coeffs()], tau):
+            return found
+        poly = poly.derivative()
+    return 0

@@ -1,0 +1,120 @@
+"""Is a separation a proof? Its pieces are contacts, mod 2 they have no boundary, and the poses are on two sides."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from cfree.scene import Scene
+from cfree.separated import Pieces
+from cfree.trapezoids import ISOLATED_COLUMNS, Ints, IsolatedParts
+from cfree.verify.algebra import Exact
+from cfree.verify.inside import strictly_inside
+from cfree.verify.parity import is_inside
+from cfree.verify.result import Finding
+from cfree.verify.surfaces import Fault
+from cfree.verify.trapezoids import Reader, Side, Trapezoid
+
+if TYPE_CHECKING:
+    from cfree.features import ShapeFeatures
+    from cfree.separated import Separated
+
+INSIDE, CONTACTS, CLOSED, SIDES = "smaller robot", "contacts", "closed surface", "two sides"
+BLOCK = 100  # pieces between two reports
+
+
+def separation_findings(proof: Separated, scene: Scene, report: Callable[[float], object]) -> Iterator[Finding]:
+    """All that is wrong with a separation in a scene."""
+    if proof.of == "closed":
+        yield from _not_inside(proof, scene)
+        scene = Scene(proof.robot or scene.robot, scene.obstacles, bounds=proof.bounds, workspace=scene.workspace)
+    elif proof.of != "interior" or proof.robot or proof.bounds:
+        yield Finding(INSIDE, proof.of, 'a smaller robot belongs to "closed"')
+    try:
+        reader = _reader(proof.pieces, scene)
+    except Fault as fault:
+        yield Finding(CONTACTS, "the surface", str(fault))
+        return
+    pieces = []
+    for k in range(len(proof.pieces)):
+        if k % BLOCK == 0:
+            report(k / len(proof.pieces))
+        try:
+            piece = reader.trapezoid(k)
+            piece.check(piece.turn())
+            pieces.append(piece)
+        except Fault as fault:
+            yield Finding(CONTACTS, f"piece {k}", str(fault))
+        except IndexError:
+            yield Finding(CONTACTS, f"piece {k}", "it names a feature that does not exist")
+    if len(pieces) < len(proof.pieces):
+        return
+    if odd := odd_ends(piece.sides() for piece in pieces):
+        yield Finding(CLOSED, "the surface", f"sides of its pieces end at {odd} places without a partner")
+    yield from _one_side(proof, reader.world.scale, pieces)
+
+
+def _not_inside(proof: Separated, scene: Scene) -> Iterator[Finding]:
+    if not proof.robot:
+        yield Finding(INSIDE, "smaller robot", "there is none")
+    for k, part in enumerate(proof.robot):
+        if not any(strictly_inside(part, polygon) for polygon in scene.robot):
+            yield Finding(INSIDE, f"polygon {k}", "it is not strictly inside one of the robot's polygons")
+    if proof.bounds:
+        x0, y0, x1, y1 = scene.bounds or proof.bounds
+        X0, Y0, X1, Y1 = proof.bounds
+        if not (x0 > X0 and y0 > Y0 and x1 < X1 and y1 < Y1):
+            yield Finding(INSIDE, "larger bounds", "the scene's bounds are not strictly inside them")
+
+
+def _one_side(proof: Separated, scale: int, pieces: list[Trapezoid]) -> Iterator[Finding]:
+    inside = []
+    for name, pose in (("start", proof.start), ("goal", proof.goal)):
+        try:
+            inside.append(is_inside(pose, scale, pieces))
+        except Fault as fault:
+            yield Finding(SIDES, name, str(fault))
+    if len(inside) == 2 and inside[0] == inside[1]:
+        where = "inside" if inside[0] else "outside"
+        yield Finding(SIDES, "start and goal", f"both are {where} the surface")
+
+
+def odd_ends(loops: Iterable[list[Side | None]]) -> int:
+    """Number of places on curves and lines where an odd number of sides end: 0 if the surface is closed mod 2.
+
+    Notes
+    -----
+    A sum mod 2 of segments of one line vanishes if its boundary does.
+    """
+    ends: Counter[tuple[bytes, Exact]] = Counter()
+    for loop in loops:
+        for line, *both in filter(None, loop):
+            ends.update((line, end) for end in both)
+    return sum(times % 2 for times in ends.values())
+
+
+# --- from names in an answer to numbers of features ---
+
+
+def _reader(pieces: Pieces, scene: Scene) -> Reader:
+    columns: dict[str, Any] = {name: np.empty(0, np.int32) for name in ISOLATED_COLUMNS}
+    contacts = pieces.kind, np.empty(0, np.int32), np.empty(0, np.int32)
+    reader = Reader(scene, contacts, pieces.table, IsolatedParts(**columns))
+    world = reader.world
+    robot, obstacle = _numbers(world.robot, pieces.robot), _numbers(world.obstacles, pieces.obstacle)
+    reader.contacts = pieces.kind, robot, obstacle
+    return reader
+
+
+def _numbers(shape: ShapeFeatures, named: Ints) -> Ints:
+    """Features by polygon and vertex."""
+    owners = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
+    number = {owner: k for k, owner in enumerate(owners) if owner[1] >= 0}
+    try:
+        return np.array([number[polygon, vertex] for polygon, vertex in named.tolist()], np.int32)
+    except KeyError as error:
+        polygon, vertex = error.args[0]
+        raise Fault(f"there is no vertex {vertex} of polygon {polygon}") from None

@@ -1,0 +1,128 @@
+"""Separations: found where cells differ, verified independently, and in files."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+
+import cfree.verify
+from cfree import FreeSpace, InvalidPoseError, Pose, Scene, Separated, boundary, free_space, load_answer, load_scene
+from cfree import separation
+from cfree.errors import FormatError
+from compared import scene_of
+from shapes import KINDS, PlainScene, box, random_scene
+from test_cells import ROD, TIGHT, hollow, space_of
+
+ROOT = Path(__file__).parents[1]
+
+
+def proved(space: FreeSpace, start: Pose, goal: Pose) -> Separated:
+    proof = separation(space, start, goal)
+    assert proof is not None
+    result = cfree.verify.answer(space.boundary.scene, proof)
+    assert result.verified, result
+    return proof
+
+
+def room(opening: Fraction | int | str) -> FreeSpace:
+    """A unit square's room of width 4 with an opening to the right, and what is around it."""
+    half = Fraction(opening) / 2
+    wall = [(-3, -3), (3, -3), (3, -half), (2, -half), (2, -2), (-2, -2), (-2, 2), (2, 2), (2, half), (3, half)]
+    return free_space(boundary(Scene(box("-1/2", "-1/2", "1/2", "1/2")[0], [[*wall, (3, 3), (-3, 3)]])))
+
+
+INSIDE, OUTSIDE = Pose(0, 0), Pose(9, "1/3", "30deg")
+
+
+@pytest.mark.parametrize("gap", [Fraction(1, 10**9), Fraction(1, 2), 1 - Fraction(1, 10**5), 1 - Fraction(1, 10**9)])
+def test_a_throat_that_is_too_narrow(gap: Fraction | int) -> None:
+    assert proved(room(gap), INSIDE, OUTSIDE).of == "closed"
+
+
+@pytest.mark.parametrize("gap", [1 - Fraction(1, 10**15), 1])
+def test_a_throat_that_fits_exactly_or_nearly_is_closed_to_positive_clearance(gap: Fraction | int) -> None:
+    """1 - 1e-15 is no way through, but the smallest robot tried is a little smaller than that."""
+    assert proved(room(gap), INSIDE, OUTSIDE).of == "interior"
+
+
+def test_a_throat_that_is_wide_enough() -> None:
+    assert separation(room(1 + Fraction(1, 10**30)), INSIDE, OUTSIDE) is None
+
+
+def test_cages_and_what_forms_them() -> None:
+    space = space_of(PlainScene([ROD], [box(20, 20, 30, 30), TIGHT]))
+    proof = proved(space, Pose(0, 0), Pose(0, 0, "180deg"))
+    assert proof.of == "closed" and proof.obstacles == (1,)
+    assert proved(space, Pose(0, 0), Pose(99, 0)).obstacles == (1,)
+    assert separation(space, Pose(0, 0), Pose(0, 0, "5deg")) is None
+
+
+def test_bounds_and_workspace() -> None:
+    wall = box(-1, -9, 1, 9)[0]
+    start, goal = Pose(-4, 0), Pose(5, 0, {"tau": "1/30"})
+    by_bounds = Scene(ROD[0], [wall], bounds=(-6, -6, 6, 6))
+    proof = proved(free_space(boundary(by_bounds)), start, goal)
+    assert proof.of == "closed" and set(proof.obstacles) == {-1, 0} and proof.bounds is not None
+    assert min(abs(b) for b in proof.bounds) > 6
+    by_workspace = Scene(ROD[0], [wall], workspace=box(-9, -4, 9, 4)[0])
+    assert set(proved(free_space(boundary(by_workspace)), start, goal).obstacles) == {-2, 0}
+
+
+def test_a_robot_of_parts_with_holes_one_too_thin_for_the_inset() -> None:
+    ring, thin = hollow((-2, -2, 2, 2), (-1, -1, 1, 1)), box(3, 0, 4, Fraction(1, 10**8))
+    pin = box(Fraction(-1, 4), Fraction(-1, 4), Fraction(1, 4), Fraction(1, 4))
+    space = space_of(PlainScene([ring, thin], [pin]))
+    proof = proved(space, Pose(0, 0), Pose(20, 0))  # it stands around the pin
+    assert proof.of == "closed" and [len(part.ring_offsets) - 2 for part in proof.robot] == [1]
+
+
+def test_critical_orientations_and_level_vertices() -> None:
+    """Rays along edges, through vertices, at critical angles and at the ends of charts."""
+    space = space_of(PlainScene([box(0, 0, 1, 1)], [hollow((-4, -4, 8, 8), (-3, -3, 7, 7)), box(0, 0, 2, 2)]))
+    for degrees in (0, 45, 90, 135, 180, 270, 315):
+        for y in (-1, 0, 1, 2, 3):
+            proved(space, Pose(4, y + 1, f"{degrees}deg"), Pose(12, y, f"{degrees}deg"))
+
+
+def walled(kind: str, seed: int) -> FreeSpace:
+    """A random scene, and a frame with walls as thick as the robot through the middle of it."""
+    plain, rng = random_scene(seed, kind), random.Random(seed)
+    xs, ys = zip(*(point for outer, _ in (*plain.obstacles, *plain.robot) for point in outer), strict=True)
+    x0, x1, y0, y1 = (Fraction(of(axis)) for axis in (xs, ys) for of in (min, max))
+    x, y = (lo + (hi - lo) * Fraction(rng.randrange(2, 7), 9) for lo, hi in ((x0, x1), (y0, y1)))
+    thick = max(abs(Fraction(c)) for outer, _ in plain.robot for point in outer for c in point)
+    w, h = ((hi - lo) * Fraction(rng.randrange(1, 7), 9) + thick for lo, hi in ((x0, x1), (y0, y1)))
+    frame = hollow((x - w - thick, y - h - thick, x + w + thick, y + h + thick), (x - w, y - h, x + w, y + h))
+    return space_of(plain._replace(obstacles=[*plain.obstacles, frame]))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_cells_that_differ_are_separated(kind: str) -> None:
+    rng = random.Random(kind)
+    tried = 0
+    for seed in range(10):
+        space = walled(kind, seed)
+        poses = [cell.roomiest[0] for cell in space.cells if cell.roomiest]
+        for _ in range(min(2, len(poses) - 1)):
+            tried += proved(space, *rng.sample(poses, 2)).of == "closed"
+    assert tried >= 3
+
+
+def test_one_cell_and_forbidden_poses() -> None:
+    space = room("1/9")
+    assert separation(space, INSIDE, Pose("1/2", 0, "90deg")) is None
+    with pytest.raises(InvalidPoseError, match="goal \\(2, 0, 0\\) is forbidden"):
+        separation(space, INSIDE, Pose(2, 0))
+
+
+def test_the_second_proof_is_quick() -> None:
+    space = room("1/9")
+    separation(space, INSIDE, OUTSIDE)
+    (kept,) = space.insets.values()
+    separation(space, INSIDE, Pose(-9, 0))
+    assert list(space.insets.values()) == [kept]
