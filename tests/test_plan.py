@@ -70,7 +70,7 @@ def slot(clearance: Fraction) -> Case:
     """A square through a slot as wide as it."""
     w = 2 + clearance
     walls = [[(-9, -9), (0, -9), (0, 20), (-9, 20)], [(w, -9), (12, -9), (12, 20), (w, 20)]]
-    scene = Scene(robot=[(0, 0), (2, 0), (2, 2), (0, 2)], obstacles=walls, bounds=(-9, -30, 10, 40))
+    scene = Scene(robot=[(0, 0), (2, 0), (2, 2), (0, 2)], obstacles=walls, bounds=(-6, -30, 10, 40))
     return scene, Pose(0, -20), Pose(-5, 30)
 
 
@@ -111,7 +111,7 @@ def test_what_fits_gets_through(name: str, clearance: Fraction) -> None:
     assert len(found.motions) < 150
 
 
-@pytest.mark.parametrize("name", FAMILIES.keys() - {"peg"})
+@pytest.mark.parametrize("name", sorted(FAMILIES.keys() - {"peg"}))
 @pytest.mark.parametrize("clearance", CLEARANCES, ids=lambda c: f"-{float(c):g}")
 def test_what_does_not_fit_is_proved_apart(name: str, clearance: Fraction) -> None:
     found = checked(*FAMILIES[name](-clearance))
@@ -128,7 +128,7 @@ def test_a_rectangle_round_an_upright_corner(sign: int) -> None:
         length = longest - sign * Fraction(1, 10**digits)
         workspace = [(0, 0), (40, 0), (40, w), (w, w), (w, 40), (0, 40)]
         scene = Scene(robot=[(0, 0), (length, 0), (length, b), (0, b)], obstacles=[], workspace=workspace)
-        found = checked(scene, Pose(20, 1), Pose(2, 20, "90deg"))
+        found = checked(scene, Pose(20, 1), Pose(1, 30, "-90deg"))
         assert isinstance(found, Path if sign > 0 else Separated), digits
 
 

@@ -7,14 +7,17 @@ A pose at which the smaller robot touches an obstacle is one at which the robot 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
+import numpy as np
 import shapely
 
+from cfree.exact import ExactPoint
 from cfree.polygon import Polygon
 from cfree.scene import Scene
-from cfree.verify.inside import strictly_inside
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -28,32 +31,58 @@ def size_power(scene: Scene) -> int:
     return math.frexp(max(x1 - x0, y1 - y0))[1]
 
 
-def inset(polygon: Polygon, by: float) -> list[Polygon]:
+def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     """Polygons strictly inside one, their edges moved inwards; none if nothing is left, or rounding is in the way.
 
-    Corners are mitred, coordinates multiples of a power of two that is finer than the inset.
+    Notes
+    -----
+    Corners are mitred. If that leaves a simple polygon inside, it is taken, however small the inset; else what shapely
+    makes of it, rounded to a grid much finer than the inset.
 
     Examples
     --------
     >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
-    >>> [part.exact_area for part in inset(square, 0.25)], inset(square, 0.5)
+    >>> [part.exact_area for part in inset(square, Fraction(1, 4))], inset(square, Fraction(1, 2))
     ([Fraction(1, 4)], [])
     """
+    from cfree.verify.inside import strictly_inside  # imports much that imports this
+
     grid = Fraction(2) ** (math.frexp(by)[1] - FINER)
 
-    def snapped(ring: shapely.LinearRing) -> list[tuple[Fraction, Fraction]]:
+    def snapped(ring: shapely.LinearRing) -> list[ExactPoint]:
         x, y = ([round(Fraction(c) / grid) * grid for c in axis] for axis in ring.coords.xy)
         return list(zip(x, y, strict=True))
 
-    found = []
-    for part in shapely.get_parts(polygon.to_shapely().buffer(-by, join_style="mitre")):
-        try:
-            smaller = Polygon(snapped(part.exterior), [snapped(hole) for hole in part.interiors])
-        except ValueError:  # too thin for the grid
-            continue
-        if strictly_inside(smaller, polygon):
-            found.append(smaller)
-    return found
+    def candidates() -> Iterator[list[list[list[ExactPoint]]]]:
+        yield [_mitred(polygon, by)]
+        parts = shapely.get_parts(polygon.to_shapely().buffer(-float(by), join_style="mitre"))
+        yield [[snapped(part.exterior), *map(snapped, part.interiors)] for part in parts]
+
+    for parts in candidates():
+        found = []
+        for outer, *holes in parts:
+            try:
+                smaller = Polygon(outer, holes)
+            except ValueError:  # not simple, or too thin for the grid
+                continue
+            if strictly_inside(smaller, polygon):
+                found.append(smaller)
+        if found:
+            return found
+    return []
+
+
+def _mitred(polygon: Polygon, by: Fraction) -> list[list[ExactPoint]]:
+    """Rings with every vertex moved so that its edges move inwards, in directions that are rounded."""
+    U = polygon.edges / np.hypot(*polygon.edges.T)[:, None]
+    normal = np.stack((-U[:, 1], U[:, 0]), axis=1)
+    before = normal[polygon.previous]
+    m = (before + normal) / np.maximum(1 + (before * normal).sum(axis=1), 1e-9)[:, None]
+    moved = [
+        (x + by * Fraction(dx), y + by * Fraction(dy))
+        for (x, y), (dx, dy) in zip(polygon.exact_vertices, m.tolist(), strict=True)
+    ]
+    return [moved[i:j] for i, j in pairwise(polygon.ring_offsets)]
 
 
 def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:
@@ -63,7 +92,7 @@ def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:
 
     if power not in space.insets:
         scene, by = space.boundary.scene, Fraction(2) ** power
-        robot = [smaller for part in scene.robot for smaller in inset(part, float(by))]
+        robot = [smaller for part in scene.robot for smaller in inset(part, by)]
         x0, y0, x1, y1 = scene.bounds or (by, by, -by, -by)
         bounds = scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
         space.insets[power] = free_space(boundary(with_robot(scene, robot, bounds))) if robot else None

@@ -144,7 +144,7 @@ def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:
     Returns
     -------
     Separated, or None
-        ``of`` is "closed" if they are apart for a robot smaller by 2**-20 or 2**-40 of its size, else "interior".
+        ``of`` is "closed" if they are apart for a smaller robot: by 2**-20 of its size or less. Else "interior".
 
     Raises
     ------
