@@ -249,7 +249,7 @@ def test_a_smaller_robot_is_never_separated() -> None:
 
 def test_a_forbidden_pose_is_named() -> None:
     scene = Scene(robot=[(0, 0), (1, 0), (0, 1)], obstacles=[[(0, 0), (2, 0), (0, 2)]])
-    with pytest.raises(InvalidPoseError, match="start .* is forbidden"):
+    with pytest.raises(InvalidPoseError, match=r"start .* is forbidden"):
         plan(scene, Pose(0, 0), Pose(5, 5))
     with pytest.raises(InvalidPoseError, match="no goal"):
         plan(scene, Pose(5, 5))

@@ -26,6 +26,7 @@ UPPER, LAST, LOWER = 1, 2, 3
 
 
 Place = tuple[float, float, float]
+CANDIDATES = 8  # faces that a pose may be on
 FAR = -1  # in place of a face: to the left of everything
 
 
@@ -42,7 +43,12 @@ class Landing:
         return float(self.pose.x), float(self.pose.y), self.pose.theta
 
 
-Link = tuple[Landing, Landing]  # the ends of a free segment
+@dataclass(frozen=True)
+class Link:
+    """A free way from one landing to another, straight from pose to pose."""
+
+    ends: tuple[Landing, Landing]
+    between: tuple[Pose, ...] = ()
 
 
 class Corridors:
@@ -76,12 +82,28 @@ class Corridors:
         xy[on_curve] = walls.evaluate(table.patch[cells.face[on_curve]], t, theta[on_curve])
         return np.column_stack((xy, theta))
 
+    @cached_property
+    def open(self) -> NDArray[np.bool_]:
+        """(F,) whether doubles know an orientation of a face."""
+        table = self.space.walls.trapezoids
+        known: NDArray[np.bool_] = table.from_hi < table.to_lo
+        return known
+
+    @cached_property
+    def passable(self) -> NDArray[np.bool_]:
+        """(H,) whether they know those at which to cross a side."""
+        cells, table = self.space.complex, self.space.walls.trapezoids
+        f, g = cells.face, cells.face[cells.twin]
+        both = np.maximum(table.from_hi[f], table.from_hi[g]) < np.minimum(table.to_lo[f], table.to_lo[g])
+        on_curve = (cells.side == LOWER) | (cells.side == UPPER)
+        passable: NDArray[np.bool_] = self.open[f] & self.open[g] & (both | ~on_curve)
+        return passable
+
     def shortest(
         self,
         starts: list[Landing],
         goals: list[Landing],
         links: list[Link],
-        closed: NDArray[np.bool_],
     ) -> list[tuple[int, int]] | None:
         """Coedges to leave faces by, from one of the starts to one of the goals.
 
@@ -93,9 +115,10 @@ class Corridors:
         """
         cells = self.space.complex
         base = len(cells.face)
-        ends = [end for link in links for end in link]
-        places: list[Place] = [*map(tuple, self.middles.tolist()), *(end.place for end in ends)]  # type: ignore[arg-type]
+        ends = [end for link in links for end in link.ends]
+        places: list[Place] = [*map(tuple, self.middles.tolist()), *(end.place for end in ends)]
         first, twin, face_of = cells.first.tolist(), cells.twin.tolist(), cells.face.tolist()
+        passable = self.passable.tolist()
         at_face: dict[int, list[int]] = {}
         for k, end in enumerate(ends):
             at_face.setdefault(end.face, []).append(base + k)
@@ -108,7 +131,7 @@ class Corridors:
         def relax(cost: float, face: int, at: Place, before: int) -> None:
             sides = range(first[face], first[face + 1]) if face != FAR else ()
             for h in (*sides, *at_face.get(face, ())):
-                if h not in came and not (h < base and closed[face_of[twin[h]]]):
+                if h not in came and (h >= base or passable[h]):
                     heapq.heappush(heap, (cost + self.apart(at, places[h]), h, before, face))
             for place in at_goal.get(face, ()):
                 heapq.heappush(heap, (cost + self.apart(at, place), len(places), before, face))
@@ -150,14 +173,13 @@ class Corridors:
         near = ((t.from_lo <= x) & (x <= t.from_hi)) | ((t.to_lo <= x) & (x <= t.to_hi))
         return bool(np.any(near & (t.chart == chart)))
 
-    def holding(self, pose: Pose) -> int | None:
-        """The face nearest to a pose at its orientation."""
+    def near(self, pose: Pose) -> list[int]:
+        """The faces nearest to a pose at its orientation."""
         chart, tau = pose.chart
         faces = self.faces_at(chart, float(tau))
-        if len(faces) == 0:
-            return None
-        at = np.full(len(faces), pose.theta)
-        return int(faces[self.distances(faces, at, float(pose.x), float(pose.y)).argmin()])
+        away = self.distances(faces, np.full(len(faces), pose.theta), float(pose.x), float(pose.y))
+        nearest: list[int] = faces[np.argsort(away, kind="stable")[:CANDIDATES]].tolist()
+        return nearest
 
     def distances(self, faces: Ints, theta: Floats, x: float, y: float) -> Floats:
         """Of a position from faces, each at an orientation of its own."""

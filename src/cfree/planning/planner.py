@@ -115,7 +115,8 @@ class Planner:
         return max(math.hypot(float(x), float(y)) for x, y in corners)
 
     @cached_property
-    def _walker(self) -> Walker:
+    def walker(self) -> Walker:
+        """Of the free space."""
         from cfree.planning.walk import Walker
 
         return Walker(self.free_space, self.checker, self.angle_scale)
@@ -124,7 +125,7 @@ class Planner:
     def _passages(self) -> Passages:
         from cfree.planning.passages import Passages
 
-        return Passages(self._walker)
+        return Passages(self.walker)
 
     @property
     def free_space(self) -> FreeSpace:
@@ -149,14 +150,19 @@ class Planner:
         if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
         if poses is None and (cell := self.cell_of(start, goal)) is not None:
-            poses = self._walker.walk(start, goal, cell)
+            poses = self.walker.walk(start, goal, cell)
         if poses is None:
             poses = self._passages.path(start, goal)
         if poses is None:
-            from cfree.separated import separation
-
-            return separation(self.free_space, start, goal)
+            return self._separated(start, goal)
         return self.path(self.shortened(poses, improve))
+
+    def _separated(self, start: Pose, goal: Pose) -> Separated:
+        from cfree.separated import separation
+
+        proof = separation(self.free_space, start, goal)
+        assert proof is not None, "not in one cell"
+        return proof
 
     def cell_of(self, start: Pose, goal: Pose) -> int | None:
         """The cell that both are in."""

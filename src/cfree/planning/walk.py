@@ -14,7 +14,6 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cfree.errors import InvariantError
 from cfree.motion import Translation
@@ -28,6 +27,7 @@ if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
 MOST_HALVINGS = 200
+RAYS = 3  # from each closed surface, where one would do if doubles saw all that it crosses
 DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
@@ -139,7 +139,7 @@ class Walker:
         head, landings = self.leave(start, cell)
         tail, takeoffs = self.leave(goal, cell)
         links = self.links(cell)
-        way = self.corridors.shortest(landings, takeoffs, links, self._closed)
+        way = self.corridors.shortest(landings, takeoffs, links)
         if way is None:
             raise InvariantError(f"no way in cell {cell}", state=(start, goal))
         first = next(x for x in landings if x.face == way[0][0])
@@ -147,17 +147,10 @@ class Walker:
         poses = [*head, *self._realized(way, links, first, last), *reversed(tail)]
         return [a for k, a in enumerate(poses) if k == 0 or a != poses[k - 1]]
 
-    @cached_property
-    def _closed(self) -> NDArray[np.bool_]:
-        """(F,) faces whose orientations doubles do not hold apart."""
-        table = self.space.walls.trapezoids
-        closed: NDArray[np.bool_] = table.from_hi >= table.to_lo
-        return closed
-
     def _realized(self, way: list[tuple[int, int]], links: list[Link], first: Landing, last: Landing) -> Iterator[Pose]:
         """From a pose on the first face to one on the last."""
         base = len(self.space.complex.face)
-        ends = [end for link in links for end in link]
+        ends = [end for link in links for end in link.ends]
         entered: Landing | None = first  # None: over a side, and now off the middle
         tau = Fraction(0)
         for k, (face, h) in enumerate(way):
@@ -177,7 +170,10 @@ class Walker:
                     end, steps, after = self._over(f, Sheet(self.space, way[k + 1][0]), h, tau)
                     yield from (*self.along(f, tau, end), *steps)
                     tau = after
-            entered = ends[(h - base) ^ 1] if left and k + 1 < len(way) else None
+            entered = None
+            if h >= base and k + 1 < len(way):
+                yield from links[(h - base) // 2].between[:: -1 if h - base & 1 else 1]
+                entered = ends[(h - base) ^ 1]
 
     def _over(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
         """Over a side of f to g: at which orientation, poses up to off the middle of g, and the orientation there."""
@@ -215,8 +211,8 @@ class Walker:
             far = Pose(self._far, pose.y, {"tau": pose.tau})
             return Landing(FAR, far) if y == 0 and x < 0 and self.joins([pose, far]) else None
         there = Pose(pose.x + contact.at.p * direction[0], pose.y + contact.at.p * direction[1], {"tau": pose.tau})
-        face = self.corridors.holding(there)
-        return Landing(face, there) if face is not None and Sheet(self.space, face).holds(there) else None
+        faces = (face for face in self.corridors.near(there) if Sheet(self.space, face).holds(there))
+        return next((Landing(face, there) for face in faces), None)
 
     @cached_property
     def _extent(self) -> Fraction:
@@ -242,25 +238,22 @@ class Walker:
         return self._links[cell]
 
     def _links_of(self, component: int) -> Iterator[Link]:
-        faces = np.flatnonzero((self.space.component == component) & ~self._closed)
         table = self.space.walls.trapezoids
-        f = Sheet(self.space, int(faces[(table.tau_to - table.tau_from)[faces].argmax()]))
-        tau = between(f.low, f.high)
-        while self.corridors.may_be_critical(f.chart, tau):
-            tau = (tau + f.high) / 2
-        pose = self.off(f, f.middle(tau), tau)
-        yield Landing(f.face, f.pose(f.middle(tau), tau)), self._arrival(pose, -1)
-        crossings = self.corridors.crossings(pose).tolist()
-        for right, left in zip(crossings, [*crossings[1:], float(self._far)], strict=True):
-            middle = Pose((right + left) / 2, pose.y, {"tau": pose.tau})
-            if self.joins([middle, middle]):
-                yield self._arrival(middle, 1), self._arrival(middle, -1)
-
-    def _arrival(self, pose: Pose, x: int) -> Landing:
-        landing = self._landing(pose, x, 0)
-        if landing is None:
-            raise InvariantError(f"no face is to the {'right' if x > 0 else 'left'} of {pose}")
-        return landing
+        faces = np.flatnonzero((self.space.component == component) & self.corridors.open)
+        for face in faces[np.argsort(-(table.tau_to - table.tau_from)[faces], kind="stable")[:RAYS]].tolist():
+            f = Sheet(self.space, face)
+            tau = between(f.low, f.high)
+            while self.corridors.may_be_critical(f.chart, tau):
+                tau = (tau + f.high) / 2
+            pose = self.off(f, f.middle(tau), tau)
+            if left := self._landing(pose, -1, 0):
+                yield Link((Landing(face, f.pose(f.middle(tau), tau)), left), (pose,))
+            for x, other in pairwise([*self.corridors.crossings(pose).tolist(), float(self._far)]):
+                middle = Pose((x + other) / 2, pose.y, {"tau": pose.tau})
+                if self.joins([middle, middle]):
+                    first, last = self._landing(middle, 1, 0), self._landing(middle, -1, 0)
+                    if first and last:
+                        yield Link((first, last))
 
 
 def _turned(pose: Pose, to: Pose) -> Pose:
