@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import math
 import random
 from fractions import Fraction
 from pathlib import Path
@@ -11,10 +9,16 @@ from pathlib import Path
 import pytest
 
 import cfree.verify
-from cfree import FreeSpace, InvalidPoseError, Pose, Scene, Separated, boundary, free_space, load_answer, load_scene
-from cfree import separation
-from cfree.errors import FormatError
-from compared import scene_of
+from cfree import (
+    FreeSpace,
+    InvalidPoseError,
+    Pose,
+    Scene,
+    Separated,
+    boundary,
+    free_space,
+    separation,
+)
 from shapes import KINDS, PlainScene, box, random_scene
 from test_cells import ROD, TIGHT, hollow, space_of
 

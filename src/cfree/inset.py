@@ -14,7 +14,6 @@ import shapely
 
 from cfree.polygon import Polygon
 from cfree.scene import Scene
-from cfree.verify.inside import strictly_inside
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -39,6 +38,8 @@ def inset(polygon: Polygon, by: float) -> list[Polygon]:
     >>> [part.exact_area for part in inset(square, 0.25)], inset(square, 0.5)
     ([Fraction(1, 4)], [])
     """
+    from cfree.verify.inside import strictly_inside
+
     grid = Fraction(2) ** (math.frexp(by)[1] - FINER)
 
     def snapped(ring: shapely.LinearRing) -> list[tuple[Fraction, Fraction]]:
