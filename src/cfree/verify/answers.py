@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from cfree.answer import load_answer
 from cfree.path import Path
-from cfree.verify.motions import CONTINUOUS, FREE, path_findings
+from cfree.verify.motions import CONTINUOUS, ENDS, FREE, end_findings, path_findings
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.world import World
@@ -71,16 +71,20 @@ def answer(
             progress(done)
 
     findings = _other_poses(scene, given)
+    world = World(scene)
+    findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
+    findings += end_findings(given, world)
     if isinstance(given, Path):
-        world = World(scene)
-        findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
         findings += path_findings(given, world, report)
-        extents = _of_path(given, world)
     else:
-        findings += separation_findings(given, scene, report)
-        extents = _of_separation(given)
+        findings += separation_findings(given, world, report)
     report(1.0)
-    extents = {ASKED: "start and goal, where the scene has them"} | extents
+    extents = {
+        ASKED: "start and goal, where the scene has them",
+        PIECES: f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them",
+        ENDS: "both are free",
+        **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
+    }
     refuted = {finding.kind for finding in findings}
     how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
     how |= dict.fromkeys(refuted, REFUTED)
@@ -97,9 +101,8 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
     ]
 
 
-def _of_path(path: Path, world: World) -> dict[str, str]:
+def _of_path(path: Path) -> dict[str, str]:
     return {
-        PIECES: f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them",
         CONTINUOUS: f"{len(path.motions):,} motions lead from the start to the goal, one after the other",
         FREE: f"{len(path.motions):,} motions: at no pose does the robot overlap anything",
     }
@@ -111,7 +114,9 @@ def _of_separation(proof: Separated) -> dict[str, str]:
     return smaller | {
         CONTACTS: f"{count}: the robot touches something at every pose of them",
         CLOSED: f"{count} without a boundary mod 2",
-        SIDES: "one ray meets it an even number of times, one an odd one",
+        SIDES: "start and goal are on two sides of it, or one of them touches something"
+        if proof.of == "interior"
+        else "start and goal are on two sides of it: rays meet it an even, and an odd, number of times",
     }
 
 

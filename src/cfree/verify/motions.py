@@ -29,9 +29,12 @@ from cfree.verify.surfaces import Vector, minus
 if TYPE_CHECKING:
     from cfree.motion import Motion
     from cfree.path import Path
+    from cfree.pose import Pose
+    from cfree.separated import Separated
     from cfree.verify.world import World
 
-CONTINUOUS, FREE = "continuous", "free of collisions"
+ENDS, CONTINUOUS, FREE = "start and goal", "continuous", "free of collisions"
+STANDING, ZERO = Translation((0, 0)), Fraction(0)
 HALVINGS = 16
 Quadratic = tuple[int, int, int]  # constant term first
 Placed = tuple[Fraction, Fraction, Fraction, Fraction]  # x, y, cos, sin
@@ -42,17 +45,42 @@ OUTER = (min, -1), (max, 1)
 
 def path_findings(path: Path, world: World, report: Callable[[float], object]) -> Iterator[Finding]:
     """All that is wrong with a path in a scene."""
-    placed = _placed(path.start.x * world.scale, path.start.y * world.scale, path.start.tau)
-    if (where := _beyond(world, placed)) is not None:
-        yield Finding(FREE, "start", where)
-    for k, motion in enumerate(path.motions or (Translation((0, 0)),)):
-        report(k / max(1, len(path.motions)))
+    placed = place_of(path.start, world.scale)
+    for k, motion in enumerate(path.motions):
+        report(k / len(path.motions))
         course = Course(placed, motion, world.scale)
         if (u := collision(world, course)) is not None:
             yield Finding(FREE, f"motion {k}", f"it is forbidden at u = {u}, near {float(u):.6g}")
         placed = course.at(Fraction(1))
-    if placed != _placed(path.goal.x * world.scale, path.goal.y * world.scale, path.goal.tau):
+    if placed != place_of(path.goal, world.scale):
         yield Finding(CONTINUOUS, "goal", "the motions do not lead to it")
+
+
+def end_findings(given: Path | Separated, world: World) -> Iterator[Finding]:
+    """Start and goal, if they are forbidden."""
+    for name, pose in (("start", given.start), ("goal", given.goal)):
+        placed = place_of(pose, world.scale)
+        where = _beyond(world, placed)
+        if where is None and collision(world, Course(placed, STANDING, world.scale)) is not None:
+            where = "it is forbidden"
+        if where is not None:
+            yield Finding(ENDS, name, where)
+
+
+def touches(world: World, pose: Pose) -> bool:
+    """Has the robot at a free pose no distance from something: an obstacle, bounds or workspace?"""
+    course, all_of_it = Course(place_of(pose, world.scale), STANDING, world.scale), (0, 1, 1)
+    if world.scene.bounds and any(value in world.scene.bounds[k::2] for k, value in enumerate((pose.x, pose.y))):
+        return True
+    return any(
+        all(any(_value(height, ZERO) >= 0 for height in heights) for heights in course.heights(ring, world.walls[k]))
+        for ring in world.parts
+        for k in near(world.wall_boxes, course.box(ring, all_of_it, world.unit))
+    )
+
+
+def place_of(pose: Pose, scale: int) -> Placed:
+    return _placed(pose.x * scale, pose.y * scale, pose.tau)
 
 
 def _placed(x: Fraction, y: Fraction, tau: Fraction | None) -> Placed:

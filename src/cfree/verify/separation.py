@@ -13,6 +13,7 @@ from cfree.separated import Pieces
 from cfree.trapezoids import ISOLATED_COLUMNS, Ints, IsolatedParts
 from cfree.verify.algebra import Exact
 from cfree.verify.inside import strictly_inside
+from cfree.verify.motions import touches
 from cfree.verify.parity import is_inside
 from cfree.verify.result import Finding
 from cfree.verify.surfaces import Fault
@@ -21,18 +22,22 @@ from cfree.verify.trapezoids import Reader, Side, Trapezoid
 if TYPE_CHECKING:
     from cfree.features import ShapeFeatures
     from cfree.separated import Separated
+    from cfree.verify.world import World
 
 INSIDE, CONTACTS, CLOSED, SIDES = "smaller robot", "contacts", "closed surface", "two sides"
 BLOCK = 100  # pieces between two reports
 
 
-def separation_findings(proof: Separated, scene: Scene, report: Callable[[float], object]) -> Iterator[Finding]:
+def separation_findings(proof: Separated, world: World, report: Callable[[float], object]) -> Iterator[Finding]:
     """All that is wrong with a separation in a scene."""
+    scene, apart = world.scene, False
     if proof.of == "closed":
         yield from _not_inside(proof, scene)
         scene = Scene(proof.robot or scene.robot, scene.obstacles, bounds=proof.bounds, workspace=scene.workspace)
     elif proof.of != "interior" or proof.robot or proof.bounds:
         yield Finding(INSIDE, proof.of, 'a smaller robot belongs to "closed"')
+    else:
+        apart = any(touches(world, pose) for pose in (proof.start, proof.goal))
     try:
         reader = _reader(proof.pieces, scene)
     except Fault as fault:
@@ -54,7 +59,8 @@ def separation_findings(proof: Separated, scene: Scene, report: Callable[[float]
         return
     if odd := odd_ends(piece.sides() for piece in pieces):
         yield Finding(CLOSED, "the surface", f"sides of its pieces end at {odd} places without a partner")
-    yield from _one_side(proof, reader.world.scale, pieces)
+    if not apart:
+        yield from _one_side(proof, reader.world.scale, pieces)
 
 
 def _not_inside(proof: Separated, scene: Scene) -> Iterator[Finding]:

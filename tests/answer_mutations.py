@@ -1,0 +1,378 @@
+"""Answers with one thing wrong; `python answer_mutations.py` prints how many `cfree.verify.answer` rejects, by kind."""
+
+from __future__ import annotations
+
+import copy
+import json
+import random
+import tempfile
+from collections import Counter
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from functools import cache
+from pathlib import Path as FilePath
+from typing import Any
+
+import cfree.verify
+from cfree import (
+    FormatError,
+    FreeSpace,
+    MotionChecker,
+    Path,
+    Pose,
+    Rotation,
+    Scene,
+    Separated,
+    Translation,
+    boundary,
+    free_space,
+    load_answer,
+    separation,
+)
+from compared import scene_of
+from shapes import PlainScene, box
+from test_cells import ROD, TIGHT, hollow
+
+Answer = dict[str, Any]
+# changes an answer; False if there is nothing to change
+Mutation = Callable[[random.Random, Answer], bool]
+
+
+def corridor() -> tuple[Scene, Path]:
+    """A rod in corridors around a block: it turns where there is room, and touches the block on its way."""
+    walls = [hollow((-6, -3, 26, 26), (-4, -1, 24, 24)), box(8, 3, 20, 20)]
+    up, round_it = Translation((0, 3)), Rotation((0, 3), {"tau": "-inf"})
+    quarter = Rotation((0, 3), {"tau": "1/2"}), Rotation((0, 3), {"tau": "1/3"})
+    on = Translation((0, 17)), Rotation((0, 20), {"tau": -1}), Translation((10, 2))
+    path = Path(Pose(0, 0), [up, round_it, *quarter, *on])
+    scene = scene_of(PlainScene([ROD], walls, bounds=(0, 0, 10, 22)))
+    return with_ends(scene, path.start, path.goal), path
+
+
+@cache
+def separations() -> tuple[tuple[Scene, Separated], ...]:
+    """By obstacles, closed; by bounds and an obstacle; by a workspace; of an interior; of a robot of two parts."""
+    two = [box(0, 0, 2, 1), box(3, 0, 4, 1)]
+    narrow, gate = [[box(-9, -1, -x, 1), box(x, -1, 9, 1)] for x in (Fraction(9, 10), 1)]
+    scenes = [
+        (PlainScene([ROD], [TIGHT]), Pose(0, 0), Pose(0, 0, "180deg")),
+        (PlainScene([ROD], [box(-1, -9, 1, 9)], bounds=(-6, -6, 6, 6)), Pose(-5, "1/3"), Pose(5, 0, {"tau": "1/30"})),
+        (PlainScene([ROD], narrow, workspace=box(-9, -9, 9, 9)), Pose(0, 5), Pose(0, -5, "7deg")),
+        (PlainScene([box(-1, -1, 1, 1)], gate, workspace=box(-9, -9, 9, 9)), Pose(0, 5), Pose("1/3", -5, "7deg")),
+        (PlainScene(two, [hollow((-9, -9, 9, 9), (-7, -7, 7, 7))]), Pose(0, 0), Pose(20, 0)),
+    ]
+    found = []
+    for plain, start, goal in scenes:
+        scene = scene_of(plain)
+        proof = separation(free_space(boundary(scene, threads=1)), start, goal)
+        assert proof is not None
+        found.append((scene, proof))
+    assert [proof.of for _, proof in found] == ["closed", "closed", "closed", "interior", "closed"]
+    return tuple(found)
+
+
+def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
+    return Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace, start=start, goal=goal)
+
+
+def text_of(answer: Path | Separated) -> str:
+    with tempfile.TemporaryDirectory() as folder:
+        answer.save(f"{folder}/answer.json")
+        return FilePath(folder, "answer.json").read_text()
+
+
+def moved(rng: random.Random, number: str, by: Fraction | None = None) -> str:
+    return str(Fraction(number) + (by or Fraction(rng.choice([-1, 1]), rng.choice([1, 8, 10**6]))))
+
+
+# --- paths ---
+
+
+def motions(answer: Answer, kind: str) -> list[Answer]:
+    return [motion for motion in answer["motions"] if motion["type"] == kind]
+
+
+def change_a_vector(rng: random.Random, answer: Answer) -> bool:
+    vector = rng.choice(motions(answer, "translation"))["exact"]["vector"]
+    k = rng.randrange(2)
+    vector[k] = moved(rng, vector[k])
+    return True
+
+
+def change_two_vectors(rng: random.Random, answer: Answer) -> bool:
+    """By opposite amounts: the goal stays, if the robot does not turn between them."""
+    (one, other), k = rng.sample(motions(answer, "translation"), 2), rng.randrange(2)
+    by = Fraction(rng.choice([-1, 1]), rng.choice([1, 8, 10**6]))
+    for motion, amount in ((one, by), (other, -by)):
+        motion["exact"]["vector"][k] = moved(rng, motion["exact"]["vector"][k], amount)
+    return True
+
+
+def change_a_pole(rng: random.Random, answer: Answer) -> bool:
+    pole, k = rng.choice(motions(answer, "rotation"))["exact"]["pole"], rng.randrange(2)
+    pole[k] = moved(rng, pole[k])
+    return True
+
+
+def change_an_angle(rng: random.Random, answer: Answer) -> bool:
+    exact = rng.choice(motions(answer, "rotation"))["exact"]
+    exact["tau"] = "7" if "inf" in exact["tau"] else moved(rng, exact["tau"])
+    return True
+
+
+def turn_the_other_way(rng: random.Random, answer: Answer) -> bool:
+    """What is half a turn ends in the same pose."""
+    exact = rng.choice(motions(answer, "rotation"))["exact"]
+    exact["tau"] = exact["tau"][1:] if exact["tau"].startswith("-") else f"-{exact['tau']}"
+    return True
+
+
+def drop_a_motion(rng: random.Random, answer: Answer) -> bool:
+    answer["motions"].pop(rng.randrange(len(answer["motions"])))
+    return True
+
+
+def repeat_a_motion(rng: random.Random, answer: Answer) -> bool:
+    k = rng.randrange(len(answer["motions"]))
+    answer["motions"].insert(k, answer["motions"][k])
+    return True
+
+
+def swap_two_motions(rng: random.Random, answer: Answer) -> bool:
+    listed = answer["motions"]
+    i, j = rng.sample(range(len(listed)), 2)
+    listed[i], listed[j] = listed[j], listed[i]
+    return True
+
+
+def change_an_end(rng: random.Random, answer: Answer) -> bool:
+    end, k = answer["exact"][rng.choice(["start", "goal"])], rng.randrange(3)
+    if k < 2:
+        end[k] = moved(rng, end[k])
+    else:
+        end[k] = {"tau": "1/7" if end[k]["tau"] == "inf" else moved(rng, end[k]["tau"])}
+    return True
+
+
+def change_start_and_goal(rng: random.Random, answer: Answer) -> bool:
+    """Both by the same, so that the path is one, of other poses."""
+    k, by = rng.randrange(2), Fraction(rng.choice([-1, 1]), rng.choice([1, 8, 10**6]))
+    for end in answer["exact"].values():
+        end[k] = moved(rng, end[k], by)
+    for motion in motions(answer, "rotation"):
+        motion["exact"]["pole"][k] = moved(rng, motion["exact"]["pole"][k], by)
+    return True
+
+
+# --- separations ---
+
+
+def piece_of(rng: random.Random, answer: Answer) -> Answer:
+    return rng.choice(answer["surface"])
+
+
+def drop_a_piece(rng: random.Random, answer: Answer) -> bool:
+    answer["surface"].pop(rng.randrange(len(answer["surface"])))
+    return True
+
+
+def repeat_a_piece(rng: random.Random, answer: Answer) -> bool:
+    answer["surface"].append(piece_of(rng, answer))
+    return True
+
+
+def drop_all_pieces(rng: random.Random, answer: Answer) -> bool:
+    answer["surface"], answer["obstacles"] = [], []
+    return True
+
+
+def change_a_contact(rng: random.Random, answer: Answer) -> bool:
+    contact, name = piece_of(rng, answer)["contact"], rng.choice(["robot", "obstacle"])
+    old = list(contact[name])
+    contact[name] = [old[0], (old[1] + rng.randrange(1, 4)) % 4]
+    return contact[name] != old
+
+
+def change_the_kind_of_a_contact(rng: random.Random, answer: Answer) -> bool:
+    contact = piece_of(rng, answer)["contact"]
+    contact["kind"] = {"vertex-edge": "edge-vertex", "edge-vertex": "vertex-edge"}[contact["kind"]]
+    return True
+
+
+def change_a_chart(rng: random.Random, answer: Answer) -> bool:
+    piece = piece_of(rng, answer)
+    piece["chart"] = 1 - piece["chart"]
+    return True
+
+
+def take_an_angle_of_another(rng: random.Random, answer: Answer) -> bool:
+    one, other, end = piece_of(rng, answer), piece_of(rng, answer), rng.choice(["from", "to"])
+    differs = one[end]["tau"] != other[end]["tau"]
+    one[end] = other[end]
+    return bool(differs)
+
+
+def move_an_interval(rng: random.Random, answer: Answer) -> bool:
+    angle = piece_of(rng, answer)[rng.choice(["from", "to"])]
+    angle["tau"] = [tau + 1e-6 for tau in angle["tau"]]
+    return True
+
+
+def change_the_name_of_an_angle(rng: random.Random, answer: Answer) -> bool:
+    names = piece_of(rng, answer)[rng.choice(["from", "to"])]["names"]
+    if not names:
+        return False
+    name = rng.choice(names)
+    k = rng.randrange(1, 3)
+    name[k] = (name[k] + rng.randrange(1, 4)) % 4
+    return True
+
+
+def swap_from_and_to(rng: random.Random, answer: Answer) -> bool:
+    piece = piece_of(rng, answer)
+    piece["from"], piece["to"] = piece["to"], piece["from"]
+    return True
+
+
+def swap_lower_and_upper(rng: random.Random, answer: Answer) -> bool:
+    piece = piece_of(rng, answer)
+    piece["lower"], piece["upper"] = piece["upper"], piece["lower"]
+    return True
+
+
+def take_a_curve_of_another(rng: random.Random, answer: Answer) -> bool:
+    one, other, side = piece_of(rng, answer), piece_of(rng, answer), rng.choice(["lower", "upper"])
+    differs = one[side] != other[side]
+    one[side] = other[side]
+    return bool(differs)
+
+
+def claim_more_or_less(rng: random.Random, answer: Answer) -> bool:
+    """With the pieces as they are."""
+    if answer["of"] == "interior":
+        return False
+    answer["of"] = "interior"
+    answer.pop("smaller_robot")
+    answer.pop("larger_bounds", None)
+    return True
+
+
+def enlarge_the_robot(rng: random.Random, answer: Answer) -> bool:
+    """One vertex by as much as it was moved, or far more."""
+    if answer["of"] == "interior":
+        return False
+    ring = rng.choice(answer["smaller_robot"])["outer"]
+    k, by = rng.randrange(len(ring)), rng.choice([Fraction(1, 2**17), Fraction(2), Fraction(100)])
+    ring[k] = [str(Fraction(c) + (by if Fraction(c) > 0 else -by)) for c in ring[k]]
+    return True
+
+
+def shrink_the_bounds(rng: random.Random, answer: Answer) -> bool:
+    if not answer.get("larger_bounds"):
+        return False
+    k = rng.randrange(4)
+    answer["larger_bounds"][k] = str(round(Fraction(answer["larger_bounds"][k])))
+    return True
+
+
+def move_an_end(rng: random.Random, answer: Answer) -> bool:
+    """Into something, or next to the other end."""
+    one, other = rng.sample(["start", "goal"], 2)
+    answer["exact"][one] = answer["exact"][other]
+    if rng.random() < 0.5:
+        answer["exact"][one] = [moved(rng, answer["exact"][one][0], Fraction(1, 99)), *answer["exact"][other][1:]]
+    return True
+
+
+OF_PATHS: tuple[Mutation, ...] = (
+    change_a_vector, change_two_vectors, change_a_pole, change_an_angle, turn_the_other_way, drop_a_motion,
+    repeat_a_motion, swap_two_motions, change_an_end, change_start_and_goal,
+)  # fmt: skip
+OF_MOTIONS = OF_PATHS[:-2]
+OF_SEPARATIONS: tuple[Mutation, ...] = (
+    drop_a_piece, repeat_a_piece, drop_all_pieces, change_a_contact, change_the_kind_of_a_contact, change_a_chart,
+    take_an_angle_of_another, move_an_interval, change_the_name_of_an_angle, swap_from_and_to, swap_lower_and_upper,
+    take_a_curve_of_another, claim_more_or_less, enlarge_the_robot, shrink_the_bounds, move_an_end,
+)  # fmt: skip
+
+
+# --- trying them ---
+
+
+def repaired(answer: Answer) -> Answer:
+    """With the goal to which the motions lead, so that there is something left to verify."""
+    x, y, theta = answer["exact"]["start"]
+    moves = [
+        Translation(motion["exact"]["vector"])
+        if motion["type"] == "translation"
+        else Rotation(motion["exact"]["pole"], {"tau": motion["exact"]["tau"]})
+        for motion in answer["motions"]
+    ]
+    return json.loads(text_of(Path(Pose(x, y, theta), moves)))  # type: ignore[no-any-return]
+
+
+def verdict(scene: Scene, answer: Answer) -> str:
+    """ "bad file", the first check that found something, or "" if it is verified."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = FilePath(folder, "answer.json")
+        file.write_text(json.dumps(answer))
+        try:
+            result = cfree.verify.answer(scene, file)
+        except FormatError:
+            return "bad file"
+        if result.verified:
+            assert is_true(scene, load_answer(file)), "what is not true was verified"
+    return result.findings[0].kind if result.findings else ""
+
+
+def is_true(scene: Scene, answer: Path | Separated) -> bool:
+    """Judged by the core."""
+    if isinstance(answer, Path):
+        ends = scene.start in (None, answer.start) and scene.goal in (None, answer.goal)
+        return ends and answer.is_free(MotionChecker(scene))
+    cells = space_of(scene).locate([answer.start, answer.goal]).tolist()
+    return min(cells) != -1 and cells[0] != cells[1]
+
+
+@cache
+def space_of(scene: Scene) -> FreeSpace:
+    return free_space(boundary(scene, threads=1))
+
+
+def mutants(rng: random.Random, answer: Path | Separated, mutate: Mutation, count: int) -> Iterator[Answer]:
+    good = json.loads(text_of(answer))
+    for _ in range(count):
+        changed = copy.deepcopy(good)
+        if mutate(rng, changed) and changed != good:
+            yield changed
+
+
+def tried(mutate: Mutation, count: int) -> Counter[str]:
+    """What found the mutants; "" is for those that are verified, and true. Paths also where no ends are asked for."""
+    rng = random.Random(mutate.__name__)
+    goods: list[tuple[Scene, Path | Separated]] = [corridor()] if mutate in OF_PATHS else list(separations())
+    found: Counter[str] = Counter()
+    for scene, good in goods:
+        for bad in mutants(rng, good, mutate, count):
+            if mutate in OF_MOTIONS and verdict(scene, bad) == "bad file":
+                bad = repaired(bad)
+            found[verdict(scene, bad)] += 1
+            if isinstance(good, Path):
+                found[verdict(with_ends(scene, None, None), bad)] += 1
+    return found
+
+
+def main(count: int = 20) -> None:
+    print("| mutation | tried | rejected | still true | found by |", "|---|--:|--:|--:|---|", sep="\n")
+    for mutate in OF_PATHS + OF_SEPARATIONS:
+        found = tried(mutate, count * 2 if mutate in OF_PATHS else count)
+        true = found.pop("", 0)
+        checks = ", ".join(f"{check} {n}" for check, n in found.most_common(3))
+        rejected = found.total()
+        print(
+            f"| {mutate.__name__.replace('_', ' ')} | {rejected + true} | {rejected} | {true} | {checks} |", flush=True
+        )
+
+
+if __name__ == "__main__":
+    main()
