@@ -21,7 +21,7 @@ from cfree.forbidden import Boundary
 from cfree.pose import Floats, Pose, Poses
 from cfree.scene import Scene
 
-FREE, UNCERTAIN = 1, 2  # the core's verdicts
+FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two looks at Ctrl-C
 FARTHEST = Fraction(10**300)  # what is further away is as far as this
 
@@ -116,14 +116,19 @@ class Checker:
         if isinstance(poses, Pose):
             return self._is_free_exactly(poses)
         table = _table(poses)
-        verdicts = np.empty(len(table), np.uint8)
-        for k in range(0, len(table), BLOCK):
-            rows = slice(k, k + BLOCK)
-            self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+        verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
             verdicts[k] = self._is_free_exactly(Pose(*table[k].tolist()))
         free: NDArray[np.bool_] = verdicts == FREE
         return free
+
+    def verdicts(self, table: Floats, threads: int | None = None) -> NDArray[np.uint8]:
+        """FORBIDDEN or FREE where doubles say so with certainty, else UNCERTAIN; rows x, y and theta in [0, 2 pi)."""
+        verdicts = np.empty(len(table), np.uint8)
+        for k in range(0, len(table), BLOCK):
+            rows = slice(k, k + BLOCK)
+            self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+        return verdicts
 
     def _is_free_exactly(self, pose: Pose) -> bool:
         x0, y0, x1, y1 = self.limits
