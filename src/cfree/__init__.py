@@ -4,6 +4,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from cfree.angle_interval import AlgebraicAngle as AlgebraicAngle
+    from cfree.angle_interval import AngleInterval as AngleInterval
     from cfree.cell_complex import CellComplex as CellComplex
     from cfree.cells import Cell as Cell
     from cfree.cells import FreeSpace as FreeSpace
@@ -101,11 +103,13 @@ if TYPE_CHECKING:
     from cfree.touch import is_contact as is_contact
     from cfree.touch import is_forbidden as is_forbidden
     from cfree.touch import is_pseudo_contact as is_pseudo_contact
+    from cfree.turn import turn_in_place as turn_in_place
 
 __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
+    "angle_interval": "AlgebraicAngle AngleInterval",
     "cell_complex": "CellComplex",
     "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
     "edge_edge_range",
@@ -141,6 +145,7 @@ _HOMES = {
     "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface helix_through "
     "rotation_about rotation_of_combination",
     "touch": "contact_features is_contact is_forbidden is_pseudo_contact",
+    "turn": "turn_in_place",
 }
 _MODULE = {name: module for module, names in _HOMES.items() for name in names.split()}
 __all__ = ["__version__", *_MODULE]

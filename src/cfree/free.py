@@ -97,7 +97,7 @@ class Checker:
 
         with collection_paused():
             features = features or scene_features(scene)
-            self.limits = _limits(scene)
+            self.limits = limits_of(scene)
             x0, y0, x1, y1 = self.limits
             limits = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
             robot, obstacles = features.robot, features.obstacles
@@ -153,7 +153,7 @@ def _table(poses: Poses | ArrayLike) -> Floats:
     return _table(Poses(table[:, :2], theta))
 
 
-def _limits(scene: Scene) -> Limits:
+def limits_of(scene: Scene) -> Limits:
     """Where the reference point may be: in the bounds, and no further outside the workspace than the robot reaches.
 
     The core knows only a frame around the workspace: twice as thick as the robot reaches.
