@@ -136,9 +136,9 @@ def _ranked(ends: list[End]) -> tuple[list[int], list[End]]:
     after = np.mod(np.diff(theta[order], prepend=theta[order[0]]), math.tau)
     apart = np.append(np.flatnonzero((after > CLOSE) & (np.arange(len(ends)) > 0)), len(ends))
     ranks, first, begin = [0] * len(ends), list[End](), 0
-    key = cmp_to_key(lambda i, j: _compare(ends[int(i)], ends[int(j)]))
+    key = cmp_to_key(_compare)
     for end in apart.tolist():
-        group: list[int] = sorted(order[begin:end].tolist(), key=key)
+        group: list[int] = sorted(order[begin:end].tolist(), key=lambda k: key(ends[k]))
         for m, k in enumerate(group):
             if m == 0 or _compare(ends[group[m - 1]], ends[k]) != 0:
                 first.append(ends[k])
