@@ -49,6 +49,8 @@ if TYPE_CHECKING:
     from cfree.geometry.rulings import striction_is_on_patch as striction_is_on_patch
     from cfree.geometry.rulings import striction_parameter as striction_parameter
     from cfree.geometry.rulings import striction_parameters as striction_parameters
+    from cfree.invalid import free_nearby as free_nearby
+    from cfree.invalid import require_free as require_free
     from cfree.io import load_polygons as load_polygons
     from cfree.io import load_scene as load_scene
     from cfree.mesh import Mesh as Mesh
@@ -126,6 +128,7 @@ _HOMES = {
     "geometry.plot": "plot_development",
     "geometry.rulings": "distribution_parameters is_developable is_helicoid is_minimal striction_curve "
     "striction_is_on_patch striction_parameter striction_parameters",
+    "invalid": "free_nearby require_free",
     "io": "load_polygons load_scene",
     "mesh": "Mesh save_mesh",
     "motion": "Rotation Translation rotations",

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.errors import FormatError, InvariantError
+from cfree.errors import FormatError, InvalidPoseError, InvariantError
 from cfree.features import BOUNDS, WORKSPACE
 from cfree.forbidden import Boundary
 from cfree.free import FORBIDDEN as CERTAINLY_FORBIDDEN
@@ -289,6 +289,35 @@ class FreeSpace:
         place = int(pose.x * unit) * scale, int(pose.y * unit) * scale, unit, tau.numerator, tau.denominator
         cell: int = self._rays.locate_exactly(place, chart, *self._nesting)
         return NO_CELL if cell == FORBIDDEN else cell
+
+    def reachable(self, start: Pose) -> Cell:
+        """The cell that a start is in or on the boundary of: what the robot can reach from there.
+
+        Every pose of a cell can be reached from every other without touching anything on the way. By sliding through a
+        passage just as wide as the robot it may get further; a start on the boundary of several cells gets the first.
+
+        Raises
+        ------
+        InvalidPoseError
+            If the start is forbidden, with what overlaps what and a free pose near by; or if it fits exactly, and so is
+            in the closure of no cell.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> room = [(0, 0), (9, 0), (9, 9), (0, 9)]
+        >>> scene = cfree.Scene([(0, 0), (2, 0), (0, 1)], [[(4, 0), (5, 0), (5, 9), (4, 9)]], workspace=room)
+        >>> space = cfree.free_space(cfree.boundary(scene))
+        >>> space.reachable(Pose(1, 1)).index == space.reachable(Pose(1, 5)).index != space.reachable(Pose(6, 1)).index
+        True
+        """
+        from cfree.invalid import require_free
+
+        require_free(self.boundary, start, "start")
+        cell = self.locate(start)
+        if cell == NO_CELL:
+            raise InvalidPoseError("start is free, but an exact fit, in the closure of no cell; see Boundary.isolated")
+        return self.cells[cell]
 
     @cached_property
     def _nesting(self) -> tuple[Ints, Ints, NDArray[np.uint8], int]:

@@ -96,6 +96,7 @@ class Checker:
         from cfree import _core
 
         with collection_paused():
+            self.scene = scene
             features = features or scene_features(scene)
             self.limits = limits_of(scene)
             x0, y0, x1, y1 = self.limits
