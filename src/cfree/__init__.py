@@ -27,6 +27,8 @@ if TYPE_CHECKING:
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UnsupportedError as UnsupportedError
     from cfree.film import save_film as save_film
+    from cfree.fitting import Fit as Fit
+    from cfree.fitting import fits as fits
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
     from cfree.free import Checker as Checker
@@ -118,6 +120,7 @@ _HOMES = {
     "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
     "UnsupportedError",
     "film": "save_film",
+    "fitting": "Fit fits",
     "forbidden": "Boundary boundary",
     "cells": "Cell FreeSpace free_space",
     "free": "Checker is_free",
