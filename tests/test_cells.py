@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import shapely
 
 import oracles
 from cfree import (
@@ -24,6 +25,7 @@ from cfree import (
     load_scene,
 )
 from cfree.cells import _parents
+from cfree.pose import tau_in_chart
 from cfree.storage import CELL_COLUMNS, save_boundary
 from compared import plain_of, scene_of
 from flood import flood
@@ -203,6 +205,53 @@ def test_roomiest_poses_are_in_their_cells_and_have_that_room() -> None:
         for step in around:
             x, y = float(pose.x) + step.real, float(pose.y) + step.imag
             assert not oracles.overlaps(plain.robot, plain.obstacles, (x, y, pose.theta))
+
+
+@pytest.mark.parametrize("name", ["benchmr_parking1", "nest_shirts", "flat"])
+def test_many_poses_are_in_the_cells_that_each_of_them_is_in(name: str) -> None:
+    space = free_space(boundary(load_scene(ROOT / f"examples/scenes/{name}.json")))
+    rng = np.random.default_rng(3)
+    xy = space.boundary.features.obstacles.xy
+    poses = Poses(rng.uniform(xy.min(0), xy.max(0), (3000, 2)), rng.uniform(0, math.tau, 3000))
+    found = space.locate(poses)
+    assert len(np.unique(found)) > 1
+    for threads in (1, 3):
+        np.testing.assert_array_equal(space.locate(poses, threads=threads), found)
+    assert space.locate([poses[k] for k in range(300)]).tolist() == found[:300].tolist()
+    assert [scanned(space, poses[k]) for k in range(300)] == found[:300].tolist()
+    with pytest.raises(ValueError, match="threads: 0"):
+        space.locate(poses, threads=0)
+
+
+def scanned(space: FreeSpace, pose: Pose) -> int:
+    """Where a pose is by all segments of its slice, in doubles."""
+    x, y, cut = float(pose.x), float(pose.y), space.walls.slice(pose.theta)
+    (x0, y0), (x1, y1) = cut.segments[:, 0].T, cut.segments[:, 1].T
+    crossed = ((y0 > y) != (y1 > y)) & (x0 + (y - y0) / np.where(y1 == y0, 1, y1 - y0) * (x1 - x0) < x)
+    around = np.flatnonzero(np.bincount(space.component[cut.trapezoids[crossed]], minlength=len(space.parent)) % 2)
+    if len(around) == 0:
+        return space.outside
+    deepest = around[np.argmax(space.depth[around])]
+    return int(space.cell_of[deepest]) if space.free_inside[deepest] else -1
+
+
+def test_location_at_critical_orientations_and_beside_them() -> None:
+    # and at half-angle tangents k / 64: dyadic ones may be where a list of the index ends
+    plain = random_scene(5, "bounds")
+    space = space_of(plain)
+    table, rng = space.walls.trapezoids, np.random.default_rng(0)
+    ends = list(zip(table.chart.tolist(), table.tau_to.tolist(), strict=True))[::40]
+    beside = [(c, float(np.nextafter(t, side))) for c, t in ends for side in (-1, 1) if abs(t) < 1]
+    assert plain.bounds is not None
+    x0, y0, x1, y1 = map(float, plain.bounds)
+    for chart, tau in [(c, k / 64) for c in (0, 1) for k in range(-64, 65, 4)] + ends + beside:
+        x, y = (Fraction(round(8 * c), 8) for c in rng.uniform((x0, y0), (x1, y1)))
+        pose = Pose(x, y, {"tau": tau_in_chart(chart, Fraction(tau))})
+        forbidden = oracles.exact_is_forbidden(plain.robot, plain.obstacles, x, y, pose.tau, plain.bounds, None)
+        assert (space.locate(pose) == -1) == forbidden
+        segments = space.walls.slice(pose.theta).segments
+        if shapely.distance(shapely.Point(float(x), float(y)), shapely.MultiLineString(list(segments))) > 1e-6:
+            assert space.locate(pose) == scanned(space, pose)
 
 
 def test_motions_of_the_scene_change_nothing() -> None:

@@ -1,6 +1,7 @@
 // A flat list: arrays in, call, arrays out; the lock is released for long calls. Docstrings and checks are in Python.
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
 
 #include "cfree/boundary.hpp"
@@ -9,10 +10,12 @@
 #include "cfree/mesh.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
+#include "integers.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
 using In1 = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
+using In2 = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Out1 = nb::ndarray<double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 using Out2 = nb::ndarray<double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
 using Out3 = nb::ndarray<double, nb::ndim<3>, nb::c_contig, nb::device::cpu>;
@@ -30,6 +33,11 @@ using Limbs = nb::ndarray<const std::int64_t, nb::ndim<3>, nb::c_contig, nb::dev
 template <class T>
 static std::vector<T> vector_of(const Column<T>& column) {
     return {column.data(), column.data() + column.shape(0)};
+}
+
+template <class T>
+static std::span<const T> span_of(const Column<T>& column) {
+    return {column.data(), column.shape(0)};
 }
 
 // The vector's memory as an array that owns it.
@@ -201,21 +209,26 @@ NB_MODULE(_core, m) {
             }
             return nb::make_tuple(array_of(std::move(x.start)), array_of(std::move(x.around)), array_of(std::move(x.free_inside)));
         })
-        .def("locate", [](const cfree::Rays& rays, Limbs poses, Column<int> chart, Column<int> depth, Column<int> cell,
-                          Column<std::uint8_t> free_inside, int outside) {
-            const std::size_t n = poses.shape(0), limbs = poses.shape(2);
-            if (poses.shape(1) != 5 || limbs == 0 || chart.shape(0) != n)
-                throw std::invalid_argument("poses must have the shape (n, 5, limbs)");
-            const cfree::Rays::Cells cells{vector_of(depth), vector_of(cell), vector_of(free_inside), outside};
+        .def("locate_exactly", [](const cfree::Rays& rays, std::array<nb::int_, 5> pose, int chart, Column<int> depth,
+                                  Column<int> cell, Column<std::uint8_t> free_inside, int outside) {
+            const auto at = [&](std::size_t k) { return integer(pose[k]); };
+            return rays.locate({at(0), at(1), at(2), chart, at(3), at(4)},
+                               {span_of(depth), span_of(cell), span_of(free_inside), outside});
+        }, "pose"_a, "chart"_a, "depth"_a, "cell"_a, "free_inside"_a, "outside"_a)
+        .def("locate", [](const cfree::Rays& rays, In2 xy, Column<int> chart, In1 tau, const nb::int_& scale, Column<int> depth,
+                          Column<int> cell, Column<std::uint8_t> free_inside, int outside, int threads) {
+            const std::size_t n = tau.shape(0);
+            if (xy.shape(0) != n || xy.shape(1) != 2 || chart.shape(0) != n)
+                throw std::invalid_argument("xy, chart and tau differ in length");
             std::vector<int> found(n);
-            nb::gil_scoped_release release;
-            for (std::size_t k = 0; k < n; ++k) {
-                const auto at = [&](std::size_t c) { return integer(poses.data() + (5 * k + c) * limbs, limbs); };
-                found[k] = rays.locate({at(0), at(1), at(2), chart.data()[k], at(3), at(4)}, cells);
+            const cfree::Int unit = integer(scale);
+            {
+                nb::gil_scoped_release release;
+                rays.locate(xy.data(), chart.data(), tau.data(), n, unit, threads,
+                            {span_of(depth), span_of(cell), span_of(free_inside), outside}, found.data());
             }
-            nb::gil_scoped_acquire acquire;
             return array_of(std::move(found));
-        });
+        }, "xy"_a, "chart"_a, "tau"_a, "scale"_a, "depth"_a, "cell"_a, "free_inside"_a, "outside"_a, "threads"_a);
     nb::class_<cfree::Slicer>(m, "Slicer")
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,
                             In1 obstacle_xy, Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle,

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "form.hpp"
+#include "parallel.hpp"
 
 namespace cfree {
 
@@ -160,26 +161,65 @@ struct Rays::Probe {
 };
 
 Rays::Rays(Scene s, int by, Patches p, Trapezoids x, std::vector<Index> of)
-    : scene(std::move(s)), shift(by), patches(std::move(p)), trapezoids(std::move(x)), component(std::move(of)) {
-    const Trapezoids& t = trapezoids;
-    const auto n = static_cast<Index>(t.patch.size());
-    parts = std::clamp<Index>(n / 8, 1, 4096);
-    part_start.assign(static_cast<std::size_t>(2 * parts) + 1, 0);
-    for (int pass = 0; pass < 2; ++pass) {  // count, then place from the ends
-        for (Index k = n; k-- > 0;)
-            for (Index q = part_of(t.chart[k], t.from_lo[k]); q <= part_of(t.chart[k], t.to_hi[k]); ++q) {
-                if (pass == 0) ++part_start[q];
-                else part_member[--part_start[q]] = k;
-            }
-        if (pass == 0) {
-            std::partial_sum(part_start.begin(), part_start.end(), part_start.begin());
-            part_member.resize(part_start.back());
-        }
+    : scene(std::move(s)), shift(by), patches(std::move(p)), trapezoids(std::move(x)), component(std::move(of)),
+      index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 3) {
+    for (Index part = 0; part < index.count(); ++part) {
+        for (const Index k : index.at(part)) extents.push_back(extent(k, index.from(part), index.to(part)));
+        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& p, const Extent& q) {
+            return p.low < q.low || (p.low == q.low && p.trapezoid < q.trapezoid);
+        });
+        plant(index.begin(part), index.begin(part + 1));
     }
 }
 
-Index Rays::part_of(int chart, double tau) const {
-    return chart * parts + std::clamp<Index>(static_cast<Index>(0.5 * (tau + 1) * parts), 0, parts - 1);
+// The ends of a segment move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
+Rays::Extent Rays::extent(Index k, double from, double to) const {
+    constexpr double rounding = 0x1p-40;
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature contact = surface_of(patches, trapezoids, k).contact;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const auto turn = [&](double tau) {
+        const double m = (trapezoids.chart[k] ? -1 : 1) / (1 + tau * tau);
+        return Vec<double>{(1 - tau * tau) * m, 2 * tau * m};
+    };
+    const auto first = turn(std::max(from, trapezoids.from_lo[k])), last = turn(std::min(to, trapezoids.to_hi[k]));
+    const double sagitta = 1 - std::sqrt(std::max(0.0, 0.5 + 0.5 * dot(first, last)));
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Extent result{infinity, -infinity, infinity, 0, k};
+    for (const bool is_end : {false, true}) {
+        const Index i = on_edge ? contact.robot : (is_end ? A.w : A.v)[contact.robot];
+        const Index j = on_edge ? (is_end ? O.w : O.v)[contact.obstacle] : contact.obstacle;
+        const Vec<double> a{A.x[i], A.y[i]}, b{O.x[j], O.y[j]};
+        const double size = std::abs(a.x) + std::abs(a.y);
+        const double slack = sagitta * size + rounding * (size + std::abs(b.x) + std::abs(b.y)) + tiny;
+        for (const auto& r : {first, last}) {
+            const double x = b.x - dot(Vec<double>{r.x, -r.y}, a), y = b.y - dot(Vec<double>{r.y, r.x}, a);
+            result.low = std::min(result.low, y - slack), result.high = std::max(result.high, y + slack);
+            result.left = std::min(result.left, x - slack);
+        }
+    }
+    return result;
+}
+
+double Rays::plant(Index begin, Index end) {
+    if (begin == end) return -std::numeric_limits<double>::infinity();
+    const Index middle = begin + (end - begin) / 2;
+    Extent& x = extents[middle];
+    return x.top = std::max({x.high, plant(begin, middle), plant(middle + 1, end)});
+}
+
+// Trapezoids that the ray from a pose towards -x may cross.
+template <class F>
+void Rays::stab(Index begin, Index end, const View& q, F&& report) const {
+    while (begin < end) {
+        const Index middle = begin + (end - begin) / 2;
+        const Extent& x = extents[middle];
+        if (x.top < q.place.y.v) return;
+        stab(begin, middle, q, report);
+        if (x.low > q.place.y.v) return;
+        if (x.high >= q.place.y.v && x.left <= q.place.x.v) report(x.trapezoid);
+        begin = middle + 1;
+    }
 }
 
 // Sign of an angle of a trapezoid minus that of the pose, of one chart.
@@ -232,33 +272,23 @@ Range range(Approx p, Approx q) {
 
 Rays::Seen Rays::look(const View& q, When when, Index own) const {
     Seen seen;
-    const Index part = part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
-    Index last_patch = -1;
-    bool is_near = false;
-    for (Index m = part_start[part]; m < part_start[part + 1]; ++m) {
-        const Index k = part_member[m], patch = trapezoids.patch[k];
-        if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) continue;
+    const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
+    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+        if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
         const Feature contact = surface_of(patches, trapezoids, k).contact;
-        if (patch != last_patch) {  // a patch above, below or right of the pose is of no account
-            const auto line = q.line<Approx>(scene, contact);
-            const auto [low, high, err] = range(q.turn(line.height()), q.turn(line.down()));
-            const auto [left, right, error] = range(q.turn(line.distance()), q.turn(line.back()));
-            is_near = !(low > err || high < -err || left > error);
-            last_patch = patch;
-        }
-        if (!is_near) continue;
+        const auto here = q.line<Approx>(scene, contact);
+        const auto [low, high, err] = range(q.turn(here.height()), q.turn(here.down()));
+        const auto [left, right, error] = range(q.turn(here.distance()), q.turn(here.back()));
+        if (low > err || high < -err || left > error) return;  // above, below or right of the pose
         const int from = order(false, k, q), to = order(true, k, q);
-        if (from > 0 || to < 0) continue;
-        if (when == When::at && (from == 0 || to == 0)) {
-            seen.generic = false;
-            return seen;
-        }
-        if (k == own) continue;
+        if (from > 0 || to < 0) return;
+        if (when == When::at && (from == 0 || to == 0)) seen.generic = false;
+        if (k == own) return;
         if (may_be_on(contact, q) && is_on(k, q, to == 0)) {
             seen.on.push_back(k);
-            continue;
+            return;
         }
-        if (to == 0) continue;  // it ends here
+        if (to == 0) return;  // it ends here
         const int side = q.sign(when, [&]<class T>() { return q.expansion<T>()(q.line<T>(scene, contact).side()); });
         const Predicates predicates(scene, surface_of(patches, trapezoids, k));
         const auto is_above = [&](std::uint64_t code) {  // P_y + t U_y > 0, t = N / D
@@ -273,18 +303,17 @@ Rays::Seen Rays::look(const View& q, When when, Index own) const {
         };
         const bool begins_above = is_above(trapezoids.lower[k]), ends_above = is_above(trapezoids.upper[k]);
         if (begins_above != ends_above && side == (ends_above ? -1 : 1)) seen.crossed.push_back(component[k]);
-    }
+    });
     return seen;
 }
 
 // Trapezoids that hold the pose, and end there.
 void Rays::look_on(const View& q, Seen& seen) const {
-    const Index part = part_of(q.pose->chart, 1);
-    for (Index m = part_start[part]; m < part_start[part + 1]; ++m) {
-        const Index k = part_member[m];
-        if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) continue;
+    const Index part = index.part_of(q.pose->chart, 1);
+    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+        if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) return;
         if (may_be_on(surface_of(patches, trapezoids, k).contact, q) && is_on(k, q, true)) seen.on.push_back(k);
-    }
+    });
 }
 
 // A pose on a trapezoid, strictly between its angles and its curves.
@@ -350,6 +379,32 @@ Rays::Nesting Rays::nesting() const {
         result.start.push_back(static_cast<Index>(result.around.size()));
     }
     return result;
+}
+
+ExactPose ExactPose::from(double x, double y, int chart, double tau, const Int& scale) {
+    const auto parts = [](double value) {  // value = n 2^e
+        int e;
+        const double n = std::ldexp(std::frexp(value, &e), 53);
+        return std::pair<Int, int>(n, e - 53);
+    };
+    const auto [m, e] = parts(x);
+    const auto [n, f] = parts(y);
+    const int low = std::min({e, f, 0});
+    const Dyadic t = Dyadic::from(tau);
+    return {scale * m << static_cast<unsigned>(e - low), scale * n << static_cast<unsigned>(f - low),
+            Int(1) << static_cast<unsigned>(-low), chart, t.n, Int(1) << t.k};
+}
+
+void Rays::locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
+                  const Cells& cells, Index* out) const {
+    constexpr std::size_t chunk = 64;
+    std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0;
+    in_parallel(threads, stop, [&] {
+        for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;)
+            for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k)
+                out[k] = locate(ExactPose::from(xy[2 * k], xy[2 * k + 1], chart[k], tau[k], scale), cells);
+    });
 }
 
 Index Rays::locate(const ExactPose& pose, const Cells& cells) const {

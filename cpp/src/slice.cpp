@@ -12,28 +12,7 @@ Slicer::Slicer(std::shared_ptr<const Scene> s, std::vector<double> robot_xy, std
                std::vector<std::uint64_t> upper_, std::vector<double> tau_from_, std::vector<double> tau_to_)
     : scene(std::move(s)), a(std::move(robot_xy)), b(std::move(obstacle_xy)), patches(std::move(p)),
       patch(std::move(patch_)), chart(std::move(chart_)), lower(std::move(lower_)), upper(std::move(upper_)),
-      tau_from(std::move(tau_from_)), tau_to(std::move(tau_to_)) {
-    parts = std::clamp<Index>(static_cast<Index>(patch.size() / 8), 1, 4096);
-    part_start.assign(static_cast<std::size_t>(2 * parts) + 1, 0);
-    for (int pass = 0; pass < 2; ++pass) {  // count, then place
-        for (std::size_t k = 0; k < patch.size(); ++k)
-            for (Index q = part_of(chart[k], tau_from[k]); q <= part_of(chart[k], tau_to[k]); ++q) {
-                if (pass == 0) ++part_start[q + 1];
-                else part_member[part_start[q]++] = static_cast<Index>(k);
-            }
-        if (pass == 0) {
-            for (std::size_t q = 1; q < part_start.size(); ++q) part_start[q] += part_start[q - 1];
-            part_member.resize(part_start.back());
-        } else {
-            for (std::size_t q = part_start.size() - 1; q > 0; --q) part_start[q] = part_start[q - 1];
-            part_start[0] = 0;
-        }
-    }
-}
-
-Index Slicer::part_of(int c, double tau) const {
-    return c * parts + std::clamp<Index>(static_cast<Index>(0.5 * (tau + 1) * parts), 0, parts - 1);
-}
+      tau_from(std::move(tau_from_)), tau_to(std::move(tau_to_)), index(chart, tau_from, tau_to, 8) {}
 
 Slicer::Turn Slicer::turn(int c, double tau) {
     const double w = (c ? -1 : 1) / (1 + tau * tau);
@@ -107,12 +86,10 @@ void Slicer::step_off_events(int& c, double& tau) const {
     constexpr double near = 1e-11, step = 1e-8;
     for (int steps = 0; steps < 1000; ++steps) {
         if (tau >= 1) c = 1 - c, tau = -1;
-        const Index q = part_of(c, tau);
-        bool clear = tau > near - 1 && tau < 1 - near;
-        for (Index k = part_start[q]; clear && k < part_start[q + 1]; ++k) {
-            const Index x = part_member[k];
-            clear = std::abs(tau_from[x] - tau) > near && std::abs(tau_to[x] - tau) > near;
-        }
+        const auto members = index.at(index.part_of(c, tau));
+        const bool clear = tau > near - 1 && tau < 1 - near && std::all_of(members.begin(), members.end(), [&](Index x) {
+            return std::abs(tau_from[x] - tau) > near && std::abs(tau_to[x] - tau) > near;
+        });
         if (clear) return;
         tau += step;
     }
@@ -125,11 +102,10 @@ Slicer::Segments Slicer::segments(int c, double tau) const {
     Segments result;
     const Turn r = turn(c, tau);
     const bool stepped = tau != was;
-    const Index q = part_of(c, tau);
     // Where lines are nearly parallel at the angle asked for, they meet where they do a step beyond it.
     constexpr double steep = 1e-6;
-    for (Index k = part_start[q]; k < part_start[q + 1]; ++k) {
-        const Index x = part_member[k], id = patch[x];
+    for (const Index x : index.at(index.part_of(c, tau))) {
+        const Index id = patch[x];
         if (!(tau_from[x] <= tau && tau < tau_to[x])) continue;
         const Line l = line(id, asked), beyond = stepped ? line(id, r) : l;
         for (const std::uint64_t curve : {lower[x], upper[x]}) {

@@ -4,6 +4,8 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from cfree.angle_interval import AlgebraicAngle as AlgebraicAngle
+    from cfree.angle_interval import AngleInterval as AngleInterval
     from cfree.answer import load_answer as load_answer
     from cfree.cell_complex import CellComplex as CellComplex
     from cfree.cells import Cell as Cell
@@ -26,6 +28,8 @@ if TYPE_CHECKING:
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UnsupportedError as UnsupportedError
     from cfree.film import save_film as save_film
+    from cfree.fitting import Fit as Fit
+    from cfree.fitting import fits as fits
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
     from cfree.free import Checker as Checker
@@ -48,6 +52,8 @@ if TYPE_CHECKING:
     from cfree.geometry.rulings import striction_is_on_patch as striction_is_on_patch
     from cfree.geometry.rulings import striction_parameter as striction_parameter
     from cfree.geometry.rulings import striction_parameters as striction_parameters
+    from cfree.invalid import free_nearby as free_nearby
+    from cfree.invalid import require_free as require_free
     from cfree.io import load_polygons as load_polygons
     from cfree.io import load_scene as load_scene
     from cfree.mesh import Mesh as Mesh
@@ -108,11 +114,13 @@ if TYPE_CHECKING:
     from cfree.touch import is_contact as is_contact
     from cfree.touch import is_forbidden as is_forbidden
     from cfree.touch import is_pseudo_contact as is_pseudo_contact
+    from cfree.turn import turn_in_place as turn_in_place
 
 __version__ = "0.1.0"
 
 # where each public name lives; imported when first used, so that `import cfree` is quick
 _HOMES = {
+    "angle_interval": "AlgebraicAngle AngleInterval",
     "answer": "load_answer",
     "cell_complex": "CellComplex",
     "contact": "AngleRange EdgeEdge EdgeVertex VertexEdge VertexVertex angle_range contact_curves contacts "
@@ -120,6 +128,7 @@ _HOMES = {
     "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
     "UnsupportedError",
     "film": "save_film",
+    "fitting": "Fit fits",
     "forbidden": "Boundary boundary",
     "cells": "Cell FreeSpace free_space",
     "free": "Checker is_free",
@@ -130,6 +139,7 @@ _HOMES = {
     "geometry.plot": "plot_development",
     "geometry.rulings": "distribution_parameters is_developable is_helicoid is_minimal striction_curve "
     "striction_is_on_patch striction_parameter striction_parameters",
+    "invalid": "free_nearby require_free",
     "io": "load_polygons load_scene",
     "mesh": "Mesh save_mesh",
     "motion": "Rotation Translation rotations",
@@ -152,6 +162,7 @@ _HOMES = {
     "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface helix_through "
     "rotation_about rotation_of_combination",
     "touch": "contact_features is_contact is_forbidden is_pseudo_contact",
+    "turn": "turn_in_place",
 }
 _MODULE = {name: module for module, names in _HOMES.items() for name in names.split()}
 __all__ = ["__version__", *_MODULE]

@@ -13,15 +13,15 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.errors import FormatError, InvariantError
-from cfree.features import BOUNDS, WORKSPACE, limbs
+from cfree.errors import FormatError, InvalidPoseError, InvariantError
+from cfree.features import BOUNDS, WORKSPACE
 from cfree.forbidden import Boundary
-from cfree.free import is_free
+from cfree.free import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.pose import Pose, Poses, chart_of, tau_in_chart
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from cfree.separated import Separated
 
 FORBIDDEN, NO_CELL = -1, -2
-NEAR = 1e-6  # far more than rounding: what is farther from an exact fit is not looked at exactly
+BLOCK = 1 << 16  # poses between two looks at Ctrl-C
 
 
 @dataclass(frozen=True, eq=False)
@@ -122,6 +122,7 @@ class FreeSpace:
         free_inside: NDArray[np.bool_],
         turns: Ints,
         lift: Ints,
+        rays: Any = None,
     ) -> None:
         self.boundary = boundary
         self.walls = walls_of(boundary)
@@ -134,6 +135,7 @@ class FreeSpace:
         self.cell_of = _cells_of(parent, free_inside, self.outside)
         for array in (component, parent, free_inside, turns, lift, self.cell_of):
             array.flags.writeable = False
+        self._rays = rays or _rays(self.walls, component)
 
     def __len__(self) -> int:
         return len(self.cells)
@@ -235,13 +237,19 @@ class FreeSpace:
             raise FormatError(f"{os.fspath(path)}: {fault}", path=str(path))
         return space
 
-    def locate(self, poses: Pose | Poses | Iterable[Pose]) -> Any:
+    @overload
+    def locate(self, poses: Pose, *, threads: int | None = None) -> int: ...
+    @overload
+    def locate(self, poses: Poses | Iterable[Pose], *, threads: int | None = None) -> Ints: ...
+    def locate(self, poses: Pose | Poses | Iterable[Pose], *, threads: int | None = None) -> int | Ints:
         """Cell of each pose, exactly.
 
         Parameters
         ----------
         poses : Pose, Poses or sequence of Pose
             The doubles of `Poses` are taken as they are: the orientation is that of the rounded tangent of its half.
+        threads : int, optional
+            All cores by default. The result does not depend on it.
 
         Returns
         -------
@@ -251,23 +259,32 @@ class FreeSpace:
 
         Notes
         -----
-        Time per pose is proportional to the faces at its orientation.
+        Time per free pose is about proportional to the faces at its height to the left of it, at its orientation; a
+        forbidden one is mostly recognised as by `is_free`. Some microseconds each; tens for a single `Pose`.
         """
+        if threads is not None and threads < 1:
+            raise ValueError(f"threads: {threads}; give at least 1")
         if isinstance(poses, Pose):
-            return int(self.locate([poses])[0])
-        chosen = poses if isinstance(poses, Poses) else list(poses)
-        if len(chosen) == 0:
-            return np.empty(0, np.int32)
-        chart, rows = _exact_rows(chosen, self.boundary.features.scale)
-        inside = self.free_inside.view(np.uint8)
-        found: Ints = self._rays.locate(limbs(rows, 5), chart, self.depth, self.cell_of, inside, self.outside)
-        for k in self._may_fit(chosen, found):
-            X, Y, W, p, r = rows[k]
-            unit, tau = W * self.boundary.features.scale, tau_in_chart(int(chart[k]), Fraction(p, r))
-            if is_free(self.boundary, Pose(Fraction(X, unit), Fraction(Y, unit), {"tau": tau})):
-                found[k] = NO_CELL
+            return self._locate(poses)
+        if not isinstance(poses, Poses):
+            return np.array([self._locate(pose) for pose in poses], np.int32)
+        found = np.full(len(poses), FORBIDDEN, np.int32)
+        for k in range(0, len(poses), BLOCK):
+            xy, theta = poses.xy[k : k + BLOCK], poses.theta[k : k + BLOCK]
+            # the tangents' rounding is within what verdicts allow for, so that "forbidden" is certain
+            verdicts = self.boundary.checker.verdicts(np.column_stack([xy, theta]), threads)
+            asked = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
+            chart, tau = chart_of(theta[asked])
+            scale, count = self.boundary.features.scale, threads or os.cpu_count() or 1
+            cell = self._rays.locate(xy[asked], chart.astype(np.int32), tau, scale, *self._nesting, count)
+            for m in np.flatnonzero(cell == FORBIDDEN).tolist():
+                x, y = xy[asked[m]].tolist()
+                if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
+                    cell[m] = NO_CELL
+            found[k + asked] = cell
         return found
 
+<<<<<<< HEAD
     def plan(self, start: Pose, goal: Pose, *, improve: float = 0.0) -> Path | Separated:
         """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
 
@@ -307,6 +324,50 @@ class FreeSpace:
             x0, y0, x1, y1 = map(float, self.boundary.scene.bounds or ())
             near |= np.any(np.abs(xy[:, [0, 1, 0, 1]] - (x0, y0, x1, y1)) <= slack, axis=1)
         return outside[near].astype(np.int32)
+=======
+    def _locate(self, pose: Pose) -> int:
+        if not self.boundary.checker.is_free(pose):
+            return FORBIDDEN
+        chart, tau = pose.chart
+        unit, scale = math.lcm(pose.x.denominator, pose.y.denominator), self.boundary.features.scale
+        place = int(pose.x * unit) * scale, int(pose.y * unit) * scale, unit, tau.numerator, tau.denominator
+        cell: int = self._rays.locate_exactly(place, chart, *self._nesting)
+        return NO_CELL if cell == FORBIDDEN else cell
+
+    def reachable(self, start: Pose) -> Cell:
+        """The cell that a start is in or on the boundary of: what the robot can reach from there.
+
+        Every pose of a cell can be reached from every other without touching anything on the way. By sliding through a
+        passage just as wide as the robot it may get further; a start on the boundary of several cells gets the first.
+
+        Raises
+        ------
+        InvalidPoseError
+            If the start is forbidden, with what overlaps what and a free pose near by; or if it fits exactly, and so is
+            in the closure of no cell.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> room = [(0, 0), (9, 0), (9, 9), (0, 9)]
+        >>> scene = cfree.Scene([(0, 0), (2, 0), (0, 1)], [[(4, 0), (5, 0), (5, 9), (4, 9)]], workspace=room)
+        >>> space = cfree.free_space(cfree.boundary(scene))
+        >>> space.reachable(Pose(1, 1)).index == space.reachable(Pose(1, 5)).index != space.reachable(Pose(6, 1)).index
+        True
+        """
+        from cfree.invalid import require_free
+
+        require_free(self.boundary, start, "start")
+        cell = self.locate(start)
+        if cell == NO_CELL:
+            raise InvalidPoseError("start is free, but an exact fit, in the closure of no cell; see Boundary.isolated")
+        return self.cells[cell]
+
+    @cached_property
+    def _nesting(self) -> tuple[Ints, Ints, NDArray[np.uint8], int]:
+        """What the core has to know of the surfaces to name a cell."""
+        return self.depth, self.cell_of, self.free_inside.view(np.uint8), self.outside
+>>>>>>> queries
 
     @cached_property
     def depth(self) -> Ints:
@@ -318,6 +379,7 @@ class FreeSpace:
             above = np.where(above >= 0, self.parent[above], -1)
         return depth
 
+<<<<<<< HEAD
     @cached_property
     def insets(self) -> dict[int, FreeSpace | None]:
         """Free spaces of smaller robots, as far as they were needed; see `cfree.inset.inset_space`."""
@@ -327,6 +389,8 @@ class FreeSpace:
     def _rays(self) -> Any:
         return _rays(self.walls, self.component)
 
+=======
+>>>>>>> queries
 
 def free_space(boundary: Boundary) -> FreeSpace:
     """Cells of the free space of a boundary.
@@ -365,13 +429,14 @@ def free_space(boundary: Boundary) -> FreeSpace:
     boundary.require_complete()
     walls = walls_of(boundary)
     cells = walls.complex
-    start, around, free_inside = _rays(walls, cells.component).nesting()
+    rays = _rays(walls, cells.component)
+    start, around, free_inside = rays.nesting()
     parent = _parents(start, around, free_inside, boundary.features.rim is None)
     chart, last, first = walls.trapezoids.chart[cells.face], cells.side == 2, cells.side == 0
     leaves = last & first[cells.twin] & (chart == 1) & (chart[cells.twin] == 0)  # over theta = 3 pi / 2
     steps = leaves.astype(np.int8) - leaves[cells.twin].astype(np.int8)
     turns, lift = _core.turns(cells.first, cells.face, cells.twin, cells.component, steps, cells.components)
-    return FreeSpace(boundary, cells.component, parent, free_inside.astype(bool), turns, lift)
+    return FreeSpace(boundary, cells.component, parent, free_inside.astype(bool), turns, lift, rays)
 
 
 def walls_of(boundary: Boundary) -> Boundary:
@@ -429,20 +494,3 @@ def _cells_of(parent: Ints, free_inside: NDArray[np.bool_], outside: int) -> Int
     above = np.where(parent >= 0, own[parent], outside) if len(parent) else own
     cell_of: Ints = np.where(free_inside, own, above).astype(np.int32)
     return cell_of
-
-
-def _exact_rows(poses: Poses | list[Pose], scale: int) -> tuple[Ints, list[tuple[int, ...]]]:
-    """Charts, and rows (X, Y, W, p, r): positions (X, Y) / W in the core's integers, tau = p / r in the chart."""
-    places: Iterable[tuple[Any, Any, int, Any]]
-    if isinstance(poses, Poses):
-        chart, tau = chart_of(poses.theta)
-        places = zip(*poses.xy.T.tolist(), chart.tolist(), tau.tolist(), strict=True)
-    else:
-        places = ((q.x, q.y, *q.chart) for q in poses)
-    charts, rows = [], []
-    for x, y, c, t in places:
-        (xn, xd), (yn, yd) = x.as_integer_ratio(), y.as_integer_ratio()
-        w = math.lcm(xd, yd)
-        charts.append(c)
-        rows.append((xn * (w // xd) * scale, yn * (w // yd) * scale, w, *t.as_integer_ratio()))
-    return np.array(charts, np.int32), rows

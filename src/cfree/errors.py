@@ -2,7 +2,7 @@
 
     CfreeError
       InvalidPolygonError (ValueError)     not simple, too few vertices, no area; carries ring and edges
-      InvalidPoseError    (ValueError)     not finite, not an angle
+      InvalidPoseError    (ValueError)     not finite, not an angle, not free
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
       IncompleteError     (RuntimeError)   a question to a boundary whose computation was stopped by a limit
@@ -12,6 +12,11 @@ Messages give the place, the value and the remedy.
 """
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cfree.pose import Pose
 
 
 class CfreeError(Exception):
@@ -43,7 +48,14 @@ class InvalidPolygonError(CfreeError, ValueError):
 
 
 class InvalidPoseError(CfreeError, ValueError):
-    """A position or an angle that is not a number of the kind documented in `cfree.pose`."""
+    """A position or an angle that is not a number of the kind documented in `cfree.pose`, or a pose that is not free.
+
+    `free` is then a free pose near by, if one was found.
+    """
+
+    def __init__(self, message: str, *, free: Pose | None = None) -> None:
+        super().__init__(message)
+        self.free = free
 
 
 class FormatError(CfreeError, ValueError):

@@ -21,7 +21,7 @@ from cfree.forbidden import Boundary
 from cfree.pose import Floats, Pose, Poses
 from cfree.scene import Scene
 
-FREE, UNCERTAIN = 1, 2  # the core's verdicts
+FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two looks at Ctrl-C
 FARTHEST = Fraction(10**300)  # what is further away is as far as this
 
@@ -96,8 +96,9 @@ class Checker:
         from cfree import _core
 
         with collection_paused():
+            self.scene = scene
             features = features or scene_features(scene)
-            self.limits = _limits(scene)
+            self.limits = limits_of(scene)
             x0, y0, x1, y1 = self.limits
             limits = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
             robot, obstacles = features.robot, features.obstacles
@@ -116,14 +117,19 @@ class Checker:
         if isinstance(poses, Pose):
             return self._is_free_exactly(poses)
         table = _table(poses)
-        verdicts = np.empty(len(table), np.uint8)
-        for k in range(0, len(table), BLOCK):
-            rows = slice(k, k + BLOCK)
-            self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+        verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
             verdicts[k] = self._is_free_exactly(Pose(*table[k].tolist()))
         free: NDArray[np.bool_] = verdicts == FREE
         return free
+
+    def verdicts(self, table: Floats, threads: int | None = None) -> NDArray[np.uint8]:
+        """FORBIDDEN or FREE where doubles say so with certainty, else UNCERTAIN; rows x, y and theta in [0, 2 pi)."""
+        verdicts = np.empty(len(table), np.uint8)
+        for k in range(0, len(table), BLOCK):
+            rows = slice(k, k + BLOCK)
+            self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+        return verdicts
 
     def _is_free_exactly(self, pose: Pose) -> bool:
         x0, y0, x1, y1 = self.limits
@@ -148,7 +154,7 @@ def _table(poses: Poses | ArrayLike) -> Floats:
     return _table(Poses(table[:, :2], theta))
 
 
-def _limits(scene: Scene) -> Limits:
+def limits_of(scene: Scene) -> Limits:
     """Where the reference point may be: in the bounds, and no further outside the workspace than the robot reaches.
 
     The core knows only a frame around the workspace: twice as thick as the robot reaches.

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "cfree/cell_complex.hpp"
+#include "cfree/tau_index.hpp"
 
 namespace cfree {
 
@@ -12,6 +13,8 @@ struct ExactPose {
     Int X, Y, W;
     int chart;
     Int p, r;
+    // The pose that doubles are, in the user's units.
+    static ExactPose from(double x, double y, int chart, double tau, const Int& scale);
 };
 
 class Rays {
@@ -28,11 +31,14 @@ public:
 
     // The cell of a pose, -1 if it is forbidden, by what bounds which cell. On the boundary: the first cell that it bounds.
     struct Cells {
-        std::vector<Index> depth, cell;  // of each component: how many are around it, the cell it bounds
-        std::vector<std::uint8_t> free_inside;
-        Index outside;                   // where nothing is around
+        std::span<const Index> depth, cell;  // of each component: how many are around it, the cell it bounds
+        std::span<const std::uint8_t> free_inside;
+        Index outside;                       // where nothing is around
     };
     Index locate(const ExactPose& q, const Cells& cells) const;
+    // The same for many poses that doubles are; the scene's integers are `scale` times the user's units.
+    void locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
+                const Cells& cells, Index* out) const;
 
 private:
     struct Seen;
@@ -45,15 +51,23 @@ private:
     int order(bool of_end, Index k, const View& q) const;
     struct Probe;
     std::optional<Probe> probe(Index k, int attempt) const;
-    Index part_of(int chart, double tau) const;
+    // Where the segments of a trapezoid are while tau is in a part: heights, the left end, and the top of all below in the tree.
+    struct Extent {
+        double low, high, left, top;
+        Index trapezoid;
+    };
+    Extent extent(Index k, double from, double to) const;
+    double plant(Index begin, Index end);
+    template <class F>
+    void stab(Index begin, Index end, const View& q, F&& report) const;
 
     Scene scene;
     int shift;
     Patches patches;
     Trapezoids trapezoids;
     std::vector<Index> component;
-    Index parts = 1;
-    std::vector<Index> part_start, part_member;  // trapezoids by chart and part of [-1, 1]
+    TauIndex index;
+    std::vector<Extent> extents;  // of the index's lists, each a tree: in order of `low`, the root in the middle
 };
 
 // How often closed surfaces go round in theta: the greatest common divisor of the turns of all loops on each, and by how many

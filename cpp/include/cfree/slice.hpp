@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "cfree/tau_index.hpp"
 #include "cfree/trapezoids.hpp"
 
 namespace cfree {
@@ -55,10 +56,7 @@ private:
     std::vector<std::uint8_t> chart;
     std::vector<std::uint64_t> lower, upper;
     std::vector<double> tau_from, tau_to;
-    // trapezoids by chart and part of [-1, 1]
-    Index parts = 1;
-    std::vector<Index> part_start, part_member;
-    Index part_of(int chart, double tau) const;
+    TauIndex index;
     void step_off_events(int& chart, double& tau) const;
 };
 

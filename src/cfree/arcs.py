@@ -1,0 +1,163 @@
+"""Closed sets of orientations, exactly: where A + B cos theta + C sin theta <= 0, unions and intersections of such.
+
+Ends of arcs are sorted by doubles, and where these are too close by square roots; after that a set is a row of flags,
+for every end and for every gap between two of them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, cmp_to_key
+
+import numpy as np
+from flint import fmpz_poly
+from numpy.typing import NDArray
+
+from cfree.angle_interval import AlgebraicAngle
+from cfree.predicates import Order
+from cfree.rational.surd import Surd
+from cfree.verify.algebra import roots
+
+CLOSE = 1e-13  # far more than the error of an end's double: closer ones are compared exactly
+Form = tuple[int, int, int]
+Flags = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class End:
+    """Where A + B cos + C sin falls to zero and an arc starts, or grows through zero and it stops."""
+
+    form: Form
+    stops: bool
+    theta: float
+
+    @cached_property
+    def place(self) -> tuple[int, Surd]:
+        """Chart, and tau in it, within [-1, 1]."""
+        chart = int(math.cos(self.theta) < 0)
+        tau = self.tau(chart)
+        beyond = tau.compare(1) is Order.AFTER or tau.compare(-1) is Order.BEFORE
+        return (1 - chart, self.tau(1 - chart)) if beyond else (chart, tau)
+
+    def tau(self, chart: int) -> Surd:
+        """In a chart: a root of (A - B) tau^2 + 2 C tau + A + B, with the signs of B and C turned in chart 1."""
+        A, B, C = _in_chart(self.form, chart)
+        if A == B:
+            return Surd(Fraction(-A, C))
+        return Surd(Fraction(-C, A - B), Fraction(1 if self.stops else -1, A - B), B * B + C * C - A * A)
+
+    @property
+    def exact(self) -> AlgebraicAngle:
+        chart, tau = self.place
+        A, B, C = _in_chart(self.form, chart)
+        near = roots(fmpz_poly([A + B, 2 * C, A - B]), Fraction(-3, 2), Fraction(3, 2))
+        (root,) = (x for x, _ in near if tau.compare(x.lo) is not Order.BEFORE and tau.compare(x.hi) is not Order.AFTER)
+        return AlgebraicAngle(chart, root)
+
+
+Arc = tuple[End, End]
+Arcs = list[Arc] | bool  # all orientations, or none
+
+
+def _in_chart(form: Form, chart: int) -> Form:
+    A, B, C = form
+    return (A, -B, -C) if chart else form
+
+
+def where_not_positive(form: Form) -> Arcs:
+    """Orientations at which A + B cos + C sin <= 0.
+
+    Examples
+    --------
+    >>> ((start, stop),) = where_not_positive((-1, 0, 2))  # sin <= 1/2
+    >>> round(math.degrees(start.theta)), round(math.degrees(stop.theta)), where_not_positive((-3, 1, 2))
+    (150, 30, True)
+    """
+    A, B, C = form
+    D = B * B + C * C - A * A
+    if D < 0 or (D == 0 and A <= 0):
+        return A <= 0
+    size = max(abs(A), abs(B), abs(C))
+    a, b, c, root = A / size, B / size, C / size, math.sqrt(D / size**2)
+    start = math.atan2(root * b - a * c, -a * b - root * c)
+    stop = math.atan2(-a * c - root * b, root * c - a * b)
+    return [(End(form, False, start), End(form, True, stop))]
+
+
+def union_of_intersections(families: Sequence[Sequence[Arcs]]) -> Arcs:
+    """Orientations that are in all sets of a family, for one family or more.
+
+    Examples
+    --------
+    >>> left, low = where_not_positive((0, 1, 0)), where_not_positive((0, 0, 1))
+    >>> ((start, stop),) = union_of_intersections([[left, low]])
+    >>> round(math.degrees(start.theta)) % 360, round(math.degrees(stop.theta)) % 360
+    (180, 270)
+    """
+    kept = [[arcs for arcs in family if arcs is not True] for family in families if not any(s is False for s in family)]
+    if any(not family for family in kept):
+        return True
+    lists = [[arcs for arcs in family if not isinstance(arcs, bool)] for family in kept]
+    ends = [end for family in lists for arcs in family for arc in arcs for end in arc]
+    if not ends:
+        return False
+    ranks, first = _ranked(ends)
+    number = dict(zip(map(id, ends), ranks, strict=True))
+    count = 2 * len(first)
+
+    def flags(arcs: list[Arc]) -> Flags:
+        row = np.zeros(count, bool)
+        for start, stop in arcs:
+            i, j = 2 * number[id(start)], 2 * number[id(stop)]
+            row[i : j + 1] = True
+            if j < i:
+                row[i:] = row[: j + 1] = True
+        return row
+
+    inside = np.logical_or.reduce([np.logical_and.reduce([flags(arcs) for arcs in family]) for family in lists])
+    if inside.all() or not inside.any():
+        return bool(inside[0])
+    starts = np.flatnonzero(inside & ~np.roll(inside, 1))
+    stops = np.flatnonzero(inside & ~np.roll(inside, -1))
+    if stops[0] < starts[0]:
+        stops = np.roll(stops, -1)
+    return [(first[i // 2], first[j // 2]) for i, j in zip(starts.tolist(), stops.tolist(), strict=True)]
+
+
+def _ranked(ends: list[End]) -> tuple[list[int], list[End]]:
+    """Places of ends, counter-clockwise from some gap on, equal for equal ones; and an end of each place."""
+    theta = np.array([end.theta for end in ends])
+    order = np.argsort(theta)
+    gaps = np.diff(theta[order], append=theta[order[0]] + math.tau)
+    order = np.roll(order, -(int(np.argmax(gaps)) + 1))
+    after = np.mod(np.diff(theta[order], prepend=theta[order[0]]), math.tau)
+    apart = np.append(np.flatnonzero((after > CLOSE) & (np.arange(len(ends)) > 0)), len(ends))
+    ranks, first, begin = [0] * len(ends), list[End](), 0
+    key = cmp_to_key(_compare)
+    for end in apart.tolist():
+        group: list[int] = sorted(order[begin:end].tolist(), key=lambda k: key(ends[k]))
+        for m, k in enumerate(group):
+            if m == 0 or _compare(ends[group[m - 1]], ends[k]) != 0:
+                first.append(ends[k])
+            ranks[k] = len(first) - 1
+        begin = end
+    return ranks, first
+
+
+def _compare(p: End, q: End) -> int:
+    """Order of two that are close together."""
+    if p.form == q.form and p.stops == q.stops:
+        return 0
+    chart = p.place[0]
+    x, y = p.place[1], q.tau(chart)
+    if x == y:
+        return 0
+    bits = 64
+    while True:
+        (low, high), (least, most) = x.neighbours(bits), y.neighbours(bits)
+        if high < least or most < low:
+            return -1 if high < least else 1
+        bits *= 2

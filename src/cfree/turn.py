@@ -1,0 +1,113 @@
+"""Which orientations are free at a fixed position: in closed form, exact fits included.
+
+Turned about a fixed point P, a point a of the robot is at P + R a. Whether it is beyond the line of an obstacle's edge,
+and whether a vertex of an obstacle is beyond the line of an edge of the robot, is the sign of A + B cos + C sin. Two
+convex polygons are apart where for an edge of one all vertices of the other are beyond its line or on it: where these
+are at most 0. See docs/theory.md, "Turning in place".
+"""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+
+from cfree.angle_interval import AngleInterval
+from cfree.arcs import Arcs, Form, union_of_intersections, where_not_positive
+from cfree.exact import Number, common_denominator, to_fraction
+from cfree.features import BODY, Point, ShapeFeatures, box, scene_features
+from cfree.forbidden import Boundary
+from cfree.free import limits_of
+from cfree.pose import Pose
+from cfree.scene import Scene
+
+
+def turn_in_place(
+    scene: Scene | Boundary, pose: Pose, pole: tuple[Number, Number] | None = None
+) -> tuple[AngleInterval, ...]:
+    """All free orientations of the robot turned about a point that stays in place.
+
+    Parameters
+    ----------
+    scene : Scene or Boundary
+    pose : Pose
+        Its orientation does not matter if the pole is its reference point, and it need not be free.
+    pole : pair of numbers, optional
+        The point that stays in place, in the world; the reference point unless given.
+
+    Returns
+    -------
+    tuple of AngleInterval
+        Orientations theta of the robot: disjoint closed intervals in counter-clockwise order, single orientations among
+        them. Empty if none is free, one without ends if all are.
+
+    Notes
+    -----
+    Ends are exact: roots of polynomials of degree at most 2 in tan(theta / 2). Time is about linear in the products of
+    the vertices of the robot's convex pieces and those of the obstacles within reach.
+
+    Examples
+    --------
+    A rod of length 10 and width 2 between walls 4 above and 4 below; then with its side on the upper wall:
+
+    >>> walls = [[(-20, 4), (20, 4), (20, 5), (-20, 5)], [(-20, -5), (20, -5), (20, -4), (-20, -4)]]
+    >>> scene = Scene(robot=[(-5, -1), (5, -1), (5, 1), (-5, 1)], obstacles=walls)
+    >>> first, second = turn_in_place(scene, Pose(0, 0))
+    >>> [[round(math.degrees(theta), 4) for theta in interval.theta] for interval in (first, second)]
+    [[139.6388, 220.3612], [319.6388, 400.3612]]
+    >>> second.stop.polynomial  # 5 sin + cos = 4, in tan(theta / 2)
+    (3, -10, 5)
+    >>> [(interval.theta, interval.is_single) for interval in turn_in_place(scene, Pose(0, 3))]
+    [((0.0, 0.0), True), ((3.141592653589793, 3.141592653589793), True)]
+    """
+    features = scene.features if isinstance(scene, Boundary) else scene_features(scene)
+    limits = limits_of(scene.scene if isinstance(scene, Boundary) else scene)
+    P = (pose.x, pose.y) if pole is None else (to_fraction(pole[0]), to_fraction(pole[1]))
+    back = Pose(0, 0, {"tau": pose.tau}).inverse()
+    (of_pole,) = back.apply_exact([(P[0] - pose.x, P[1] - pose.y)])  # in the robot's frame
+    finite = [limit for limit in limits if isinstance(limit, Fraction)]
+    unit = math.lcm(features.scale, common_denominator([*P, *of_pole, *finite]))
+    x, y, ax, ay = (int(c * unit) for c in (*P, *of_pole))
+    sets = [where_not_positive(form) for form in _limit_forms(limits, unit, (x, y), (ax, ay))]
+    robot = _pieces(features.robot, unit, (ax, ay))
+    reach = max(x * x + y * y for piece in robot for x, y in piece)
+    for obstacle in _pieces(features.obstacles, unit, (x, y)):
+        x0, y0, x1, y1 = box(obstacle)
+        if max(x0, -x1, 0) ** 2 + max(y0, -y1, 0) ** 2 < reach:
+            sets += [_apart(part, obstacle) for part in robot]
+    free = union_of_intersections([sets])
+    if isinstance(free, bool):
+        return (AngleInterval(None, None),) if free else ()
+    intervals = [AngleInterval(start.exact, stop.exact) for start, stop in free]
+    return tuple(sorted(intervals, key=lambda interval: interval.theta))
+
+
+def _pieces(shape: ShapeFeatures, unit: int, origin: Point) -> list[list[Point]]:
+    """Convex pieces in integers, seen from a point."""
+    factor, (x, y) = unit // shape.scale, origin
+    points = [(factor * p - x, factor * q - y) for p, q in shape.vertices]
+    layers = zip(shape.pieces, shape.piece_layer, strict=True)
+    return [[points[v] for v in piece] for piece, layer in layers if layer == BODY]
+
+
+def _limit_forms(limits: tuple[Fraction | float, ...], unit: int, pole: Point, of_pole: Point) -> list[Form]:
+    """At most 0 where the reference point, at the pole minus R of_pole, is within the limits."""
+    (x, y), (ax, ay) = pole, of_pole
+    forms = []
+    for k, (p, B, C) in enumerate(((x, ax, -ay), (y, ay, ax)) * 2):
+        if isinstance(limit := limits[k], Fraction):
+            sign = 1 if k < 2 else -1
+            forms.append((sign * (int(limit * unit) - p), sign * B, sign * C))
+    return forms
+
+
+def _apart(robot: list[Point], obstacle: list[Point]) -> Arcs:
+    """Where the interiors of two convex polygons, the robot's turned about the origin, have no point in common."""
+    families = []
+    for (x, y), (z, w) in pairwise([*obstacle, obstacle[0]]):
+        ex, ey = z - x, w - y
+        families.append([(ey * x - ex * y, ex * v - ey * u, ex * u + ey * v) for u, v in robot])
+    for (x, y), (z, w) in pairwise([*robot, robot[0]]):
+        gx, gy = z - x, w - y
+        families.append([(gy * x - gx * y, gx * v - gy * u, -gx * u - gy * v) for u, v in obstacle])
+    return union_of_intersections([[where_not_positive(form) for form in forms] for forms in families])

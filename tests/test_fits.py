@@ -1,0 +1,131 @@
+"""Parts in holes, against closed forms: squares, triangles, polygons in themselves; and against exact overlap."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import oracles
+from cfree import AngleInterval, Fit, Polygon, Pose, fits
+from shapes import Point, Shape, box, l_shape, mapped
+
+SQUARE = box(0, 0, 1, 1)[0]
+ALL = AngleInterval(None, None)
+
+
+def check_places(part: list[Point], hole: Polygon, found: tuple[Fit, ...]) -> None:
+    for fit in found:
+        assert fit.pose is not None
+        assert fit.orientations.contains({"tau": fit.pose.tau})
+        assert fit.place == (float(fit.pose.x), float(fit.pose.y), fit.pose.theta)
+        q, shape = fit.pose, (list(hole.exact_vertices), [])
+        assert not oracles.exact_is_forbidden([(part, [])], [], q.x, q.y, q.tau, None, shape)
+
+
+@pytest.mark.parametrize("digits", [1, 2, 3, 6, 9, 12])
+def test_a_square_in_a_slightly_larger_one(digits: int) -> None:
+    c = Fraction(1, 10**digits)
+    hole = Polygon(box(3, 5, 4 + c, 6 + c)[0])
+    found = fits(SQUARE, hole)
+    check_places(SQUARE, hole, found)
+    assert len(found) == 4
+    for fit in found:  # |sin| + |cos| <= 1 + c
+        start, stop = fit.orientations.start, fit.orientations.stop
+        assert start is not None and stop is not None
+        for end, inner in ((start, 1), (stop, 0)):
+            taus = end.neighbours(300)
+            sizes = [abs(q.cos) + abs(q.sin) for q in (Pose(0, 0, {"tau": tau}) for tau in taus)]
+            assert sizes[inner] <= 1 + c <= sizes[1 - inner]
+        assert -np.subtract(*fit.orientations.theta) == pytest.approx(
+            2 * (math.asin((1 + c) / math.sqrt(2)) - math.pi / 4), abs=1e-14
+        )
+
+
+def test_exact_fits_and_parts_that_are_too_large() -> None:
+    found = fits(SQUARE, SQUARE)
+    check_places(SQUARE, Polygon(SQUARE), found)
+    assert [fit.orientations.theta for fit in found] == [(k * math.pi / 2,) * 2 for k in range(4)]
+    assert all(fit.orientations.is_single for fit in found)
+    for digits in (1, 6, 12, 40):
+        assert fits(SQUARE, box(0, 0, 1, 1 - Fraction(1, 10**digits))[0]) == ()
+    # as wide as the slot: it can slide, but not turn
+    assert [fit.orientations.theta[0] for fit in fits(box(0, 0, 2, 1)[0], box(0, 0, 9, 1)[0])] == [0, math.pi]
+    (free,) = fits(SQUARE, box(0, 0, 3, 3)[0])
+    assert free.orientations == ALL
+
+
+@pytest.mark.parametrize("tau", [Fraction(0), Fraction(1, 3), Fraction(-5, 2), Fraction(1), None])
+def test_polygons_congruent_to_the_hole(tau: Fraction | None) -> None:
+    turn = Pose(5, "1/7", {"tau": tau})
+    for part in (l_shape()[0], [(0, 0), (4, 0), (1, 3)], [(0, 0), (3, 1), (5, 0), (4, 4), (1, 2)]):
+        hole = Polygon(turn.apply_exact(part))
+        found = fits(part, hole)
+        check_places(part, hole, found)
+        assert [(fit.orientations.is_single, fit.pose) for fit in found] == [(True, turn)]
+
+
+def test_a_hole_with_an_island() -> None:
+    hole = Polygon(box(0, 0, 10, 10)[0], [box(4, 4, 6, 6)[0]])
+    assert [fit.orientations for fit in fits(box(0, 0, 3, 1)[0], hole)] == [ALL]
+    turned = fits(box(0, 0, 9, 4)[0], hole)
+    assert [fit.orientations.theta[0] / (math.pi / 2) for fit in turned] != []
+    assert fits(box(0, 0, 9, 5)[0], hole) == ()
+
+
+def triangle_fits(part: list[Point], hole: list[Point], tau: Fraction | None) -> bool:
+    """Into a triangle: what its sides leave over, each times its length, has a sum that is not negative."""
+    q, left = Pose(0, 0, {"tau": tau}), Fraction(0)
+    turned = q.apply_exact(part)
+    for (x, y), (z, w) in pairwise([*hole, hole[0]]):
+        normal = Fraction(w - y), Fraction(x - z)
+        left += normal[0] * x + normal[1] * y - max(normal[0] * u + normal[1] * v for u, v in turned)
+    return left >= 0
+
+
+def random_triangle(rng: np.random.Generator, size: int) -> list[Point]:
+    while True:
+        points = [tuple(p) for p in rng.integers(0, size, (3, 2)).tolist()]
+        (a, b), (c, d), (e, f) = points
+        area = (c - a) * (f - b) - (d - b) * (e - a)
+        if area:
+            return points if area > 0 else points[::-1]
+
+
+def test_triangles_in_triangles() -> None:
+    rng, counts = np.random.default_rng(0), set()
+    for _ in range(40):
+        part, hole = random_triangle(rng, 8), random_triangle(rng, 11)
+        found = fits(part, hole)
+        check_places(part, Polygon(hole), found)
+        counts.add(len(found))
+        for k in range(-24, 25):
+            for tau in (Fraction(k, 24), -Fraction(24, k) if k else None):
+                inside = sum(fit.orientations.contains({"tau": tau}) for fit in found)
+                assert inside == triangle_fits(part, hole, tau)
+        for fit in found:
+            for end, out in ((fit.orientations.start, 0), (fit.orientations.stop, 1)):
+                if end is not None and not fit.orientations.is_single:
+                    taus = end.neighbours(200)
+                    assert triangle_fits(part, hole, taus[1 - out])
+                    if taus[0] != taus[1]:
+                        assert not triangle_fits(part, hole, taus[out])
+    assert len(counts) > 2
+
+
+def test_turning_the_hole_turns_the_fits() -> None:
+    part, hole = [(0, 0), (5, 0), (5, 1), (0, 1)], box(0, 0, 5, 4)[0]
+
+    def turned(x: Fraction, y: Fraction) -> Point:
+        return Fraction(3 * x - 4 * y, 5), Fraction(4 * x + 3 * y, 5)
+
+    shape: Shape = (hole, [])
+    by = math.atan2(4, 3)
+    first, second = fits(part, hole), fits(part, mapped(shape, lambda x, y: turned(Fraction(x), Fraction(y)))[0])
+    ranges = [np.array([fit.orientations.theta for fit in found]) for found in (first, second)]
+    shifted = ranges[0] + by
+    shifted -= math.tau * (shifted[:, :1] >= math.tau)
+    np.testing.assert_allclose(shifted[np.argsort(shifted[:, 0])], ranges[1], atol=1e-14)

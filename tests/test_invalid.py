@@ -1,0 +1,104 @@
+"""Forbidden poses: what the message says, and that what it suggests is free."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import oracles
+from cfree import (
+    Checker,
+    InvalidPoseError,
+    Polygon,
+    Pose,
+    Scene,
+    boundary,
+    free_nearby,
+    free_space,
+    is_free,
+    load_scene,
+    require_free,
+)
+from compared import plain_of, scene_of
+from shapes import KINDS, box, random_scene
+
+ROOT = Path(__file__).parents[1]
+SQUARE = box(0, 0, 1, 1)[0]
+
+
+def fault(scene: Scene, pose: Pose) -> str:
+    with pytest.raises(InvalidPoseError) as caught:
+        require_free(scene, pose, "goal")
+    return str(caught.value)
+
+
+def test_messages_name_who_overlaps_whom() -> None:
+    scene = Scene(
+        [SQUARE, box(3, 0, 4, 1)[0]], [box(9, 9, 10, 10)[0], box(5, 0, 6, 1)[0]], obstacle_names=[None, "post"]
+    )
+    assert fault(scene, Pose(1.5, 0)).startswith(
+        "goal (1.5, 0, 0 deg) is forbidden: robot part 1 overlaps obstacle 1 (post); ("
+    )
+    assert "robot part 0 overlaps obstacle 0; " in fault(scene, Pose("9.5", "9.5"))
+    assert "the reference point is outside the bounds; " in fault(Scene(SQUARE, bounds=(0, 0, 1, 1)), Pose(2, 0))
+    room = Scene(SQUARE, workspace=box(0, 0, 9, 9)[0])
+    for x in (8.5, 30):
+        assert "robot part 0 is not inside the workspace; " in fault(room, Pose(x, 0))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_suggestions_are_free_by_another_test_and_always_the_same(kind: str) -> None:
+    rng, suggested = np.random.default_rng(2), 0
+    for seed in range(3):
+        plain = random_scene(seed, kind)
+        scene = scene_of(plain)
+        xy = np.concatenate([polygon.vertices for polygon in scene.obstacles])
+        for _ in range(6):
+            pose = Pose(*rng.uniform(xy.min(0), xy.max(0)).tolist(), {"tau": int(rng.integers(-3, 4))})
+            if is_free(scene, pose):
+                require_free(scene, pose)
+                continue
+            with pytest.raises(InvalidPoseError) as caught:
+                require_free(Checker(scene), pose)
+            q = caught.value.free
+            if q is not None:
+                suggested += 1
+                assert not oracles.exact_is_forbidden(
+                    plain.robot, plain.obstacles, q.x, q.y, q.tau, plain.bounds, plain.workspace
+                )
+                assert q == free_nearby(scene, pose) and "is free and near by" in str(caught.value)
+    assert suggested > 0
+
+
+def test_a_suggestion_is_about_as_near_as_it_can_be() -> None:
+    scene = Scene(SQUARE, [box(1, -50, 9, 50)[0]])
+    for depth in (1e-5, 1e-3, 0.1, 1.0, 5.0):
+        q = free_nearby(scene, Pose(depth, 0.0))
+        assert q is not None
+        away = np.hypot(depth - float(q.x), float(q.y)) + abs(np.remainder(q.theta + np.pi, 2 * np.pi) - np.pi)
+        assert 0.8 * depth <= away < 1.8 * depth  # turned, it may be nearer
+
+
+def test_nothing_is_suggested_where_nothing_is_free() -> None:
+    message = fault(Scene(box(0, 0, 3, 3)[0], workspace=box(0, 0, 1, 1)[0]), Pose(0, 0))
+    assert message.endswith("no free pose was found near by; give another")
+
+
+def test_reachable_cells() -> None:
+    scene = load_scene(ROOT / "examples/scenes/flat.json")
+    space = free_space(boundary(scene))
+    for cell in space.cells:
+        assert cell.roomiest is not None
+        assert space.reachable(cell.roomiest[0]) is cell
+    plain = plain_of(scene)
+    corner = Pose(*map(float, plain.obstacles[0][0][0]))
+    with pytest.raises(InvalidPoseError, match=r"start .* is forbidden"):
+        space.reachable(corner)
+
+
+def test_an_exact_fit_is_in_no_cell() -> None:
+    tight = Scene(SQUARE, Polygon(box(-1, -1, 2, 2)[0], [box(0, 0, 1, 1)[0]]))
+    with pytest.raises(InvalidPoseError, match="exact fit"):
+        free_space(boundary(tight)).reachable(Pose(0, 0))
