@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from itertools import pairwise
 
 import numpy as np
 
@@ -52,7 +53,9 @@ def crude_path(scene: Scene, seed: int = 0, tries: int = 40_000) -> Path:
             x, y = places[near, :2] + share * (target[:2] - places[near, :2])
             arrives = share == 1.0 and exact is not None
             pose = exact if arrives and exact else _pose(x, y, places[near, 2] + share * turn)
-            if pose == trees[side][near] or not checker.is_free(trees[side][near], motion_between(trees[side][near], pose)):
+            if pose == trees[side][near] or not checker.is_free(
+                trees[side][near], motion_between(trees[side][near], pose)
+            ):
                 return False
             trees[side].append(pose)
             parents[side].append(near)
@@ -79,7 +82,7 @@ def _shortened(poses: list[Pose], checker: MotionChecker, random: np.random.Gene
 
 
 def _motions(poses: list[Pose]) -> list[Motion]:
-    return [motion_between(a, b) for a, b in zip(poses, poses[1:], strict=False)]
+    return [motion_between(a, b) for a, b in pairwise(poses)]
 
 
 def _branch(tree: list[Pose], parents: list[int]) -> list[Pose]:

@@ -41,7 +41,7 @@ class Walls:
         self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments))
 
     def nearest(self, placed: Floats) -> tuple[Floats, Ints, Ints]:
-        """Least distances of the robot's edges, placed (n, e, 2, 2); the edge of the robot and the wall they are between.
+        """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); between which edge and which wall they are.
 
         The robot's inside must be free of walls. There must be one wall at least.
         """

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -41,7 +40,7 @@ class Pace:
     >>> rod = Scene(robot=[(0, 0), (4, 0), (4, 1)])
     >>> path = Path(Pose(0, 0), [Translation((5, 0)), Rotation((9, 1), "90deg")])  # (4, 1) is the pole, then
     >>> pace = Pace(path, rod)
-    >>> pace.total == 5 + math.hypot(4, 1) * math.pi / 2
+    >>> pace.total == 5 + np.hypot(4, 1) * np.pi / 2
     True
     >>> pace.at([0.0, 2.5, pace.total]).round(6).tolist()
     [[0.0, 0.0, 0.0], [2.5, 0.0, 0.0], [10.0, -3.0, 1.570796]]
