@@ -127,7 +127,13 @@ class Painting(PolyCollection):
 
 
 def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
-    """Everything there is to draw of a boundary: patches, section, helices and e-e segments.
+    """Everything there is to draw of a boundary: patches, helices and e-e segments, and the section at a full turn."""
+    patches = patches_of(boundary, window, colours, line)
+    return joined([patches, _section(boundary, window, len(patches.corners))])
+
+
+def patches_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
+    """Patches, helices and e-e segments of a boundary.
 
     Curves are `line` points wide, or less where there are so many that they would hide the patches.
     """
@@ -141,7 +147,7 @@ def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None
     curves = _curves(boundary, rows, cell, colours) if len(boundary.trapezoids) <= CROWDED else []
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
     split = [_split(replace(part, width=part.width + line * thinner), _widest(window)) for part in curves]
-    return joined([faces, _section(boundary, window, len(corners)), *split])
+    return joined([faces, *split])
 
 
 def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:
