@@ -54,6 +54,13 @@ class Walls:
         rows = np.arange(len(placed))
         return table[rows, edge], edge, wall.reshape(table.shape)[rows, edge]
 
+    def between(self, edge: Floats, wall: int) -> Floats:
+        """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of a wall."""
+        import shapely
+
+        line = shapely.shortest_line(shapely.linestrings(edge), shapely.linestrings(self.segments[wall]))
+        return np.asarray(shapely.get_coordinates(line))
+
 
 def _edges(shapes: list[tuple[int, Polygon]]) -> tuple[Floats, list[Name]]:
     """Ends of all edges, (n, 2, 2), and their names."""

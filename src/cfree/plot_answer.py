@@ -209,9 +209,8 @@ def _frame(ax: Any, box: Window) -> None:
     from matplotlib.patches import Rectangle
 
     x0, y0, x1, y1 = box
-    ax.add_patch(
-        Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=INK, linewidth=0.8, zorder=6, label="right")
-    )
+    style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "seen beside"}
+    ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, **style))
 
 
 def _name(scene: Scene, number: int) -> str:

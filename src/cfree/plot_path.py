@@ -42,8 +42,10 @@ class Track:
 
     Attributes
     ----------
+    travel : (TRACE,) float64
+        Of the robot, at even steps.
     rows : (TRACE, 3) float64
-        x, y and theta, unrolled, at even travel of the robot.
+        x, y and theta, unrolled, after so much travel.
     distance : (TRACE,) float64
         Distances from the nearest wall there, or NaN if there is none.
     least : Clearance, optional
@@ -51,6 +53,8 @@ class Track:
         The two points of robot and wall between which the least clearance is, if there is one.
     window : four floats
         x0, y0, x1, y1: what there is to see of the workspace near the path.
+    most : float
+        Where the scale of colours ends.
     colours : ScalarMappable
         From distances to colours.
     """
@@ -58,11 +62,13 @@ class Track:
     path: Path
     scene: Scene
     pace: Pace
+    travel: Floats
     rows: Floats
     distance: Floats
     least: Clearance | None
     closest: Floats
     window: Window
+    most: float
     colours: ScalarMappable
 
     @classmethod
@@ -72,17 +78,18 @@ class Track:
         from matplotlib.colors import Normalize
 
         pace, walls = Pace(path, scene), Walls(scene)
-        rows = pace.at(np.linspace(0, pace.total, TRACE))
+        travel = np.linspace(0, pace.total, TRACE)
+        rows = pace.at(travel)
         least = path.clearance(scene)
-        distance, closest, placed = np.full(TRACE, math.nan), np.empty((0, 2)), _placed(rows, walls)
+        distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), placed(rows, walls)
         if least is not None:
-            distance, _, _ = walls.nearest(placed)
+            distance, _, _ = walls.nearest(edges)
             closest = _closest(path, walls, least)
         farthest = float(np.nanmax(distance, initial=0.0))
         # beyond the robot's own size, clearances need not be told apart
-        norm = Normalize(0.0, min(farthest, 2 * robot_radius(scene)) or 1.0)
-        colours = ScalarMappable(norm, colormaps[SCALE])
-        return cls(path, scene, pace, rows, distance, least, closest, _window(scene, placed), colours)
+        most = min(farthest, 2 * robot_radius(scene)) or 1.0
+        colours = ScalarMappable(Normalize(0.0, most), colormaps[SCALE])
+        return cls(path, scene, pace, travel, rows, distance, least, closest, _window(scene, edges), most, colours)
 
     def colour(self, distance: Floats) -> Floats:
         """(n, 4) colours of distances."""
@@ -151,7 +158,7 @@ def draw_track(ax: Any, track: Track) -> None:
     rings = rings_of(scene.robot)
     at = track.ghosts
     colours = track.colour(track.distance[at])
-    shapes = [path_of(pose.apply(ring) for ring in rings) for pose in _poses(track.rows[at])]
+    shapes = [path_of(pose.apply(ring) for ring in rings) for pose in poses_of(track.rows[at])]
     fill, rim = colours.copy(), colours.copy()
     fill[:, 3], rim[:, 3] = 0.22, 0.9
     ax.add_collection(
@@ -177,7 +184,7 @@ def _draw_scale(ax: Any, track: Track) -> None:
     from mpl_toolkits.axes_grid1 import make_axes_locatable
 
     beside = make_axes_locatable(ax).append_axes("right", size="2.5%", pad=0.12)
-    above = bool(np.nanmax(track.distance) > track.colours.norm.vmax)  # type: ignore[operator]
+    above = bool(np.nanmax(track.distance) > track.most)
     ax.figure.colorbar(track.colours, cax=beside, extend="max" if above else "neither")
     beside.set_ylabel(with_unit("clearance", track.scene.units))
     if track.least is not None:
@@ -273,18 +280,15 @@ def _pose_of_least(path: Path, least: Clearance) -> Pose:
 
 def _closest(path: Path, walls: Walls, least: Clearance) -> Floats:
     """Points of robot and wall, (2, 2), between which the least clearance is."""
-    import shapely
-
     edge = _pose_of_least(path, least).apply(walls.robot[walls.robot_names.index(least.robot)])
-    wall = walls.segments[walls.names.index(least.obstacle)]
-    line = shapely.shortest_line(shapely.linestrings(edge), shapely.linestrings(wall))
-    return np.asarray(shapely.get_coordinates(line))
+    return walls.between(edge, walls.names.index(least.obstacle))
 
 
-def _poses(rows: Floats) -> Poses:
+def poses_of(rows: Floats) -> Poses:
+    """Poses of rows x, y, theta."""
     return Poses(rows[:, :2], rows[:, 2])
 
 
-def _placed(rows: Floats, walls: Walls) -> Floats:
+def placed(rows: Floats, walls: Walls) -> Floats:
     """The robot's edges in poses, (n, e, 2, 2)."""
-    return _poses(rows).apply(walls.robot.reshape(-1, 2)).reshape(len(rows), *walls.robot.shape)
+    return poses_of(rows).apply(walls.robot.reshape(-1, 2)).reshape(len(rows), *walls.robot.shape)
