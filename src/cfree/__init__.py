@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UnsupportedError as UnsupportedError
+    from cfree.film import film_path as film_path
     from cfree.film import save_film as save_film
     from cfree.forbidden import Boundary as Boundary
     from cfree.forbidden import boundary as boundary
@@ -65,6 +66,11 @@ if TYPE_CHECKING:
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
     from cfree.plot import plot_workspace as plot_workspace
+    from cfree.plot_answer import part_of as part_of
+    from cfree.plot_answer import picture as picture
+    from cfree.plot_answer import picture_of_separation as picture_of_separation
+    from cfree.plot_answer import plot_path_space as plot_path_space
+    from cfree.plot_path import plot_path as plot_path
     from cfree.polygon import Polygon as Polygon
     from cfree.pose import Pose as Pose
     from cfree.pose import Poses as Poses
@@ -111,7 +117,7 @@ _HOMES = {
     "edge_edge_range",
     "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
     "UnsupportedError",
-    "film": "save_film",
+    "film": "film_path save_film",
     "forbidden": "Boundary boundary",
     "cells": "Cell FreeSpace free_space",
     "free": "Checker is_free",
@@ -128,6 +134,8 @@ _HOMES = {
     "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
     "path": "Clearance Path load_path",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
+    "plot_answer": "part_of picture picture_of_separation plot_path_space",
+    "plot_path": "plot_path",
     "polygon": "Polygon",
     "pose": "Pose Poses",
     "rational.bezier": "BezierPatch bezier_patch bezier_patches save_bezier",

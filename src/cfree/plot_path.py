@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from cfree.mesh import robot_radius
 from cfree.motion import Translation
 from cfree.nearest import Walls
-from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.outlines import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.pace import Pace
 from cfree.plot import around, new_axes, set_window, with_unit
 from cfree.pose import Pose, Poses
@@ -33,6 +33,7 @@ GHOSTS, APART = 48, 0.45  # so many at most, and no closer than this part of the
 TRACE = 600
 LABEL = 30  # typographic points from a place to its label
 SAME = 1e-9  # of the robot's radius: less is touching, for the eye
+PRECISION, SHARES = 1e-3, 50_000  # of the least clearance: a part of the robot's radius, or of its travel if more
 NEAR = 2.0  # obstacles within so many times the least clearance limit it
 
 
@@ -80,7 +81,7 @@ class Track:
         pace, walls = Pace(path, scene), Walls(scene)
         travel = np.linspace(0, pace.total, TRACE)
         rows = pace.at(travel)
-        least = path.clearance(scene)
+        least = path.clearance(scene, max(PRECISION * robot_radius(scene), pace.total / SHARES))
         distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), placed(rows, walls)
         if least is not None:
             distance, _, _ = walls.nearest(edges)
@@ -92,8 +93,12 @@ class Track:
         return cls(path, scene, pace, travel, rows, distance, least, closest, _window(scene, edges), most, colours)
 
     def colour(self, distance: Floats) -> Floats:
-        """(n, 4) colours of distances."""
-        return np.asarray(self.colours.to_rgba(np.nan_to_num(distance)))
+        """(n, 4) colours of distances; one colour if there is nothing to be near to."""
+        from matplotlib.colors import to_rgba
+
+        if self.least is None:
+            return np.tile(to_rgba(ROBOT), (len(distance), 1))
+        return np.asarray(self.colours.to_rgba(distance))
 
     @property
     def ghosts(self) -> NDArray[np.int64]:
@@ -126,8 +131,8 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
 
     Notes
     -----
-    The number in the title is certified; it is at most a thousandth of the robot's size below the truth. Colours are
-    distances of 600 poses, in double precision.
+    The clearance in the title is the least found, and a proved bound of it. They differ by at most a thousandth of the
+    robot's radius, or 1 / 50,000 of its travel if that is more. Colours are distances at 600 poses, in doubles.
 
     Examples
     --------
@@ -196,9 +201,9 @@ def statement(track: Track) -> str:
     path, units = track.path, track.scene.units
     count = len(path.motions)
     parts = [f"{count} motion{'' if count == 1 else 's'}", f"length {quantity(path.length, units)}"]
-    parts.append(f"turning {math.degrees(path.turning):.3g}°")
+    parts.append(f"turning {quantity(math.degrees(path.turning), '')}°")
     if track.least is not None:
-        parts.append(f"clearance {quantity(track.least.found, units)} (≥ {track.least.least:.3g} proved)")
+        parts.append(f"clearance {quantity(track.least.found, units)} (≥ {quantity(track.least.least, '')} proved)")
     return ", ".join(parts)
 
 
@@ -207,10 +212,11 @@ def quantity(value: float, units: str) -> str:
 
     Examples
     --------
-    >>> quantity(0.12345, "m"), quantity(2, "corridor widths")
-    ('0.123 m', '2')
+    >>> quantity(0.12345, "m"), quantity(2345.6, "corridor widths")
+    ('0.123 m', '2346')
     """
-    return f"{value:.3g} {units}" if 0 < len(units) <= 4 else f"{value:.3g}"
+    number = f"{value:.0f}" if 1000 <= value < 1_000_000 else f"{value:.3g}"
+    return f"{number} {units}" if 0 < len(units) <= 4 else number
 
 
 def _draw_least(ax: Any, track: Track) -> None:
