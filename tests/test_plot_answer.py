@@ -194,7 +194,7 @@ def test_theta_is_unrolled_beyond_full_turns() -> None:
     scene = Scene(robot=SQUARE, obstacles=[[(4, 0), (5, 0), (5, 1)]])
     start = Pose(0, 0, "300deg")
     ax = plot_path_space(Path(start, rotations((0, 0), "500deg")), boundary(scene))
-    assert ax.get_zlim() == (285, 815)
+    assert ax.get_zlim() == pytest.approx((285, 815))
     pieces = painting_of(ax)._pieces
     line = pieces.corners[pieces.sort == OVER]
     assert line[:, 0, 2] == pytest.approx(300 + 500 * np.arange(599) / 599)
