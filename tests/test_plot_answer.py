@@ -1,5 +1,6 @@
 """Pictures of answers: what their artists hold, for paths and separations of all sorts of scenes."""
 
+import doctest
 import math
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path as FilePath
@@ -48,6 +49,16 @@ def parking(car_park: Boundary) -> Path:
 def artists(ax: Any) -> dict[str, Any]:
     found = [*ax.patches, *ax.collections, *ax.lines]
     return {artist.get_label(): artist for artist in found if not artist.get_label().startswith("_")}
+
+
+def test_the_examples_of_the_documentation_draw_what_it_shows(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: FilePath
+) -> None:
+    (tmp_path / "examples").symlink_to(request.config.rootpath / "examples")
+    monkeypatch.chdir(tmp_path)
+    result = doctest.testfile(str(request.config.rootpath / "docs" / "figures.md"), module_relative=False)
+    assert result.attempted > 15 and result.failed == 0
+    assert {"path.png", "separation.png"} < {file.name for file in tmp_path.iterdir()}
 
 
 # the plane
@@ -191,7 +202,7 @@ def painting_of(ax: Any) -> Painting:
 
 
 def test_theta_is_unrolled_beyond_full_turns() -> None:
-    scene = Scene(robot=SQUARE, obstacles=[[(4, 0), (5, 0), (5, 1)]])
+    scene = Scene(robot=SQUARE, obstacles=[[(2, 0), (3, 0), (3, 1)]])
     start = Pose(0, 0, "300deg")
     ax = plot_path_space(Path(start, rotations((0, 0), "500deg")), boundary(scene))
     assert ax.get_zlim() == pytest.approx((285, 815))
