@@ -7,6 +7,8 @@ from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
+import shapely
+import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -17,6 +19,7 @@ from cfree.errors import FormatError, UnsupportedError
 from cfree.motion import Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
+from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Scene
 from test_motion import box, motions, pose_of
@@ -108,14 +111,77 @@ def test_exports_for_others(tmp_path: FilePath) -> None:
     samples = WAY.sample(0.5)
     assert header == "x,y,theta"
     assert np.array_equal([[*map(float, row.split(","))] for row in rows], np.c_[samples.xy, samples.theta])
-    WAY.save(tmp_path / "way.yaml", step=0.5, turn=0.5)
-    text = (tmp_path / "way.yaml").read_text()
-    assert text.startswith('header: {stamp: {sec: 0, nanosec: 0}, frame_id: "map"}\nposes:\n- header: ')
-    assert text.count("orientation: {x: 0.0, y: 0.0, z: ") == len(WAY.sample(0.5, 0.5))
     with pytest.raises(UnsupportedError, match=r"way\.txt: paths are written as"):
         WAY.save(tmp_path / "way.txt")
     with pytest.raises(ValueError, match="no step"):
         WAY.save(tmp_path / "way.csv")
+    with pytest.raises(ValueError, match="no scene"):
+        WAY.save(tmp_path / "way.geojson", step=1)
+
+
+@settings(max_examples=50, deadline=None)
+@given(paths, st.text(st.characters(exclude_categories=["Cs"]), max_size=6))
+def test_yaml_is_the_message_of_ros(tmp_path_factory: pytest.TempPathFactory, path: Path, frame: str) -> None:
+    """nav_msgs/Path: a header and stamped poses; each has a header and a pose of a Point and a Quaternion."""
+    file = tmp_path_factory.mktemp("paths") / "way.yaml"
+    Path(path.start, path.motions, frame=frame).save(file, step=0.5, turn=0.5)
+    message = yaml.safe_load(file.read_text(encoding="utf-8"))
+    header = {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": frame}
+    samples = path.sample(0.5, 0.5)
+    assert message.keys() == {"header", "poses"} and message["header"] == header
+    assert len(message["poses"]) == len(samples)
+    for stamped, (x, y), theta in zip(message["poses"], samples.xy, samples.theta, strict=True):
+        assert stamped.keys() == {"header", "pose"} and stamped["header"] == header
+        assert stamped["pose"].keys() == {"position", "orientation"}
+        position, turned = stamped["pose"]["position"], stamped["pose"]["orientation"]
+        assert position == {"x": x, "y": y, "z": 0} and turned.keys() == {"x", "y", "z", "w"}
+        assert all(type(value) is float for value in (*position.values(), *turned.values()))
+        assert turned["x"] == turned["y"] == 0 and math.hypot(turned["z"], turned["w"]) == pytest.approx(1)
+        assert math.remainder(2 * math.atan2(turned["z"], turned["w"]) - theta, math.tau) == pytest.approx(0, abs=1e-9)
+
+
+def test_tiny_numbers_are_numbers_in_yaml(tmp_path: FilePath) -> None:
+    Path(Pose("1e-7", "-2e20"), [Translation(("1e-9", 0))]).save(tmp_path / "way.yaml", step=1)
+    (first, _) = yaml.safe_load((tmp_path / "way.yaml").read_text())["poses"]
+    assert first["pose"]["position"] == {"x": 1e-7, "y": -2e20, "z": 0}
+
+
+RING = Polygon([(-1, -1), (2, -1), (2, 1), (-1, 1)], [[("-0.5", "-0.5"), ("0.5", "-0.5"), ("0.5", "0.5")]])
+
+
+@settings(max_examples=50, deadline=None)
+@given(paths, st.sampled_from([[RING], [[(0, 0), (3, 0), (0, 1)]], [RING, [(5, 0), (6, 0), (6, 1)]]]))
+def test_geojson_has_the_way_and_the_outlines(
+    tmp_path_factory: pytest.TempPathFactory, path: Path, robot: list
+) -> None:
+    file = tmp_path_factory.mktemp("paths") / "way.geojson"
+    scene = Scene(robot=robot)
+    Path(path.start, path.motions, "m", "map").save(file, step=0.7, turn=0.5, scene=scene)
+    data = json.loads(file.read_text())
+    assert (data["type"], data["units"], data["frame"]) == ("FeatureCollection", "m", "map")
+    trace, *outlines = data["features"]
+    way = shapely.geometry.shape(trace["geometry"])
+    samples = path.sample(0.7, 0.5)
+    count = max(len(samples), 2)
+    assert trace["properties"] == {"role": "trace", "length": path.length, "turning": path.turning}
+    assert way.geom_type == "LineString" and len(way.coords) == len(outlines) == count
+    assert [f["properties"]["role"] for f in outlines] == ["start", *["pose"] * (count - 2), "goal"]
+    area = sum(part.area for part in scene.robot)
+    for feature, place in zip(outlines, way.coords, strict=True):
+        shape, at = shapely.geometry.shape(feature["geometry"]), feature["properties"]
+        assert shape.is_valid and shape.area == pytest.approx(area) and (at["x"], at["y"]) == place
+        assert all(part.exterior.is_ccw for part in getattr(shape, "geoms", [shape]))
+        assert len(getattr(shape, "geoms", [shape])) == len(robot)
+        if path.motions:
+            (pose,) = path.motions[at["motion"]].sample(path.poses[at["motion"]], [at["share"]])
+            assert (float(pose.x), float(pose.y)) == pytest.approx(place, abs=1e-9)
+            assert math.remainder(pose.theta - at["theta"], math.tau) == pytest.approx(0, abs=1e-9)
+    for feature, pose in ((outlines[0], path.start), (outlines[-1], path.goal)):
+        wanted = shapely.union_all(
+            [shapely.Polygon(pose.apply(part.vertices[: part.ring_offsets[1]])) for part in scene.robot]
+        )
+        hull = shapely.geometry.shape(feature["geometry"]).convex_hull
+        assert hull.hausdorff_distance(wanted.convex_hull) < 1e-6
 
 
 @pytest.mark.parametrize("gap", [Fraction(1), Fraction(1, 100)])

@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvariantError as InvariantError
     from cfree.errors import UnsupportedError as UnsupportedError
+    from cfree.film import film_path as film_path
     from cfree.film import save_film as save_film
     from cfree.fitting import Fit as Fit
     from cfree.fitting import fits as fits
@@ -75,6 +76,11 @@ if TYPE_CHECKING:
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
     from cfree.plot import plot_workspace as plot_workspace
+    from cfree.plot_answer import part_of as part_of
+    from cfree.plot_answer import picture as picture
+    from cfree.plot_answer import picture_of_separation as picture_of_separation
+    from cfree.plot_answer import plot_path_space as plot_path_space
+    from cfree.plot_path import plot_path as plot_path
     from cfree.polygon import Polygon as Polygon
     from cfree.pose import Pose as Pose
     from cfree.pose import Poses as Poses
@@ -127,7 +133,7 @@ _HOMES = {
     "edge_edge_range",
     "errors": "CfreeError FormatError IncompleteError InvalidPolygonError InvalidPoseError InvariantError "
     "UnsupportedError",
-    "film": "save_film",
+    "film": "film_path save_film",
     "fitting": "Fit fits",
     "forbidden": "Boundary boundary",
     "cells": "Cell FreeSpace free_space",
@@ -148,6 +154,8 @@ _HOMES = {
     "planning.planner": "Planner plan plan_many",
     "planning.search": "motion_between",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
+    "plot_answer": "part_of picture picture_of_separation plot_path_space",
+    "plot_path": "plot_path",
     "polygon": "Polygon",
     "pose": "Pose Poses",
     "rational.bezier": "BezierPatch bezier_patch bezier_patches save_bezier",

@@ -284,7 +284,6 @@ class FreeSpace:
             found[k + asked] = cell
         return found
 
-<<<<<<< HEAD
     def plan(self, start: Pose, goal: Pose, *, improve: float = 0.0) -> Path | Separated:
         """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
 
@@ -301,30 +300,6 @@ class FreeSpace:
 
         return Planner(self.boundary.scene, self)
 
-    def _may_fit(self, poses: Poses | list[Pose], found: Ints) -> Ints:
-        """Poses in no cell that are near an exact fit, or on the bounds where these leave slits."""
-        outside = np.flatnonzero(found == FORBIDDEN)
-        table = self.boundary.isolated
-        if len(outside) == 0 or (len(table) == 0 and self.walls is self.boundary):
-            return outside[:0].astype(np.int32)
-        places = poses if isinstance(poses, Poses) else Poses.from_poses(poses)
-        xy, theta = places.xy[outside], places.theta[outside]
-        near = np.zeros(len(outside), bool)
-        slack = NEAR * float(np.abs(self.boundary.ruled).max(initial=0))
-        for k in range(len(table)):
-            turned = table.theta_from[k] + np.mod(theta - table.theta_from[k] + NEAR, math.tau) - NEAR
-            at = np.flatnonzero(~near & (turned <= table.theta_to[k] + NEAR))
-            first, last = (self.boundary.evaluate(np.full(len(at), table.patch[k]), t, theta[at]) for t in (0.0, 1.0))
-            U, d = last - first, xy[at] - first
-            length = np.hypot(*U.T)
-            across = np.abs(U[:, 0] * d[:, 1] - U[:, 1] * d[:, 0])
-            along = (U * d).sum(axis=1)
-            near[at] = (across <= slack * length) & (abs(along - length**2 / 2) <= (length / 2 + slack) * length)
-        if self.walls is not self.boundary:
-            x0, y0, x1, y1 = map(float, self.boundary.scene.bounds or ())
-            near |= np.any(np.abs(xy[:, [0, 1, 0, 1]] - (x0, y0, x1, y1)) <= slack, axis=1)
-        return outside[near].astype(np.int32)
-=======
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
@@ -367,7 +342,6 @@ class FreeSpace:
     def _nesting(self) -> tuple[Ints, Ints, NDArray[np.uint8], int]:
         """What the core has to know of the surfaces to name a cell."""
         return self.depth, self.cell_of, self.free_inside.view(np.uint8), self.outside
->>>>>>> queries
 
     @cached_property
     def depth(self) -> Ints:
@@ -379,18 +353,11 @@ class FreeSpace:
             above = np.where(above >= 0, self.parent[above], -1)
         return depth
 
-<<<<<<< HEAD
     @cached_property
     def insets(self) -> dict[int, FreeSpace | None]:
         """Free spaces of smaller robots, as far as they were needed; see `cfree.inset.inset_space`."""
         return {}
 
-    @cached_property
-    def _rays(self) -> Any:
-        return _rays(self.walls, self.component)
-
-=======
->>>>>>> queries
 
 def free_space(boundary: Boundary) -> FreeSpace:
     """Cells of the free space of a boundary.

@@ -148,7 +148,7 @@ class Orientations:
 
     def _runs(self) -> list[_Run]:
         """Unions of intervals that meet."""
-        spans = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
+        spans: list[tuple[_End, _End]] = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
         spans.sort(key=cmp_to_key(lambda p, q: _compare(p[0], q[0])))
         runs: list[_Run] = []
         for start, stop in spans:

@@ -1,8 +1,8 @@
-"""Shapes of the plane as matplotlib draws them, and the robot in its poses."""
+"""Shapes of the plane as matplotlib draws them: what is around the robot, and the robot in a pose."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
@@ -19,24 +19,40 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Window = tuple[float, float, float, float]
 
-ROBOT = "#2b6cb0"
+ROBOT, FAINT, OBSTACLE, BOUNDS = "#2b6cb0", "#cfdeef", "#5b6470", "#8a92a0"
 
 
-def draw_robots(ax: Axes, scene: Scene) -> Iterator[Window]:
-    """The robot at start and goal, or else at rest; the rectangles it fills."""
+def draw_surroundings(ax: Axes, scene: Scene) -> list[Window]:
+    """Obstacles, bounds and workspace; the rectangles they fill."""
+    from matplotlib.patches import PathPatch, Rectangle
+
+    boxes: list[Window] = [polygon.bounds for polygon in scene.obstacles]
+    if scene.workspace is not None:
+        ax.set_facecolor(OBSTACLE)
+        inside = path_of(rings_of([scene.workspace]))
+        ax.add_patch(PathPatch(inside, facecolor="white", edgecolor=OBSTACLE, linewidth=0.8))
+        boxes.append(scene.workspace.bounds)
+    obstacles = path_of(rings_of(scene.obstacles))
+    ax.add_patch(PathPatch(obstacles, facecolor=OBSTACLE, edgecolor="#3c434d", linewidth=0.5, label="obstacles"))
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=BOUNDS, linestyle=(0, (5, 3))))
+        boxes.append((x0, y0, x1, y1))
+    return boxes
+
+
+def draw_robot(ax: Axes, scene: Scene, pose: Pose, name: str, *, faint: bool) -> Window:
+    """The robot in a pose, its name below; the rectangle it fills."""
     from matplotlib.patches import PathPatch
 
-    from cfree.pose import Pose
-
-    poses = {name: pose for name, pose in (("start", scene.start), ("goal", scene.goal)) if pose is not None}
-    for name, pose in (poses or {"at rest": Pose(0, 0)}).items():
-        rings = [pose.apply(ring) for ring in rings_of(scene.robot)]
-        faint = name != "start"
-        ax.add_patch(PathPatch(path_of(rings), facecolor=ROBOT, alpha=0.2 if faint else 0.85, linewidth=0))
-        ax.add_patch(PathPatch(path_of(rings), fill=False, edgecolor=ROBOT, linewidth=1, ls="--" if faint else "-"))
-        _mark(ax, pose, name, rings)
-        points = np.concatenate(rings)
-        yield (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
+    rings = [pose.apply(ring) for ring in rings_of(scene.robot)]
+    fill, style = (FAINT, "--") if faint else (ROBOT, "-")
+    shape = path_of(rings)
+    ax.add_patch(PathPatch(shape, facecolor=fill, alpha=0.85, linewidth=0, zorder=3))
+    ax.add_patch(PathPatch(shape, fill=False, edgecolor=ROBOT, linewidth=1.2, linestyle=style, zorder=3))
+    _mark(ax, pose, name, rings)
+    points = np.concatenate(rings)
+    return (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
 
 
 def _mark(ax: Axes, pose: Pose, name: str, rings: list[Floats]) -> None:
@@ -47,11 +63,11 @@ def _mark(ax: Axes, pose: Pose, name: str, rings: list[Floats]) -> None:
     x, y = float(pose.x), float(pose.y)
     dx, dy = (pose.apply([0.7 * np.hypot(*(points - (x, y)).T).max(), 0.0]) - (x, y)).tolist()
     halo = [withStroke(linewidth=2.5, foreground="white")]
-    arrow = {"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", xy=(x + dx, y + dy), xytext=(x, y), arrowprops=arrow)
-    ax.plot(x, y, "o", color="black", markersize=4, path_effects=halo)
-    below = float(points[:, 1].min())
-    ax.annotate(name, (x, below), (0, -2), textcoords="offset points", ha="center", va="top", path_effects=halo)
+    arrow = {"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0, "zorder": 7}
+    ax.annotate("", xy=(x + dx, y + dy), xytext=(x, y), arrowprops=arrow, zorder=7)
+    ax.plot(x, y, "o", color="black", markersize=4, path_effects=halo, zorder=7)
+    below: Any = {"textcoords": "offset points", "ha": "center", "va": "top", "path_effects": halo, "zorder": 8}
+    ax.annotate(name, (x, float(points[:, 1].min())), (0, -2), **below)
 
 
 def rings_of(polygons: Iterable[Any]) -> list[Floats]:

@@ -143,13 +143,20 @@ class Path:
         ValueError
             If step or turn is not positive.
         """
+        parts = [Poses.from_poses([self.start])]
+        for pose, motion, shares in zip(self.poses, self.motions, self.shares(step, turn), strict=False):
+            parts.append(motion.sample(pose, shares))
+        return Poses(np.concatenate([p.xy for p in parts]), np.concatenate([p.theta for p in parts]))
+
+    def shares(self, step: float, turn: float = math.radians(5)) -> list[Floats]:
+        """For each motion the shares of it, above 0 and up to 1, at which `sample` takes poses."""
         if not (step > 0 and turn > 0):
             raise ValueError(f"step {step}, turn {turn}: give positive ones")
-        parts = [Poses.from_poses([self.start])]
+        found = []
         for pose, motion in zip(self.poses, self.motions, strict=False):
             count = max(1, math.ceil(_distance(pose, motion) / step), math.ceil(_turned(motion) / turn))
-            parts.append(motion.sample(pose, np.arange(1, count + 1) / count))
-        return Poses(np.concatenate([p.xy for p in parts]), np.concatenate([p.theta for p in parts]))
+            found.append(np.arange(1, count + 1) / count)
+        return found
 
     def is_free(self, checker: MotionChecker) -> bool:
         """Is every pose on the path free? Exact.
@@ -205,36 +212,49 @@ class Path:
             raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
         return least_clearance(self, scene, tolerance)
 
-    def save(self, path: str | PathLike[str], step: float | None = None, turn: float = math.radians(5)) -> None:
+    def save(
+        self,
+        path: str | PathLike[str],
+        step: float | None = None,
+        turn: float = math.radians(5),
+        *,
+        scene: Scene | None = None,
+    ) -> None:
         """Write the path to a file, whole or not at all.
 
         Parameters
         ----------
         path : path
             ``.json`` holds the motions, exactly. ``.csv`` holds poses x, y, theta, and ``.yaml`` the same as a ROS
-            nav_msgs/Path.
+            nav_msgs/Path. ``.geojson`` holds the way of the reference point, and the robot's outlines at these poses.
         step, turn : float
-            As in `sample`; step is needed for ``.csv`` and ``.yaml``.
+            As in `sample`; step is needed for all but ``.json``.
+        scene : Scene, optional
+            Whose robot moves; needed for ``.geojson``.
 
         Raises
         ------
         UnsupportedError
             If the file's name ends otherwise.
         ValueError
-            If step is missing.
+            If step or scene is missing.
         """
-        from cfree.formats.path_format import csv_text, path_text, ros_text
+        from cfree.formats.path_format import csv_text, geojson_text, path_text, ros_text
 
         suffix = FilePath(path).suffix.lower()
         if suffix == ".json":
             text = path_text(self)
-        elif suffix not in (".csv", ".yaml"):
-            raise UnsupportedError(f"{path}: paths are written as .json, .csv or .yaml; name the file so")
+        elif suffix not in (".csv", ".yaml", ".geojson"):
+            raise UnsupportedError(f"{path}: paths are written as .json, .csv, .yaml or .geojson; name the file so")
         elif step is None:
             raise ValueError(f"{path}: no step; give the longest distance between poses")
-        else:
+        elif suffix != ".geojson":
             poses = self.sample(step, turn)
             text = csv_text(poses) if suffix == ".csv" else ros_text(poses, self.frame)
+        elif scene is None:
+            raise ValueError(f"{path}: no scene; give the one whose robot moves")
+        else:
+            text = geojson_text(self, scene, step, turn)
         with replacing(path) as unfinished:
             unfinished.write_text(text, encoding="utf-8", newline="\n")
 

@@ -19,7 +19,7 @@ from cfree.errors import UnsupportedError
 from cfree.files import replacing
 from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.mesh import COLOURS, KINDS
-from cfree.outlines import ROBOT, Window, draw_robots, path_of, rings_of, rings_of_geometry
+from cfree.outlines import BOUNDS, ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.strips import THIN, strips
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from cfree.scene import Scene
     from cfree.slice import Slice
 
-OBSTACLE, FORBIDDEN, BOUNDS = "#5b6470", "#e4e4e9", "#8a92a0"
+FORBIDDEN = "#e4e4e9"
 
 
 def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
@@ -51,23 +51,14 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     -----
     Without start and goal the robot is drawn where its file has it, with the reference point at the origin.
     """
-    from matplotlib.patches import PathPatch, Rectangle
+    from cfree.pose import Pose
 
-    ax = ax or _new_axes((7, 6))
-    boxes = [polygon.bounds for polygon in scene.obstacles]
-    if scene.workspace is not None:
-        ax.set_facecolor(OBSTACLE)
-        inside = path_of(rings_of([scene.workspace]))
-        ax.add_patch(PathPatch(inside, facecolor="white", edgecolor=OBSTACLE, linewidth=0.8))
-        boxes.append(scene.workspace.bounds)
-    obstacles = path_of(rings_of(scene.obstacles))
-    ax.add_patch(PathPatch(obstacles, facecolor=OBSTACLE, edgecolor="#3c434d", linewidth=0.5, label="obstacles"))
-    if scene.bounds is not None:
-        x0, y0, x1, y1 = map(float, scene.bounds)
-        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=BOUNDS, linestyle=(0, (5, 3))))
-        boxes.append((x0, y0, x1, y1))
-    boxes.extend(draw_robots(ax, scene))
-    _set_window(ax, _around(boxes), scene.units)
+    ax = ax or new_axes((7, 6))
+    boxes = draw_surroundings(ax, scene)
+    poses = {name: pose for name, pose in (("start", scene.start), ("goal", scene.goal)) if pose is not None}
+    for name, pose in (poses or {"at rest": Pose(0, 0)}).items():
+        boxes.append(draw_robot(ax, scene, pose, name, faint=name != "start"))
+    set_window(ax, around(boxes), scene.units)
     ax.set_title("workspace")
     return ax
 
@@ -87,7 +78,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     from matplotlib.collections import LineCollection
     from matplotlib.patches import PathPatch
 
-    ax = ax or _new_axes((7, 6))
+    ax = ax or new_axes((7, 6))
     boundary = cut.boundary
     region = path_of(rings_of_geometry(cut.forbidden))
     ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", label="forbidden"))
@@ -104,7 +95,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     _draw_fits(ax, fits)
     if fits:
         ax.lines[-1].set_label("exact fit")
-    _set_window(ax, extent(boundary), boundary.scene.units)
+    set_window(ax, extent(boundary), boundary.scene.units)
     ax.set_title(f"slice at θ = {math.degrees(cut.theta):.4g}°")
     _legend(ax)
     return ax
@@ -129,7 +120,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     from cfree.plot3d import CUT, SECTION_COLOUR, Colours, Painting, pieces_of
 
     if ax is None:
-        ax = _new_space(_new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
+        ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
     if ax.name != "3d":
         raise ValueError(f'axes of {ax.name} projection; make them with projection="3d"')
     space: Any = ax
@@ -142,7 +133,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
     for axis, name, side in ((space.xaxis, "x", x1 - x0), (space.yaxis, "y", y1 - y0)):
         axis.set_major_locator(MaxNLocator(1 + round(5 * side / max(x1 - x0, y1 - y0))))
-        axis.set_label_text(_with_unit(name, boundary.scene.units))
+        axis.set_label_text(with_unit(name, boundary.scene.units))
     space.set_zlabel("θ")
     for axis in (space.xaxis, space.yaxis, space.zaxis):
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
@@ -168,7 +159,7 @@ def plot_overview(boundary: Boundary) -> Figure:
     The slices are those of start and goal; at the start's and a quarter turn on if these are the same or missing.
     """
     scene, s = boundary.scene, boundary.stats
-    figure = _new_figure((14, 7.4))
+    figure = new_figure((14, 7.4))
     grid = figure.add_gridspec(2, 2, left=0.045, right=0.45, bottom=0.09, top=0.86, height_ratios=(2, 1), hspace=0.3)
     plot_workspace(scene, figure.add_subplot(grid[0, :]))
     for k, (theta, pose) in enumerate(_chosen_angles(scene)):
@@ -177,7 +168,7 @@ def plot_overview(boundary: Boundary) -> Figure:
         ax.set_ylabel("")
         if pose is not None:
             ax.plot(float(pose.x), float(pose.y), "o", color=ROBOT, markersize=5)
-    plot_boundary(boundary, _new_space(figure, (0.46, 0.09, 0.53, 0.82)))
+    plot_boundary(boundary, new_space(figure, (0.46, 0.09, 0.53, 0.82)))
     figure.suptitle(scene.name or "boundary of the forbidden space", weight="bold", fontsize=15)
     counts = f"{s.live_patches:,} of {s.patches:,} contact patches bound the forbidden space"
     figure.text(0.5, 0.915, f"{counts}: {s.trapezoids:,} trapezoids", ha="center")
@@ -191,8 +182,8 @@ def extent(boundary: Boundary) -> Window:
         return x0, y0, x1, y1
     points = strips(boundary, math.radians(10)).points.reshape(-1, 2)
     if not len(points):
-        return _around([(-1.0, -1.0, 1.0, 1.0)])
-    return _around([(*points.min(axis=0).tolist(), *points.max(axis=0).tolist())])
+        return around([(-1.0, -1.0, 1.0, 1.0)])
+    return around([(*points.min(axis=0).tolist(), *points.max(axis=0).tolist())])
 
 
 def save_figure(figure: Figure | SubFigure, path: str | PathLike[str]) -> None:
@@ -225,7 +216,7 @@ def check_picture_path(path: str | PathLike[str]) -> None:
 # axes
 
 
-def _new_figure(size: tuple[float, float]) -> Figure:
+def new_figure(size: tuple[float, float]) -> Figure:
     """A figure of its own, with a canvas and no window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
@@ -235,7 +226,7 @@ def _new_figure(size: tuple[float, float]) -> Figure:
     return figure
 
 
-def _new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3D:
+def new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3D:
     """Axes with three dimensions and a faint grid."""
     import mpl_toolkits.mplot3d  # noqa: F401  registers the projection
     from matplotlib import rc_context
@@ -244,19 +235,22 @@ def _new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes
         return figure.add_axes(place, projection="3d")
 
 
-def _new_axes(size: tuple[float, float]) -> Axes:
-    return _new_figure(size).add_axes((0.1, 0.15, 0.86, 0.77))
+def new_axes(size: tuple[float, float], place: tuple[float, float, float, float] = (0.1, 0.15, 0.86, 0.77)) -> Axes:
+    """Axes of a figure of their own; inches, and parts of the figure."""
+    return new_figure(size).add_axes(place)
 
 
-def _set_window(ax: Axes, window: Window, units: str) -> None:
+def set_window(ax: Axes, window: Window, units: str) -> None:
+    """Limits with a margin, and the names of the axes."""
     x0, y0, x1, y1 = window
     margin = 0.03 * max(x1 - x0, y1 - y0)
     ax.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - margin, y1 + margin), aspect="equal")
-    ax.set_xlabel(_with_unit("x", units))
-    ax.set_ylabel(_with_unit("y", units))
+    ax.set_xlabel(with_unit("x", units))
+    ax.set_ylabel(with_unit("y", units))
 
 
-def _with_unit(name: str, units: str) -> str:
+def with_unit(name: str, units: str) -> str:
+    """A name of an axis, with the unit in brackets."""
     return f"{name} ({units})" if units else name
 
 
@@ -280,7 +274,8 @@ def _legend(ax: Axes) -> None:
     ax.legend(loc="upper left", bbox_to_anchor=(0, 0), bbox_transform=below, ncols=5, frameon=False)
 
 
-def _around(boxes: Iterable[Window]) -> Window:
+def around(boxes: Iterable[Window]) -> Window:
+    """The rectangle around rectangles."""
     corners = np.array(list(boxes))
     x0, y0 = corners[:, :2].min(axis=0).tolist()
     x1, y1 = corners[:, 2:].max(axis=0).tolist()

@@ -37,7 +37,7 @@ SECTION_COLOUR, CUT = "#d9d9de", "#7a808c"
 AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
 LIGHT = np.array([-0.55, -0.65, 0.52])
 GLASS, GHOST = 0.3, 0.06
-SURFACE, WALL, SECTION, CURVE, ON_TOP = 0, 1, 2, 3, 4
+SURFACE, WALL, SECTION, CURVE, ON_TOP, OVER = 0, 1, 2, 3, 4, 5
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,8 @@ class Pieces:
     ----------
     corners : (n, 4, 3) float64, theta in degrees
     rgb : (n, 3) float64
-    sort : (n,) int, SURFACE, WALL, SECTION, CURVE, or ON_TOP: a curve that nothing hides
+    sort : (n,) int
+        SURFACE, WALL, SECTION, CURVE; ON_TOP: a curve that nothing hides; OVER: one that is drawn over other curves.
     owner : (n,) int
         The face whose border a curve is, or -1 if it is always seen; itself for a face.
     width : (n,) float64
@@ -100,14 +101,14 @@ class Painting(PolyCollection):
         p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
         front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
 
-        clear = (pieces.sort == SECTION) | (pieces.sort == ON_TOP)
+        clear = np.isin(pieces.sort, (SECTION, ON_TOP, OVER))
         fog = np.where(clear, 0.0, 0.25 * (depth - near) / max(far - near, 1e-300))
         rgb = pieces.rgb + (1 - pieces.rgb) * fog[:, None]
         alpha = np.where(front, 1.0, self._ghost)
         alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)
         alpha[(pieces.sort == CURVE) & ~front] = 0
         is_curve = pieces.sort >= CURVE
-        rank = depth - AHEAD * (far - near) * is_curve
+        rank = depth - AHEAD * (far - near) * (is_curve + 1.0 * (pieces.sort == OVER))
         rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
         rank[pieces.sort == ON_TOP] -= 20 * (far - near)
         order = np.argsort(-rank)
@@ -126,7 +127,13 @@ class Painting(PolyCollection):
 
 
 def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
-    """Everything there is to draw of a boundary: patches, section, helices and e-e segments.
+    """Everything there is to draw of a boundary: patches, helices and e-e segments, and the section at a full turn."""
+    patches = patches_of(boundary, window, colours, line)
+    return joined([patches, _section(boundary, window, len(patches.corners))])
+
+
+def patches_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
+    """Patches, helices and e-e segments of a boundary.
 
     Curves are `line` points wide, or less where there are so many that they would hide the patches.
     """
@@ -140,7 +147,7 @@ def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None
     curves = _curves(boundary, rows, cell, colours) if len(boundary.trapezoids) <= CROWDED else []
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
     split = [_split(replace(part, width=part.width + line * thinner), _widest(window)) for part in curves]
-    return joined([faces, _section(boundary, window, len(corners)), *split])
+    return joined([faces, *split])
 
 
 def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:

@@ -8,6 +8,10 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
+    from cfree.path import Path
+    from cfree.scene import Scene
+
+MOST = 60.0  # seconds of motion
 
 
 def save_film(
@@ -65,3 +69,69 @@ def save_film(
     check_film_path(path)
     check_options(len(boundaries), seconds, fps, size, storyboard)
     write(pictures(boundaries, seconds, fps, size, storyboard, progress), path, fps)
+
+
+def film_path(
+    path: Path,
+    scene: Scene,
+    file: str | PathLike[str],
+    *,
+    boundary: Boundary | None = None,
+    seconds: float | None = None,
+    fps: int = 25,
+    size: tuple[int, int] | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> None:
+    """Write a film of the robot on its way, its clearance, and the configuration space if its boundary is given.
+
+    Parameters
+    ----------
+    path : Path
+    scene : Scene
+        In which it is free.
+    file : path
+        ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
+    boundary : Boundary, optional
+        Of that scene.
+    seconds : float, optional
+        Of motion, a minute at most. If not given, one for each of its own radii that the robot travels, 4 to 20. The
+        robot rests for about a second before and after.
+    fps : int
+        Frames a second.
+    size : (int, int), optional
+        Width and height in pixels, even; 1280 x 720, for a GIF 640 x 360, if not given.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1.
+
+    Raises
+    ------
+    ValueError
+        If the path is not free, or an option has no sense.
+    UnsupportedError
+        If the format is unknown, or PyAV is missing.
+
+    Notes
+    -----
+    The robot moves at even speed: that of its farthest moving point. Between frames nothing is shown, but the path is
+    proved free before the first is drawn. Distances are computed in doubles.
+
+    Examples
+    --------
+    >>> import tempfile, cfree
+    >>> scene = cfree.Scene(robot=[(0, 0), (2, 0), (2, 1)], obstacles=[(4, 2), (6, 2), (6, 4)])
+    >>> path = cfree.Path(cfree.Pose(0, 0), [cfree.Translation((4, 0))])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     film_path(path, scene, f"{folder}/path.gif", seconds=1, fps=5, size=(320, 180))
+    """
+    from cfree.film.encode import check_film_path, write
+    from cfree.film.reel import check_frames
+    from cfree.film.way import path_frames
+    from cfree.plot_path import Track
+
+    suffix = check_film_path(file)
+    if size is None:
+        size = (640, 360) if suffix == ".gif" else (1280, 720)
+    check_frames(fps, size)
+    if seconds is not None and not 0 < seconds <= MOST:
+        raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
+    write(path_frames(Track.of(path, scene), boundary, seconds, fps, size, progress), file, fps)

@@ -87,4 +87,6 @@ def _save_gif(frames: Iterator[Image], path: Path, fps: int) -> None:
         for frame in frames
     )
     first = next(pictures)
-    first.save(path, save_all=True, append_images=pictures, duration=max(20, round(100 / fps) * 10), loop=0)
+    duration = max(20, round(100 / fps) * 10)
+    with path.open("wb") as file:
+        first.save(file, "GIF", save_all=True, append_images=pictures, duration=duration, loop=0)

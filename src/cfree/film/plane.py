@@ -15,9 +15,9 @@ from cfree.film.box import INK
 from cfree.film.moves import Moment, shape_of
 from cfree.film.painter import HELIX
 from cfree.mesh import COLOURS, robot_radius
-from cfree.outlines import ROBOT, Window, path_of, rings_of, rings_of_geometry
+from cfree.outlines import BOUNDS, OBSTACLE, ROBOT, Window, path_of, rings_of, rings_of_geometry
 from cfree.patch import Contact, Place
-from cfree.plot import BOUNDS, FORBIDDEN, OBSTACLE
+from cfree.plot import FORBIDDEN
 from cfree.pose import Pose
 
 if TYPE_CHECKING:

@@ -40,10 +40,15 @@ def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int], 
         raise ValueError(f"storyboard {name!r}; choose one of {', '.join(STORYBOARDS)}")
     if not scenes:
         raise ValueError("no scene; give at least one")
-    if not 1 <= fps <= 100:
-        raise ValueError(f"{fps} frames a second; give 1 to 100")
+    check_frames(fps, size)
     if not (0 < seconds < math.inf) or round(seconds * fps) < scenes * len(SECONDS):
         raise ValueError(f"{seconds} seconds; give enough for {len(SECONDS)} frames of each scene at least")
+
+
+def check_frames(fps: int, size: tuple[int, int]) -> None:
+    """Raise a ValueError that says what is wrong with the rate or the size of frames, if anything is."""
+    if not 1 <= fps <= 100:
+        raise ValueError(f"{fps} frames a second; give 1 to 100")
     width, height = size
     if width % 2 or height % 2 or not (160 <= width <= 7680 and 90 <= height <= 4320):
         raise ValueError(f"size {width}x{height}; give even numbers from 160x90 to 7680x4320")

@@ -1,0 +1,183 @@
+"""Frames of a path: the robot on its way among the obstacles, its clearance, and the point of C that it is."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection, PathCollection
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.patches import PathPatch
+from numpy.typing import NDArray
+
+from cfree.film.box import INK
+from cfree.film.frame import GREY, INCHES, MONO
+from cfree.film.space import Space
+from cfree.mesh import robot_radius
+from cfree.nearest import Walls
+from cfree.outlines import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.plot import extent, set_window, with_unit
+from cfree.plot_path import LIMIT, Track, placed, poses_of, quantity, statement
+
+if TYPE_CHECKING:
+    from cfree.forbidden import Boundary
+
+Floats = NDArray[np.float64]
+Image = NDArray[np.uint8]
+
+SECONDS = 4.0, 20.0  # a path takes as many as the robot travels of its own radii, between these
+REST = 0.6, 1.2  # seconds before and after
+ALONE, BESIDE = (0.06, 0.16, 0.9, 0.7), (0.05, 0.16, 0.4, 0.7)
+GAUGE = 0.05, 0.055, 0.3, 0.022
+AZIMUTHS = math.radians(-62), math.radians(-32)  # the camera turns this far in a film
+SHADES = 24  # colours of the line in configuration space
+GLASS = 0.08  # opacity of what is above the robot's orientation
+
+
+class PathStage:
+    """Draws the frames of one path.
+
+    Parameters
+    ----------
+    track : Track
+    boundary : Boundary, optional
+        To show the configuration space.
+    size : (int, int)
+        Width and height in pixels.
+    """
+
+    def __init__(self, track: Track, boundary: Boundary | None, size: tuple[int, int]) -> None:
+        self.track, self.boundary, scene = track, boundary, track.scene
+        self.radius = robot_radius(scene)
+        width, height = size
+        figure = Figure(figsize=(INCHES * width / height, INCHES), dpi=height / INCHES, facecolor="white")
+        self.canvas: Any = FigureCanvasAgg(figure)
+        self._draw_plane(figure)
+        self.space: Space | None = None
+        if boundary is not None:
+            names = with_unit("x", scene.units), with_unit("y", scene.units)
+            self.space = Space(figure, boundary, extent(boundary), names)
+        if track.least is not None:
+            self._draw_gauge(figure)
+        figure.text(0.03, 0.95, scene.name or "a free path", fontsize=18, weight="bold", color=INK, va="center")
+        figure.text(0.03, 0.9, statement(track), fontsize=12, color=GREY, va="center")
+        self.pose = figure.text(0.985, 0.95, "", fontsize=11, color=INK, va="center", ha="right", family=MONO)
+        lines = track.rows * (1, 1, 180 / math.pi)
+        self.line = np.column_stack((lines[:, :2], lines[:, 2] % 360))
+        self.shade = _shades(track)
+        self.walls = Walls(scene)
+
+    def _draw_plane(self, figure: Figure) -> None:
+        """What is in the workspace, and artists of what moves."""
+        track = self.track
+        ax: Any = figure.add_axes(ALONE if self.boundary is None else BESIDE)
+        draw_surroundings(ax, track.scene)
+        draw_robot(ax, track.scene, track.path.goal, "goal", faint=True)
+        ax.plot(*track.rows[:, :2].T, color="#b9bec8", linewidth=1.0, linestyle=(0, (4, 3)), zorder=3.5)
+        self.ghosts = ax.add_collection(PathCollection([], linewidths=0.7, zorder=2), autolim=False)
+        self.trace = ax.add_collection(LineCollection([], linewidths=2.4, capstyle="round", zorder=4), autolim=False)
+        self.body = ax.add_patch(PathPatch(path_of([]), facecolor=ROBOT, alpha=0.8, linewidth=0, zorder=5))
+        self.rim = ax.add_patch(PathPatch(path_of([]), fill=False, edgecolor="#1b4a80", linewidth=1.2, zorder=5.1))
+        (self.origin,) = ax.plot([], [], "o", ms=5, color=INK, mec="white", mew=1.2, zorder=6)
+        (self.gap,) = ax.plot([], [], "o-", ms=3.5, lw=1.8, color=LIMIT, zorder=7)
+        set_window(ax, track.window, track.scene.units)
+        ax.tick_params(length=3, labelsize=9)
+
+    def _draw_gauge(self, figure: Figure) -> None:
+        """A bar of all clearances, and a pointer to the present one."""
+        track = self.track
+        most = track.most
+        ax: Any = figure.add_axes(GAUGE)
+        ax.imshow(np.linspace(0, 1, 256)[None], aspect="auto", cmap=track.colours.cmap, extent=(0, most, 0, 1))
+        ax.set(yticks=[], xlim=(0, most))
+        ax.tick_params(length=2, labelsize=8)
+        assert track.least is not None
+        ax.axvline(track.least.found, color=LIMIT, linewidth=2)
+        (self.pointer,) = ax.plot([], [], "v", color=INK, ms=8, clip_on=False, zorder=5)
+        left, bottom, width, height = GAUGE
+        self.value = figure.text(left + width + 0.015, bottom + height / 2, "", fontsize=12, color=INK, va="center")
+
+    def draw(self, travel: float, share: float) -> Image:
+        """The frame after so much travel as (height, width, 3) bytes; share of the film that is over."""
+        track = self.track
+        row = track.pace.at([travel])
+        (pose,) = poses_of(row)
+        outline = path_of(pose.apply(ring) for ring in rings_of(track.scene.robot))
+        self.body.set_path(outline)
+        self.rim.set_path(outline)
+        self.origin.set_data(row[:, 0], row[:, 1])
+        done = int(np.searchsorted(track.travel, travel, side="right"))
+        ends = np.concatenate((track.rows[:done, :2], row[:, :2]))
+        self.trace.set_segments(list(np.stack((ends[:-1], ends[1:]), axis=1)))
+        colours = track.colour(track.distance[:done])
+        self.trace.set_color(colours)
+        past = [k for k in track.ghosts.tolist() if k < done]
+        self.ghosts.set_paths(
+            [path_of(q.apply(ring) for ring in rings_of(track.scene.robot)) for q in poses_of(track.rows[past])]
+        )
+        self.ghosts.set_facecolor(colours[past] * (1, 1, 1, 0.14))
+        self.ghosts.set_edgecolor(colours[past] * (1, 1, 1, 0.55))
+        if track.least is not None:
+            self._point(row)
+        if self.space is not None and self.boundary is not None:
+            azimuth = AZIMUTHS[0] + share * (AZIMUTHS[1] - AZIMUTHS[0])
+            here = np.array([[*row[0, :2], math.degrees(pose.theta)]])
+            lines = _runs(np.concatenate((self.line[:done], here)), self.shade)
+            self.space.draw(pose, self.boundary.slice(pose.theta), azimuth, self.space.angles, GLASS, lines)
+        x, y, theta = row[0].tolist()
+        self.pose.set_text(f"x {x:8.4g}   y {y:8.4g}   θ {math.degrees(theta):6.1f}°".replace("-", "−"))
+        self.canvas.draw()
+        return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
+
+    def _point(self, row: Floats) -> None:
+        """The clearance in words, on the bar, and where it is."""
+        edges = placed(row, self.walls)
+        (distance,), (edge,), (wall,) = self.walls.nearest(edges)
+        points = self.walls.between(edges[0, edge], int(wall))
+        self.gap.set_data(*points.T)
+        self.pointer.set_data([min(distance, self.track.most)], [1.6])
+        self.value.set_text(f"clearance {quantity(float(distance), self.track.scene.units)}")
+
+
+def path_frames(
+    track: Track, boundary: Boundary | None, seconds: float | None, fps: int, size: tuple[int, int],
+    progress: Callable[[float], object] | None,
+) -> Iterator[Image]:  # fmt: skip
+    """All frames: the robot rests, moves at even speed, and rests."""
+    if seconds is None:
+        seconds = float(np.clip(track.pace.total / robot_radius(track.scene), *SECONDS))
+    before, after = (round(rest * fps) for rest in REST)
+    moving = max(2, round(seconds * fps))
+    travel = np.concatenate((np.zeros(before), np.linspace(0, track.pace.total, moving)))
+    stage = PathStage(track, boundary, size)
+    total = len(travel) + after
+    for k, s in enumerate(travel.tolist()):
+        frame = stage.draw(s, k / len(travel))
+        yield frame
+        if progress is not None:
+            progress((k + 1) / total)
+    for k in range(after):
+        yield frame
+        if progress is not None:
+            progress((len(travel) + k + 1) / total)
+
+
+def _shades(track: Track) -> list[str]:
+    """A colour for each row, of a few."""
+    most = track.most
+    steps = np.floor(np.nan_to_num(track.distance) / most * SHADES + 0.5) / SHADES * most
+    return [to_hex(colour) for colour in track.colour(steps)]
+
+
+def _runs(line: Floats, shades: list[str]) -> list[tuple[str, Floats]]:
+    """The line in parts of one colour, each as far as the next begins."""
+    found, first = [], 0
+    for k in range(1, len(line)):
+        if k == len(line) - 1 or shades[k] != shades[first]:
+            found.append((shades[first], line[first : k + 1]))
+            first = k
+    return found

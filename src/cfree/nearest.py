@@ -1,0 +1,68 @@
+"""Distances of the placed robot from obstacles and workspace, in double precision, and between which edges they are."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.features import WORKSPACE
+
+if TYPE_CHECKING:
+    from cfree.polygon import Polygon
+    from cfree.scene import Scene
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Name = tuple[int, int]  # polygon and edge
+
+
+class Walls:
+    """The edges of obstacles and workspace, and those of the robot; prepared once.
+
+    Attributes
+    ----------
+    robot : (e, 2, 2) float64
+        Ends of the robot's edges at rest.
+    robot_names : list of (polygon, edge)
+    segments : (w, 2, 2) float64
+        Ends of the walls.
+    names : list of (obstacle, edge)
+        -2 stands for the workspace.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        import shapely
+
+        walls = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
+        self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
+        self.segments, self.names = _edges(walls)
+        self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments))
+
+    def nearest(self, placed: Floats) -> tuple[Floats, Ints, Ints]:
+        """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); between which edge and which wall they are.
+
+        The robot's inside must be free of walls. There must be one wall at least.
+        """
+        import shapely
+
+        lines = shapely.linestrings(placed.reshape(-1, 2, 2))
+        (_, wall), distance = self._tree.query_nearest(lines, return_distance=True, all_matches=False)
+        table = distance.reshape(len(placed), -1)
+        edge = table.argmin(axis=1)
+        rows = np.arange(len(placed))
+        return table[rows, edge], edge, wall.reshape(table.shape)[rows, edge]
+
+    def between(self, edge: Floats, wall: int) -> Floats:
+        """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of a wall."""
+        import shapely
+
+        line = shapely.shortest_line(shapely.linestrings(edge), shapely.linestrings(self.segments[wall]))
+        return np.asarray(shapely.get_coordinates(line))
+
+
+def _edges(shapes: list[tuple[int, Polygon]]) -> tuple[Floats, list[Name]]:
+    """Ends of all edges, (n, 2, 2), and their names."""
+    ends = [np.stack((shape.vertices, shape.vertices[shape.next]), axis=1) for _, shape in shapes]
+    return np.concatenate([np.empty((0, 2, 2)), *ends]), [(k, i) for k, shape in shapes for i in range(len(shape))]

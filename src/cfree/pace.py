@@ -1,0 +1,85 @@
+"""A path by how far the robot moves, not only its reference point: for pictures, films and samples."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.motion import Motion, Translation
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.path import Path
+    from cfree.scene import Scene
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+class Pace:
+    """Places on a path by the travel of the robot: in each motion that of its farthest moving point.
+
+    Parameters
+    ----------
+    path : Path
+    scene : Scene
+        Whose robot moves.
+
+    Attributes
+    ----------
+    total : float
+        Travel of the whole path.
+
+    Examples
+    --------
+    >>> from cfree.motion import Rotation
+    >>> from cfree.path import Path
+    >>> from cfree.scene import Scene
+    >>> rod = Scene(robot=[(0, 0), (4, 0), (4, 1)])
+    >>> path = Path(Pose(0, 0), [Translation((5, 0)), Rotation((9, 1), "90deg")])  # (4, 1) is the pole, then
+    >>> pace = Pace(path, rod)
+    >>> pace.total == 5 + np.hypot(4, 1) * np.pi / 2
+    True
+    >>> pace.at([0.0, 2.5, pace.total]).round(6).tolist()
+    [[0.0, 0.0, 0.0], [2.5, 0.0, 0.0], [10.0, -3.0, 1.570796]]
+    """
+
+    def __init__(self, path: Path, scene: Scene) -> None:
+        robot = np.concatenate([part.vertices for part in scene.robot])
+        self._motions, self._poses = path.motions, path.poses
+        lengths = [reach(pose, motion, robot) for pose, motion in zip(path.poses, path.motions, strict=False)]
+        turns = [0.0 if isinstance(motion, Translation) else motion.turn for motion in path.motions]
+        self._until = np.cumsum([0.0, *lengths])
+        self._theta = path.start.theta + np.cumsum([0.0, *turns])
+        self.total = float(self._until[-1])
+
+    def places(self, travel: ArrayLike) -> tuple[Ints, Floats]:
+        """Motions (n,), and how much of each is done (n,), after so much travel; of a path of some motions."""
+        s = np.asarray(travel, dtype=np.float64)
+        motion = np.clip(np.searchsorted(self._until, s, side="right") - 1, 0, len(self._motions) - 1)
+        length = np.diff(self._until)[motion]
+        return motion, np.clip((s - self._until[motion]) / np.where(length > 0, length, 1.0), 0.0, 1.0)
+
+    def at(self, travel: ArrayLike) -> Floats:
+        """Rows x, y, theta, (n, 3), after so much travel (n,); theta goes on beyond full turns, from the start's."""
+        s = np.asarray(travel, dtype=np.float64)
+        rows = np.empty((len(s), 3))
+        if not self._motions:
+            rows[:] = float(self._poses[0].x), float(self._poses[0].y), self._poses[0].theta
+            return rows
+        motion, share = self.places(s)
+        rows[:, 2] = self._theta[motion] + share * np.diff(self._theta)[motion]
+        for k in np.unique(motion):
+            chosen = motion == k
+            rows[chosen, :2] = self._motions[k].sample(self._poses[k], share[chosen]).xy
+        return rows
+
+
+def reach(pose: Pose, motion: Motion, points: Floats) -> float:
+    """How far the farthest of these points of the robot, (n, 2), travels in a motion."""
+    if isinstance(motion, Translation):
+        return motion.length
+    corners = pose.apply(points) - [float(c) for c in motion.pole]
+    return float(np.hypot(corners[..., 0], corners[..., 1]).max()) * abs(motion.turn)

@@ -1,0 +1,329 @@
+"""Answers in the configuration space, beside the workspace: paths, and walls between start and goal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.features import BOUNDS, WORKSPACE
+from cfree.mesh import robot_radius
+from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.plot import around, new_figure, new_space, set_window, with_unit
+from cfree.plot3d import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
+from cfree.plot_path import LIMIT, Track, draw_track, statement
+from cfree.slab import Range, chosen, distances, slab
+from cfree.strips import strips
+from cfree.trapezoids import COLUMNS, Trapezoids
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from mpl_toolkits.mplot3d.axes3d import Axes3D
+
+    from cfree.forbidden import Boundary
+    from cfree.path import Path
+    from cfree.pose import Pose
+    from cfree.scene import Scene
+
+Floats = NDArray[np.float64]
+
+# paler than the paper's, so that the path is seen, and told apart by readers who do not tell red from green
+PALE = Colours("#f3c7a1", "#a9cdea", "#6b7fa8", "#c9b458")
+BARRIER = Colours("#e98d5b", "#f0b48e", "#8f3d00", "#b86f3f")
+INK, GREY, FLOOR = "#20242b", "#8a92a0", "#dcdfe5"
+MARGIN, LEAST = 15.0, 90.0  # degrees above and below a path, and shown at least
+NEAR = 2.0  # robot's radii: patches farther from a path are left out
+DASH = 8  # steps of the path
+STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
+
+
+def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
+    """A path in the configuration space, coloured by clearance, among the patches of the boundary near it.
+
+    Parameters
+    ----------
+    path : Path
+    boundary : Boundary
+        Of the scene in which it is free.
+    ax : matplotlib axes with ``projection="3d"``, optional
+
+    Returns
+    -------
+    matplotlib axes with three dimensions
+        Theta is unrolled: it begins at the start's and goes on beyond full turns. The path is dashed where patches hide
+        it. Patches are left out that are farther from the path than twice the robot's radius, a radian being as long
+        as the radius. On the floor are the obstacles, and the way of the reference point.
+
+    Raises
+    ------
+    ValueError
+        If the path is not free, or the axes have two dimensions.
+
+    Examples
+    --------
+    >>> from cfree.forbidden import boundary
+    >>> from cfree.motion import rotations
+    >>> from cfree.path import Path
+    >>> from cfree.pose import Pose
+    >>> from cfree.scene import Scene
+    >>> scene = Scene(robot=[(0, 0), (2, 0), (2, 1), (0, 1)], obstacles=[[(3, 2), (6, 2), (6, 4)]], units="m")
+    >>> ax = plot_path_space(Path(Pose(0, 0), rotations((-1, 0), "400deg")), boundary(scene))
+    >>> ax.get_zlim()
+    (-15.0, 415.0)
+    """
+    ax = _space(ax)
+    _draw_track(ax, Track.of(path, boundary.scene), boundary)
+    return ax
+
+
+def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figure:
+    """A path in the workspace, and beside it in the configuration space if its boundary is given.
+
+    Parameters
+    ----------
+    path : Path
+    scene : Scene
+        In which it is free.
+    boundary : Boundary, optional
+        Of that scene.
+
+    Returns
+    -------
+    matplotlib figure
+
+    Raises
+    ------
+    ValueError
+        If the path is not free.
+
+    See Also
+    --------
+    plot_path, plot_path_space : the two parts.
+    """
+    track = Track.of(path, scene)
+    figure, ax = _new_picture(track.window, boundary is not None)
+    draw_track(ax, track)
+    if boundary is not None:
+        _draw_track(_right(figure), track, boundary)
+    _head(figure, scene, "a free path", statement(track))
+    return figure
+
+
+def picture_of_separation(
+    scene: Scene, start: Pose, goal: Pose, obstacles: Iterable[int], *, of: Literal["closed", "interior"],
+    surface: Boundary | None = None,
+) -> Figure:  # fmt: skip
+    """Start, goal and the obstacles that part them; beside it the separating surface if it is given.
+
+    Parameters
+    ----------
+    scene : Scene
+    start, goal : Pose
+    obstacles : iterable of int
+        Those whose contacts form the surface; -1 is the bounds, -2 the workspace.
+    of : "closed" or "interior"
+        What is excluded: every path, or only those of positive clearance.
+    surface : Boundary, optional
+        The trapezoids of the surface and no others, as `part_of` makes it.
+
+    Returns
+    -------
+    matplotlib figure
+
+    Examples
+    --------
+    >>> from cfree.pose import Pose
+    >>> from cfree.scene import Scene
+    >>> hall = [(0, 0), (9, 0), (9, 3), (0, 3)]
+    >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[[(4, -1), (5, -1), (5, 4)]], workspace=hall)
+    >>> figure = picture_of_separation(scene, Pose(1, 1), Pose(7, 1), [0, -2], of="closed")
+    >>> figure.texts[0].get_text()
+    'no path from start to goal'
+    """
+    numbers = sorted(obstacles)
+    robots = np.concatenate([pose.apply(part.vertices) for pose in (start, goal) for part in scene.robot])
+    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
+    boxes += [body.bounds for body in scene.obstacles]
+    if scene.workspace is not None:
+        boxes.append(scene.workspace.bounds)
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        boxes.append((x0, y0, x1, y1))
+    window = around(boxes)
+    figure, ax = _new_picture(window, surface is not None)
+    draw_surroundings(ax, scene)
+    _draw_barrier(ax, scene, numbers)
+    draw_robot(ax, scene, start, "start", faint=False)
+    draw_robot(ax, scene, goal, "goal", faint=True)
+    set_window(ax, window, scene.units)
+    if surface is not None:
+        box = _around_surface(surface)
+        space = _right(figure)
+        _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
+        _frame(ax, box)
+        for pose, name in ((start, "start"), (goal, "goal")):
+            x, y = float(pose.x), float(pose.y)
+            if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
+                _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
+    without = "path" if of == "closed" else "path of positive clearance"
+    named = [_name(scene, k) for k in numbers[:6]] + (["..."] if len(numbers) > 6 else [])
+    _head(figure, scene, f"no {without} from start to goal", "parted by " + ", ".join(named))
+    return figure
+
+
+def part_of(boundary: Boundary, trapezoids: ArrayLike) -> Boundary:
+    """Some trapezoids of a boundary, by number; to be drawn, it answers no questions."""
+    from cfree.forbidden import Boundary
+
+    which = np.asarray(trapezoids, dtype=np.int64)
+    table = Trapezoids(*(getattr(boundary.trapezoids, name)[which] for name in COLUMNS))
+    return Boundary(
+        boundary.scene, boundary.features, boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
+        table, boundary.isolated.rows(slice(0)), boundary.stats, boundary.trimmed,
+    )  # fmt: skip
+
+
+# the plane
+
+
+def _draw_barrier(ax: Any, scene: Scene, numbers: list[int]) -> None:
+    """The obstacles of a separating surface, bounds and workspace among them."""
+    from matplotlib.patches import PathPatch, Rectangle
+
+    shapes = path_of(rings_of([scene.obstacles[k] for k in numbers if k >= 0]))
+    style: Any = {"edgecolor": LIMIT, "linewidth": 1.6, "zorder": 2.5}
+    ax.add_patch(PathPatch(shapes, facecolor="#b5663a", label="barrier", **style))
+    if WORKSPACE in numbers and scene.workspace is not None:
+        ax.add_patch(PathPatch(path_of(rings_of([scene.workspace])), fill=False, label="workspace", **style))
+    if BOUNDS in numbers and scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, linestyle=(0, (5, 3)), label="bounds", **style))
+
+
+def _frame(ax: Any, box: Window) -> None:
+    """What is seen beside."""
+    from matplotlib.patches import Rectangle
+
+    x0, y0, x1, y1 = box
+    style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "seen beside"}
+    ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, **style))
+
+
+def _name(scene: Scene, number: int) -> str:
+    return {BOUNDS: "bounds", WORKSPACE: "workspace"}.get(number) or scene.obstacle_names[number]
+
+
+# space
+
+
+def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
+    """A path among the patches near it, on axes."""
+    rows = track.rows * (1, 1, 180 / math.pi)
+    degrees, radius = _range(rows[:, 2]), robot_radius(track.scene)
+    patches = slab(patches_of(boundary, track.window, PALE), track.window, degrees)
+    near = distances(patches, rows[:: max(1, len(rows) // 80)], radius) < NEAR * radius
+    _draw_patches(ax, boundary, track.window, degrees, joined([chosen(patches, near), _line(track, rows)]))
+    shadow = np.full(len(rows), degrees[0])
+    ax.plot(*rows[:, :2].T, shadow, color=GREY, linewidth=1.2, zorder=0.5, label="reference point")
+    for row, name in ((rows[0], "start"), (rows[-1], "goal")):
+        _mark(ax, row, name)
+
+
+def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, pieces: Pieces) -> None:
+    """Pieces above the obstacles; axes with ticks and names."""
+    import shapely
+    from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    (low, high), (x0, y0, x1, y1), units = degrees, window, boundary.scene.units
+    side = max(x1 - x0, y1 - y0)
+    painting = Painting(pieces)
+    painting.set(zorder=1, rasterized=True)  # thousands of faces are slow as vectors, and have seams
+    ax.add_collection(painting, autolim=False)
+    obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in boundary.scene.obstacles])
+    floor = level(shapely.intersection(obstacles, shapely.box(*window)), low)[:, :3]
+    shadow = Poly3DCollection(floor, facecolor=FLOOR, edgecolor=FLOOR, linewidth=0.3, zorder=0.2)
+    ax.add_collection(shadow, autolim=False)
+    ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees, zlabel="θ")
+    height = side * min(1.0, max(0.4, 0.75 * (high - low) / 360))
+    ax.set_box_aspect((x1 - x0, y1 - y0, height), zoom=0.95)
+    ax.view_init(38, -60)
+    ax.zaxis.set_major_locator(MultipleLocator(next((s for s in STEPS if (high - low) / s <= 6), STEPS[-1])))
+    ax.zaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}°".replace("-", "−")))
+    for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
+        axis.set_major_locator(MaxNLocator(1 + round(5 * length / side)))
+        axis.set_label_text(with_unit(name, units))
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
+
+
+def _around_surface(surface: Boundary) -> Window:
+    """A surface, and as much around it as to see the obstacles it belongs to."""
+    points = strips(surface, math.radians(5)).points.reshape(-1, 2)
+    low, high, margin = points.min(axis=0), points.max(axis=0), 1.2 * robot_radius(surface.scene)
+    (x0, y0), (x1, y1) = (low - margin).tolist(), (high + margin).tolist()
+    return x0, y0, x1, y1
+
+
+def _mark(ax: Any, row: Floats, name: str) -> None:
+    """A configuration x, y, degrees, and its name."""
+    from matplotlib.patheffects import withStroke
+
+    x, y, theta = row.tolist()
+    ax.plot([x], [y], [theta], "o", color=INK, markersize=6, markeredgecolor="white", zorder=21)
+    ax.text(x, y, theta, f"  {name}", zorder=22, path_effects=[withStroke(linewidth=2.5, foreground="white")])
+
+
+def _range(degrees: Floats) -> Range:
+    """Angles around those of a path."""
+    low, high = float(degrees.min()) - MARGIN, float(degrees.max()) + MARGIN
+    more = max(0.0, LEAST - (high - low)) / 2
+    return low - more, high + more
+
+
+def _line(track: Track, rows: Floats) -> Pieces:
+    """The path, coloured by clearance, with a white rim; dashes that nothing hides."""
+    rgb = track.colour((track.distance[1:] + track.distance[:-1]) / 2)[:, :3]
+    rim = of_line(rows, "white", 5.0)
+    line, above = (replace(of_line(rows, INK, width, sort), rgb=rgb) for width, sort in ((3.0, OVER), (1.8, ON_TOP)))
+    line.corners[:-1, 1:3] = line.corners[1:, 1:3]  # parts overlap, so that no seams are seen
+    return joined([rim, line, chosen(above, np.arange(len(rgb)) % DASH < DASH / 2)])
+
+
+# figures
+
+
+def _space(ax: Axes3D | None) -> Any:
+    if ax is None:
+        ax = new_space(new_figure((8, 7)), (0.02, 0.04, 0.94, 0.94))
+    if ax.name != "3d":
+        raise ValueError(f'axes of {ax.name} projection; make them with projection="3d"')
+    ax.computed_zorder = False
+    return ax
+
+
+def _new_picture(window: Window, with_space: bool) -> tuple[Figure, Any]:
+    """A figure with a headline, and its axes of the workspace, alone or at the left."""
+    shape = (window[3] - window[1]) / (window[2] - window[0])
+    if with_space:
+        height = float(np.clip(6.0 * shape, 4.2, 6.0)) + 1.6
+        figure = new_figure((15, height))
+        return figure, figure.add_axes((0.045, 0.65 / height, 0.4, 1 - 1.6 / height))
+    height = float(np.clip(6.6 * shape, 2.5, 8.5)) + 1.6
+    figure = new_figure((8.4, height))
+    return figure, figure.add_axes((0.09, 0.65 / height, 0.78, 1 - 1.6 / height))
+
+
+def _right(figure: Figure) -> Any:
+    return _space(new_space(figure, (0.5, 0.02, 0.49, 0.88)))
+
+
+def _head(figure: Figure, scene: Scene, headline: str, details: str) -> None:
+    title = f"{scene.name}: {headline}" if scene.name else headline
+    height = float(figure.get_size_inches()[1])
+    figure.text(0.5, 1 - 0.32 / height, title, ha="center", va="center", weight="bold", fontsize=14)
+    figure.text(0.5, 1 - 0.64 / height, details, ha="center", va="center", fontsize=11)

@@ -1,0 +1,300 @@
+"""A path in the workspace: ghosts of the robot, coloured by clearance, and the place of least clearance."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.mesh import robot_radius
+from cfree.motion import Translation
+from cfree.nearest import Walls
+from cfree.outlines import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.pace import Pace
+from cfree.plot import around, new_axes, set_window, with_unit
+from cfree.pose import Pose, Poses
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.cm import ScalarMappable
+
+    from cfree.path import Clearance, Path
+    from cfree.polygon import Polygon
+    from cfree.scene import Scene
+
+Floats = NDArray[np.float64]
+
+LIMIT = "#d55e00"  # vermilion: what the clearance ends at
+SCALE = "viridis"  # perceptually uniform, and fit for readers who do not tell red from green
+GHOSTS, APART = 48, 0.45  # so many at most, and no closer than this part of the robot's radius
+TRACE = 600
+LABEL = 30  # typographic points from a place to its label
+SAME = 1e-9  # of the robot's radius: less is touching, for the eye
+PRECISION, SHARES = 1e-3, 50_000  # of the least clearance: a part of the robot's radius, or of its travel if more
+NEAR = 2.0  # obstacles within so many times the least clearance limit it
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """A path as it is drawn.
+
+    Attributes
+    ----------
+    travel : (TRACE,) float64
+        Of the robot, at even steps.
+    rows : (TRACE, 3) float64
+        x, y and theta, unrolled, after so much travel.
+    distance : (TRACE,) float64
+        Distances from the nearest wall there, or NaN if there is none.
+    least : Clearance, optional
+    closest : (2, 2) float64
+        The two points of robot and wall between which the least clearance is, if there is one.
+    window : four floats
+        x0, y0, x1, y1: what there is to see of the workspace near the path.
+    most : float
+        Where the scale of colours ends.
+    colours : ScalarMappable
+        From distances to colours.
+    """
+
+    path: Path
+    scene: Scene
+    pace: Pace
+    travel: Floats
+    rows: Floats
+    distance: Floats
+    least: Clearance | None
+    closest: Floats
+    window: Window
+    most: float
+    colours: ScalarMappable
+
+    @classmethod
+    def of(cls, path: Path, scene: Scene) -> Track:
+        from matplotlib import colormaps
+        from matplotlib.cm import ScalarMappable
+        from matplotlib.colors import Normalize
+
+        pace, walls = Pace(path, scene), Walls(scene)
+        travel = np.linspace(0, pace.total, TRACE)
+        rows = pace.at(travel)
+        least = path.clearance(scene, max(PRECISION * robot_radius(scene), pace.total / SHARES))
+        distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), placed(rows, walls)
+        if least is not None:
+            distance, _, _ = walls.nearest(edges)
+            closest = _closest(path, walls, least)
+        farthest = float(np.nanmax(distance, initial=0.0))
+        # beyond the robot's own size, clearances need not be told apart
+        most = min(farthest, 2 * robot_radius(scene)) or 1.0
+        colours = ScalarMappable(Normalize(0.0, most), colormaps[SCALE])
+        return cls(path, scene, pace, travel, rows, distance, least, closest, _window(scene, edges), most, colours)
+
+    def colour(self, distance: Floats) -> Floats:
+        """(n, 4) colours of distances; one colour if there is nothing to be near to."""
+        from matplotlib.colors import to_rgba
+
+        if self.least is None:
+            return np.tile(to_rgba(ROBOT), (len(distance), 1))
+        return np.asarray(self.colours.to_rgba(distance))
+
+    @property
+    def ghosts(self) -> NDArray[np.int64]:
+        """Rows between start and goal at which the robot is drawn."""
+        apart = APART * robot_radius(self.scene)
+        count = int(min(GHOSTS, max(2, self.pace.total / apart))) if self.pace.total else 0
+        return np.rint(np.linspace(0, TRACE - 1, count + 1)[1:-1]).astype(np.int64)
+
+
+def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
+    """A path in the workspace, coloured by clearance.
+
+    Parameters
+    ----------
+    path : Path
+    scene : Scene
+        In which it is free.
+    ax : matplotlib axes, optional
+
+    Returns
+    -------
+    matplotlib axes
+        Start and goal, ghosts of the robot at even steps of its farthest point, the way of the reference point, and the
+        place of least clearance with the obstacles that limit it there: those within twice that distance.
+
+    Raises
+    ------
+    ValueError
+        If the path is not free.
+
+    Notes
+    -----
+    The clearance in the title is the least found, and a proved bound of it. They differ by at most a thousandth of the
+    robot's radius, or 1 / 50,000 of its travel if that is more. Colours are distances at 600 poses, in doubles.
+
+    Examples
+    --------
+    >>> from cfree.motion import Rotation, Translation
+    >>> from cfree.path import Path
+    >>> from cfree.pose import Pose
+    >>> from cfree.scene import Scene
+    >>> scene = Scene(robot=[(0, 0), (2, 0), (2, 1), (0, 1)], obstacles=[[(4, 2), (6, 2), (6, 4)]], units="m")
+    >>> ax = plot_path(Path(Pose(0, 0), [Translation((4, 0)), Rotation((6, 0), "-90deg")]), scene)
+    >>> ax.get_title()
+    '2 motions, length 7.14 m, turning 90°, clearance 1 m (≥ 0.998 proved)'
+    """
+    track = Track.of(path, scene)
+    if ax is None:
+        x0, y0, x1, y1 = track.window
+        ax = new_axes((8, float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))), (0.09, 0.1, 0.78, 0.83))
+    draw_track(ax, track)
+    ax.set_title(statement(track))
+    return ax
+
+
+def draw_track(ax: Any, track: Track) -> None:
+    """The path among the obstacles, on axes."""
+    from matplotlib.collections import LineCollection, PathCollection
+
+    scene, path = track.scene, track.path
+    draw_surroundings(ax, scene)
+    rings = rings_of(scene.robot)
+    at = track.ghosts
+    colours = track.colour(track.distance[at])
+    shapes = [path_of(pose.apply(ring) for ring in rings) for pose in poses_of(track.rows[at])]
+    fill, rim = colours.copy(), colours.copy()
+    fill[:, 3], rim[:, 3] = 0.22, 0.9
+    ax.add_collection(
+        PathCollection(shapes, facecolors=fill, edgecolors=rim, linewidths=0.8, zorder=2, label="ghosts"), autolim=False
+    )
+    xy = track.rows[:, :2]
+    middle = (track.distance[1:] + track.distance[:-1]) / 2
+    ends = np.stack((xy[:-1], xy[1:]), axis=1)
+    for colour, width in (("white", 3.6), (track.colour(middle), 2.0)):
+        line = LineCollection(list(ends), colors=colour, linewidths=width, capstyle="round", zorder=4)
+        ax.add_collection(line, autolim=False)
+    ax.collections[-1].set_label("trace")
+    draw_robot(ax, scene, path.start, "start", faint=False)
+    draw_robot(ax, scene, path.goal, "goal", faint=True)
+    set_window(ax, track.window, scene.units)
+    if track.least is not None:
+        _draw_least(ax, track)
+        _draw_scale(ax, track)
+
+
+def _draw_scale(ax: Any, track: Track) -> None:
+    """What the colours mean, beside axes, and where the least clearance is among them."""
+    from mpl_toolkits.axes_grid1 import make_axes_locatable
+
+    beside = make_axes_locatable(ax).append_axes("right", size="2.5%", pad=0.12)
+    above = bool(np.nanmax(track.distance) > track.most)
+    ax.figure.colorbar(track.colours, cax=beside, extend="max" if above else "neither")
+    beside.set_ylabel(with_unit("clearance", track.scene.units))
+    if track.least is not None:
+        beside.axhline(track.least.found, color=LIMIT, linewidth=2)
+
+
+def statement(track: Track) -> str:
+    """The path in one line."""
+    path, units = track.path, track.scene.units
+    count = len(path.motions)
+    parts = [f"{count} motion{'' if count == 1 else 's'}", f"length {quantity(path.length, units)}"]
+    parts.append(f"turning {quantity(math.degrees(path.turning), '')}°")
+    if track.least is not None:
+        parts.append(f"clearance {quantity(track.least.found, units)} (≥ {quantity(track.least.least, '')} proved)")
+    return ", ".join(parts)
+
+
+def quantity(value: float, units: str) -> str:
+    """A length with its unit, if that is an abbreviation.
+
+    Examples
+    --------
+    >>> quantity(0.12345, "m"), quantity(2345.6, "corridor widths")
+    ('0.123 m', '2346')
+    """
+    number = f"{value:.0f}" if 1000 <= value < 1_000_000 else f"{value:.3g}"
+    return f"{number} {units}" if 0 < len(units) <= 4 else number
+
+
+def _draw_least(ax: Any, track: Track) -> None:
+    """The robot where it is closest to something, what that is, and how far."""
+    from matplotlib.patches import PathPatch
+    from matplotlib.patheffects import withStroke
+
+    scene, least = track.scene, track.least
+    assert least is not None
+    pose = _pose_of_least(track.path, least)
+    shape = path_of(pose.apply(ring) for ring in rings_of(scene.robot))
+    ax.add_patch(PathPatch(shape, fill=False, edgecolor=LIMIT, linewidth=1.6, zorder=5, label="least clearance"))
+    limits = path_of(rings_of(_limiting(scene, pose, NEAR * least.found)))
+    ax.add_patch(PathPatch(limits, fill=False, edgecolor=LIMIT, linewidth=1.8, zorder=2.5, label="limiting obstacles"))
+    ax.plot(*track.closest.T, "-", color=LIMIT, linewidth=2, zorder=6, solid_capstyle="butt")
+    middle = track.closest.mean(axis=0)
+    ax.plot(*middle, "o", markersize=11, markerfacecolor="none", color=LIMIT, markeredgewidth=1.6, zorder=6)
+    halo = [withStroke(linewidth=3, foreground="white")]
+    dx, dy = LABEL * _aside(ax, pose, middle)
+    ax.annotate(
+        quantity(least.found, scene.units), middle, (dx, dy), textcoords="offset points", zorder=9, path_effects=halo,
+        color=LIMIT, weight="bold", ha="left" if dx > 0 else "right", va="center",
+        arrowprops={"arrowstyle": "-", "color": LIMIT, "shrinkA": 1, "shrinkB": 6, "zorder": 9},
+    )  # fmt: skip
+
+
+def _aside(ax: Any, pose: Pose, point: Floats) -> Floats:
+    """A direction away from the robot, but towards the middle of the axes at their left and right edges."""
+    x, y = point - (float(pose.x), float(pose.y))
+    share = (point[0] - ax.get_xlim()[0]) / np.diff(ax.get_xlim())[0]
+    x = -1.0 if share > 0.8 else 1.0 if share < 0.2 else x or 1.0
+    return np.array([math.copysign(0.8, x), math.copysign(0.6, y)])
+
+
+def _window(scene: Scene, placed: Floats) -> Window:
+    """What is near the robot's way of all there is to see."""
+    swept = placed.reshape(-1, 2)
+    near = np.concatenate((swept.min(axis=0), swept.max(axis=0)))
+    x0, y0, x1, y1 = near.tolist()
+    bodies = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
+    boxes: list[Window] = [(x0, y0, x1, y1), *(body.bounds for body in bodies)]
+    if scene.bounds is not None:
+        left, bottom, right, top = map(float, scene.bounds)
+        boxes.append((left, bottom, right, top))
+    everything: Floats = np.array(around(boxes))
+    margin = 0.4 * float((near[2:] - near[:2]).max()) + 2 * robot_radius(scene)
+    x0, y0 = np.maximum(near[:2] - margin, everything[:2]).tolist()
+    x1, y1 = np.minimum(near[2:] + margin, everything[2:]).tolist()
+    return x0, y0, x1, y1
+
+
+def _limiting(scene: Scene, pose: Pose, reach: float) -> list[Polygon]:
+    """Obstacles, and the workspace, within reach of the robot in a pose."""
+    import shapely
+
+    bodies = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
+    walls = [shapely.boundary(body.to_shapely()) for body in bodies]
+    robot = shapely.multilinestrings([shapely.linearrings(pose.apply(ring)) for ring in rings_of(scene.robot)])
+    near = shapely.distance(robot, walls) <= reach + SAME * robot_radius(scene)
+    return [bodies[k] for k in np.flatnonzero(near)]
+
+
+def _pose_of_least(path: Path, least: Clearance) -> Pose:
+    motions = path.motions or (Translation((0, 0)),)
+    return motions[least.motion].sample(path.poses[least.motion], [least.share])[0]
+
+
+def _closest(path: Path, walls: Walls, least: Clearance) -> Floats:
+    """Points of robot and wall, (2, 2), between which the least clearance is."""
+    edge = _pose_of_least(path, least).apply(walls.robot[walls.robot_names.index(least.robot)])
+    return walls.between(edge, walls.names.index(least.obstacle))
+
+
+def poses_of(rows: Floats) -> Poses:
+    """Poses of rows x, y, theta."""
+    return Poses(rows[:, :2], rows[:, 2])
+
+
+def placed(rows: Floats, walls: Walls) -> Floats:
+    """The robot's edges in poses, (n, e, 2, 2)."""
+    return poses_of(rows).apply(walls.robot.reshape(-1, 2)).reshape(len(rows), *walls.robot.shape)
