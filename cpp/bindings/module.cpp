@@ -209,6 +209,10 @@ NB_MODULE(_core, m) {
             }
             return nb::make_tuple(array_of(std::move(x.start)), array_of(std::move(x.around)), array_of(std::move(x.free_inside)));
         })
+        .def("angle", [](const cfree::Rays& rays, int trapezoid, bool last, unsigned bits) {
+            const auto [lo, hi] = rays.angle(trapezoid, last, bits);
+            return nb::make_tuple(integer(lo.n), lo.k, integer(hi.n), hi.k);
+        }, "trapezoid"_a, "last"_a, "bits"_a)
         .def("locate_exactly", [](const cfree::Rays& rays, std::array<nb::int_, 5> pose, int chart, Column<int> depth,
                                   Column<int> cell, Column<std::uint8_t> free_inside, int outside) {
             const auto at = [&](std::size_t k) { return integer(pose[k]); };

@@ -222,6 +222,16 @@ void Rays::stab(Index begin, Index end, const View& q, F&& report) const {
     }
 }
 
+std::array<Dyadic, 2> Rays::angle(Index k, bool last, unsigned bits) const {
+    const auto critical = last ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k);
+    if (critical.is_wall()) return {Dyadic::from(critical.lo), Dyadic::from(critical.lo)};
+    RealRoot x = critical.exact(scene);
+    const Dyadic widest{1, bits};
+    const auto width = [&] { return Dyadic{(x.hi.n << x.lo.k) - (x.lo.n << x.hi.k), x.lo.k + x.hi.k}; };
+    while (!x.is_dyadic() && cfree::compare(width(), widest) > 0) x.halve();
+    return {x.lo, x.hi};
+}
+
 // Sign of an angle of a trapezoid minus that of the pose, of one chart.
 int Rays::order(bool of_end, Index k, const View& q) const {
     const double lo = of_end ? trapezoids.to_lo[k] : trapezoids.from_lo[k];

@@ -309,6 +309,11 @@ class FreeSpace:
         cell: int = self._rays.locate_exactly(place, chart, *self._nesting)
         return NO_CELL if cell == FORBIDDEN else cell
 
+    def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
+        """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
+        low, p, high, q = self._rays.angle(face, last, bits)
+        return Fraction(low, 1 << p), Fraction(high, 1 << q)
+
     def reachable(self, start: Pose) -> Cell:
         """The cell that a start is in or on the boundary of: what the robot can reach from there.
 

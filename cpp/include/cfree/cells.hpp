@@ -40,6 +40,9 @@ public:
     void locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
                 const Cells& cells, Index* out) const;
 
+    // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.
+    std::array<Dyadic, 2> angle(Index trapezoid, bool last, unsigned bits) const;
+
 private:
     struct Seen;
     struct View;

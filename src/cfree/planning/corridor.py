@@ -89,16 +89,6 @@ class Corridors:
         known: NDArray[np.bool_] = table.from_hi < table.to_lo
         return known
 
-    @cached_property
-    def passable(self) -> NDArray[np.bool_]:
-        """(H,) whether they know those at which to cross a side."""
-        cells, table = self.space.complex, self.space.walls.trapezoids
-        f, g = cells.face, cells.face[cells.twin]
-        both = np.maximum(table.from_hi[f], table.from_hi[g]) < np.minimum(table.to_lo[f], table.to_lo[g])
-        on_curve = (cells.side == LOWER) | (cells.side == UPPER)
-        passable: NDArray[np.bool_] = self.open[f] & self.open[g] & (both | ~on_curve)
-        return passable
-
     def shortest(
         self,
         starts: list[Landing],
@@ -118,7 +108,6 @@ class Corridors:
         ends = [end for link in links for end in link.ends]
         places: list[Place] = [*map(tuple, self.middles.tolist()), *(end.place for end in ends)]
         first, twin, face_of = cells.first.tolist(), cells.twin.tolist(), cells.face.tolist()
-        passable = self.passable.tolist()
         at_face: dict[int, list[int]] = {}
         for k, end in enumerate(ends):
             at_face.setdefault(end.face, []).append(base + k)
@@ -131,7 +120,7 @@ class Corridors:
         def relax(cost: float, face: int, at: Place, before: int) -> None:
             sides = range(first[face], first[face + 1]) if face != FAR else ()
             for h in (*sides, *at_face.get(face, ())):
-                if h not in came and (h >= base or passable[h]):
+                if h not in came:
                     heapq.heappush(heap, (cost + self.apart(at, places[h]), h, before, face))
             for place in at_goal.get(face, ()):
                 heapq.heappush(heap, (cost + self.apart(at, place), len(places), before, face))

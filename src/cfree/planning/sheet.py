@@ -12,6 +12,7 @@ from cfree.pose import Pose, half_angle_rotation, tau_in_chart
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
+FINEST = 32  # bits of tau that doubles are trusted with
 Vector = tuple[Fraction, Fraction]
 Line = tuple[Vector, Vector, Vector, Vector]  # p, q, a, g of a surface
 
@@ -66,11 +67,18 @@ def positions(line: Line, tau: Fraction | None) -> tuple[Vector, Vector]:
 
 
 class Sheet:
-    """A trapezoid of the boundary, exactly: poses on it at rational t and tau."""
+    """A trapezoid.
+
+    Attributes
+    ----------
+    low, high : Fraction
+        All orientations from the first to the second, in its chart, are strictly within; `refine` makes them more.
+    """
 
     def __init__(self, space: FreeSpace, face: int) -> None:
         walls = space.walls
         table = walls.trapezoids
+        self.space = space
         self.face = face
         self.chart = int(table.chart[face])
         self.low, self.high = Fraction(float(table.from_hi[face])), Fraction(float(table.to_lo[face]))
@@ -79,6 +87,14 @@ class Sheet:
         patch = int(table.patch[face])
         kind, i, j = (int(c[patch]) for c in (walls.contact_kind, walls.contact_robot, walls.contact_obstacle))
         self.line = contact_line(walls.features, kind, i, j)
+        bits = FINEST
+        while self.low >= self.high:
+            bits *= 2
+            self.refine(bits)
+
+    def refine(self, bits: int) -> None:
+        """Come as near as 2**-bits to its first and last orientation."""
+        (_, self.low), (self.high, _) = (self.space.angle(self.face, last, bits) for last in (False, True))
 
     def at(self, tau: Fraction) -> tuple[Vector, Vector]:
         """P and U: positions P + t U, at tau in the chart."""
@@ -128,13 +144,6 @@ class Sheet:
         low, high = self.limits(tau)
         return cross(U, minus((pose.x, pose.y), P)) == 0 and low <= self.t_of(pose, tau) <= high
 
-    def near(self, aim: Pose, tau: Fraction, share: Fraction) -> Fraction:
-        """A simple t near that of a position, and off the limits, both by a share of what is between them."""
-        low, high = self.limits(tau)
-        margin = (high - low) * share
-        t = min(max(self.t_of(aim, tau), low + margin), high - margin)
-        return between(t - margin / 2, t + margin / 2)
-
     def contact_point(self, t: Fraction) -> Vector:
         """In the robot's own coordinates."""
         _, _, a, g = self.line
@@ -146,3 +155,16 @@ def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
     ((X, Y),) = pose.apply_exact([point])
     ((x, y),) = Pose(0, 0, {"tau": tau}).apply_exact([point])
     return Pose(X - x, Y - y, {"tau": tau})
+
+
+def common_part(f: Sheet, sigma: Fraction, g: Sheet, tau: Fraction) -> tuple[Fraction, Fraction] | None:
+    """t on two sheets at orientations of theirs where one is beside the other: in the middle of what they share."""
+    low, high = f.limits(sigma)
+    beside = sorted(f.t_of(g.pose(t, tau), sigma) for t in g.limits(tau))
+    low, high = max(low, beside[0]), min(high, beside[1])
+    if low >= high:
+        return None
+    t = between(low, high)
+    s = g.t_of(f.pose(t, sigma), tau)
+    least, most = g.limits(tau)
+    return (t, s) if least < s < most else None

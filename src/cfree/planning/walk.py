@@ -20,13 +20,14 @@ from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
 from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
 from cfree.planning.search import motion_between
-from cfree.planning.sheet import Sheet, Vector, between, rotated
+from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, rotated
 from cfree.pose import Pose
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
 MOST_HALVINGS = 200
+REFINED = 8  # steps towards a critical angle before it is known better
 RAYS = 3  # from each closed surface, where one would do if doubles saw all that it crosses
 DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 
@@ -105,14 +106,18 @@ class Walker:
     def over_wall(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
         """From off the middle of one to off that of the other, over a critical angle; the first is at tau now."""
         cells = self.space.complex
-        ends = [s.high if cells.side[k] == LAST else s.low for s, k in ((f, h), (g, int(cells.twin[h])))]
+        at_end = [bool(cells.side[k] == LAST) for k in (h, int(cells.twin[h]))]
         aims = [tau, between(g.low, g.high)]
-        x, y, _ = self.corridors.middles[h]
-        aim = Pose(float(x), float(y))
-        for k in range(3, MOST_HALVINGS):
-            share = Fraction(1, 2**k)
-            sigma, tau = aims = [between(min(a, end), max(a, end)) for a, end in zip(aims, ends, strict=True)]
-            t, s = f.near(aim, sigma, share), g.near(aim, tau, share)
+        for k in range(MOST_HALVINGS):
+            if k % REFINED == REFINED - 1:
+                f.refine(FINEST + 4 * k)
+                g.refine(FINEST + 4 * k)
+            ends = [s.high if end else s.low for s, end in zip((f, g), at_end, strict=True)]
+            aims = [between(min(a, end), max(a, end)) for a, end in zip(aims, ends, strict=True)]
+            sigma, tau = aims
+            if (places := common_part(f, sigma, g, tau)) is None:
+                continue
+            t, s = places
             C, D = f.pose(t, sigma), g.pose(s, tau)
             p, q = self.off(f, t, sigma), self.off(g, s, tau)
             turned = rotated(C, f.contact_point(t), D.tau)
@@ -179,6 +184,11 @@ class Walker:
         """Over a side of f to g: at which orientation, poses up to off the middle of g, and the orientation there."""
         cells = self.space.complex
         if cells.side[h] in (LOWER, UPPER):
+            bits = FINEST
+            while max(f.low, g.low) >= min(f.high, g.high):
+                bits *= 2
+                f.refine(bits)
+                g.refine(bits)
             end = between(max(f.low, g.low), min(f.high, g.high))
             return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
         return self.over_wall(f, g, h, tau)
