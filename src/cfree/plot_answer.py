@@ -72,8 +72,8 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
     >>> from cfree.scene import Scene
     >>> scene = Scene(robot=[(0, 0), (2, 0), (2, 1), (0, 1)], obstacles=[[(3, 2), (6, 2), (6, 4)]], units="m")
     >>> ax = plot_path_space(Path(Pose(0, 0), rotations((-1, 0), "400deg")), boundary(scene))
-    >>> ax.get_zlim()
-    (-15.0, 415.0)
+    >>> [float(limit) for limit in ax.get_zlim()]
+    [-15.0, 415.0]
     """
     ax = _space(ax)
     _draw_track(ax, Track.of(path, boundary.scene), boundary)
