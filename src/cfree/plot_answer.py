@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from cfree.features import BOUNDS, WORKSPACE
+from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
 from cfree.mesh import robot_radius
 from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.plot import around, new_figure, new_space, set_window, with_unit
 from cfree.plot3d import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
 from cfree.plot_path import LIMIT, Track, draw_track, statement
+from cfree.scene import Scene
 from cfree.slab import Range, chosen, distances, slab
 from cfree.strips import strips
-from cfree.trapezoids import COLUMNS, Trapezoids
+from cfree.trapezoids import ISOLATED_COLUMNS, IsolatedParts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
 
     from cfree.forbidden import Boundary
     from cfree.path import Path
-    from cfree.pose import Pose
-    from cfree.scene import Scene
+    from cfree.separated import Separated
 
 Floats = NDArray[np.float64]
 
@@ -80,16 +79,16 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
     return ax
 
 
-def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figure:
-    """A path in the workspace, and beside it in the configuration space if its boundary is given.
+def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = None) -> Figure:
+    """An answer in the workspace, and beside it in the configuration space.
 
     Parameters
     ----------
-    path : Path
+    answer : Path or Separated
     scene : Scene
-        In which it is free.
+        To which it is the answer.
     boundary : Boundary, optional
-        Of that scene.
+        Of that scene; without it a path is drawn in the workspace alone. A separation brings its own surface.
 
     Returns
     -------
@@ -98,13 +97,28 @@ def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figur
     Raises
     ------
     ValueError
-        If the path is not free.
+        If a path is not free.
 
     See Also
     --------
-    plot_path, plot_path_space : the two parts.
+    plot_path, plot_path_space : the two parts of the picture of a path.
+
+    Examples
+    --------
+    >>> from cfree.planning.planner import plan
+    >>> from cfree.pose import Pose
+    >>> from cfree.scene import Scene
+    >>> hall, wall = [(0, 0), (9, 0), (9, 3), (0, 3)], [(4, -1), (5, -1), (5, 4)]
+    >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], workspace=hall)
+    >>> figure = picture(plan(scene, Pose(1, 1), Pose(7, 1)), scene)
+    >>> [text.get_text() for text in figure.texts]
+    ['no path from start to goal', 'parted by workspace, obstacle 0']
     """
-    track = Track.of(path, scene)
+    from cfree.separated import Separated
+
+    if isinstance(answer, Separated):
+        return _picture_of_separation(answer, scene)
+    track = Track.of(answer, scene)
     figure, ax = _new_picture(track.window, boundary is not None)
     draw_track(ax, track)
     if boundary is not None:
@@ -113,84 +127,71 @@ def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figur
     return figure
 
 
-def picture_of_separation(
-    scene: Scene, start: Pose, goal: Pose, obstacles: Iterable[int], *, of: Literal["closed", "interior"],
-    surface: Boundary | None = None,
-) -> Figure:  # fmt: skip
-    """Start, goal and the obstacles that part them; beside it the separating surface if it is given.
-
-    Parameters
-    ----------
-    scene : Scene
-    start, goal : Pose
-    obstacles : iterable of int
-        Those whose contacts form the surface; -1 is the bounds, -2 the workspace.
-    of : "closed" or "interior"
-        What is excluded: every path, or only those of positive clearance.
-    surface : Boundary, optional
-        The trapezoids of the surface and no others, as `part_of` makes it.
-
-    Returns
-    -------
-    matplotlib figure
-
-    Examples
-    --------
-    >>> from cfree.pose import Pose
-    >>> from cfree.scene import Scene
-    >>> hall = [(0, 0), (9, 0), (9, 3), (0, 3)]
-    >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[[(4, -1), (5, -1), (5, 4)]], workspace=hall)
-    >>> figure = picture_of_separation(scene, Pose(1, 1), Pose(7, 1), [0, -2], of="closed")
-    >>> figure.texts[0].get_text()
-    'no path from start to goal'
-    """
-    numbers = sorted(obstacles)
-    robots = np.concatenate([pose.apply(part.vertices) for pose in (start, goal) for part in scene.robot])
-    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
-    boxes += [body.bounds for body in scene.obstacles]
-    if scene.workspace is not None:
-        boxes.append(scene.workspace.bounds)
-    if scene.bounds is not None:
-        x0, y0, x1, y1 = map(float, scene.bounds)
-        boxes.append((x0, y0, x1, y1))
-    window = around(boxes)
-    figure, ax = _new_picture(window, surface is not None)
+def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
+    """Start, goal and the obstacles that part them; beside it the surface between them."""
+    window = _window(answer, scene)
+    figure, ax = _new_picture(window, True)
     draw_surroundings(ax, scene)
-    _draw_barrier(ax, scene, numbers)
-    draw_robot(ax, scene, start, "start", faint=False)
-    draw_robot(ax, scene, goal, "goal", faint=True)
+    _draw_barrier(ax, scene, answer.obstacles)
+    draw_robot(ax, scene, answer.start, "start", faint=False)
+    draw_robot(ax, scene, answer.goal, "goal", faint=True)
     set_window(ax, window, scene.units)
-    if surface is not None:
-        box = _around_surface(surface)
-        space = _right(figure)
-        _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
-        _frame(ax, box)
-        for pose, name in ((start, "start"), (goal, "goal")):
-            x, y = float(pose.x), float(pose.y)
-            if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
-                _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
-    without = "path" if of == "closed" else "path of positive clearance"
-    named = [_name(scene, k) for k in numbers[:6]] + (["..."] if len(numbers) > 6 else [])
+    surface = surface_of(answer, scene)
+    box = _around_surface(surface)
+    space = _right(figure)
+    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
+    _frame(ax, box)
+    for pose, name in ((answer.start, "start"), (answer.goal, "goal")):
+        x, y = float(pose.x), float(pose.y)
+        if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
+            _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
+    without = "path" if answer.of == "closed" else "path of positive clearance"
+    named = [_name(scene, k) for k in answer.obstacles[:6]] + ["..."] * (len(answer.obstacles) > 6)
     _head(figure, scene, f"no {without} from start to goal", "parted by " + ", ".join(named))
     return figure
 
 
-def part_of(boundary: Boundary, trapezoids: ArrayLike) -> Boundary:
-    """Some trapezoids of a boundary, by number; to be drawn, it answers no questions."""
-    from cfree.forbidden import Boundary
+def surface_of(answer: Separated, scene: Scene) -> Boundary:
+    """The surface of a separation, as a boundary of its trapezoids alone: to be drawn, it answers no questions."""
+    from cfree.forbidden import Boundary, Stats
 
-    which = np.asarray(trapezoids, dtype=np.int64)
-    table = Trapezoids(*(getattr(boundary.trapezoids, name)[which] for name in COLUMNS))
+    if answer.of == "closed":
+        scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)
+    features, pieces = scene_features(scene), answer.pieces
+    count = len(pieces)
+    robot, obstacle = (
+        _features_of(shape, owners)
+        for shape, owners in ((features.robot, pieces.robot), (features.obstacles, pieces.obstacle))
+    )
+    nothing: dict[str, Any] = {name: np.empty(0, np.int32) for name in ISOLATED_COLUMNS}
+    stats, trimmed = Stats(count, count, count, 0, 0, 0, 0, 0, {}), np.ones(count, np.uint8)
     return Boundary(
-        boundary.scene, boundary.features, boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
-        table, boundary.isolated.rows(slice(0)), boundary.stats, boundary.trimmed,
-    )  # fmt: skip
+        scene, features, pieces.kind, robot, obstacle, pieces.table, IsolatedParts(**nothing), stats, trimmed
+    )
+
+
+def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Numbers of features (n,) of polygons and vertices (n, 2)."""
+    pairs = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
+    number = {pair: k for k, pair in reversed(list(enumerate(pairs)))}  # the first counts
+    return np.array([number[polygon, vertex] for polygon, vertex in owners.tolist()], dtype=np.int32)
 
 
 # the plane
 
 
-def _draw_barrier(ax: Any, scene: Scene, numbers: list[int]) -> None:
+def _window(answer: Separated, scene: Scene) -> Window:
+    """Everything there is to see."""
+    robots = np.concatenate([q.apply(part.vertices) for q in (answer.start, answer.goal) for part in scene.robot])
+    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
+    boxes += [body.bounds for body in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        boxes.append((x0, y0, x1, y1))
+    return around(boxes)
+
+
+def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
     """The obstacles of a separating surface, bounds and workspace among them."""
     from matplotlib.patches import PathPatch, Rectangle
 
