@@ -258,6 +258,7 @@ def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, p
     for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
         axis.set_major_locator(MaxNLocator(1 + round(5 * length / side)))
         axis.set_label_text(with_unit(name, units))
+        axis.labelpad = 9
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
 
