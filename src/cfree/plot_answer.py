@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 # paler than the paper's, so that the path is seen, and told apart by readers who do not tell red from green
 PALE = Colours("#f3c7a1", "#a9cdea", "#6b7fa8", "#c9b458")
 BARRIER = Colours("#e98d5b", "#f0b48e", "#8f3d00", "#b86f3f")
-INK, GREY, FLOOR = "#20242b", "#8a92a0", "#dcdfe5"
+INK, GREY, FLOOR, PATH = "#20242b", "#8a92a0", "#dcdfe5", "#31688e"
 MARGIN, LEAST = 15.0, 90.0  # degrees above and below a path, and shown at least
 NEAR = 2.0  # robot's radii: patches farther from a path are left out
 DASH = 8  # steps of the path
@@ -140,6 +140,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     box = _around_surface(surface)
     space = _right(figure)
     _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
+    _legend(space, {"v-e contacts": BARRIER.vertex_edge, "e-v contacts": BARRIER.edge_vertex}, [])
     _frame(ax, box)
     for pose, name in ((answer.start, "start"), (answer.goal, "goal")):
         x, y = float(pose.x), float(pose.y)
@@ -228,6 +229,8 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     patches = slab(patches_of(boundary, track.window, PALE), track.window, degrees)
     near = distances(patches, rows[:: max(1, len(rows) // 80)], radius) < NEAR * radius
     _draw_patches(ax, boundary, track.window, degrees, joined([chosen(patches, near), _line(track, rows)]))
+    names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
+    _legend(ax, names, [("path", "-"), ("hidden", (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
     ax.plot(*rows[:, :2].T, shadow, color=GREY, linewidth=1.2, zorder=0.5, label="reference point")
     for row, name in ((rows[0], "start"), (rows[-1], "goal")):
@@ -261,6 +264,15 @@ def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, p
         axis.labelpad = 9
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
+
+
+def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any]]) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Any] = [Patch(color=colour, label=name) for name, colour in patches.items()]
+    handles += [Line2D([], [], color=PATH, linewidth=2.2, linestyle=style, label=name) for name, style in lines]
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), frameon=False, fontsize=9, handlelength=1.6)
 
 
 def _around_surface(surface: Boundary) -> Window:
