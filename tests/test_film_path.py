@@ -20,7 +20,6 @@ from cfree.path import Path
 from cfree.plot_path import Track
 from cfree.pose import Pose
 from cfree.scene import Scene
-from ways import crude_path
 
 SMALL = 320, 180
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -31,7 +30,9 @@ WAY = Path(Pose(0, 0), [Translation((6, 0)), Rotation((6, 0), "-90deg"), Transla
 @pytest.fixture(scope="module")
 def five() -> tuple[Path, Boundary]:
     scene = load_scene("examples/scenes/five_convex.json")
-    return crude_path(scene), boundary(scene)
+    path = cfree.plan(scene)
+    assert isinstance(path, Path)
+    return path, boundary(scene)
 
 
 def frames_of(path: Path, scene: Scene, seconds: float | None = 1.0, fps: int = 10) -> list[Any]:

@@ -3,6 +3,7 @@
 import doctest
 import math
 import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -23,11 +24,11 @@ from cfree.motion_check import MotionChecker
 from cfree.path import Path
 from cfree.plot import save_figure
 from cfree.plot3d import CURVE, ON_TOP, OVER, WALL, Painting, patches_of
-from cfree.plot_answer import part_of, picture, picture_of_separation, plot_path_space
+from cfree.plot_answer import picture, plot_path_space, surface_of
 from cfree.plot_path import GHOSTS, LIMIT, Track, plot_path, quantity
 from cfree.pose import Pose
 from cfree.scene import Scene
-from ways import crude_path
+from cfree.strips import strips
 
 SCENES = FilePath("examples/scenes")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -176,7 +177,7 @@ def test_a_path_of_500_motions_is_drawn() -> None:
 @pytest.mark.parametrize("name", ["five_convex", "comb_hook"])
 def test_found_paths_are_drawn_in_every_format(name: str, tmp_path: FilePath) -> None:
     scene = load_scene(SCENES / f"{name}.json")
-    path, found = crude_path(scene), boundary(scene)
+    path, found = cfree.plan(scene), boundary(scene)
     for suffix, begin in ((".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")):
         save_figure(picture(path, scene, found), tmp_path / f"way{suffix}")
         assert (tmp_path / f"way{suffix}").read_bytes().startswith(begin)
@@ -284,13 +285,8 @@ BOX = [(-1, "-0.45"), (1, "-0.45"), (1, "0.45"), (-1, "0.45")]
 
 def test_a_separation_shows_its_barrier_and_its_surface() -> None:
     scene = Scene(robot=BOX, obstacles=ROOM, bounds=(-1, -1, 14, 7), units="m")
-    found = boundary(scene)
-    space = cfree.free_space(found)
-    start, goal = Pose(3, 3), Pose(11, 3, "90deg")
-    cell = int(space.locate(start))
-    assert cell != space.locate(goal)
-    surface = part_of(found, space.faces(cell))
-    figure = picture_of_separation(scene, start, goal, range(5), of="closed", surface=surface)
+    answer = cfree.plan(scene, Pose(3, 3), Pose(11, 3, "90deg"))
+    figure = picture(answer, scene)
     assert figure.texts[0].get_text() == "no path from start to goal"
     assert figure.texts[1].get_text().startswith("parted by obstacle 0, ")
     plane, room = figure.axes
@@ -304,14 +300,36 @@ def test_a_separation_shows_its_barrier_and_its_surface() -> None:
     figure.canvas.draw()
 
 
-def test_separations_without_surface_and_of_bounds_and_workspace() -> None:
-    scene = Scene(
-        robot=BOX, obstacles=ROOM[:2], bounds=(-1, -1, 14, 7), workspace=[(-9, -9), (20, -9), (20, 9), (-9, 9)]
-    )
-    figure = picture_of_separation(scene, Pose(3, 3), Pose(11, 3), [-2, -1, 1], of="interior")
+def test_a_surface_is_made_of_contacts(tmp_path: FilePath) -> None:
+    scene = Scene(robot=BOX, obstacles=ROOM, bounds=(-1, -1, 14, 7))
+    answer = cfree.plan(scene, Pose(3, 3), Pose(11, 3, "90deg"))
+    answer.save(tmp_path / "answer.json")
+    for proof in (answer, cfree.load_answer(tmp_path / "answer.json")):
+        assert isinstance(proof, cfree.Separated) and proof.of == "closed"
+        surface = surface_of(proof, scene)
+        rows = strips(surface, 0.5)
+        walls = shapely.union_all([obstacle.to_shapely() for obstacle in scene.obstacles])
+        robot = surface.scene.robot[0].vertices
+        for (first, second), theta in zip(rows.points, rows.theta, strict=True):
+            for x, y in (first, (first + second) / 2, second):
+                placed = shapely.Polygon(Pose(x, y, theta).apply(robot))
+                assert placed.distance(walls.boundary) < 1e-9  # it may overlap another wall behind
+
+
+def test_separations_by_bounds_and_workspace_are_marked() -> None:
+    hall = [(-9, -9), (20, -9), (20, 9), (-9, 9)]
+    wall = [[(4, -10), (5, -10), (5, 10), (4, 10)]]
+    scene = Scene(robot=BOX, obstacles=wall, bounds=(-4, -3, 14, 3), workspace=hall)
+    answer = cfree.plan(scene, Pose(0, 0), Pose(8, 0))
+    assert isinstance(answer, cfree.Separated)
+    figure = picture(replace(answer, of="interior", robot=(), bounds=None), scene)
     assert figure.texts[0].get_text() == "no path of positive clearance from start to goal"
-    assert figure.texts[1].get_text() == "parted by workspace, bounds, obstacle 1"
-    names = artists(figure.axes[0])
-    assert {"barrier", "bounds", "workspace"} <= set(names)
-    assert to_rgb(names["workspace"].get_edgecolor()) == to_rgb(LIMIT)
-    assert len(figure.axes) == 1
+    names = artists(picture(answer, scene).axes[0])
+    assert {"barrier", "bounds"} <= set(names) and to_rgb(names["bounds"].get_edgecolor()) == to_rgb(LIMIT)
+    scene = Scene(robot=BOX, obstacles=wall, workspace=hall, name="hall")
+    answer = cfree.plan(scene, Pose(0, 0), Pose(8, 0))
+    figure = picture(answer, scene)
+    assert to_rgb(artists(figure.axes[0])["workspace"].get_edgecolor()) == to_rgb(LIMIT)
+    assert [text.get_text() for text in figure.texts] == [
+        "hall: no path from start to goal", "parted by workspace, obstacle 0",
+    ]  # fmt: skip

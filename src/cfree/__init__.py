@@ -76,9 +76,7 @@ if TYPE_CHECKING:
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
     from cfree.plot import plot_workspace as plot_workspace
-    from cfree.plot_answer import part_of as part_of
     from cfree.plot_answer import picture as picture
-    from cfree.plot_answer import picture_of_separation as picture_of_separation
     from cfree.plot_answer import plot_path_space as plot_path_space
     from cfree.plot_path import plot_path as plot_path
     from cfree.polygon import Polygon as Polygon
@@ -154,7 +152,7 @@ _HOMES = {
     "planning.planner": "Planner plan plan_many",
     "planning.search": "motion_between",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
-    "plot_answer": "part_of picture picture_of_separation plot_path_space",
+    "plot_answer": "picture plot_path_space",
     "plot_path": "plot_path",
     "polygon": "Polygon",
     "pose": "Pose Poses",

@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from cfree.features import BOUNDS, WORKSPACE
+from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
 from cfree.mesh import robot_radius
 from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.plot import around, new_figure, new_space, set_window, with_unit
 from cfree.plot3d import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
 from cfree.plot_path import LIMIT, Track, draw_track, statement
+from cfree.scene import Scene
 from cfree.slab import Range, chosen, distances, slab
 from cfree.strips import strips
-from cfree.trapezoids import COLUMNS, Trapezoids
+from cfree.trapezoids import ISOLATED_COLUMNS, IsolatedParts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -26,15 +26,14 @@ if TYPE_CHECKING:
 
     from cfree.forbidden import Boundary
     from cfree.path import Path
-    from cfree.pose import Pose
-    from cfree.scene import Scene
+    from cfree.separated import Separated
 
 Floats = NDArray[np.float64]
 
 # paler than the paper's, so that the path is seen, and told apart by readers who do not tell red from green
 PALE = Colours("#f3c7a1", "#a9cdea", "#6b7fa8", "#c9b458")
 BARRIER = Colours("#e98d5b", "#f0b48e", "#8f3d00", "#b86f3f")
-INK, GREY, FLOOR = "#20242b", "#8a92a0", "#dcdfe5"
+INK, GREY, FLOOR, PATH = "#20242b", "#8a92a0", "#dcdfe5", "#31688e"
 MARGIN, LEAST = 15.0, 90.0  # degrees above and below a path, and shown at least
 NEAR = 2.0  # robot's radii: patches farther from a path are left out
 DASH = 8  # steps of the path
@@ -72,24 +71,24 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
     >>> from cfree.scene import Scene
     >>> scene = Scene(robot=[(0, 0), (2, 0), (2, 1), (0, 1)], obstacles=[[(3, 2), (6, 2), (6, 4)]], units="m")
     >>> ax = plot_path_space(Path(Pose(0, 0), rotations((-1, 0), "400deg")), boundary(scene))
-    >>> ax.get_zlim()
-    (-15.0, 415.0)
+    >>> [float(limit) for limit in ax.get_zlim()]
+    [-15.0, 415.0]
     """
     ax = _space(ax)
     _draw_track(ax, Track.of(path, boundary.scene), boundary)
     return ax
 
 
-def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figure:
-    """A path in the workspace, and beside it in the configuration space if its boundary is given.
+def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = None) -> Figure:
+    """An answer in the workspace, and beside it in the configuration space.
 
     Parameters
     ----------
-    path : Path
+    answer : Path or Separated
     scene : Scene
-        In which it is free.
+        To which it is the answer.
     boundary : Boundary, optional
-        Of that scene.
+        Of that scene; without it a path is drawn in the workspace alone. A separation brings its own surface.
 
     Returns
     -------
@@ -98,13 +97,28 @@ def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figur
     Raises
     ------
     ValueError
-        If the path is not free.
+        If a path is not free.
 
     See Also
     --------
-    plot_path, plot_path_space : the two parts.
+    plot_path, plot_path_space : the two parts of the picture of a path.
+
+    Examples
+    --------
+    >>> from cfree.planning.planner import plan
+    >>> from cfree.pose import Pose
+    >>> from cfree.scene import Scene
+    >>> hall, wall = [(0, 0), (9, 0), (9, 3), (0, 3)], [(4, -1), (5, -1), (5, 4)]
+    >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], workspace=hall)
+    >>> figure = picture(plan(scene, Pose(1, 1), Pose(7, 1)), scene)
+    >>> [text.get_text() for text in figure.texts]
+    ['no path from start to goal', 'parted by workspace, obstacle 0']
     """
-    track = Track.of(path, scene)
+    from cfree.separated import Separated
+
+    if isinstance(answer, Separated):
+        return _picture_of_separation(answer, scene)
+    track = Track.of(answer, scene)
     figure, ax = _new_picture(track.window, boundary is not None)
     draw_track(ax, track)
     if boundary is not None:
@@ -113,84 +127,72 @@ def picture(path: Path, scene: Scene, boundary: Boundary | None = None) -> Figur
     return figure
 
 
-def picture_of_separation(
-    scene: Scene, start: Pose, goal: Pose, obstacles: Iterable[int], *, of: Literal["closed", "interior"],
-    surface: Boundary | None = None,
-) -> Figure:  # fmt: skip
-    """Start, goal and the obstacles that part them; beside it the separating surface if it is given.
-
-    Parameters
-    ----------
-    scene : Scene
-    start, goal : Pose
-    obstacles : iterable of int
-        Those whose contacts form the surface; -1 is the bounds, -2 the workspace.
-    of : "closed" or "interior"
-        What is excluded: every path, or only those of positive clearance.
-    surface : Boundary, optional
-        The trapezoids of the surface and no others, as `part_of` makes it.
-
-    Returns
-    -------
-    matplotlib figure
-
-    Examples
-    --------
-    >>> from cfree.pose import Pose
-    >>> from cfree.scene import Scene
-    >>> hall = [(0, 0), (9, 0), (9, 3), (0, 3)]
-    >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[[(4, -1), (5, -1), (5, 4)]], workspace=hall)
-    >>> figure = picture_of_separation(scene, Pose(1, 1), Pose(7, 1), [0, -2], of="closed")
-    >>> figure.texts[0].get_text()
-    'no path from start to goal'
-    """
-    numbers = sorted(obstacles)
-    robots = np.concatenate([pose.apply(part.vertices) for pose in (start, goal) for part in scene.robot])
-    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
-    boxes += [body.bounds for body in scene.obstacles]
-    if scene.workspace is not None:
-        boxes.append(scene.workspace.bounds)
-    if scene.bounds is not None:
-        x0, y0, x1, y1 = map(float, scene.bounds)
-        boxes.append((x0, y0, x1, y1))
-    window = around(boxes)
-    figure, ax = _new_picture(window, surface is not None)
+def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
+    """Start, goal and the obstacles that part them; beside it the surface between them."""
+    window = _window(answer, scene)
+    figure, ax = _new_picture(window, True)
     draw_surroundings(ax, scene)
-    _draw_barrier(ax, scene, numbers)
-    draw_robot(ax, scene, start, "start", faint=False)
-    draw_robot(ax, scene, goal, "goal", faint=True)
+    _draw_barrier(ax, scene, answer.obstacles)
+    draw_robot(ax, scene, answer.start, "start", faint=False)
+    draw_robot(ax, scene, answer.goal, "goal", faint=True)
     set_window(ax, window, scene.units)
-    if surface is not None:
-        box = _around_surface(surface)
-        space = _right(figure)
-        _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
-        _frame(ax, box)
-        for pose, name in ((start, "start"), (goal, "goal")):
-            x, y = float(pose.x), float(pose.y)
-            if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
-                _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
-    without = "path" if of == "closed" else "path of positive clearance"
-    named = [_name(scene, k) for k in numbers[:6]] + (["..."] if len(numbers) > 6 else [])
+    surface = surface_of(answer, scene)
+    box = _around_surface(surface)
+    space = _right(figure)
+    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
+    _legend(space, {"v-e contacts": BARRIER.vertex_edge, "e-v contacts": BARRIER.edge_vertex}, [])
+    _frame(ax, box)
+    for pose, name in ((answer.start, "start"), (answer.goal, "goal")):
+        x, y = float(pose.x), float(pose.y)
+        if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
+            _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
+    without = "path" if answer.of == "closed" else "path of positive clearance"
+    named = [_name(scene, k) for k in answer.obstacles[:6]] + ["..."] * (len(answer.obstacles) > 6)
     _head(figure, scene, f"no {without} from start to goal", "parted by " + ", ".join(named))
     return figure
 
 
-def part_of(boundary: Boundary, trapezoids: ArrayLike) -> Boundary:
-    """Some trapezoids of a boundary, by number; to be drawn, it answers no questions."""
-    from cfree.forbidden import Boundary
+def surface_of(answer: Separated, scene: Scene) -> Boundary:
+    """The surface of a separation, as a boundary of its trapezoids alone: to be drawn, it answers no questions."""
+    from cfree.forbidden import Boundary, Stats
 
-    which = np.asarray(trapezoids, dtype=np.int64)
-    table = Trapezoids(*(getattr(boundary.trapezoids, name)[which] for name in COLUMNS))
+    if answer.of == "closed":
+        scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)
+    features, pieces = scene_features(scene), answer.pieces
+    count = len(pieces)
+    robot, obstacle = (
+        _features_of(shape, owners)
+        for shape, owners in ((features.robot, pieces.robot), (features.obstacles, pieces.obstacle))
+    )
+    nothing: dict[str, Any] = {name: np.empty(0, np.int32) for name in ISOLATED_COLUMNS}
+    stats, trimmed = Stats(count, count, count, 0, 0, 0, 0, 0, {}), np.ones(count, np.uint8)
     return Boundary(
-        boundary.scene, boundary.features, boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
-        table, boundary.isolated.rows(slice(0)), boundary.stats, boundary.trimmed,
-    )  # fmt: skip
+        scene, features, pieces.kind, robot, obstacle, pieces.table, IsolatedParts(**nothing), stats, trimmed
+    )
+
+
+def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.int32]:
+    """Numbers of features (n,) of polygons and vertices (n, 2)."""
+    pairs = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
+    number = {pair: k for k, pair in reversed(list(enumerate(pairs)))}  # the first counts
+    return np.array([number[polygon, vertex] for polygon, vertex in owners.tolist()], dtype=np.int32)
 
 
 # the plane
 
 
-def _draw_barrier(ax: Any, scene: Scene, numbers: list[int]) -> None:
+def _window(answer: Separated, scene: Scene) -> Window:
+    """Everything there is to see."""
+    robots = np.concatenate([q.apply(part.vertices) for q in (answer.start, answer.goal) for part in scene.robot])
+    boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
+    boxes += [body.bounds for body in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        boxes.append((x0, y0, x1, y1))
+    return around(boxes)
+
+
+def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
     """The obstacles of a separating surface, bounds and workspace among them."""
     from matplotlib.patches import PathPatch, Rectangle
 
@@ -227,6 +229,8 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     patches = slab(patches_of(boundary, track.window, PALE), track.window, degrees)
     near = distances(patches, rows[:: max(1, len(rows) // 80)], radius) < NEAR * radius
     _draw_patches(ax, boundary, track.window, degrees, joined([chosen(patches, near), _line(track, rows)]))
+    names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
+    _legend(ax, names, [("path", "-"), ("hidden", (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
     ax.plot(*rows[:, :2].T, shadow, color=GREY, linewidth=1.2, zorder=0.5, label="reference point")
     for row, name in ((rows[0], "start"), (rows[-1], "goal")):
@@ -257,8 +261,18 @@ def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, p
     for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
         axis.set_major_locator(MaxNLocator(1 + round(5 * length / side)))
         axis.set_label_text(with_unit(name, units))
+        axis.labelpad = 9
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
+
+
+def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any]]) -> None:
+    from matplotlib.lines import Line2D
+    from matplotlib.patches import Patch
+
+    handles: list[Any] = [Patch(color=colour, label=name) for name, colour in patches.items()]
+    handles += [Line2D([], [], color=PATH, linewidth=2.2, linestyle=style, label=name) for name, style in lines]
+    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), frameon=False, fontsize=9, handlelength=1.6)
 
 
 def _around_surface(surface: Boundary) -> Window:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from cfree.film.box import INK
 from cfree.film.frame import GREY, INCHES, MONO
+from cfree.film.painter import Eye
 from cfree.film.space import Space
 from cfree.mesh import robot_radius
 from cfree.nearest import Walls
@@ -35,6 +36,7 @@ ALONE, BESIDE = (0.06, 0.16, 0.9, 0.7), (0.05, 0.16, 0.4, 0.7)
 GAUGE = 0.05, 0.055, 0.3, 0.022
 AZIMUTHS = math.radians(-62), math.radians(-32)  # the camera turns this far in a film
 SHADES = 24  # colours of the line in configuration space
+DASH = 8  # steps of the path
 GLASS = 0.08  # opacity of what is above the robot's orientation
 
 
@@ -61,6 +63,8 @@ class PathStage:
         if boundary is not None:
             names = with_unit("x", scene.units), with_unit("y", scene.units)
             self.space = Space(figure, boundary, extent(boundary), names)
+            self.dashes = LineCollection([], linewidths=1.8, zorder=7)
+            self.space.point.axes.add_collection(self.dashes, autolim=False)
         if track.least is not None:
             self._draw_gauge(figure)
         figure.text(0.03, 0.95, scene.name or "a free path", fontsize=18, weight="bold", color=INK, va="center")
@@ -128,10 +132,20 @@ class PathStage:
             here = np.array([[*row[0, :2], math.degrees(pose.theta)]])
             lines = _runs(np.concatenate((self.line[:done], here)), self.shade)
             self.space.draw(pose, self.boundary.slice(pose.theta), azimuth, self.space.angles, GLASS, lines)
+            self._dash(azimuth, done, colours)
         x, y, theta = row[0].tolist()
         self.pose.set_text(f"x {x:8.4g}   y {y:8.4g}   θ {math.degrees(theta):6.1f}°".replace("-", "−"))
         self.canvas.draw()
         return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
+
+    def _dash(self, azimuth: float, done: int, colours: Floats) -> None:
+        """The way so far in configuration space, in dashes that nothing hides."""
+        assert self.space is not None
+        eye = Eye(self.space.window, *self.space.panel, azimuth)
+        step = np.stack((self.line[: done - 1], self.line[1:done]), axis=1)
+        shown = (np.arange(len(step)) % DASH < DASH / 2) & (np.abs(np.diff(step[..., 2], axis=1)[:, 0]) < 180)
+        self.dashes.set_segments(list(eye(step[shown])[0]))
+        self.dashes.set_color(list(map(tuple, colours[: len(step)][shown].tolist())))
 
     def _point(self, row: Floats) -> None:
         """The clearance in words, on the bar, and where it is."""
