@@ -19,6 +19,7 @@ from cfree.errors import InvariantError
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
 from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
+from cfree.planning.exits import Exits
 from cfree.planning.search import motion_between
 from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, rotated
 from cfree.pose import Pose
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
 MOST_HALVINGS = 200
+MOST_TURNS = 30  # halvings of a radian, where a turn may leave
 REFINED = 8  # steps towards a critical angle before it is known better
 RAYS = 3  # from each closed surface, where one would do if doubles saw all that it crosses
 DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
@@ -40,6 +42,7 @@ class Walker:
         self.checker = checker
         self.corridors = Corridors(space, angle_scale)
         self.reach = Fraction(angle_scale)
+        self.exits = Exits(self)
         self._links: dict[int, list[Link]] = {}
 
     # --- motions ---
@@ -149,7 +152,7 @@ class Walker:
             raise InvariantError(f"no way in cell {cell}", state=(start, goal))
         first = next(x for x in landings if x.face == way[0][0])
         last = next(x for x in takeoffs if x.face == way[-1][0])
-        poses = [*head, *self._realized(way, links, first, last), *reversed(tail)]
+        poses = [*head, *self._realized(way, links, first, last), *tail[::-1]]
         return [a for k, a in enumerate(poses) if k == 0 or a != poses[k - 1]]
 
     def _realized(self, way: list[tuple[int, int]], links: list[Link], first: Landing, last: Landing) -> Iterator[Pose]:
@@ -193,21 +196,18 @@ class Walker:
             return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
         return self.over_wall(f, g, h, tau)
 
-    def leave(self, pose: Pose, cell: int) -> tuple[list[Pose], list[Landing]]:
+    def leave(self, pose: Pose, cell: int) -> tuple[Sequence[Pose], list[Landing]]:
         """From a pose to one in the interior of the cell from which straight ways lead well within faces, and these."""
-        for k in range(3, MOST_HALVINGS):
-            small = Fraction(1, 2**k)
-            for x, y in ((0, 0), *DIRECTIONS):
-                moved = Pose(pose.x + x * small * self.reach, pose.y + y * small * self.reach, {"tau": pose.tau})
-                if not self.joins([pose, moved]):
-                    continue
-                for by in (small / 8, -small / 8):
-                    turned = _turned(moved, moved @ Pose(0, 0, {"tau": by}))
-                    if not self.joins([moved, turned]) or self.space.locate(turned) != cell:
-                        continue
-                    if landings := self.landings(turned):
-                        return [pose, moved, turned], landings
-        raise InvariantError(f"no way from {pose} into cell {cell}")
+        for k in range(3, MOST_TURNS, 2):
+            for by in (Fraction(1, 2**k), -Fraction(1, 2**k)):
+                turned = _turned(pose, pose @ Pose(0, 0, {"tau": by}))
+                is_inside = self.joins([pose, turned]) and self.space.locate(turned) == cell
+                if is_inside and (landings := self.landings(turned)):
+                    return [pose, turned], landings
+        way = self.exits.of(pose).get(cell)
+        if way is None:
+            raise InvariantError(f"no way from {pose} into cell {cell}")
+        return way, self.landings(way[-1])
 
     def landings(self, pose: Pose) -> list[Landing]:
         """Where straight ways from a pose lead to."""
