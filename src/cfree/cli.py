@@ -17,7 +17,8 @@ import typer
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
-    from cfree.pose import Angle
+    from cfree.planning.planner import Planner
+    from cfree.pose import Angle, Pose
 
 REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
@@ -158,6 +159,90 @@ def boundary(
             from cfree.report import boundary_rows, print_rows
 
             print_rows(result.scene.name or str(scene), boundary_rows(result), written)
+
+
+@app.command(
+    epilog="Examples: `cfree plan scene.json`; "
+    "`cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png`; `cfree plan scene.json -o way.csv --improve 2s`. "
+    "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: stopped by a limit."
+)
+def plan(
+    scene: SourceArgument,
+    start: Annotated[
+        str | None,
+        typer.Option(metavar="X,Y,THETA", help='As "1,1/2,30deg"; radians, or "tau:1/3".', show_default="the scene's"),
+    ] = None,
+    goal: Annotated[str | None, typer.Option(metavar="X,Y,THETA", help="The same.", show_default="the scene's")] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", metavar="FILE", help="Write the answer: path or proof.", show_default=False),
+    ] = None,
+    form: Annotated[
+        str | None,
+        typer.Option(
+            "--format",
+            metavar="FORM",
+            help="Of that file: json, exact; or of a path sampled poses: csv, geojson, ros.",
+            show_default="by the file's name, else json",
+        ),
+    ] = None,
+    improve: Annotated[str, typer.Option(metavar="TIME", help='How long to improve a path: "2s" or "500ms".')] = "0s",
+    objective: Annotated[str, typer.Option(metavar="WORD", help='"short", or "clear": far from obstacles.')] = "short",
+    picture: PictureOption = None,
+    film: Annotated[
+        Path | None, typer.Option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.", show_default=False)
+    ] = None,
+    max_seconds: SecondsOption = None,
+    as_json: JsonOption = False,
+) -> None:
+    """Find a path from start to goal, each motion of it proved free, or prove that there is none."""
+    with _one_line_faults():
+        from cfree.errors import IncompleteError
+        from cfree.path import Path as Motions
+        from cfree.path import form_of
+        from cfree.planning.planner import required
+        from cfree.report import answer_rows, print_rows
+
+        written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
+        kind = form_of(output, form) if output else "json"
+        seconds = _read_seconds(improve)
+        if objective not in ("short", "clear"):
+            raise ValueError(f'--objective: {objective!r}; give "short" or "clear"')
+        ends = [_read_pose(text, name) for text, name in ((start, "--start"), (goal, "--goal"))]
+        with _bar("free space") as progress:
+            planner = _planner_of(scene, max_seconds, progress)
+            begin, end = required(planner.scene, *ends)
+            try:
+                answer = planner.plan(begin, end, improve=seconds, objective=objective)  # type: ignore[arg-type]
+            except IncompleteError as error:
+                _fail(str(error), INCOMPLETE)
+        is_path = isinstance(answer, Motions)
+        if output:
+            if isinstance(answer, Motions):
+                answer.save(output, planner.angle_scale / 20, scene=planner.scene, form=kind)
+            elif kind == "json":
+                answer.save(output)
+            else:
+                _leave_out(written, "answer", f"there is no path to write as {kind}; a proof is written as .json")
+        if picture:
+            from cfree.plot import save_figure
+            from cfree.plot_answer import picture as drawn
+
+            save_figure(drawn(answer, planner.scene, planner.free_space.boundary), picture)
+        if film and isinstance(answer, Motions):
+            from cfree.film import film_path
+
+            with _bar("film") as progress:
+                film_path(answer, planner.scene, film, progress=progress)
+        elif film:
+            _leave_out(written, "film", "there is no path to film")
+        facts = answer_rows(answer, planner.scene)
+        if as_json:
+            _print_json({"file": str(scene), **facts, "files": written})
+        else:
+            print_rows(planner.scene.name or str(scene), facts, written)
+    if not is_path:
+        raise typer.Exit(REFUTED)
 
 
 @app.command(
@@ -341,6 +426,32 @@ def _read_angle(text: str) -> Angle:
     return angle
 
 
+def _read_pose(text: str | None, name: str) -> Pose | None:
+    """A pose, from "1,1/2,30deg"."""
+    from cfree.pose import Pose
+
+    if text is None:
+        return None
+    parts = [part.strip() for part in text.split(",")]
+    try:
+        x, y, theta = parts
+        return Pose(x, y, _read_angle(theta))
+    except ValueError as error:
+        raise ValueError(f'{name}: {text!r}: {error}; give X,Y,THETA as in "1,1/2,30deg"') from None
+
+
+def _read_seconds(text: str) -> float:
+    """Seconds, from "2s", "500ms" or "2"."""
+    number, factor = (text.removesuffix("ms"), 1e-3) if text.endswith("ms") else (text.removesuffix("s"), 1.0)
+    try:
+        seconds = float(number) * factor
+    except ValueError:
+        seconds = math.nan
+    if not 0 <= seconds < math.inf:
+        raise ValueError(f'--improve: {text!r}; give a time such as "2s" or "500ms"')
+    return seconds
+
+
 def _read_size(text: str) -> float:
     """Bytes, from "500MB", "1.5 GB", "2e9"."""
     units = {"KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
@@ -361,6 +472,23 @@ def _read_pixels(text: str) -> tuple[int, int]:
     except ValueError:
         raise ValueError(f'--size: {text!r}; give width and height such as "1280x720"') from None
     return width, height
+
+
+def _planner_of(source: Path, max_seconds: float | None, progress: Callable[[float], object] | None) -> Planner:
+    """For the scene in a file, with its free space if the file is a boundary."""
+    from cfree.cells import free_space
+    from cfree.io import load_scene
+    from cfree.planning.planner import Planner
+    from cfree.storage import load_boundary
+
+    if _is_archive(source):
+        space = free_space(load_boundary(source))
+        return Planner(space.boundary.scene, space)
+    return Planner(load_scene(source), max_seconds=max_seconds, progress=progress)
+
+
+def _leave_out(files: dict[str, str], name: str, why: str) -> None:
+    print(f"{files.pop(name)} is not written: {why}", file=sys.stderr)
 
 
 def _boundary_of(

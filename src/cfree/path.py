@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from cfree.scene import Scene
 
 Floats = NDArray[np.float64]
+FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files
 
 
 @dataclass(frozen=True)
@@ -219,6 +220,7 @@ class Path:
         turn: float = math.radians(5),
         *,
         scene: Scene | None = None,
+        form: str | None = None,
     ) -> None:
         """Write the path to a file, whole or not at all.
 
@@ -231,32 +233,45 @@ class Path:
             As in `sample`; step is needed for all but ``.json``.
         scene : Scene, optional
             Whose robot moves; needed for ``.geojson``.
+        form : "json", "csv", "ros" or "geojson", optional
+            Instead of what the file's name says.
 
         Raises
         ------
         UnsupportedError
-            If the file's name ends otherwise.
+            If the file's name ends otherwise, or there is no such form.
         ValueError
             If step or scene is missing.
         """
         from cfree.formats.path_format import csv_text, geojson_text, path_text, ros_text
 
-        suffix = FilePath(path).suffix.lower()
-        if suffix == ".json":
+        kind = form_of(path, form)
+        if kind == "json":
             text = path_text(self)
-        elif suffix not in (".csv", ".yaml", ".geojson"):
-            raise UnsupportedError(f"{path}: paths are written as .json, .csv, .yaml or .geojson; name the file so")
         elif step is None:
             raise ValueError(f"{path}: no step; give the longest distance between poses")
-        elif suffix != ".geojson":
+        elif kind != "geojson":
             poses = self.sample(step, turn)
-            text = csv_text(poses) if suffix == ".csv" else ros_text(poses, self.frame)
+            text = csv_text(poses) if kind == "csv" else ros_text(poses, self.frame)
         elif scene is None:
             raise ValueError(f"{path}: no scene; give the one whose robot moves")
         else:
             text = geojson_text(self, scene, step, turn)
         with replacing(path) as unfinished:
             unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def form_of(path: str | PathLike[str], form: str | None) -> str:
+    """Of the forms a path may be written in, the one asked for, or that of the file's name."""
+    names = " or ".join(f'"{name}"' for name in FORMS.values())
+    if form is not None:
+        if form not in FORMS.values():
+            raise UnsupportedError(f"{form!r} is no form of a path; give {names}")
+        return form
+    suffix = FilePath(path).suffix.lower()
+    if suffix not in FORMS:
+        raise UnsupportedError(f"{path}: paths are written as {', '.join(FORMS)}; name the file so, or give the form")
+    return FORMS[suffix]
 
 
 def _distance(pose: Pose, motion: Motion) -> float:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import math
+import os
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
@@ -11,6 +12,9 @@ from rich.table import Table
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
+    from cfree.path import Path
+    from cfree.scene import Scene
+    from cfree.separated import Separated
     from cfree.verify import Verification
 
 COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
@@ -70,6 +74,40 @@ def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
     }
 
 
+def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float | str]:
+    """An answer in words and numbers."""
+    from cfree.motion import Rotation
+    from cfree.path import Path
+
+    unit = f" {scene.units}" if scene.units else ""
+    if not isinstance(answer, Path):
+        what = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
+        return {
+            "answer": what,
+            "cells of start and goal": ", ".join(map(str, answer.cells)),
+            "surface between them": f"{len(answer.pieces):,} pieces of contact surfaces",
+            "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
+        }
+    rotations = sum(isinstance(motion, Rotation) for motion in answer.motions)
+    rows: dict[str, int | float | str] = {
+        "answer": "a path, each motion proved free",
+        "translations": len(answer.motions) - rotations,
+        "rotations": rotations,
+        "way of the reference point": f"{answer.length:.6g}{unit}",
+        "turning": f"{math.degrees(answer.turning):.6g} degrees",
+    }
+    if least := answer.clearance(scene):
+        name = part_name(scene, least.obstacle[0])
+        rows["least clearance"] = f"{least.found:.6g}{unit}, to {name} in motion {least.motion}"
+        rows["proved, at least"] = f"{least.least:.6g}{unit}"
+    return rows
+
+
+def part_name(scene: Scene, obstacle: int) -> str:
+    """Name of an obstacle by its number."""
+    return {-1: "the bounds", -2: "the workspace"}.get(obstacle) or scene.obstacle_names[obstacle]
+
+
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
     """A title, names with values, and the files written."""
     table = Table(box=None, show_header=False)
@@ -82,7 +120,7 @@ def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping
     console.print(title)
     console.print(table)
     for name, path in files.items():
-        console.print(f" {name:<8} {path} ({Path(path).stat().st_size / 1000:,.1f} kB)")
+        console.print(f" {name:<8} {path} ({os.stat(path).st_size / 1000:,.1f} kB)")
 
 
 def print_verification(title: str, result: Verification) -> None:

@@ -13,10 +13,11 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from cfree.errors import IncompleteError, InvalidPoseError
 from cfree.forbidden import boundary
+from cfree.invalid import require_free
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
 from cfree.planning.search import Places, Searcher, motion_between
@@ -29,6 +30,7 @@ if TYPE_CHECKING:
     from cfree.planning.walk import Walker
     from cfree.separated import Separated
 
+Objective = Literal["short", "clear"]
 SEARCH = 8_000  # motions checked before the free space is built
 REFINE = 400  # motions checked to shorten a first path
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
@@ -40,6 +42,7 @@ def plan(
     goal: Pose | None = None,
     *,
     improve: float = 0.0,
+    objective: Objective = "short",
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated:
@@ -51,7 +54,9 @@ def plan(
     start, goal : Pose, optional
         Those of the scene unless given.
     improve : float, seconds
-        How long to shorten a path.
+        How long to improve a path.
+    objective : "short" or "clear"
+        What to prefer: short paths, or those that keep away from obstacles; see Notes.
     max_seconds : float, optional
         Give up when the free space is not known by then.
     progress : callable, optional
@@ -83,7 +88,7 @@ def plan(
     (True, True)
     """
     planner = Planner(scene, max_seconds=max_seconds, progress=progress)
-    return planner.plan(_given(start or scene.start, "start"), _given(goal or scene.goal, "goal"), improve=improve)
+    return planner.plan(*required(scene, start, goal), improve=improve, objective=objective)
 
 
 @dataclass(eq=False)
@@ -141,11 +146,13 @@ class Planner:
             self.space = free_space(found)
         return self.space
 
-    def plan(self, start: Pose, goal: Pose, *, improve: float = 0.0) -> Path | Separated:
+    def plan(
+        self, start: Pose, goal: Pose, *, improve: float = 0.0, objective: Objective = "short"
+    ) -> Path | Separated:
         """See `cfree.plan`."""
         for pose, name in ((start, "start"), (goal, "goal")):
             if not self.is_free([pose, pose]):
-                raise InvalidPoseError(f"{name} {pose} is forbidden")
+                require_free(self.scene, pose, name)
         poses = self._direct(start, goal)
         if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
@@ -217,10 +224,20 @@ class Planner:
         return float(min(xs)) - margin, float(min(ys)) - margin, float(max(xs)) + margin, float(max(ys)) + margin
 
 
-def _given(pose: Pose | None, name: str) -> Pose:
-    if pose is None:
-        raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give {name}=Pose(x, y, theta)")
-    return pose
+def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose, Pose]:
+    """Start and goal, the scene's where none is given.
+
+    Raises
+    ------
+    InvalidPoseError
+        If there is none.
+    """
+    start, goal = start or scene.start, goal or scene.goal
+    for pose, name in ((start, "start"), (goal, "goal")):
+        if pose is None:
+            raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give x, y and theta")
+    assert start and goal
+    return start, goal
 
 
 def plan_many(
