@@ -120,7 +120,7 @@ def nearest_miss(
     lo, hi = _bisected(separated, least, most, tolerance, progress)
     one, other = spaces[lo], spaces[hi]
     assert one is not None and other is not None
-    return NearestMiss(float(lo), float(hi), pinches(one, other, start, goal, float(hi - lo)))
+    return NearestMiss(float(lo), float(hi), pinches(one, other, start, goal))
 
 
 def max_scale(

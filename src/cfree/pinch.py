@@ -1,8 +1,7 @@
 """Where does free space open when the robot gets a little smaller? A search by samples on the closed surfaces.
 
-Sheets of the smaller robot's boundary that bound a narrow gap are in the larger robot's forbidden space, however far
-they are pushed into their free side. What is connected of such samples and has neighbours that bound two cells of the
-larger robot is a pinch.
+A sample of the smaller robot's boundary has the same contact, t and theta on the larger one's: there it bounds a cell,
+or it is covered. Where neighbours bound different cells, or what is covered between them is connected, is a pinch.
 """
 
 from __future__ import annotations
@@ -13,19 +12,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cfree.features import BOUNDS, WORKSPACE
-from cfree.free import is_free
-from cfree.pose import Pose, Poses
+from cfree.pose import Pose
 from cfree.trapezoids import Floats, Ints
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
-GRID = 3  # samples along each side of a trapezoid
-PUSH = 6  # times the difference of the insets: more than mitred corners move
-MOST = 1000  # samples of a pinch that are compared
+COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a pinch
+MOST = 2000  # samples of a pinch that are compared
+COVERED = -1
 NAMES = {BOUNDS: "the bounds", WORKSPACE: "the workspace"}
 
 
@@ -36,7 +33,7 @@ class Pinch:
     Attributes
     ----------
     pose : Pose
-        In the middle of it.
+        Near the middle of it.
     obstacles : (int, int)
         What it is between; -1 is the bounds, -2 the workspace.
     """
@@ -49,81 +46,110 @@ class Pinch:
         return f"{one} and {other} at {math.degrees(self.pose.theta):.3g} deg"
 
 
-def pinches(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose, difference: float) -> tuple[Pinch, ...]:
-    """Pinches on a way from start to goal, apart for the larger robot and joined for the smaller; () if not found."""
-    cells = larger.locate([start, goal]).tolist()
-    faces = smaller.faces(int(smaller.locate(start)))
-    xy, theta, normal, owner = _samples(smaller, faces)
-    pushed = Poses(xy + PUSH * difference * normal, theta)
-    is_new = ~np.asarray(is_free(larger.boundary, pushed))
-    one, other = _adjacent(smaller, faces)
-    part = _connected(is_new, one, other)
-    beside = is_new[one] & ~is_new[other]
-    group, outside = part[one[beside]], other[beside]
-    edge_samples = np.unique(outside)
-    labels = np.full(len(theta), -1, np.int32)
-    labels[edge_samples] = larger.locate(Poses(pushed.xy[edge_samples], theta[edge_samples]))
-    links = {(int(g), int(c)) for g, c in zip(group, labels[outside], strict=True) if c >= 0}
-    found = [
-        _narrowest(np.flatnonzero(part == g).astype(np.int32), xy, theta, normal, owner) for g in _route(links, cells)
-    ]
-    return tuple(pinch for pinch in found if pinch is not None)
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Points on faces: a grid of n * n on each, row by row along theta, and neighbours among them, both ways."""
+
+    face: Ints
+    t: Floats
+    theta: Floats
+    one: Ints
+    other: Ints
 
 
-def _samples(space: FreeSpace, faces: Ints) -> tuple[Floats, Floats, Floats, Ints]:
-    """Of every face GRID * GRID: positions, orientations, normals to the free side, obstacles."""
-    walls, table = space.walls, space.walls.trapezoids
-    share = (np.arange(GRID) + 0.5) / GRID
-    face = np.repeat(faces, GRID * GRID)
-    across, along = (np.tile(values, len(faces)) for values in (np.tile(share, GRID), np.repeat(share, GRID)))
-    theta = table.theta_from[face] + across * (table.theta_to - table.theta_from)[face]
+def pinches(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> tuple[Pinch, ...]:
+    """Pinches on a way from start to goal, apart for the larger robot and joined for the smaller; () if not found.
+
+    Notes
+    -----
+    Nothing is proved: samples may miss a pinch. It is found only if both robots have the same vertices.
+    """
+    if len(larger.boundary.features.robot.vertices) != len(smaller.boundary.features.robot.vertices):
+        return ()
+    samples = sampled(smaller, smaller.faces(int(smaller.locate(start))), COARSE)
+    label = labels(larger, smaller, samples)
+    group = _groups(label, samples)
+    found = []
+    for number in _route(label, group, samples, larger.locate([start, goal]).tolist()):
+        at = np.flatnonzero(group == number)
+        near = np.isin(samples.one, at)
+        faces = np.unique(samples.face[np.concatenate([at, samples.other[near]])])
+        pinch = _narrowest(larger, smaller, sampled(smaller, faces, FINE))
+        found += [] if pinch is None else [pinch]
+    return tuple(found)
+
+
+def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
+    """Samples on some faces of a space's walls."""
+    walls, table, cells = space.walls, space.walls.trapezoids, space.complex
+    share = (np.arange(n) + 0.5) / n
+    face = np.repeat(faces, n * n).astype(np.int32)
+    theta = table.theta_from[face] + np.tile(share, n * len(faces)) * (table.theta_to - table.theta_from)[face]
     lower, upper = walls.limits(face, theta)
-    patch = table.patch[face]
-    xy = walls.evaluate(patch, lower + along * (upper - lower), theta)
-    u, v = (walls.evaluate(patch, np.ones(len(face)), theta) - walls.evaluate(patch, np.zeros(len(face)), theta)).T
-    length = np.hypot(u, v)
-    owner = walls.features.obstacles.owner_polygon[walls.contact_obstacle[patch]]
-    return xy, theta, np.column_stack([v / length, -u / length]), owner
-
-
-def _adjacent(space: FreeSpace, faces: Ints) -> tuple[Ints, Ints]:
-    """Pairs of neighbouring samples, both ways: in a face, and all at a coedge with all at its twin."""
-    cells = space.complex
+    t = lower + np.tile(np.repeat(share, n), len(faces)) * (upper - lower)
     first = np.full(len(cells.component), -1, np.int64)
-    first[faces] = np.arange(len(faces)) * GRID * GRID
-    place = np.arange(GRID * GRID).reshape(GRID, GRID)  # rows: along t; columns: along theta
+    first[faces] = np.arange(len(faces)) * n * n
+    place = np.arange(n * n).reshape(n, n)
     steps = ((place[:-1], place[1:]), (place[:, :-1], place[:, 1:]))
     inner = np.concatenate([np.column_stack([p.ravel(), q.ravel()]) for p, q in steps])
-    pairs = [(first[faces][:, None, None] + inner).reshape(-1, 2)]
+    # all samples along a coedge are neighbours of all along its twin
     at_side = np.stack([place[:, 0], place[-1], place[:, -1], place[0]])
-    coedges = np.flatnonzero(first[cells.face] >= 0)
-    twins = cells.twin[coedges]
-    mine, theirs = (first[cells.face[h]][:, None] + at_side[cells.side[h]] for h in (coedges, twins))
-    pairs.append(np.stack(np.broadcast_arrays(mine[:, :, None], theirs[:, None, :]), axis=-1).reshape(-1, 2))
-    both = np.concatenate(pairs)
-    both = np.concatenate([both, both[:, ::-1]])
-    return both[:, 0].astype(np.int32), both[:, 1].astype(np.int32)
+    coedge = np.flatnonzero((first[cells.face] >= 0) & (first[cells.face[cells.twin]] >= 0))
+    mine, theirs = (first[cells.face[h]][:, None] + at_side[cells.side[h]] for h in (coedge, cells.twin[coedge]))
+    across = np.stack(np.broadcast_arrays(mine[:, :, None], theirs[:, None, :]), axis=-1)
+    pairs = np.concatenate([(first[faces][:, None, None] + inner).reshape(-1, 2), across.reshape(-1, 2)])
+    one, other = np.concatenate([pairs, pairs[:, ::-1]]).T.astype(np.int32)
+    return Samples(face, t, theta, one, other)
 
 
-def _connected(chosen: NDArray[np.bool_], one: Ints, other: Ints) -> Ints:
-    """A number for each connected part of the chosen samples; -1 for the others."""
-    number = np.where(chosen, np.arange(len(chosen)), -1).astype(np.int32)
-    inside = chosen[one] & chosen[other]
-    a, b = one[inside], other[inside]
+def labels(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Ints:
+    """The cell of the larger robot that each sample bounds, or COVERED."""
+    ours, theirs = smaller.walls, larger.walls
+    patch = ours.trapezoids.patch[samples.face]
+    contacts = [np.stack([b.contact_kind, b.contact_robot, b.contact_obstacle], axis=1) for b in (ours, theirs)]
+    number = {contact: k for k, contact in enumerate(map(tuple, contacts[1].tolist()))}
+    same = np.array([number.get(contact, -1) for contact in map(tuple, contacts[0].tolist())])[patch]
+    count = np.where(same >= 0, theirs.patch_start[same + 1] - theirs.patch_start[same], 0)
+    sample = np.repeat(np.arange(len(patch)), count)
+    place = np.arange(len(sample)) - np.repeat(np.cumsum(count) - count, count)
+    trapezoid = (theirs.patch_start[same[sample]] + place).astype(np.int32)
+    table, theta, t = theirs.trapezoids, samples.theta[sample], samples.t[sample]
+    there = (table.theta_from[trapezoid] <= theta) & (theta <= table.theta_to[trapezoid])
+    sample, trapezoid, theta, t = sample[there], trapezoid[there], theta[there], t[there]
+    lower, upper = theirs.limits(trapezoid, theta)
+    within = (lower <= t) & (t <= upper)
+    found = np.full(len(patch), COVERED, np.int32)
+    found[sample[within]] = larger.cell_of[larger.component[trapezoid[within]]]
+    return found
+
+
+def _groups(label: Ints, samples: Samples) -> Ints:
+    """Candidates, by number: what is covered and connected; and samples beside ones that bound another cell."""
+    covered = label == COVERED
+    number = np.where(covered, np.arange(len(label)), -1).astype(np.int32)
+    both = covered[samples.one] & covered[samples.other]
+    one, other = samples.one[both], samples.other[both]
     while True:
         before = number.copy()
-        np.minimum.at(number, a, number[b])
-        number = np.where(chosen, number[number], -1).astype(np.int32)
+        np.minimum.at(number, one, number[other])
+        number = np.where(covered, number[number], -1).astype(np.int32)
         if np.array_equal(number, before):
-            return number
+            break
+    a, b = label[samples.one], label[samples.other]
+    beside = (a >= 0) & (b >= 0) & (a != b)
+    pair = np.minimum(a, b)[beside] * (int(label.max(initial=0)) + 1) + np.maximum(a, b)[beside]
+    number[samples.one[beside]] = len(label) + pair
+    return number
 
 
-def _route(links: set[tuple[int, int]], cells: list[int]) -> list[int]:
-    """Pinches on the shortest way from one cell to another."""
+def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list[int]:
+    """Candidates on the shortest way from one cell to another."""
+    links = np.column_stack([group[samples.one], label[samples.other]])
+    links = np.concatenate([links, np.column_stack([group, label])])
     around: dict[tuple[str, int], list[tuple[str, int]]] = defaultdict(list)
-    for pinch, cell in sorted(links):
-        around["pinch", pinch].append(("cell", cell))
-        around["cell", cell].append(("pinch", pinch))
+    for number, cell in np.unique(links[(links >= 0).all(axis=1)], axis=0).tolist():
+        around["pinch", number].append(("cell", cell))
+        around["cell", cell].append(("pinch", number))
     first, last = ("cell", cells[0]), ("cell", cells[1])
     came, todo = {first: first}, deque([first])
     while todo and last not in came:
@@ -139,17 +165,27 @@ def _route(links: set[tuple[int, int]], cells: list[int]) -> list[int]:
     return route[::-1]
 
 
-def _narrowest(samples: Ints, xy: Floats, theta: Floats, normal: Floats, owner: Ints) -> Pinch | None:
-    """Between the two closest samples that face each other."""
-    k = samples[:: -(-len(samples) // MOST)]
-    step = xy[None, k] - xy[k, None]
-    turned = np.abs(np.mod(theta[None, k] - theta[k, None] + math.pi, math.tau) - math.pi)
-    size = np.ptp(xy[k], axis=0).max()
-    distance = np.hypot(step[..., 0], step[..., 1]) + size * turned
-    facing = normal[k] @ normal[k].T < -0.5
-    distance[~facing] = np.inf
-    i, j = np.unravel_index(int(distance.argmin()), distance.shape)
-    if not np.isfinite(distance[i, j]):
+def _narrowest(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Pinch | None:
+    """Between the two closest samples at a pinch that face each other."""
+    group = _groups(labels(larger, smaller, samples), samples)
+    chosen = np.flatnonzero(group >= 0)
+    k = chosen[:: -(-len(chosen) // MOST) or 1]
+    walls, theta = smaller.walls, samples.theta[k]
+    patch = walls.trapezoids.patch[samples.face[k]]
+    xy, first, last = (walls.evaluate(patch, t, theta) for t in (samples.t[k], np.zeros(len(k)), np.ones(len(k))))
+    along = last - first
+    along /= np.hypot(*along.T)[:, None]
+    step, turned = xy[None] - xy[:, None], np.abs(np.mod(theta[None] - theta[:, None] + math.pi, math.tau) - math.pi)
+    distance = np.hypot(step[..., 0], step[..., 1]) + _reach(smaller) * turned
+    distance[along @ along.T > -0.5] = np.inf
+    if not np.isfinite(distance).any():
         return None
-    x, y = ((xy[k[i]] + xy[k[j]]) / 2).tolist()
-    return Pinch(Pose(x, y, float(theta[k[i]])), (int(owner[k[i]]), int(owner[k[j]])))
+    i, j = np.unravel_index(int(distance.argmin()), distance.shape)
+    owner = walls.features.obstacles.owner_polygon[walls.contact_obstacle[patch]]
+    x, y = ((xy[i] + xy[j]) / 2).tolist()
+    return Pinch(Pose(x, y, float(theta[i])), (int(owner[i]), int(owner[j])))
+
+
+def _reach(space: FreeSpace) -> float:
+    """How far the robot's farthest vertex is from its reference point."""
+    return float(np.hypot(*space.boundary.features.robot.xy.T).max())
