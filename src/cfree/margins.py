@@ -24,7 +24,7 @@ from cfree.scene import Scene
 
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried
-FARTHEST = 40  # doublings from the first number tried
+FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
 SIDES = 16  # of the polygon that stands for a disc
 
 
@@ -100,6 +100,7 @@ def nearest_miss(
     >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.pinches[0].obstacles)
     (True, [0, 1])
     """
+    _check(tolerance)
     if _are_joined(_space(scene), start, goal):
         raise ValueError("start and goal are joined: nothing is missing")
     spaces: dict[Fraction, FreeSpace | None] = {}
@@ -137,7 +138,7 @@ def max_scale(
     -------
     Interval
         Scaled by `lo` start and goal are joined, by `hi` they are not, or one is forbidden. `hi` is infinite if a
-        robot 2**40 times as large gets there, `lo` is 0 if none 2**40 times smaller does.
+        robot 2**63 times as large gets there, `lo` is 0 if none 2**63 times smaller does.
 
     Notes
     -----
@@ -152,6 +153,7 @@ def max_scale(
     >>> found.lo <= 1 <= found.hi <= 1.01 * found.lo
     True
     """
+    _check(tolerance)
 
     def is_joined(scale: Fraction) -> bool:
         robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
@@ -197,6 +199,7 @@ def max_margin(
     >>> found.lo < 1 - 2**0.5 / 8 < found.hi < 1.08 * found.lo      # the triangle's height is 2**0.5 / 4
     True
     """
+    _check(tolerance)
     if not _are_joined(_space(scene), start, goal):
         raise ValueError("start and goal are not joined; see cfree.nearest_miss")
     disc, outer = _around_a_disc()
@@ -212,6 +215,11 @@ def max_margin(
 
 
 # --- decisions ---
+
+
+def _check(tolerance: float) -> None:
+    if not tolerance > 2.0 ** (2 - BITS):
+        raise ValueError(f"tolerance {tolerance}: give more than {2.0 ** (2 - BITS):g}")
 
 
 def _space(scene: Scene) -> FreeSpace:
@@ -247,8 +255,6 @@ def _bisected(
     holds: Callable[[Fraction], bool], lo: Fraction, hi: Fraction, tolerance: float, progress: Progress | None
 ) -> tuple[Fraction, Fraction]:
     """What holds at `lo` and not at `hi`: the same for numbers close together."""
-    if not tolerance > 2.0 ** (2 - BITS):
-        raise ValueError(f"tolerance {tolerance}: give more than {2.0 ** (2 - BITS):g}")
     whole = math.log(hi / lo)
     while hi > lo * (1 + Fraction(tolerance)):
         if progress is not None:
