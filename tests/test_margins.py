@@ -59,7 +59,7 @@ def test_both_ends_of_the_nearest_miss_are_decided() -> None:
     miss = nearest_miss(scene, HERE, THERE, tolerance=0.1)
     assert miss is not None
     for by, joined in ((miss.lo, False), (miss.hi, True)):
-        space = free_space(boundary(with_robot(scene, inset(scene.robot[0], by), None)))
+        space = free_space(boundary(with_robot(scene, inset(scene.robot[0], Fraction(by)), None)))
         proof = separation(space, HERE, THERE)
         assert (proof is None) == joined
         if proof is not None:
@@ -80,7 +80,7 @@ def test_two_gates_one_after_the_other() -> None:
 def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends(tmp_path: Path) -> None:
     exact = separation(room(1), INSIDE, OUTSIDE)
     assert exact is not None and exact.nearest_miss is not None
-    assert exact.nearest_miss.lo == 0 < exact.nearest_miss.hi < 1e-11 and exact.nearest_miss.pinches == ()
+    assert exact.nearest_miss.lo == 0 < exact.nearest_miss.hi < 1e-40 and exact.nearest_miss.pinches == ()
     closed = scene_of(PlainScene([box(0, 0, 1, 1)], [hollow((-5, -5, 5, 5), (-4, -4, 4, 4))]))
     assert nearest_miss(closed, Pose(0, 0), Pose(9, 9)) is None
     with pytest.raises(ValueError, match="start and goal are joined"):
@@ -129,12 +129,13 @@ def test_the_polygon_is_around_the_disc_and_inside_the_other() -> None:
 
 def test_insets_are_inside() -> None:
     comb = Polygon([(0, 0), (9, 0), (9, 5), (8, 5), (8, 1), (5, 1), (5, 5), (4, 5), (4, 1), (1, 1), (1, 5), (0, 5)])
-    assert [len(inset(comb, by)) for by in (1e-12, 0.1, 0.49, 0.51)] == [1, 1, 1, 0]
+    assert [len(inset(comb, by)) for by in map(Fraction, (1e-12, 0.1, 0.49, 0.51))] == [1, 1, 1, 0]
     dumbbell = Polygon([(0, 0), (4, 0), (4, 1), (6, 1), (6, 0), (9, 0), (9, 4), (6, 4), (6, 2), (4, 2), (4, 4), (0, 4)])
-    assert len(inset(dumbbell, 0.6)) == 2
+    assert len(inset(dumbbell, Fraction(3, 5))) == 2
     ring = Polygon(*hollow((0, 0, 9, 9), (3, 3, 6, 6)))
-    (smaller,) = inset(ring, 0.5)
+    (smaller,) = inset(ring, Fraction(1, 2))
     assert smaller.exact_area == 64 - 16
+    assert inset(Polygon(box(0, 0, 1, 1)[0]), Fraction(3, 4)) == []  # not a square of the other orientation
 
 
 def test_where_the_nest_opens() -> None:
@@ -142,7 +143,8 @@ def test_where_the_nest_opens() -> None:
     start, goal = scene.start, scene.goal
     assert start and goal
     larger, smaller = (
-        free_space(boundary(with_robot(scene, inset(scene.robot[0], by), scene.bounds))) for by in (0.70, 0.715)
+        free_space(boundary(with_robot(scene, inset(scene.robot[0], by), scene.bounds)))
+        for by in (Fraction(700, 1000), Fraction(715, 1000))
     )
     (pinch,) = pinches(larger, smaller, start, goal)
     assert sorted(pinch.obstacles) == [0, 26]

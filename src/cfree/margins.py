@@ -16,7 +16,7 @@ import shapely
 from cfree.cells import FreeSpace, free_space
 from cfree.exact import ExactPoint
 from cfree.forbidden import boundary
-from cfree.inset import inset, size_power, with_robot
+from cfree.inset import INSETS, inset, size_power, with_robot
 from cfree.pinch import Pinch, pinches
 from cfree.polygon import Polygon
 from cfree.pose import Pose
@@ -87,7 +87,7 @@ def nearest_miss(
 
     Notes
     -----
-    All edges move inwards by the inset, corners are mitred and rounded to 1/2000 of it; what is too thin vanishes.
+    All edges move inwards by the inset, corners are mitred; what is too thin vanishes.
     About a dozen times the time of the scene's free space.
 
     Examples
@@ -106,18 +106,19 @@ def nearest_miss(
     spaces: dict[Fraction, FreeSpace | None] = {}
 
     def separated(by: Fraction) -> bool:
-        robot = [smaller for part in scene.robot for smaller in inset(part, float(by))]
+        robot = [smaller for part in scene.robot for smaller in inset(part, by)]
         spaces[by] = _space(with_robot(scene, robot, scene.bounds)) if robot else None
         space = spaces[by]
-        return space is not None and not _are_joined(space, start, goal)
+        return space is None or not _are_joined(space, start, goal)
 
     deepest = max(shapely.length(shapely.maximum_inscribed_circle(part.to_shapely())) for part in scene.robot)
     most = _rounded(0.98 * deepest)
     if separated(most):
         return None
-    least = next((by for k in (-20, -40) if separated(by := Fraction(2) ** (size_power(scene) + k))), None)
+    insets = [by for k in INSETS if (by := Fraction(2) ** (size_power(scene) + k)) < most]
+    least = next(filter(separated, insets), None)
     if least is None:
-        return NearestMiss(0.0, 2.0 ** (size_power(scene) - 40), ())
+        return NearestMiss(0.0, float(insets[-1]), ())
     lo, hi = _bisected(separated, least, most, tolerance, progress)
     one, other = spaces[lo], spaces[hi]
     assert one is not None and other is not None

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from cfree.cells import FORBIDDEN, FreeSpace
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.files import replacing
-from cfree.inset import inset_space, size_power
+from cfree.inset import INSETS, inset_space, size_power
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Bounds
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.margins import NearestMiss
     from cfree.scene import Scene
-
-INSETS = (-20, -40, -80, -160)  # tried one after the other: powers of two, of the robot's size
 
 
 @dataclass(frozen=True, eq=False)
