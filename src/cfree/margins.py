@@ -118,7 +118,7 @@ def nearest_miss(
     insets = [by for k in INSETS if (by := Fraction(2) ** (size_power(scene) + k)) < most]
     least = next(filter(separated, insets), None)
     if least is None:
-        return NearestMiss(0.0, float(insets[-1]), ())
+        return NearestMiss(0.0, float(min([*insets, most])), ())
     lo, hi = _bisected(separated, least, most, tolerance, progress)
     one, other = spaces[lo], spaces[hi]
     assert one is not None and other is not None
