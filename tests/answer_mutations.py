@@ -368,10 +368,8 @@ def main(count: int = 20) -> None:
         found = tried(mutate, count * 2 if mutate in OF_PATHS else count)
         true = found.pop("", 0)
         checks = ", ".join(f"{check} {n}" for check, n in found.most_common(3))
-        rejected = found.total()
-        print(
-            f"| {mutate.__name__.replace('_', ' ')} | {rejected + true} | {rejected} | {true} | {checks} |", flush=True
-        )
+        name, rejected = mutate.__name__.replace("_", " "), found.total()
+        print(f"| {name} | {rejected + true} | {rejected} | {true} | {checks} |", flush=True)
 
 
 if __name__ == "__main__":

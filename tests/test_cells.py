@@ -125,6 +125,14 @@ def test_an_exact_fit_is_free_and_in_no_cell() -> None:
     assert len(space) == 1
 
 
+def test_an_exact_fit_longer_than_one_patch() -> None:
+    walls = [hollow((-1, -1, 6, 3), (0, 0, 4, 2)), box(1, 0, 4, 1)]  # a bent corridor as wide as the robot
+    space = space_of(PlainScene([box(0, 0, 1, 1)], walls))
+    xs = [Fraction(k, 2) for k in range(7)]
+    assert space.locate([Pose(x, 1) for x in xs]).tolist() == [-2] * 7
+    assert space.locate([Pose(x + 1, 1, "90deg") for x in xs]).tolist() == [-2] * 7
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_location_agrees_with_exact_overlap(kind: str) -> None:
     rng = np.random.default_rng(0)

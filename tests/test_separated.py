@@ -7,18 +7,24 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from typer.testing import CliRunner
 
 import cfree.verify
 from cfree import (
+    FormatError,
     FreeSpace,
     InvalidPoseError,
     Pose,
     Scene,
     Separated,
+    UnsupportedError,
     boundary,
     free_space,
+    load_answer,
+    load_scene,
     separation,
 )
+from cfree.cli import app
 from shapes import KINDS, PlainScene, box, random_scene
 from test_cells import ROD, TIGHT, hollow, space_of
 
@@ -43,13 +49,15 @@ def room(opening: Fraction | int | str) -> FreeSpace:
 INSIDE, OUTSIDE = Pose(0, 0), Pose(9, "1/3", "30deg")
 
 
-@pytest.mark.parametrize("gap", [Fraction(1, 10**9), Fraction(1, 2), 1 - Fraction(1, 10**5), 1 - Fraction(1, 10**15)])
+@pytest.mark.parametrize("gap", [Fraction(1, 10**9), Fraction(1, 2), *(1 - Fraction(1, 10**k) for k in (5, 9, 15, 40))])
 def test_a_throat_that_is_too_narrow(gap: Fraction | int) -> None:
     assert proved(room(gap), INSIDE, OUTSIDE).of == "closed"
 
 
-def test_a_throat_that_fits_exactly_is_closed_to_positive_clearance() -> None:
-    assert proved(room(1), INSIDE, OUTSIDE).of == "interior"
+@pytest.mark.parametrize("gap", [1 - Fraction(1, 10**60), 1])
+def test_a_throat_that_fits_exactly_or_nearly_is_closed_to_positive_clearance(gap: Fraction | int) -> None:
+    """1 - 1e-60 is no way through, but the smallest robot tried is a little smaller than that."""
+    assert proved(room(gap), INSIDE, OUTSIDE).of == "interior"
 
 
 def test_a_throat_that_is_wide_enough() -> None:
@@ -128,3 +136,81 @@ def test_the_second_proof_is_quick() -> None:
     (kept,) = space.insets.values()
     separation(space, INSIDE, Pose(-9, 0))
     assert list(space.insets.values()) == [kept]
+
+
+@pytest.mark.parametrize(("name", "obstacles"), [("nest_swim", (0, 26)), ("street_Berlin", (-1, 0, 1))])
+def test_real_scenes_that_are_not_connected(name: str, obstacles: tuple[int, ...], tmp_path: Path) -> None:
+    scene = load_scene(ROOT / f"examples/scenes/{name}.json")
+    assert scene.start and scene.goal
+    proof = proved(free_space(boundary(scene)), scene.start, scene.goal)
+    assert proof.of == "closed" and set(obstacles) <= set(proof.obstacles) and len(proof.pieces) < 1000
+    proof.save(tmp_path / "proof.json")
+    assert cfree.verify.answer(scene, tmp_path / "proof.json").verified
+
+
+def test_ends_that_touch_and_exact_fits() -> None:
+    """Of the interior: no path from there keeps a distance."""
+    fit = space_of(PlainScene([box(0, 0, 1, 1)], [hollow((-1, -1, 6, 3), (0, 0, 4, 2)), box(1, 0, 4, 1)]))
+    assert fit.locate([Pose(0, 0), Pose("1/2", 1)]).tolist() == [-2, -2]  # a corridor as wide as the robot
+    proof = proved(fit, Pose("1/2", 1), Pose(0, 0))
+    assert proof.of == "interior" and proof.cells == (-2, -2) and len(proof.pieces) == 0
+    assert proved(fit, Pose(3, 1), Pose(20, 0)).of == "closed"  # by the frame
+    gate = room(1)
+    start = Pose("-3/2", "3/2")  # in a corner
+    assert proved(gate, start, OUTSIDE).of == "interior"
+    assert separation(gate, start, INSIDE) is None
+    assert proved(gate, Pose("5/2", 0), OUTSIDE).cells[0] == -2
+
+
+def test_files_hold_separations_exactly(tmp_path: Path) -> None:
+    space = space_of(PlainScene([ROD], [box(-1, -9, 1, 9)], bounds=(-6, -6, 6, 6)))
+    for proof in (proved(space, Pose(-5, 0), Pose(5, "1/3")), proved(room(1), INSIDE, OUTSIDE)):
+        proof.save(tmp_path / "proof.json")
+        again = load_answer(tmp_path / "proof.json")
+        assert again == proof and isinstance(again, Separated) and again.obstacles == proof.obstacles
+    with pytest.raises(UnsupportedError, match=r"written as \.json"):
+        proof.save(tmp_path / "proof.csv")
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('"answer": "separated"', '"answer": "no"', r'answer: expected "path" or "separated", got "no"'),
+        ('"of": "closed"', '"of": "open"', 'of: expected "closed" or "interior", got "open"'),
+        ('"of": "closed"', '"of": "interior"', '"smaller_robot" belongs to what is "of": "closed"'),
+        ('"kind": "vertex-edge"', '"kind": "vertex"', r'surface\[\d+\].contact.kind: expected "vertex-edge" or'),
+        ('"robot": [0, ', '"robot": [-3, ', r"surface\[0\].contact.robot: expected \[polygon, vertex\], .* got \[-3, "),
+        ('"chart": 0', '"chart": 2', r"surface\[\d+\].chart: expected 0 or 1, got 2"),
+        ('"lower": [', '"lower": [9, ', r"surface\[0\].lower: expected \[kind, robot feature, obstacle feature\]"),
+        ('"lower"', '"lowr"', r'surface\[0\].lowr: unknown key "lowr"; did you mean "lower"\?'),
+        ('"tau": [', '"tau": [3, ', r"surface\[0\].from.tau: expected an interval \[lo, hi\]"),
+        ('"names": [[', '"names": [[1, 1, 1], [1, 1, 1], [', r"surface\[\d+\].(from|to).names: expected .*at most 2"),
+        ('"obstacles": [', '"obstacles": [7, ', '"obstacles" are not those of the surface'),
+        ('"cells": [', '"cells": [7, ', "cells: expected .*at most 2"),
+        ('"goal"', '"gaol"', "gaol: unknown key"),
+        ('"outer": [[', '"outer": [["x", ', r"smaller_robot\[0\].outer\[0\]: expected a point"),
+    ],
+)
+def test_faults_of_files_say_place_value_and_remedy(tmp_path: Path, old: str, new: str, message: str) -> None:
+    file = tmp_path / "proof.json"
+    proved(space_of(PlainScene([ROD], [TIGHT])), Pose(0, 0), Pose(9, 9)).save(file)
+    text = file.read_text()
+    assert old in text
+    file.write_text(text.replace(old, new, 1))
+    with pytest.raises(FormatError, match=message):
+        load_answer(file)
+
+
+def test_the_command(tmp_path: Path) -> None:
+    space = space_of(PlainScene([ROD], [TIGHT]))
+    space.boundary.scene.save(tmp_path / "scene.json")
+    proved(space, Pose(0, 0), Pose(9, 9)).save(tmp_path / "proof.json")
+    texts = {"good": (tmp_path / "proof.json").read_text()}
+    texts["wrong"] = texts["good"].replace('"lower": [1', '"lower": [2', 1)
+    texts["bad"] = texts["good"][:-20]
+    for (name, text), (code, said) in zip(
+        texts.items(), [(0, "No path leads from"), (1, "REFUTED"), (2, "error: ")], strict=True
+    ):
+        (tmp_path / f"{name}.json").write_text(text)
+        done = CliRunner().invoke(app, ["verify", str(tmp_path / "scene.json"), str(tmp_path / f"{name}.json")])
+        assert done.exit_code == code and said in done.output

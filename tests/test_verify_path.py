@@ -16,7 +16,7 @@ import cfree.verify
 import strategies
 from answer_mutations import corridor
 from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, load_scene
-from cfree.verify.motions import is_nowhere_positive, touches
+from cfree.verify.motions import _samples, is_nowhere_positive, touches
 from cfree.verify.world import World
 from compared import scene_of
 from shapes import PlainScene, box
@@ -46,9 +46,8 @@ def test_paths_are_free_where_the_core_says_so(
 @settings(max_examples=300, deadline=None)
 @given(st.tuples(*[st.integers(-9, 9)] * 3), st.integers(0, 6), st.integers(1, 6))
 def test_a_quadratic_is_nowhere_positive(q: tuple[int, int, int], a: int, length: int) -> None:
-    values = [
-        q[0] + q[1] * u + q[2] * u * u for u in (Fraction(a, 7) + Fraction(length * k, 7000) for k in range(1001))
-    ]
+    places = [Fraction(1000 * a + length * k, 7000) for k in range(1001)]
+    values = [q[0] + q[1] * u + q[2] * u * u for u in places]
     if max(values) > 0:
         assert not is_nowhere_positive(q, (a, a + length, 7))
     elif q[2] >= 0 or 4 * q[0] * q[2] >= q[1] ** 2:  # convex, or without two roots
@@ -68,16 +67,19 @@ def test_sliding_turning_on_a_corner_and_exact_fits() -> None:
     assert not verified(peak, Pose(0, 0), Rotation((0, 0), "180deg"))
 
 
-def test_two_edges_take_turns_at_an_irrational_contact() -> None:
-    """A corner of the robot passes a corner of the obstacle, touching it where u is irrational."""
+def test_two_edges_take_turns_at_a_contact_that_no_halving_meets(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A corner of the robot passes a corner of the obstacle, touching it at u = 5/7."""
+    asked = []
+    monkeypatch.setattr("cfree.verify.motions._samples", lambda *a: asked.append(a) or _samples(*a))
     disc = Scene([(0, 0), (3, 0), (3, 1), (0, 1)], [[(1, 3), (9, 3), (9, 9), (1, 9)]])  # corners at sqrt 10
-    assert verified(disc, Pose(0, 0), Rotation((0, 0), "90deg"))
-    assert not verified(disc, Pose(0, "1e-30"), Rotation((0, "1e-30"), "90deg"))
+    turn = {"tau": "3/4"}
+    assert verified(disc, Pose(0, 0), Rotation((0, 0), turn)) and asked
+    assert not verified(disc, Pose(0, "1e-30"), Rotation((0, "1e-30"), turn))
 
 
 def test_bounds_and_workspace_hold_all_the_way() -> None:
     scene = Scene(SQUARE, bounds=(0, 0, 4, 4), workspace=box(-9, -9, 9, 9)[0])
-    assert verified(scene, Pose(0, 0), Translation((4, 0)), Rotation((4, 2), "180deg"), Translation((-4, 0)))
+    assert verified(scene, Pose(0, 0), Translation((4, 0)), Rotation((4, 2), "-180deg"), Translation((-4, 0)))
     assert not verified(scene, Pose(0, 0), Rotation((2, 0), "180deg"))  # by the bounds' lower side
     assert not verified(Scene(SQUARE, workspace=box(0, 0, 9, 9)[0]), Pose(30, 3), Translation((1, 0)))
     assert not verified(scene, Pose(5, 0)) and verified(scene, Pose(4, 4))

@@ -57,6 +57,11 @@ if TYPE_CHECKING:
     from cfree.invalid import require_free as require_free
     from cfree.io import load_polygons as load_polygons
     from cfree.io import load_scene as load_scene
+    from cfree.margins import Interval as Interval
+    from cfree.margins import NearestMiss as NearestMiss
+    from cfree.margins import max_margin as max_margin
+    from cfree.margins import max_scale as max_scale
+    from cfree.margins import nearest_miss as nearest_miss
     from cfree.mesh import Mesh as Mesh
     from cfree.mesh import save_mesh as save_mesh
     from cfree.motion import Rotation as Rotation
@@ -68,6 +73,7 @@ if TYPE_CHECKING:
     from cfree.motion_check import is_free_motion as is_free_motion
     from cfree.path import Clearance as Clearance
     from cfree.path import Path as Path
+    from cfree.pinch import Pinch as Pinch
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.planner import plan as plan
     from cfree.planning.planner import plan_many as plan_many
@@ -145,10 +151,12 @@ _HOMES = {
     "striction_is_on_patch striction_parameter striction_parameters",
     "invalid": "free_nearby require_free",
     "io": "load_polygons load_scene",
+    "margins": "Interval NearestMiss max_margin max_scale nearest_miss",
     "mesh": "Mesh save_mesh",
     "motion": "Rotation Translation rotations",
     "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
     "path": "Clearance Path",
+    "pinch": "Pinch",
     "planning.planner": "Planner plan plan_many",
     "planning.search": "motion_between",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",

@@ -22,6 +22,7 @@ from cfree.scene import Scene
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
+INSETS = (-20, -40, -80, -160)  # tried one after the other: powers of two, of the robot's size
 FINER = 12  # bits of an inset that survive the rounding of its polygons
 
 
@@ -54,7 +55,8 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
         return list(zip(x, y, strict=True))
 
     def candidates() -> Iterator[list[list[list[ExactPoint]]]]:
-        yield [_mitred(polygon, by)]
+        if rings := _mitred(polygon, by):
+            yield [rings]
         parts = shapely.get_parts(polygon.to_shapely().buffer(-float(by), join_style="mitre"))
         yield [[snapped(part.exterior), *map(snapped, part.interiors)] for part in parts]
 
@@ -73,7 +75,7 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
 
 
 def _mitred(polygon: Polygon, by: Fraction) -> list[list[ExactPoint]]:
-    """Rings with every vertex moved so that its edges move inwards, in directions that are rounded."""
+    """Rings whose edges have moved inwards, as far as directions of vertices can be rounded; none if an edge turns."""
     U = polygon.edges / np.hypot(*polygon.edges.T)[:, None]
     normal = np.stack((-U[:, 1], U[:, 0]), axis=1)
     before = normal[polygon.previous]
@@ -82,6 +84,9 @@ def _mitred(polygon: Polygon, by: Fraction) -> list[list[ExactPoint]]:
         (x + by * Fraction(dx), y + by * Fraction(dy))
         for (x, y), (dx, dy) in zip(polygon.exact_vertices, m.tolist(), strict=True)
     ]
+    ends = zip(moved, [moved[k] for k in polygon.next.tolist()], polygon.edge_numerators, strict=True)
+    if any((x1 - x0) * u + (y1 - y0) * v <= 0 for (x0, y0), (x1, y1), (u, v) in ends):
+        return []
     return [moved[i:j] for i, j in pairwise(polygon.ring_offsets)]
 
 

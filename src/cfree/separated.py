@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from cfree.cells import FORBIDDEN, FreeSpace
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.files import replacing
-from cfree.inset import inset_space, size_power
+from cfree.inset import INSETS, inset_space, size_power
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Bounds
@@ -28,8 +28,8 @@ from cfree.trapezoids import COLUMNS, Ints, Trapezoids
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
-
-INSETS = (-20, -40, -80, -160)  # tried one after the other: powers of two, of the robot's size
+    from cfree.margins import NearestMiss
+    from cfree.scene import Scene
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +100,8 @@ class Separated:
         If closed, and the scene has bounds: these, of which the scene's are strictly inside.
     units, frame : str
         Unit of length, and name of the world's frame, for files.
+    scene : Scene, optional
+        What it is a proof for; None if it was read from a file.
     """
 
     start: Pose
@@ -111,10 +113,23 @@ class Separated:
     bounds: Bounds | None = field(default=None, repr=False)
     units: str = field(default="", compare=False, repr=False)
     frame: str = field(default="world", compare=False, repr=False)
+    scene: Scene | None = field(default=None, compare=False, repr=False)
 
     @cached_property
     def obstacles(self) -> tuple[int, ...]:
         return tuple(np.unique(self.pieces.obstacle[:, 0]).tolist())
+
+    @cached_property
+    def nearest_miss(self) -> NearestMiss | None:
+        """The smallest inset of the robot that would join start and goal, and where: `cfree.nearest_miss`.
+
+        Computed when first asked for; None if there is none. Needs `scene`.
+        """
+        from cfree.margins import nearest_miss
+
+        if self.scene is None:
+            raise ValueError("the scene is not in a file: call cfree.nearest_miss(scene, start, goal)")
+        return nearest_miss(self.scene, self.start, self.goal)
 
     def save(self, path: str | PathLike[str]) -> None:
         """Write the proof to a ``.json`` file, exactly, whole or not at all.
@@ -172,7 +187,7 @@ def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:
         return None
     scene = space.boundary.scene
     found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
-    found = replace(found, units=scene.units)
+    found = replace(found, units=scene.units, scene=scene)
     for power in INSETS:
         smaller = inset_space(space, size_power(scene) + power)
         if smaller is None:

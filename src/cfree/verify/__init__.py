@@ -1,4 +1,4 @@
-"""An independent check of computed boundaries: `cfree.verify.boundary`, and ``cfree verify`` on the command line.
+"""An independent check of boundaries and answers: `cfree.verify.boundary`, `answer`, and ``cfree verify``.
 
 Nothing here calls the C++ core; every sign is one of Python's integers and fractions or of python-flint. The checks:
 
@@ -25,7 +25,8 @@ and lines when sides are gathered. Only `features` is believed: that it numbers 
 
 Each file imports only from those before it: `algebra` (roots, numbers), `surfaces` (contacts, curves, lines),
 `polygons`, `world` (the scene), `section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`,
-`missing`, `angles`, `result`, `driver`.
+`missing`, `angles`, `result`, `driver`; for answers, `cfree.verify.answer`: `inside` (polygons in polygons), `motions`,
+`parity` (rays), `separation`, `answers`. Of an answer everything is PROVED.
 """
 
 from cfree.verify.answers import answer as answer

@@ -1,0 +1,298 @@
+"""How much is missing, or to spare: the smallest inset of the robot that joins two poses, its largest scale and margin.
+
+All are found by bisection over decisions, each of them exact: are start and goal in one cell of a scene with another
+robot? So both ends of an interval are proved, each for the polygons that were decided.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+
+import shapely
+
+from cfree.cells import FreeSpace, free_space
+from cfree.exact import ExactPoint
+from cfree.forbidden import boundary
+from cfree.inset import INSETS, inset, size_power, with_robot
+from cfree.pinch import Pinch, pinches
+from cfree.polygon import Polygon
+from cfree.pose import Pose
+from cfree.scene import Scene
+
+Progress = Callable[[float], object]
+BITS = 16  # of the numbers that are tried
+FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
+SIDES = 16  # of the polygon that stands for a disc
+
+
+@dataclass(frozen=True)
+class Interval:
+    """Two numbers with a proof for each: the one looked for is between them."""
+
+    lo: float
+    hi: float
+
+
+@dataclass(frozen=True)
+class NearestMiss:
+    """The smallest inset of the robot with which a motion from start to goal exists.
+
+    Attributes
+    ----------
+    lo, hi : float
+        With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is; `lo` is 0 if no
+        inset that was tried is too small.
+    pinches : tuple of Pinch
+        Where space opens between the two, in order from start to goal. Empty if that was not found: an inset is an
+        exact decision, its place is a search by samples.
+    """
+
+    lo: float
+    hi: float
+    pinches: tuple[Pinch, ...]
+
+    def __str__(self) -> str:
+        size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do"
+        if not self.pinches:
+            return size
+        places = "; ".join(f"between {pinch}" for pinch in self.pinches)
+        return f"{size}: about {2 * self.hi:.2g} too wide {places}"
+
+
+def nearest_miss(
+    scene: Scene, start: Pose, goal: Pose, tolerance: float = 0.01, progress: Progress | None = None
+) -> NearestMiss | None:
+    """How far the robot is from getting through: the smallest inset that joins two separated poses, and where.
+
+    Parameters
+    ----------
+    scene : Scene
+    start, goal : Pose
+    tolerance : float
+        How far apart the ends of the interval may be, relative to them.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1.
+
+    Returns
+    -------
+    NearestMiss, or None if no inset joins them before nothing is left of the robot
+
+    Raises
+    ------
+    ValueError
+        If they are joined as it is, or the tolerance is not positive.
+
+    Notes
+    -----
+    All edges move inwards by the inset, corners are mitred; what is too thin vanishes.
+    About a dozen times the time of the scene's free space.
+
+    Examples
+    --------
+    >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
+    >>> box = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
+    >>> square = [(-1.25, -1.25), (1.25, -1.25), (1.25, 1.25), (-1.25, 1.25)]
+    >>> scene = Scene(square, walls, workspace=box)
+    >>> miss = nearest_miss(scene, Pose(0, 5), Pose(0, -5))
+    >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.pinches[0].obstacles)
+    (True, [0, 1])
+    """
+    _check(tolerance)
+    if _are_joined(_space(scene), start, goal):
+        raise ValueError("start and goal are joined: nothing is missing")
+    spaces: dict[Fraction, FreeSpace | None] = {}
+
+    def separated(by: Fraction) -> bool:
+        robot = [smaller for part in scene.robot for smaller in inset(part, by)]
+        spaces[by] = _space(with_robot(scene, robot, scene.bounds)) if robot else None
+        space = spaces[by]
+        return space is None or not _are_joined(space, start, goal)
+
+    deepest = max(shapely.length(shapely.maximum_inscribed_circle(part.to_shapely())) for part in scene.robot)
+    most = _rounded(0.98 * deepest)
+    if separated(most):
+        return None
+    insets = [by for k in INSETS if (by := Fraction(2) ** (size_power(scene) + k)) < most]
+    least = next(filter(separated, insets), None)
+    if least is None:
+        return NearestMiss(0.0, float(min([*insets, most])), ())
+    lo, hi = _bisected(separated, least, most, tolerance, progress)
+    one, other = spaces[lo], spaces[hi]
+    assert one is not None and other is not None
+    return NearestMiss(float(lo), float(hi), pinches(one, other, start, goal))
+
+
+def max_scale(
+    scene: Scene, start: Pose, goal: Pose, tolerance: float = 0.01, progress: Progress | None = None
+) -> Interval:
+    """How large the robot may be: the factor about its reference point up to which a motion exists.
+
+    Parameters
+    ----------
+    scene, start, goal, tolerance, progress
+        As of `nearest_miss`.
+
+    Returns
+    -------
+    Interval
+        Scaled by `lo` start and goal are joined, by `hi` they are not, or one is forbidden. `hi` is infinite if a
+        robot 2**63 times as large gets there, `lo` is 0 if none 2**63 times smaller does.
+
+    Notes
+    -----
+    If every point of the robot sees its reference point a smaller one is inside it, and all scales below `lo` do. Else
+    some may not.
+
+    Examples
+    --------
+    >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
+    >>> scene = Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
+    >>> found = max_scale(scene, Pose(0, 5), Pose(0, -5))
+    >>> found.lo <= 1 <= found.hi <= 1.01 * found.lo
+    True
+    """
+    _check(tolerance)
+
+    def is_joined(scale: Fraction) -> bool:
+        robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
+        return _are_joined(_space(with_robot(scene, robot, scene.bounds)), start, goal)
+
+    lo, hi = _bracket(is_joined, Fraction(1))
+    if lo and hi:
+        lo, hi = _bisected(is_joined, lo, hi, tolerance, progress)
+    return Interval(float(lo), float(hi) if hi else math.inf)
+
+
+def max_margin(
+    scene: Scene, start: Pose, goal: Pose, tolerance: float = 0.01, progress: Progress | None = None
+) -> Interval:
+    """How far from everything a motion can stay: the largest uniform clearance to obstacles and workspace.
+
+    Parameters
+    ----------
+    scene, start, goal, tolerance, progress
+        As of `nearest_miss`.
+
+    Returns
+    -------
+    Interval
+        Some path has a clearance of `lo` all along, start and goal included; none has `hi`. A disc is decided by a
+        polygon of 16 sides around it, 2 % too wide at the corners; this is in the interval. `hi` is infinite if
+        nothing is in the way.
+
+    Raises
+    ------
+    ValueError
+        If start and goal are not joined at all.
+
+    Notes
+    -----
+    The robot grows by Minkowski sums of its convex pieces with the polygon, in fractions: it has many vertices then.
+
+    Examples
+    --------
+    >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
+    >>> scene = Scene([(0, 0), ("1/2", 0), (0, "1/2")], walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
+    >>> found = max_margin(scene, Pose(0, 5), Pose(0, -5), tolerance=0.05)
+    >>> found.lo < 1 - 2**0.5 / 8 < found.hi < 1.08 * found.lo      # the triangle's height is 2**0.5 / 4
+    True
+    """
+    _check(tolerance)
+    if not _are_joined(_space(scene), start, goal):
+        raise ValueError("start and goal are not joined; see cfree.nearest_miss")
+    disc, outer = _around_a_disc()
+
+    def is_joined(radius: Fraction) -> bool:
+        robot = [piece for part in scene.robot for piece in _sums(part, [(radius * x, radius * y) for x, y in disc])]
+        return _are_joined(_space(with_robot(scene, robot, scene.bounds)), start, goal)
+
+    lo, hi = _bracket(is_joined, Fraction(2) ** (size_power(scene) - 3))
+    if lo and hi:
+        lo, hi = _bisected(is_joined, lo, hi, tolerance, progress)
+    return Interval(float(lo), math.nextafter(float(hi) * outer, math.inf) if hi else math.inf)
+
+
+# --- decisions ---
+
+
+def _check(tolerance: float) -> None:
+    if not tolerance > 2.0 ** (2 - BITS):
+        raise ValueError(f"tolerance {tolerance}: give more than {2.0 ** (2 - BITS):g}")
+
+
+def _space(scene: Scene) -> FreeSpace:
+    return free_space(boundary(scene))
+
+
+def _are_joined(space: FreeSpace, start: Pose, goal: Pose) -> bool:
+    first, second = space.locate([start, goal]).tolist()
+    return bool(first == second >= 0)
+
+
+def _bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fraction, Fraction]:
+    """A number where something holds and a larger one where it does not, from steps that grow; 0 for none."""
+    step = 1
+    if holds(first):
+        lo = first
+        while step <= FARTHEST:
+            hi = lo * 2**step
+            if not holds(hi):
+                return lo, hi
+            lo, step = hi, 2 * step
+        return lo, Fraction(0)
+    hi = first
+    while step <= FARTHEST:
+        lo = hi / 2**step
+        if holds(lo):
+            return lo, hi
+        hi, step = lo, 2 * step
+    return Fraction(0), hi
+
+
+def _bisected(
+    holds: Callable[[Fraction], bool], lo: Fraction, hi: Fraction, tolerance: float, progress: Progress | None
+) -> tuple[Fraction, Fraction]:
+    """What holds at `lo` and not at `hi`: the same for numbers close together."""
+    whole = math.log(hi / lo)
+    while hi > lo * (1 + Fraction(tolerance)):
+        if progress is not None:
+            progress(1 - math.log2(1 + math.log(hi / lo) / tolerance) / math.log2(1 + whole / tolerance))
+        middle = _rounded(math.sqrt(lo) * math.sqrt(hi))
+        lo, hi = (middle, hi) if holds(middle) else (lo, middle)
+    if progress is not None:
+        progress(1.0)
+    return lo, hi
+
+
+def _rounded(value: float) -> Fraction:
+    """A number of few digits."""
+    grid = Fraction(2) ** (math.frexp(value)[1] - BITS)
+    return round(Fraction(value) / grid) * grid
+
+
+# --- robots ---
+
+
+def _mapped(polygon: Polygon, image: Callable[[ExactPoint], ExactPoint]) -> Polygon:
+    points = [image(p) for p in polygon.exact_vertices]
+    outer, *holes = (points[i:j] for i, j in zip(polygon.ring_offsets, polygon.ring_offsets[1:], strict=False))
+    return Polygon(outer, holes)
+
+
+def _around_a_disc() -> tuple[list[ExactPoint], float]:
+    """A polygon around the unit disc, and the radius of a disc around it."""
+    far, grid = (1 + 2**-20) / math.cos(math.pi / SIDES), 2**30
+    angles = [2 * math.pi * k / SIDES for k in range(SIDES)]
+    ring = [[Fraction(round(far * of(a) * grid), grid) for of in (math.cos, math.sin)] for a in angles]
+    return [(x, y) for x, y in ring], far * (1 + 2**-20)
+
+
+def _sums(polygon: Polygon, ring: list[ExactPoint]) -> list[Polygon]:
+    """Convex polygons that cover the Minkowski sum of a polygon and a convex ring."""
+    from cfree.verify.polygons import convex_sum
+
+    vertices = polygon.exact_vertices
+    return [Polygon(convex_sum([vertices[k] for k in piece], ring)) for piece in polygon.pieces]

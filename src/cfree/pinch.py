@@ -1,0 +1,191 @@
+"""Where does free space open when the robot gets a little smaller? A search by samples on the closed surfaces.
+
+A sample of the smaller robot's boundary has the same contact, t and theta on the larger one's: there it bounds a cell,
+or it is covered. Where neighbours bound different cells, or what is covered between them is connected, is a pinch.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict, deque
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cfree.features import BOUNDS, WORKSPACE
+from cfree.pose import Pose
+from cfree.trapezoids import Floats, Ints
+
+if TYPE_CHECKING:
+    from cfree.cells import FreeSpace
+
+COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a pinch
+MOST = 2000  # samples of a pinch that are compared
+COVERED = -1
+NAMES = {BOUNDS: "the bounds", WORKSPACE: "the workspace"}
+
+
+@dataclass(frozen=True)
+class Pinch:
+    """A narrow place.
+
+    Attributes
+    ----------
+    pose : Pose
+        Near the middle of it.
+    obstacles : (int, int)
+        What it is between; -1 is the bounds, -2 the workspace.
+    """
+
+    pose: Pose
+    obstacles: tuple[int, int]
+
+    def __str__(self) -> str:
+        one, other = (NAMES.get(k, f"obstacle {k}") for k in sorted(self.obstacles, reverse=True))
+        return f"{one} and {other} at {math.degrees(self.pose.theta):.3g} deg"
+
+
+@dataclass(frozen=True, eq=False)
+class Samples:
+    """Points on faces: a grid of n * n on each, row by row along theta, and neighbours among them, both ways."""
+
+    face: Ints
+    t: Floats
+    theta: Floats
+    one: Ints
+    other: Ints
+
+
+def pinches(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> tuple[Pinch, ...]:
+    """Pinches on a way from start to goal, apart for the larger robot and joined for the smaller; () if not found.
+
+    Notes
+    -----
+    Nothing is proved: samples may miss a pinch. It is found only if both robots have the same vertices.
+    """
+    if len(larger.boundary.features.robot.vertices) != len(smaller.boundary.features.robot.vertices):
+        return ()
+    samples = sampled(smaller, smaller.faces(int(smaller.locate(start))), COARSE)
+    label = labels(larger, smaller, samples)
+    group = _groups(label, samples)
+    found = []
+    for number in _route(label, group, samples, larger.locate([start, goal]).tolist()):
+        at = np.flatnonzero(group == number)
+        near = np.isin(samples.one, at)
+        faces = np.unique(samples.face[np.concatenate([at, samples.other[near]])])
+        pinch = _narrowest(larger, smaller, sampled(smaller, faces, FINE))
+        found += [] if pinch is None else [pinch]
+    return tuple(found)
+
+
+def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
+    """Samples on some faces of a space's walls."""
+    walls, table, cells = space.walls, space.walls.trapezoids, space.complex
+    share = (np.arange(n) + 0.5) / n
+    face = np.repeat(faces, n * n).astype(np.int32)
+    theta = table.theta_from[face] + np.tile(share, n * len(faces)) * (table.theta_to - table.theta_from)[face]
+    lower, upper = walls.limits(face, theta)
+    t = lower + np.tile(np.repeat(share, n), len(faces)) * (upper - lower)
+    first = np.full(len(cells.component), -1, np.int64)
+    first[faces] = np.arange(len(faces)) * n * n
+    place = np.arange(n * n).reshape(n, n)
+    steps = ((place[:-1], place[1:]), (place[:, :-1], place[:, 1:]))
+    inner = np.concatenate([np.column_stack([p.ravel(), q.ravel()]) for p, q in steps])
+    # all samples along a coedge are neighbours of all along its twin
+    at_side = np.stack([place[:, 0], place[-1], place[:, -1], place[0]])
+    coedge = np.flatnonzero((first[cells.face] >= 0) & (first[cells.face[cells.twin]] >= 0))
+    mine, theirs = (first[cells.face[h]][:, None] + at_side[cells.side[h]] for h in (coedge, cells.twin[coedge]))
+    across = np.stack(np.broadcast_arrays(mine[:, :, None], theirs[:, None, :]), axis=-1)
+    pairs = np.concatenate([(first[faces][:, None, None] + inner).reshape(-1, 2), across.reshape(-1, 2)])
+    one, other = np.concatenate([pairs, pairs[:, ::-1]]).T.astype(np.int32)
+    return Samples(face, t, theta, one, other)
+
+
+def labels(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Ints:
+    """The cell of the larger robot that each sample bounds, or COVERED."""
+    ours, theirs = smaller.walls, larger.walls
+    patch = ours.trapezoids.patch[samples.face]
+    contacts = [np.stack([b.contact_kind, b.contact_robot, b.contact_obstacle], axis=1) for b in (ours, theirs)]
+    number = {contact: k for k, contact in enumerate(map(tuple, contacts[1].tolist()))}
+    same = np.array([number.get(contact, -1) for contact in map(tuple, contacts[0].tolist())])[patch]
+    count = np.where(same >= 0, theirs.patch_start[same + 1] - theirs.patch_start[same], 0)
+    sample = np.repeat(np.arange(len(patch)), count)
+    place = np.arange(len(sample)) - np.repeat(np.cumsum(count) - count, count)
+    trapezoid = (theirs.patch_start[same[sample]] + place).astype(np.int32)
+    table, theta, t = theirs.trapezoids, samples.theta[sample], samples.t[sample]
+    there = (table.theta_from[trapezoid] <= theta) & (theta <= table.theta_to[trapezoid])
+    sample, trapezoid, theta, t = sample[there], trapezoid[there], theta[there], t[there]
+    lower, upper = theirs.limits(trapezoid, theta)
+    within = (lower <= t) & (t <= upper)
+    found = np.full(len(patch), COVERED, np.int32)
+    found[sample[within]] = larger.cell_of[larger.component[trapezoid[within]]]
+    return found
+
+
+def _groups(label: Ints, samples: Samples) -> Ints:
+    """Candidates, by number: what is covered and connected; and samples beside ones that bound another cell."""
+    covered = label == COVERED
+    number = np.where(covered, np.arange(len(label)), -1).astype(np.int32)
+    both = covered[samples.one] & covered[samples.other]
+    one, other = samples.one[both], samples.other[both]
+    while True:
+        before = number.copy()
+        np.minimum.at(number, one, number[other])
+        number = np.where(covered, number[number], -1).astype(np.int32)
+        if np.array_equal(number, before):
+            break
+    a, b = label[samples.one], label[samples.other]
+    beside = (a >= 0) & (b >= 0) & (a != b)
+    pair = np.minimum(a, b)[beside] * (int(label.max(initial=0)) + 1) + np.maximum(a, b)[beside]
+    number[samples.one[beside]] = len(label) + pair
+    return number
+
+
+def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list[int]:
+    """Candidates on the shortest way from one cell to another."""
+    links = np.column_stack([group[samples.one], label[samples.other]])
+    links = np.concatenate([links, np.column_stack([group, label])])
+    around: dict[tuple[str, int], list[tuple[str, int]]] = defaultdict(list)
+    for number, cell in np.unique(links[(links >= 0).all(axis=1)], axis=0).tolist():
+        around["pinch", number].append(("cell", cell))
+        around["cell", cell].append(("pinch", number))
+    first, last = ("cell", cells[0]), ("cell", cells[1])
+    came, todo = {first: first}, deque([first])
+    while todo and last not in came:
+        place = todo.popleft()
+        for following in around[place]:
+            if following not in came:
+                came[following] = place
+                todo.append(following)
+    route, place = [], last if last in came else first
+    while place != first:
+        route += [place[1]] if place[0] == "pinch" else []
+        place = came[place]
+    return route[::-1]
+
+
+def _narrowest(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Pinch | None:
+    """Between the two closest samples at a pinch that face each other."""
+    group = _groups(labels(larger, smaller, samples), samples)
+    chosen = np.flatnonzero(group >= 0)
+    k = chosen[:: -(-len(chosen) // MOST) or 1]
+    walls, theta = smaller.walls, samples.theta[k]
+    patch = walls.trapezoids.patch[samples.face[k]]
+    xy, first, last = (walls.evaluate(patch, t, theta) for t in (samples.t[k], np.zeros(len(k)), np.ones(len(k))))
+    along = last - first
+    along /= np.hypot(*along.T)[:, None]
+    step, turned = xy[None] - xy[:, None], np.abs(np.mod(theta[None] - theta[:, None] + math.pi, math.tau) - math.pi)
+    distance = np.hypot(step[..., 0], step[..., 1]) + _reach(smaller) * turned
+    distance[along @ along.T > -0.5] = np.inf
+    if not np.isfinite(distance).any():
+        return None
+    i, j = np.unravel_index(int(distance.argmin()), distance.shape)
+    owner = walls.features.obstacles.owner_polygon[walls.contact_obstacle[patch]]
+    x, y = ((xy[i] + xy[j]) / 2).tolist()
+    return Pinch(Pose(x, y, float(theta[i])), (int(owner[i]), int(owner[j])))
+
+
+def _reach(space: FreeSpace) -> float:
+    """How far the robot's farthest vertex is from its reference point."""
+    return float(np.hypot(*space.boundary.features.robot.xy.T).max())
