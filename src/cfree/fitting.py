@@ -148,8 +148,9 @@ class Orientations:
 
     def _runs(self) -> list[_Run]:
         """Unions of intervals that meet."""
-        spans: list[tuple[_End, _End]] = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
-        spans.sort(key=cmp_to_key(lambda p, q: _compare(p[0], q[0])))
+        spans = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
+        key = cmp_to_key(_compare)
+        spans.sort(key=lambda span: key(span[0]))
         runs: list[_Run] = []
         for start, stop in spans:
             if not runs or _compare(runs[-1].stop, start) < 0:

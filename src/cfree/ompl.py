@@ -27,33 +27,16 @@ except ImportError as error:
 
 from cfree.free import Checker
 from cfree.invalid import require_free
-from cfree.motion import Motion, Rotation, Translation
+from cfree.motion import Motion
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
+from cfree.planning.search import motion_between
 from cfree.pose import Pose
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
 
 MOST_HALVINGS = 30
-
-
-def motion_between(start: Pose, goal: Pose) -> Motion:
-    """The rotation about a pole, by at most half a turn, that leads from one pose to another; else the translation.
-
-    Examples
-    --------
-    >>> motion = motion_between(Pose(1, 0), Pose(3, 2, "90deg"))
-    >>> motion == Rotation((1, 2), "90deg"), motion.apply(Pose(1, 0)) == Pose(3, 2, "90deg")
-    (True, True)
-    """
-    dx, dy = goal.x - start.x, goal.y - start.y
-    tau = (goal @ start.inverse()).tau
-    if tau == 0:
-        return Translation((dx, dy))
-    cotangent = 0 if tau is None else 1 / tau
-    pole = start.x + (dx - cotangent * dy) / 2, start.y + (dy + cotangent * dx) / 2
-    return Rotation(pole, {"tau": tau})
 
 
 def pose_of(state: Any) -> Pose:
@@ -124,7 +107,7 @@ class LinearMotionValidator(ob.MotionValidator):
 
 def linear_is_free(checker: Checker, start: Any, goal: Any) -> bool:
     """Whether x, y and yaw may change evenly from one state to another, the yaw the shorter way round."""
-    return checker.sweep_is_free(*_sweep(start, goal))
+    return checker.sweep_is_free(*sweep_of(start, goal))
 
 
 def simple_setup(scene: Scene) -> Any:
@@ -177,7 +160,7 @@ def to_path(path: Any, scene: Scene) -> Path:
     checker, states = MotionChecker(scene), path.getStates()
     motions: list[Motion] = []
     for k, (start, goal) in enumerate(pairwise(states)):
-        sweep = _sweep(start, goal)
+        sweep = sweep_of(start, goal)
         whole = pose_of(start), pose_of(goal)
         todo = [(0.0, 1.0, *whole)]
         while todo:
@@ -194,7 +177,7 @@ def to_path(path: Any, scene: Scene) -> Path:
     return Path(pose_of(states[0]), motions, units=scene.units)
 
 
-def _sweep(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+def sweep_of(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     """Where the motion of OMPL's SE2StateSpace begins, and what it adds."""
     x, y, yaw = start.getX(), start.getY(), start.getYaw()
     turn = goal.getYaw() - yaw
