@@ -144,6 +144,23 @@ def test_motions_between_poses_are_exact(exact: Any) -> None:
         assert isinstance(motion, Translation if k % 4 == 0 else Translation | Rotation)
 
 
+def test_half_turns_are_free_both_ways(exact: Any) -> None:
+    from ompl import base
+
+    rod = Scene(box(-3, 0, 0, "1/2")[0], [box(-1, -4, 1, -1)[0]])
+    space = exact.state_space(rod)
+    si = base.SpaceInformation(space)
+    si.setStateValidityChecker(exact.StateValidityChecker(si, Checker(rod)))
+    left, right = space.allocState(), space.allocState()
+    exact.set_pose(left, 0, 0, 0)
+    exact.set_pose(right, 0, 0, math.pi)
+    checker = MotionChecker(rod)
+    ways = [checker.is_free(exact.pose_of(p), Rotation((0, 0), {"tau": None})) for p in (left, right)]
+    assert ways == [False, True]
+    valid = exact.MotionValidator(si, checker)
+    assert not valid.checkMotion(left, right) and not valid.checkMotion(right, left)
+
+
 def test_validity_is_exact(exact: Any) -> None:
     from ompl import base
 

@@ -87,8 +87,12 @@ class MotionValidator(ob.MotionValidator):
     def checkMotion(self, start: Any, goal: Any) -> bool:
         if not self._si.isValid(goal):
             return False
-        first = pose_of(start)
-        return self._checker.is_free(first, motion_between(first, pose_of(goal)))
+        first, last = pose_of(start), pose_of(goal)
+        motion, back = motion_between(first, last), motion_between(last, first)
+        # half a turn is counter-clockwise either way, and planners use motions both ways
+        return self._checker.is_free(first, motion) and (
+            motion.displacement.tau is not None or self._checker.is_free(last, back)
+        )
 
 
 class LinearMotionValidator(ob.MotionValidator):
