@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 from measure import REAL, SCENES, Report, timed
@@ -86,6 +87,11 @@ def flat(pieces: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def numba_test(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> Rival:
+    free, tables = numba_kernel(robot, obstacles)
+    return lambda poses: free(poses, *tables)
+
+
+def numba_kernel(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> tuple[Any, tuple[np.ndarray, ...]]:
     """All pairs of pieces: boxes first, then all edges as axes, until one separates. Doubles, no error bound."""
     import numba
 
@@ -128,8 +134,7 @@ def numba_test(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> Rival:
         return out
 
     boxes = np.array([[*piece.min(axis=0), *piece.max(axis=0)] for piece in obstacles])
-    tables = (*flat(robot), *flat(obstacles), boxes)
-    return lambda poses: free(poses, *tables)
+    return free, (*flat(robot), *flat(obstacles), boxes)
 
 
 def fcl_test(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> Rival:

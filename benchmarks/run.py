@@ -18,7 +18,7 @@ from measure import Report, machine
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = ("boundary", "exact", "growth", "threads", "slice", "surface", "mesh", "free", "cells", "start")
+BENCHES = ("boundary", "exact", "growth", "threads", "slice", "surface", "mesh", "free", "cells", "plan", "start")
 
 
 def main() -> int:

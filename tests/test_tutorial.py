@@ -17,3 +17,11 @@ def test_the_paper_in_15_minutes(capsys: pytest.CaptureFixture[str], monkeypatch
     assert "'VertexEdge': 9, 'EdgeVertex': 9, 'VertexVertex': 9, 'EdgeEdge': 9" in said
     assert "Euler number [0]" in said
     assert said.rstrip().endswith("True")  # the robot's point is at the obstacle's vertex, exactly
+
+
+def test_ompl_without_collisions(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("ompl", reason="the extra `ompl` is not installed")
+    monkeypatch.chdir(GALLERY.parents[1])
+    found = runpy.run_path(str(GALLERY / "plot_ompl_without_collisions.py"))
+    said = capsys.readouterr().out
+    assert "motions, free: True" in said and found["clearance"].least > 0

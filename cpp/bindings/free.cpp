@@ -27,6 +27,7 @@ void bind_free(nb::module_& m) {
             nb::gil_scoped_release release;
             c.check(poses.data(), poses.shape(0), threads, reinterpret_cast<cfree::Verdict*>(out.data()));
         }, "poses"_a, "threads"_a, "out"_a)
+        .def("sweep_is_free", &cfree::Checker::sweep_is_free, "start"_a, "by"_a)
         .def("is_free", [](const cfree::Checker& c, std::array<double, 4> placement, const nb::int_& cos, const nb::int_& sin,
                            const nb::int_& w, const nb::int_& x, const nb::int_& y, const nb::int_& unit) {
             const auto [px, py, pc, ps] = placement;

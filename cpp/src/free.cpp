@@ -292,6 +292,34 @@ void Checker::check(const double* poses, std::size_t count, int threads, Verdict
     });
 }
 
+// Halved until all poses of a part, which are around its middle, have one verdict. The middle's roundings, and those of
+// distances from where the robot is farther away than `margin` allows for, are within the slack.
+bool Checker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {
+    constexpr double rounding = 0x1p-44;
+    constexpr int deepest = 20;
+    const auto within = [&](double x, double y) { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; };
+    if (!within(from[0], from[1]) || !within(from[0] + by[0], from[1] + by[1])) return false;
+    const double length = std::hypot(by[0], by[1]) * (1 + rounding), angle = std::abs(by[2]) * (1 + rounding);
+    const double slack = rounding * (std::abs(from[0]) + std::abs(from[1]) + length), turned = rounding * (std::abs(from[2]) + angle);
+    std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
+    std::iota(all.begin(), all.end(), 0);
+    Placed placed(robot);
+    std::vector<std::pair<double, int>> parts{{0.5, 1}};  // middle, and how often halved
+    while (!parts.empty()) {
+        const auto [u, depth] = parts.back();
+        parts.pop_back();
+        const double half = std::ldexp(1, -depth), theta = from[2] + u * by[2];
+        placed.place({from[0] + u * by[0], from[1] + u * by[1], std::cos(theta), std::sin(theta)});
+        const Verdict all_of_it = against(placed, all.data(), all.size(), {half * length + slack, half * angle + turned},
+                                          [](Index, Index) { return Verdict::uncertain; });
+        if (all_of_it == Verdict::free) continue;
+        if (all_of_it == Verdict::forbidden || depth == deepest) return false;
+        parts.emplace_back(u - half / 2, depth + 1);
+        parts.emplace_back(u + half / 2, depth + 1);
+    }
+    return true;
+}
+
 bool Checker::is_free(const Placement& at, const ExactPlacement& exact) const {
     Placed placed(robot);
     placed.place(at);

@@ -105,11 +105,13 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
     >>> simplest_between(Fraction(33, 100), Fraction(34, 100))
     Fraction(1, 3)
     """
-    whole = -(-low.numerator // low.denominator)
-    if whole <= high:
-        return Fraction(whole)
-    floor = whole - 1
-    return floor + 1 / simplest_between(1 / (high - floor), 1 / (low - floor))
+    (a, b), (c, d) = low.as_integer_ratio(), high.as_integer_ratio()
+    p, q, previous_p, previous_q = 1, 0, 0, 1  # the last two convergents
+    while (whole := -(-a // b)) * d > c:
+        floor = whole - 1
+        p, q, previous_p, previous_q = floor * p + previous_p, floor * q + previous_q, p, q
+        a, b, c, d = d, c - floor * d, b, a - floor * b
+    return Fraction(whole * p + previous_p, whole * q + previous_q)
 
 
 def angle(x: int, y: int) -> float:

@@ -104,10 +104,6 @@ class _End:
         return self.reader.angle(self.columns, self.row, self.side, int(patches[self.row]))
 
 
-def _first_compared(p: tuple[_End, _End], q: tuple[_End, _End]) -> int:
-    return _compare(p[0], q[0])
-
-
 def _compare(p: _End, q: _End) -> int:
     """Order of two angles from the beginning of chart 0 on; the end of chart 0 is the beginning of chart 1."""
     if p.chart != q.chart:
@@ -152,8 +148,9 @@ class Orientations:
 
     def _runs(self) -> list[_Run]:
         """Unions of intervals that meet."""
-        spans: list[tuple[_End, _End]] = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
-        spans.sort(key=cmp_to_key(_first_compared))
+        spans = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
+        key = cmp_to_key(_compare)
+        spans.sort(key=lambda span: key(span[0]))
         runs: list[_Run] = []
         for start, stop in spans:
             if not runs or _compare(runs[-1].stop, start) < 0:

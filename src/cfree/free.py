@@ -131,6 +131,32 @@ class Checker:
             self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
         return verdicts
 
+    def sweep_is_free(self, start: ArrayLike, by: ArrayLike) -> bool:
+        """Are all poses free while x, y and theta change evenly? Certainly if True; False may mean too close to tell.
+
+        Parameters
+        ----------
+        start : (x, y, theta)
+            In radians.
+        by : (dx, dy, dtheta)
+            What is added on the way.
+
+        Notes
+        -----
+        No rotation about a pole and no translation, if something of both changes: the motion is halved until the robot,
+        grown by as much as it moves in a part, keeps its distance. What touches is never told to be free.
+
+        Examples
+        --------
+        >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+        >>> checker = Checker(Scene(robot=square, obstacles=[(3, 0), (4, 0), (4, 3)]))
+        >>> checker.sweep_is_free((0, 0, 0), (1.5, 0, 0.5)), checker.sweep_is_free((0, 0, 0), (9, 0, 0.5))
+        (True, False)
+        """
+        first, change = (np.asarray(each, float).tolist() for each in (start, by))
+        free: bool = self._core.sweep_is_free(first, change)
+        return free
+
     def _is_free_exactly(self, pose: Pose) -> bool:
         x0, y0, x1, y1 = self.limits
         if not (x0 <= pose.x <= x1 and y0 <= pose.y <= y1):

@@ -38,6 +38,10 @@ public:
     // One pose within the limits, exactly.
     bool is_free(const Placement& at, const ExactPlacement& exact) const;
 
+    // Certainly free are all poses from + u (by), u in [0, 1]: x, y and theta, radians, change evenly. False may mean that
+    // they come too close to tell.
+    bool sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const;
+
 private:
     // Convex pieces, edge k from vertex k, with its outward unit normal n and n . vertex.
     struct Pieces {

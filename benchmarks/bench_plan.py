@@ -1,0 +1,216 @@
+"""From start to goal: `cfree.plan` beside OMPL's RRTConnect with a motion test compiled by numba.
+
+OMPL's test looks at poses a step apart: a hundredth of the space's extent, its default, or a thousandth. Its paths are
+looked at again, by `Checker.sweep_is_free` and at a hundred times as many poses. CAP=5 in the environment gives it five
+seconds a run instead of thirty.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from bench_free import numba_kernel, pieces_of
+from measure import REAL, SCENES, Report, measured
+
+import cfree
+from cfree.features import scene_features
+
+CAP, RUNS, ROUNDS, IMPROVE = float(os.environ.get("CAP", 30)), 5, 5, 1.0
+STEPS = {"default": 0.01, "fine": 0.001}
+FINER = 100
+
+
+def run(quick: bool) -> Report:
+    report = Report(
+        "From start to goal",
+        ("scene", "answer", "cfree ms", "RRTConnect ms", "solved", "clip", "fine ms", "solved", "clip", "fine / cfree",
+         "length", "OMPL's", "ratio"),
+        notes=[
+            f"cfree: a scene just read; RRTConnect: to its first exact solution, {RUNS} runs of at most {CAP:g} s",
+            "clip: solutions that are not free; those with ? come too close to an obstacle to tell",
+            f"length: travel + robot's radius x turning, after {IMPROVE:g} s of improvement",
+            "OMPL's: of the fine ones, simplified for as long, the median of those that do not clip",
+        ],
+    )  # fmt: skip
+    missing = [name for name in ("numba", "ompl") if find_spec(name) is None]
+    if missing:
+        report.notes.append(f"nothing to compare: no {', no '.join(missing)}; pip install -e '.[bench,ompl]'")
+        return report
+    names = [*REAL, *sorted(path.stem for path in SCENES.glob("*.json") if path.stem not in REAL)]
+    rows = [compare(name, report, quick) for name in (names[:1] if quick else names)]
+    times = [row.time_ratio for row in rows]
+    report.figure("plan, share of RRTConnect's time (fine)", f"median of {len(rows)} scenes", median(times), "<=", 1)
+    lengths = [row.length_ratio for row in rows if math.isfinite(row.length_ratio)]
+    report.figure("plan, length to OMPL's simplified", f"median of {len(lengths)} scenes", median(lengths), "<=", 1.05)
+    report.figure("plan, paths that are free", f"{len(rows)} scenes", min(row.free for row in rows), ">=", 1)
+    return report
+
+
+@dataclass(slots=True)
+class Row:
+    time_ratio: float
+    length_ratio: float
+    free: bool
+
+
+@dataclass(slots=True)
+class Runs:
+    """Of one planner on one scene."""
+
+    seconds: list[float] = field(default_factory=list)
+    solved: int = 0
+    clip: int = 0
+    undecided: int = 0
+    lengths: list[float] = field(default_factory=list)
+
+    def text(self) -> tuple[str, str, str]:
+        times = [1e3 * s for s in self.seconds]
+        clip = str(self.clip) + (f" +{self.undecided}?" if self.undecided else "")
+        return f"{median(times):.3g} ({min(times):.3g}–{max(times):.3g})", f"{self.solved}/{len(times)}", clip
+
+
+def compare(name: str, report: Report, quick: bool) -> Row:
+    scene = cfree.load_scene(SCENES / f"{name}.json")
+    cap, runs = (2.0, 1) if quick else (CAP, RUNS)
+    (ours,) = measured(lambda: seconds_of(ours_on(name)), rounds=1 if quick else ROUNDS)
+    answer = cfree.plan(scene, improve=IMPROVE)
+    found = isinstance(answer, cfree.Path)
+    rivals = {key: rival(scene, step, cap, runs) for key, step in STEPS.items()}
+    scale = robot_radius(scene)
+    length = answer.length + scale * answer.turning if found else math.nan
+    theirs = median(rivals["fine"].lengths)
+    time_ratio = ours.best / min(rivals["fine"].seconds)
+    report.rows.append((
+        name, "path" if found else "separated", ours.text(), *rivals["default"].text(), *rivals["fine"].text(),
+        f"{1 / time_ratio:.3g}", f"{length:.4g}", f"{theirs:.4g}", f"{length / theirs:.3g}",
+    ))  # fmt: skip
+    free = not found or answer.is_free(cfree.MotionChecker(scene))
+    return Row(time_ratio, length / theirs, free)
+
+
+def ours_on(name: str) -> Callable[[], Any]:
+    """A plan of a scene that nothing is known of yet."""
+    scene = cfree.load_scene(SCENES / f"{name}.json")
+    return lambda: cfree.plan(scene)
+
+
+def seconds_of(call: Callable[[], Any]) -> float:
+    start = time.perf_counter()
+    call()
+    return time.perf_counter() - start
+
+
+def rival(scene: cfree.Scene, step: float, cap: float, runs: int) -> Runs:
+    from ompl import geometric, util
+
+    util.setLogLevel(util.LogLevel.LOG_NONE)
+    test = motion_test(scene)
+    result, checker = Runs(), cfree.Checker(scene)
+    for _ in range(runs):
+        setup = prepared(scene, test, step)
+        setup.setPlanner(geometric.RRTConnect(setup.getSpaceInformation()))
+        setup.setup()
+        result.seconds.append(seconds_of(lambda setup=setup: setup.solve(cap)))
+        if not setup.haveExactSolutionPath():
+            continue
+        result.solved += 1
+        verdict = looked_at_again(checker, setup, step)
+        result.clip += verdict == "clips"
+        result.undecided += verdict == "undecided"
+        setup.simplifySolution(IMPROVE)
+        if looked_at_again(checker, setup, step) != "clips":
+            result.lengths.append(length_of(setup, robot_radius(scene)))
+    return result
+
+
+def motion_test(scene: cfree.Scene) -> Callable[..., bool]:
+    """Are so many poses of the motion between two, the last included, free? One compiled call."""
+    import numba
+
+    features = scene_features(scene)
+    free, tables = numba_kernel(pieces_of(features.robot), pieces_of(features.obstacles) or [np.full((3, 2), 1e300)])
+
+    @numba.njit
+    def test(x, y, theta, dx, dy, turn, count, a, a_first, b, b_first, boxes):
+        row = np.empty((1, 3))
+        for k in range(count, 0, -1):
+            u = k / count
+            row[0, 0], row[0, 1], row[0, 2] = x + u * dx, y + u * dy, theta + u * turn
+            if not free(row, a, a_first, b, b_first, boxes)[0]:
+                return False
+        return True
+
+    test(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1, *tables)
+    return lambda *motion: test(*motion, *tables)
+
+
+def prepared(scene: cfree.Scene, test: Callable[..., bool], step: float) -> Any:
+    from ompl import base, geometric
+
+    from cfree.ompl import set_pose, state_space, sweep_of
+
+    space = state_space(scene)
+    setup = geometric.SimpleSetup(space)
+    longest = step * space.getMaximumExtent()
+
+    class Valid(base.StateValidityChecker):
+        def isValid(self, state: Any) -> bool:
+            return space.satisfiesBounds(state) and test(state.getX(), state.getY(), state.getYaw(), 0.0, 0.0, 0.0, 1)
+
+    class Motions(base.MotionValidator):
+        def checkMotion(self, start: Any, goal: Any) -> bool:
+            pose, by = sweep_of(start, goal)
+            count = max(1, math.ceil((math.hypot(by[0], by[1]) + 0.5 * abs(by[2])) / longest))
+            return space.satisfiesBounds(goal) and test(*pose, *by, count)
+
+    si = setup.getSpaceInformation()
+    setup.setStateValidityChecker(Valid(si))
+    si.setMotionValidator(Motions(si))
+    ends = []
+    for pose in (scene.start, scene.goal):
+        state = space.allocState()
+        set_pose(state, float(pose.x), float(pose.y), pose.theta)
+        ends.append(state)
+    setup.setStartAndGoalStates(*ends)
+    return setup
+
+
+def looked_at_again(checker: cfree.Checker, setup: Any, step: float) -> str:
+    """Whether a path of OMPL is free, clips, or comes too close to an obstacle to tell."""
+    from cfree.ompl import sweep_of
+
+    longest = step * setup.getStateSpace().getMaximumExtent() / FINER
+    verdict = "free"
+    for start, goal in pairwise(setup.getSolutionPath().getStates()):
+        pose, by = sweep_of(start, goal)
+        if checker.sweep_is_free(pose, by):
+            continue
+        count = math.ceil((math.hypot(by[0], by[1]) + 0.5 * abs(by[2])) / longest) + 1
+        if not checker.is_free(np.array(pose) + np.linspace(0, 1, count)[:, None] * np.array(by)).all():
+            return "clips"
+        verdict = "undecided"
+    return verdict
+
+
+def length_of(setup: Any, scale: float) -> float:
+    from cfree.ompl import sweep_of
+
+    steps = [sweep_of(*ends)[1] for ends in pairwise(setup.getSolutionPath().getStates())]
+    return sum(math.hypot(dx, dy) + scale * abs(turn) for dx, dy, turn in steps)
+
+
+def robot_radius(scene: cfree.Scene) -> float:
+    return max(float(np.hypot(*part.vertices.T).max()) for part in scene.robot)
+
+
+def median(values: list[float]) -> float:
+    return statistics.median(values) if values else math.nan

@@ -1,0 +1,203 @@
+"""OMPL with exact checks: every motion that a planner accepts is proved free. Needs the extra ``ompl``.
+
+A state of OMPL's SE2StateSpace means the exact `Pose` of its x, y and yaw. Of two kinds of motion between states:
+
+- `LinearMotionValidator`: OMPL's own, x, y and yaw changing evenly; certified, conservatively. What OMPL makes of
+  accepted motions, simplified paths for example, are parts of them, and as free.
+- `MotionValidator`: the rotation about a pole, or translation (Chasles), that leads from one exact pose to the other;
+  decided exactly, so that touching is free. Python cannot give OMPL (2.0) another interpolation, so it must not divide
+  such motions: of its simplifiers only `reduceVertices` and `collapseCloseVertices` do not.
+
+`to_path` makes a `Path` of what either has found, proved free once more.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+try:
+    from ompl import base as ob
+    from ompl import geometric as og
+except ImportError as error:
+    raise ImportError("cfree.ompl needs OMPL; install it: pip install 'cfree[ompl]'", name="ompl") from error
+
+from cfree.free import Checker
+from cfree.invalid import require_free
+from cfree.motion import Motion
+from cfree.motion_check import MotionChecker
+from cfree.path import Path
+from cfree.planning.search import motion_between
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
+
+MOST_HALVINGS = 30
+
+
+def pose_of(state: Any) -> Pose:
+    """The exact pose that an SE(2) state means."""
+    return Pose(state.getX(), state.getY(), state.getYaw())
+
+
+def set_pose(state: Any, x: float, y: float, theta: float) -> None:
+    """Write a pose into an SE(2) state, its yaw in [-pi, pi)."""
+    yaw = math.remainder(theta, math.tau)
+    state.setXY(x, y)
+    state.setYaw(yaw if yaw < math.pi else -math.pi)
+
+
+def state_space(scene: Scene) -> Any:
+    """OMPL's SE2StateSpace with limits for positions.
+
+    They are the bounds of the scene; else the box of its workspace; else that of obstacles, start and goal, larger by
+    twice the robot's radius.
+    """
+    space, limits = ob.SE2StateSpace(), ob.RealVectorBounds(2)
+    for k, (low, high) in enumerate(_box(scene)):
+        limits.setLow(k, low)
+        limits.setHigh(k, high)
+    space.setBounds(limits)
+    return space
+
+
+class StateValidityChecker(ob.StateValidityChecker):
+    """Whether states are within the space's bounds and free, exactly; touching is free."""
+
+    def __init__(self, si: Any, checker: Checker) -> None:
+        super().__init__(si)
+        self._space, self._checker = si.getStateSpace(), checker
+
+    def isValid(self, state: Any) -> bool:
+        rows = [(state.getX(), state.getY(), state.getYaw())]
+        return self._space.satisfiesBounds(state) and bool(self._checker.is_free(rows, threads=1)[0])
+
+
+class MotionValidator(ob.MotionValidator):
+    """Whether the rotation or translation from one state to another is free: decided exactly, in closed form."""
+
+    def __init__(self, si: Any, checker: MotionChecker) -> None:
+        super().__init__(si)
+        self._si, self._checker = si, checker
+
+    def checkMotion(self, start: Any, goal: Any) -> bool:
+        if not self._si.isValid(goal):
+            return False
+        first, last = pose_of(start), pose_of(goal)
+        motion, back = motion_between(first, last), motion_between(last, first)
+        # half a turn is counter-clockwise either way, and planners use motions both ways
+        return self._checker.is_free(first, motion) and (
+            motion.displacement.tau is not None or self._checker.is_free(last, back)
+        )
+
+
+class LinearMotionValidator(ob.MotionValidator):
+    """Whether the motion of OMPL's SE2StateSpace between two states is certainly free; see `Checker.sweep_is_free`.
+
+    Never says so of a motion that is not. It may refuse one that comes very close to an obstacle.
+    """
+
+    def __init__(self, si: Any, checker: Checker) -> None:
+        super().__init__(si)
+        self._checker = checker
+
+    def checkMotion(self, start: Any, goal: Any) -> bool:
+        return linear_is_free(self._checker, start, goal)
+
+
+def linear_is_free(checker: Checker, start: Any, goal: Any) -> bool:
+    """Whether x, y and yaw may change evenly from one state to another, the yaw the shorter way round."""
+    return checker.sweep_is_free(*sweep_of(start, goal))
+
+
+def simple_setup(scene: Scene) -> Any:
+    """An ``ompl.geometric.SimpleSetup`` for a scene with start and goal, its states exact, its motions certified.
+
+    Raises
+    ------
+    ValueError
+        If the scene has no start or no goal.
+    InvalidPoseError
+        If one of them is forbidden; the message names what overlaps what, and a free pose near by.
+    """
+    if scene.start is None or scene.goal is None:
+        raise ValueError(f"{scene.name or 'the scene'} has no start or no goal; give both")
+    checker = Checker(scene)
+    space = state_space(scene)
+    setup = og.SimpleSetup(space)
+    si = setup.getSpaceInformation()
+    setup.setStateValidityChecker(StateValidityChecker(si, checker))
+    si.setMotionValidator(LinearMotionValidator(si, checker))
+    states = []
+    for name, pose in (("start", scene.start), ("goal", scene.goal)):
+        state = space.allocState()
+        set_pose(state, float(pose.x), float(pose.y), pose.theta)
+        require_free(checker, pose_of(state), name)
+        states.append(state)
+    setup.setStartAndGoalStates(*states)
+    return setup
+
+
+def to_path(path: Any, scene: Scene) -> Path:
+    """The rotations and translations through the states of an OMPL path, proved free.
+
+    Parameters
+    ----------
+    path : ompl.geometric.PathGeometric
+    scene : Scene
+
+    Returns
+    -------
+    Path
+        From the exact pose of the first state to that of the last. Where the rotation from one state to the next is not
+        free, the motion is halved as OMPL does, until the parts are.
+
+    Raises
+    ------
+    ValueError
+        If a motion halved thirty times is not free; the message says which. Motions of `LinearMotionValidator` are.
+    """
+    checker, states = MotionChecker(scene), path.getStates()
+    motions: list[Motion] = []
+    for k, (start, goal) in enumerate(pairwise(states)):
+        sweep = sweep_of(start, goal)
+        whole = pose_of(start), pose_of(goal)
+        todo = [(0.0, 1.0, *whole)]
+        while todo:
+            low, high, first, last = todo.pop()
+            motion = motion_between(first, last)
+            if checker.is_free(first, motion):
+                motions.append(motion)
+                continue
+            if high - low < 2.0**-MOST_HALVINGS:
+                raise ValueError(f"motion {k} of {len(states) - 1} is not free near {low:.6g} of it")
+            half = (low + high) / 2
+            middle = Pose(*(a + half * d for a, d in zip(*sweep, strict=True)))
+            todo += [(half, high, middle, last), (low, half, first, middle)]
+    return Path(pose_of(states[0]), motions, units=scene.units)
+
+
+def sweep_of(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Where the motion of OMPL's SE2StateSpace begins, and what it adds."""
+    x, y, yaw = start.getX(), start.getY(), start.getYaw()
+    turn = goal.getYaw() - yaw
+    if abs(turn) > math.pi:
+        turn -= math.copysign(math.tau, turn)
+    return (x, y, yaw), (goal.getX() - x, goal.getY() - y, turn)
+
+
+def _box(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        return (x0, x1), (y0, y1)
+    shapes = [scene.workspace] if scene.workspace is not None else list(scene.obstacles)
+    points = [shape.vertices for shape in shapes]
+    points += [np.array([[float(q.x), float(q.y)]]) for q in (scene.start, scene.goal) if q is not None]
+    robot = np.concatenate([part.vertices for part in scene.robot])
+    reach = 0.0 if scene.workspace is not None else 2 * float(np.hypot(*robot.T).max())
+    low, high = np.min([p.min(0) for p in points], axis=0) - reach, np.max([p.max(0) for p in points], axis=0) + reach
+    return (float(low[0]), float(high[0])), (float(low[1]), float(high[1]))

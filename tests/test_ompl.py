@@ -1,0 +1,208 @@
+"""OMPL's own planners with exact checks: what they accept is free; the conservative check of even motions."""
+
+from __future__ import annotations
+
+import importlib
+import math
+import sys
+from fractions import Fraction
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import oracles
+from cfree import Checker, InvalidPoseError, MotionChecker, Pose, Rotation, Scene, Translation, load_scene
+from compared import plain_of, scene_of
+from shapes import KINDS, box, random_scene
+
+ROOT = Path(__file__).parents[1]
+
+
+@pytest.fixture
+def exact() -> Any:
+    pytest.importorskip("ompl", reason="the extra `ompl` is not installed")
+    from ompl import util
+
+    util.setLogLevel(util.LogLevel.LOG_ERROR)
+    return importlib.import_module("cfree.ompl")
+
+
+def test_without_ompl_there_is_one_clear_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "ompl", None)
+    monkeypatch.delitem(sys.modules, "cfree.ompl", raising=False)
+    with pytest.raises(ImportError, match=r"pip install 'cfree\[ompl\]'"):
+        importlib.import_module("cfree.ompl")
+
+
+ROOM = Scene(
+    robot=box(-2, "-1/2", 2, "1/2")[0],
+    obstacles=[box(0, 0, 1, 8)[0], box(4, 3, 5, 12)[0]],
+    bounds=(-6, -2, 12, 12),
+    start=Pose(-4, 5),
+    goal=Pose(9, 6, "180deg"),
+)
+
+
+PLANNERS = ["RRTConnect", "RRT", "RRTstar", "PRM", "KPIECE1", "LBKPIECE1"]
+
+
+@pytest.mark.parametrize("planner", PLANNERS)
+@pytest.mark.parametrize("kind", ["linear", "rotation"])
+def test_what_planners_find_is_free(exact: Any, planner: str, kind: str) -> None:
+    from ompl import geometric
+
+    setup = exact.simple_setup(ROOM)
+    si, checker = setup.getSpaceInformation(), MotionChecker(ROOM)
+    setup.setPlanner(getattr(geometric, planner)(si))
+    if kind == "rotation":
+        si.setMotionValidator(exact.MotionValidator(si, checker))
+    setup.solve(1.0 if planner == "RRTstar" else 10.0)
+    if not setup.haveExactSolutionPath():
+        pytest.skip("no solution in time")
+    path = setup.getSolutionPath()
+    found = exact.to_path(path, ROOM)
+    assert found.is_free(checker)
+    assert (found.start, found.goal) == (ROOM.start, ROOM.goal)
+    if kind == "rotation":  # every motion is one that was proved
+        assert len(found.motions) == path.getStateCount() - 1
+        simplifier = geometric.PathSimplifier(si)
+        simplifier.reduceVertices(path)
+        simplifier.collapseCloseVertices(path)
+        assert len(exact.to_path(path, ROOM).motions) == path.getStateCount() - 1
+    else:
+        setup.simplifySolution(1.0)
+        states = path.getStates()
+        assert all(exact.linear_is_free(Checker(ROOM), p, q) for p, q in pairwise(states))
+        assert exact.to_path(path, ROOM).is_free(checker)
+
+
+def test_the_car_park(exact: Any) -> None:
+    scene = load_scene(ROOT / "examples/scenes/benchmr_parking1.json")
+    setup = exact.simple_setup(scene)
+    assert setup.solve(60.0) and setup.haveExactSolutionPath()
+    setup.simplifySolution(0.5)
+    found = exact.to_path(setup.getSolutionPath(), scene)
+    assert found.is_free(MotionChecker(scene)) and found.units == scene.units
+
+
+def test_a_path_that_is_not_free_is_refused(exact: Any) -> None:
+    from ompl import base, geometric
+
+    space = exact.state_space(ROOM)
+    si = base.SpaceInformation(space)
+    start, goal = space.allocState(), space.allocState()
+    exact.set_pose(start, -4, 0, 0)
+    exact.set_pose(goal, 9, 1, 0)
+    with pytest.raises(ValueError, match="motion 0 of 1 is not free near 0"):
+        exact.to_path(geometric.PathGeometric(si, start, goal), ROOM)
+
+
+def test_ompl_has_no_use_for_an_interpolation_of_ours(exact: Any) -> None:
+    # if this fails, OMPL's bindings call Python's `interpolate`: then let the space rotate about poles
+    from ompl import base, geometric
+
+    calls = []
+
+    class Space(base.SE2StateSpace):  # type: ignore[misc]
+        def interpolate(self, *args: Any) -> None:
+            calls.append(args)
+
+    space, limits = Space(), base.RealVectorBounds(2)
+    limits.setLow(-1)
+    limits.setHigh(1)
+    space.setBounds(limits)
+    states = [space.allocState() for _ in range(2)]
+    for state in states:
+        exact.set_pose(state, 0, 0, 0)
+    geometric.PathGeometric(base.SpaceInformation(space), *states).subdivide()
+    assert not calls
+
+
+def test_start_and_goal_are_needed_and_free(exact: Any) -> None:
+    with pytest.raises(ValueError, match="no start or no goal"):
+        exact.simple_setup(Scene(ROOM.robot))
+    with pytest.raises(InvalidPoseError, match=r"goal .* is forbidden: robot part 0 overlaps obstacle 0"):
+        exact.simple_setup(Scene(ROOM.robot, ROOM.obstacles, start=Pose(-4, 5), goal=Pose(0, 0)))
+
+
+def test_motions_between_poses_are_exact(exact: Any) -> None:
+    rng = np.random.default_rng(0)
+    for k in range(200):
+        start, goal = (
+            Pose(*(Fraction(int(n), 7) for n in rng.integers(-9, 9, 2)), {"tau": Fraction(int(rng.integers(-5, 6)), 3)})
+            for _ in range(2)
+        )
+        if k % 4 == 0:
+            goal = Pose(goal.x, goal.y, {"tau": start.tau})
+        if k % 4 == 1:
+            goal = Pose(goal.x, goal.y, {"tau": -1 / start.tau if start.tau else None})
+        motion = exact.motion_between(start, goal)
+        assert motion.apply(start) == goal
+        assert isinstance(motion, Translation if k % 4 == 0 else Translation | Rotation)
+
+
+def test_half_turns_are_free_both_ways(exact: Any) -> None:
+    from ompl import base
+
+    rod = Scene(box(-3, 0, 0, "1/2")[0], [box(-1, -4, 1, -1)[0]])
+    space = exact.state_space(rod)
+    si = base.SpaceInformation(space)
+    si.setStateValidityChecker(exact.StateValidityChecker(si, Checker(rod)))
+    left, right = space.allocState(), space.allocState()
+    exact.set_pose(left, 0, 0, 0)
+    exact.set_pose(right, 0, 0, math.pi)
+    checker = MotionChecker(rod)
+    ways = [checker.is_free(exact.pose_of(p), Rotation((0, 0), {"tau": None})) for p in (left, right)]
+    assert ways == [False, True]
+    valid = exact.MotionValidator(si, checker)
+    assert not valid.checkMotion(left, right) and not valid.checkMotion(right, left)
+
+
+def test_validity_is_exact(exact: Any) -> None:
+    from ompl import base
+
+    scene = Scene(box(0, 0, 1, 1)[0], [box(2, 0, 3, 1)[0]], bounds=(-5, -5, 5, 5))
+    space = exact.state_space(scene)
+    si = base.SpaceInformation(space)
+    valid, state = exact.StateValidityChecker(si, Checker(scene)), space.allocState()
+    for x, expected in ((1.0, True), (math.nextafter(1, 2), False), (6.0, False), (5.0, True)):
+        exact.set_pose(state, x, 0.0, 0.0)
+        assert valid.isValid(state) == expected
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_even_motions_told_free_are_free(kind: str) -> None:
+    rng, told = np.random.default_rng(5), 0
+    for seed in range(4):
+        plain = random_scene(seed, kind)
+        scene = scene_of(plain)
+        checker = Checker(scene)
+        xy = np.concatenate([polygon.vertices for polygon in scene.obstacles])
+        size = float(np.ptp(xy, axis=0).max())
+        for _ in range(60):
+            start = np.array([*rng.uniform(xy.min(0) - 0.2 * size, xy.max(0) + 0.2 * size), rng.uniform(-9, 9)])
+            by = rng.normal(0, 1, 3) * (0.1 * size, 0.1 * size, 1)
+            rows = start + np.linspace(0, 1, 400)[:, None] * by
+            free = bool(checker.is_free(rows).all())
+            if checker.sweep_is_free(start, by):
+                told += 1
+                assert free
+                x, y, theta = rows[137].tolist()
+                assert not oracles.overlaps(plain_of(scene).robot, plain_of(scene).obstacles, (x, y, theta))
+    assert told > 0
+
+
+def test_even_motions_with_room_are_told_free() -> None:
+    wall = box(3, -50, 9, 50)[0]
+    checker = Checker(Scene(box(-1, -1, 1, 1)[0], [wall], bounds=(-9, -40, 99, 40)))
+    reach = 3 - math.sqrt(2)
+    for gap in (1, 1e-2, 1e-3):
+        assert checker.sweep_is_free((reach - gap, -30, 0), (0, 60, 7))
+    assert not checker.sweep_is_free((reach + 1e-3, -30, 0), (0, 60, 7))
+    assert not checker.sweep_is_free((2, -30, 0), (0, 60, 0))  # it touches all the way: too close to tell
+    assert not checker.sweep_is_free((0, -30, 0), (0, 90, 0))  # out of the bounds
+    assert checker.sweep_is_free((-9, -40, 0), (0, 80, 0))  # along the bounds, which are exact
+    assert Checker(Scene(box(-1, -1, 1, 1)[0], [wall])).sweep_is_free((-1e6, -1e6, 0), (0, 2e6, 100))
