@@ -163,7 +163,8 @@ def boundary(
 
 @app.command(
     epilog="Examples: `cfree plan scene.json`; "
-    "`cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png`; `cfree plan scene.json -o way.csv --improve 2s`. "
+    "`cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png`; "
+    "`cfree plan scene.json -o way.csv --improve 2s`. "
     "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: stopped by a limit."
 )
 def plan(

@@ -16,6 +16,7 @@ import shapely
 from cfree.cells import FreeSpace, free_space
 from cfree.exact import ExactPoint
 from cfree.forbidden import boundary
+from cfree.grown import FARTHEST_OUT, grown
 from cfree.inset import INSETS, inset, size_power, with_robot
 from cfree.pinch import Pinch, pinches
 from cfree.polygon import Polygon
@@ -25,7 +26,6 @@ from cfree.scene import Scene
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried
 FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
-SIDES = 16  # of the polygon that stands for a disc
 
 
 @dataclass(frozen=True)
@@ -203,16 +203,14 @@ def max_margin(
     _check(tolerance)
     if not _are_joined(_space(scene), start, goal):
         raise ValueError("start and goal are not joined; see cfree.nearest_miss")
-    disc, outer = _around_a_disc()
 
     def is_joined(radius: Fraction) -> bool:
-        robot = [piece for part in scene.robot for piece in _sums(part, [(radius * x, radius * y) for x, y in disc])]
-        return _are_joined(_space(with_robot(scene, robot, scene.bounds)), start, goal)
+        return _are_joined(_space(with_robot(scene, grown(scene, radius), scene.bounds)), start, goal)
 
     lo, hi = _bracket(is_joined, Fraction(2) ** (size_power(scene) - 3))
     if lo and hi:
         lo, hi = _bisected(is_joined, lo, hi, tolerance, progress)
-    return Interval(float(lo), math.nextafter(float(hi) * outer, math.inf) if hi else math.inf)
+    return Interval(float(lo), math.nextafter(float(hi) * FARTHEST_OUT, math.inf) if hi else math.inf)
 
 
 # --- decisions ---
@@ -280,19 +278,3 @@ def _mapped(polygon: Polygon, image: Callable[[ExactPoint], ExactPoint]) -> Poly
     points = [image(p) for p in polygon.exact_vertices]
     outer, *holes = (points[i:j] for i, j in zip(polygon.ring_offsets, polygon.ring_offsets[1:], strict=False))
     return Polygon(outer, holes)
-
-
-def _around_a_disc() -> tuple[list[ExactPoint], float]:
-    """A polygon around the unit disc, and the radius of a disc around it."""
-    far, grid = (1 + 2**-20) / math.cos(math.pi / SIDES), 2**30
-    angles = [2 * math.pi * k / SIDES for k in range(SIDES)]
-    ring = [[Fraction(round(far * of(a) * grid), grid) for of in (math.cos, math.sin)] for a in angles]
-    return [(x, y) for x, y in ring], far * (1 + 2**-20)
-
-
-def _sums(polygon: Polygon, ring: list[ExactPoint]) -> list[Polygon]:
-    """Convex polygons that cover the Minkowski sum of a polygon and a convex ring."""
-    from cfree.verify.polygons import convex_sum
-
-    vertices = polygon.exact_vertices
-    return [Polygon(convex_sum([vertices[k] for k in piece], ring)) for piece in polygon.pieces]
