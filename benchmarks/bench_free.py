@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import cache
 from importlib.util import find_spec
 from typing import Any
 
@@ -87,11 +88,17 @@ def flat(pieces: list[np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
 
 
 def numba_test(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> Rival:
-    free, tables = numba_kernel(robot, obstacles)
+    free, tables = numba_kernel(), numba_tables(robot, obstacles)
     return lambda poses: free(poses, *tables)
 
 
-def numba_kernel(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> tuple[Any, tuple[np.ndarray, ...]]:
+def numba_tables(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> tuple[np.ndarray, ...]:
+    boxes = np.array([[*piece.min(axis=0), *piece.max(axis=0)] for piece in obstacles])
+    return *flat(robot), *flat(obstacles), boxes
+
+
+@cache
+def numba_kernel() -> Any:
     """All pairs of pieces: boxes first, then all edges as axes, until one separates. Doubles, no error bound."""
     import numba
 
@@ -133,8 +140,7 @@ def numba_kernel(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> tuple[
                     break
         return out
 
-    boxes = np.array([[*piece.min(axis=0), *piece.max(axis=0)] for piece in obstacles])
-    return free, (*flat(robot), *flat(obstacles), boxes)
+    return free
 
 
 def fcl_test(robot: list[np.ndarray], obstacles: list[np.ndarray]) -> Rival:
