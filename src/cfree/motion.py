@@ -184,13 +184,15 @@ class Rotation:
         return Rotation(self.pole, {"tau": -self.tau})
 
     def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
-        """Poses at shares of the angle, (n,), in double precision."""
-        phi = np.asarray(shares, dtype=np.float64) * self.turn
-        arm = float(pose.x - self.pole[0]), float(pose.y - self.pole[1])
-        c, s = np.cos(phi), np.sin(phi)
-        x, y = (float(v) for v in self.pole)
-        xy = np.stack((x + c * arm[0] - s * arm[1], y + s * arm[0] + c * arm[1]), axis=1)
-        return Poses(xy, pose.theta + phi)
+        """Poses at shares of the angle, (n,), in double precision, as precise near a pole as far away from it."""
+        s, half = np.asarray(shares, dtype=np.float64), 0.5 * self.turn
+        end = self.apply(pose)
+        x, y = float(end.x - pose.x), float(end.y - pose.y)
+        # the chord of a share: shorter by the ratio of sines, and back by half of what is left of the angle
+        scale = np.sin(s * half) / math.sin(half) if half else s
+        c, n = scale * np.cos((s - 1) * half), scale * np.sin((s - 1) * half)
+        xy = np.stack((float(pose.x) + c * x - n * y, float(pose.y) + n * x + c * y), axis=1)
+        return Poses(xy, pose.theta + s * self.turn)
 
 
 Motion = Translation | Rotation

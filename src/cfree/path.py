@@ -181,7 +181,8 @@ class Path:
         scene : Scene
             In which the path is free; bounds are no bodies and have no distance.
         tolerance : float, optional
-            How far `least` may be below the truth; a thousandth of the robot's size unless given.
+            How far `least` may be below the truth, if that does not take too many steps. Unless given, a thousandth of
+            the robot's radius, or a quarter of what is found where that is less.
 
         Returns
         -------

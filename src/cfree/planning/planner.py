@@ -76,7 +76,9 @@ def plan(
     Notes
     -----
     A path's length is the way of the reference point, plus the turning times the robot's radius about that point. To a
-    scene and its poses belongs one answer; improved paths depend on the machine's speed.
+    scene and its poses belongs one answer; improved paths depend on the machine's speed. "clear" looks for a path of a
+    robot grown by a margin, as large as is found, between the first place on a short path where that one fits and the
+    last.
 
     Examples
     --------
@@ -162,6 +164,8 @@ class Planner:
             poses = self._passages.path(start, goal)
         if poses is None:
             return self._separated(start, goal)
+        if objective == "clear":
+            return self.path(self._cleared(self.shortened(poses, 0.0), improve))
         return self.path(self.shortened(poses, improve))
 
     def _separated(self, start: Pose, goal: Pose) -> Separated:
@@ -194,16 +198,26 @@ class Planner:
             shortener.run(BLOCK)
         return self._searcher(poses).poses(shortener.path())
 
+    def _cleared(self, poses: Sequence[Pose], seconds: float) -> Sequence[Pose]:
+        from cfree.planning.clear import clear
+
+        def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+            larger = Planner(scene)
+            found = larger._direct(start, goal) or larger._searched(start, goal, SEARCH // 4)
+            return None if found is None else larger.shortened(found, seconds / 4)
+
+        return clear(self.scene, poses, self.angle_scale, way_of)
+
     def _direct(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         """A turn and a straight way, or one motion."""
         turned, moved = (Pose(p.x, p.y, {"tau": q.tau}) for p, q in ((start, goal), (goal, start)))
         ways: list[list[Pose]] = [[start, turned, goal], [start, moved, goal], [start, goal]]
         return next((list(dict.fromkeys(way)) for way in ways if self.is_free(way)), None)
 
-    def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+    def _searched(self, start: Pose, goal: Pose, checks: int = SEARCH) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
         search = searcher.search(start, goal)
-        for _ in range(0, SEARCH, BLOCK):
+        for _ in range(0, checks, BLOCK):
             if found := search.run(BLOCK):
                 return searcher.poses(found)
         return None

@@ -1,0 +1,66 @@
+"""Paths that keep away from obstacles: those of a robot grown by a margin, as far along a path as it fits.
+
+Where a grown robot is free the robot has the margin around it. Its paths are searched, never decided: the margin is
+proved, that it is the largest is not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+
+from cfree.free import Checker
+from cfree.grown import grown
+from cfree.inset import with_robot
+from cfree.planning.search import motion_between
+from cfree.pose import Pose, Poses
+from cfree.scene import Scene
+
+WayOf = Callable[[Scene, Pose, Pose], Sequence[Pose] | None]
+HALVINGS = 10  # of the margin, from the robot's radius on
+PLACES = 16  # of a motion, at which the grown robot may begin and end
+
+
+def clear(scene: Scene, poses: Sequence[Pose], radius: float, way_of: WayOf) -> Sequence[Pose]:
+    """A path with margins: the largest in the midst of it, what is left at its ends with smaller ones.
+
+    Parameters
+    ----------
+    scene : Scene
+    poses : sequence of Pose
+        Of a free path.
+    radius : float
+        The largest margin tried; each one after it is half as large.
+    way_of : callable
+        Poses of a path from one pose to another in a scene, or None if it finds none.
+    """
+    scenes = [with_robot(scene, grown(scene, Fraction(radius) / 2**k), scene.bounds) for k in range(HALVINGS)]
+    checkers = [Checker(larger) for larger in scenes]
+
+    def cleared(poses: Sequence[Pose], level: int) -> Sequence[Pose]:
+        if level == HALVINGS or len(poses) < 2:
+            return poses
+        places = list(_places(poses))
+        free = np.flatnonzero(checkers[level].is_free(Poses.from_poses([pose for _, pose in places])))
+        way = None
+        if len(free) > 1:
+            (i, first), (j, last) = places[free[0]], places[free[-1]]
+            if all(checkers[level].is_free(pose) for pose in (first, last)):  # the table's were rounded
+                way = way_of(scenes[level], first, last)
+        if way is None:
+            return cleared(poses, level + 1)
+        return [*cleared([*poses[: i + 1], first], level + 1), *way, *cleared([last, *poses[j + 1 :]], level + 1)]
+
+    return cleared(poses, 0)
+
+
+def _places(poses: Sequence[Pose]) -> Iterator[tuple[int, Pose]]:
+    """Poses along a path, exact, each with the number of the one before it."""
+    for k, (a, b) in enumerate(pairwise(poses)):
+        if a != b:
+            motion = motion_between(a, b)
+            yield from ((k, motion.at(a, Fraction(share, PLACES))) for share in range(PLACES))
+    yield len(poses) - 1, poses[-1]
