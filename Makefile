@@ -5,11 +5,18 @@ SANITIZED := $(addprefix tests/test_,core.py motion.py patch.py slice.py storage
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
+PARKING = examples/scenes/benchmr_parking1.json
+SWIM = examples/scenes/nest_swim.json
+
 .PHONY: demo test ctest ctest-sanitize sanitize fuzz lint bench docs dev stub clean
 
-demo: $(INSTALLED)  ## the boundary of the forbidden space of a car park, into demo/
-	$(BIN)/cfree boundary examples/scenes/benchmr_parking1.json \
-	  -o demo/parking.npz --picture demo/parking.png --mesh demo/parking.glb
+demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot get out, both verified, into demo/
+	mkdir -p demo
+	$(BIN)/cfree plan $(PARKING) -o demo/parking.json --picture demo/parking.png --objective clear --improve 1s
+	$(BIN)/cfree verify $(PARKING) demo/parking.json
+	$(BIN)/cfree plan $(SWIM) -o demo/swim.json --picture demo/swim.png || test $$? -eq 1  # proved impossible
+	$(BIN)/cfree verify $(SWIM) demo/swim.json
+	$(BIN)/cfree boundary $(PARKING) -o demo/parking.npz --mesh demo/parking.glb
 
 test: $(INSTALLED) ctest lint  ## every test
 	$(BIN)/python -m pytest -n 2

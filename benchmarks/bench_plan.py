@@ -102,7 +102,7 @@ def compare(name: str, report: Report, quick: bool) -> Row:
 def ours_on(name: str) -> Callable[[], Any]:
     """A plan of a scene that nothing is known of yet."""
     scene = cfree.load_scene(SCENES / f"{name}.json")
-    return lambda: cfree.plan(scene)
+    return lambda: cfree.plan(scene, improve=0)
 
 
 def seconds_of(call: Callable[[], Any]) -> float:

@@ -284,7 +284,7 @@ class FreeSpace:
             found[k + asked] = cell
         return found
 
-    def plan(self, start: Pose, goal: Pose, *, improve: float = 0.0) -> Path | Separated:
+    def plan(self, start: Pose, goal: Pose, *, improve: float | None = None) -> Path | Separated:
         """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
 
         Notes

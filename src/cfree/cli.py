@@ -187,7 +187,12 @@ def plan(
             show_default="by the file's name, else json",
         ),
     ] = None,
-    improve: Annotated[str, typer.Option(metavar="TIME", help='How long to improve a path: "2s" or "500ms".')] = "0s",
+    improve: Annotated[
+        str | None,
+        typer.Option(
+            metavar="TIME", help='How long to improve a path: "2s" or "500ms"; 0 for the first.', show_default="briefly"
+        ),
+    ] = None,
     objective: Annotated[str, typer.Option(metavar="WORD", help='"short", or "clear": far from obstacles.')] = "short",
     picture: PictureOption = None,
     film: Annotated[
@@ -206,7 +211,7 @@ def plan(
 
         written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
         kind = form_of(output, form) if output else "json"
-        seconds = _read_seconds(improve)
+        seconds = None if improve is None else _read_seconds(improve)
         if objective not in ("short", "clear"):
             raise ValueError(f'--objective: {objective!r}; give "short" or "clear"')
         ends = [_read_pose(text, name) for text, name in ((start, "--start"), (goal, "--goal"))]

@@ -172,6 +172,12 @@ class SceneFeatures:
     scale: int
     rim: tuple[float, float, float, float] | None
 
+    @property
+    def patches(self) -> int:
+        """How many contact patches there are."""
+        n, m = (shape.rings["convex"] for shape in (self.robot, self.obstacles))
+        return int(sum(n) * len(m) + len(n) * sum(m))
+
     def use_names(self, codes: NDArray[np.uint64]) -> None:
         """Replace features in packed pairs by the ones that name their point or line, in place."""
         kind, i, j = unpacked(codes)

@@ -74,15 +74,15 @@ class MotionChecker:
         from cfree import _core
 
         self._scene = scene
-        self._features: SceneFeatures = scene_features(scene)
-        robot, obstacles = self._features.robot, self._features.obstacles
+        self.features: SceneFeatures = scene_features(scene)
+        robot, obstacles = self.features.robot, self.features.obstacles
         self.core = _core.MotionChecker(robot.core_shape(), obstacles.core_shape(), robot.shift)
         self._rim = None if scene.workspace is None else _extent(obstacles)
 
     @property
     def units(self) -> tuple[int, int]:
         """The core's integers are coordinates times the first, its doubles those halved as often as the second says."""
-        return self._features.scale, self._features.robot.shift
+        return self.features.scale, self.features.robot.shift
 
     def is_free(self, pose: Pose, motion: Motion) -> bool:
         """Is every pose of a motion free? Exact; touching is free, also all the way.
@@ -108,7 +108,7 @@ class MotionChecker:
         if found is None:
             return None
         polynomial, robot_piece, obstacle_piece, kind, i, j = found
-        robot, obstacles = self._features.robot, self._features.obstacles
+        robot, obstacles = self.features.robot, self.features.obstacles
         part, obstacle = _polygon(robot, robot_piece), _polygon(obstacles, obstacle_piece)
         contact: VertexEdge | EdgeVertex | None = None
         count = len(robot.previous), len(obstacles.previous)
@@ -141,7 +141,7 @@ class MotionChecker:
         turns = isinstance(motion, Rotation)
         vx, vy = motion.pole if isinstance(motion, Rotation) else motion.vector
         unit = math.lcm(pose.x.denominator, pose.y.denominator, vx.denominator, vy.denominator)
-        scale = unit * self._features.scale
+        scale = unit * self.features.scale
         x, y, along, across = (v.numerator * (scale // v.denominator) for v in (pose.x, pose.y, vx, vy))
         half = (motion.first, *motion.half) if isinstance(motion, Rotation) else (1, 1, 0)
         return turns, (*pose.rotation, x, y, unit, along, across, *half)

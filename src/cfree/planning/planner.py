@@ -31,8 +31,8 @@ if TYPE_CHECKING:
     from cfree.separated import Separated
 
 Objective = Literal["short", "clear"]
-SEARCH = 8_000  # motions checked before the free space is built
-REFINE = 400  # motions checked to shorten a first path
+SEARCH = 10_000  # motions checked at most before the free space is built
+REFINE = 400  # motions checked to improve a path if no time is given
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 
 
@@ -41,7 +41,7 @@ def plan(
     start: Pose | None = None,
     goal: Pose | None = None,
     *,
-    improve: float = 0.0,
+    improve: float | None = None,
     objective: Objective = "short",
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
@@ -53,8 +53,8 @@ def plan(
     scene : Scene
     start, goal : Pose, optional
         Those of the scene unless given.
-    improve : float, seconds
-        How long to improve a path.
+    improve : float, seconds, optional
+        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given.
     objective : "short" or "clear"
         What to prefer: short paths, or those that keep away from obstacles; see Notes.
     max_seconds : float, optional
@@ -75,10 +75,9 @@ def plan(
 
     Notes
     -----
-    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. To a
-    scene and its poses belongs one answer; improved paths depend on the machine's speed. "clear" looks for a path of a
-    robot grown by a margin, as large as is found, between the first place on a short path where that one fits and the
-    last.
+    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. Unless
+    a time is given, the same question has the same answer everywhere. "clear" looks for a path of a robot grown by a
+    margin, as large as is found, between the first place on a short path where that one fits and the last.
 
     Examples
     --------
@@ -149,7 +148,7 @@ class Planner:
         return self.space
 
     def plan(
-        self, start: Pose, goal: Pose, *, improve: float = 0.0, objective: Objective = "short"
+        self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
     ) -> Path | Separated:
         """See `cfree.plan`."""
         for pose, name in ((start, "start"), (goal, "goal")):
@@ -165,7 +164,7 @@ class Planner:
         if poses is None:
             return self._separated(start, goal)
         if objective == "clear":
-            return self.path(self._cleared(self.shortened(poses, 0.0), improve))
+            return self.path(self._cleared(self.shortened(poses, None), improve))
         return self.path(self.shortened(poses, improve))
 
     def _separated(self, start: Pose, goal: Pose) -> Separated:
@@ -189,22 +188,25 @@ class Planner:
         motions = [motion_between(a, b) for a, b in pairwise(poses) if a != b]
         return Path(poses[0], motions, self.scene.units)
 
-    def shortened(self, poses: Sequence[Pose], seconds: float) -> Sequence[Pose]:
-        """A shorter path: after a number of attempts, and then some time."""
-        shortener = self._searcher(poses).shortener(poses)
-        shortener.run(REFINE)
-        end = time.perf_counter() + seconds
+    def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
+        """A shorter path, after some time, or a number of attempts."""
+        if seconds == 0 or len(poses) < 3:
+            return poses
+        searcher = self._searcher(poses)
+        shortener = searcher.shortener(poses)
+        end = time.perf_counter() + (seconds or 0)
+        shortener.run(REFINE if seconds is None else BLOCK)
         while time.perf_counter() < end:
             shortener.run(BLOCK)
-        return self._searcher(poses).poses(shortener.path())
+        return searcher.poses(shortener.path())
 
-    def _cleared(self, poses: Sequence[Pose], seconds: float) -> Sequence[Pose]:
+    def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         from cfree.planning.clear import clear
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene)
-            found = larger._direct(start, goal) or larger._searched(start, goal, SEARCH // 4)
-            return None if found is None else larger.shortened(found, seconds / 4)
+            found = larger._direct(start, goal) or larger._searched(start, goal)
+            return None if found is None else larger.shortened(found, seconds and seconds / 4)
 
         return clear(self.scene, poses, self.angle_scale, way_of)
 
@@ -214,10 +216,11 @@ class Planner:
         ways: list[list[Pose]] = [[start, turned, goal], [start, moved, goal], [start, goal]]
         return next((list(dict.fromkeys(way)) for way in ways if self.is_free(way)), None)
 
-    def _searched(self, start: Pose, goal: Pose, checks: int = SEARCH) -> Sequence[Pose] | None:
+    def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
         search = searcher.search(start, goal)
-        for _ in range(0, checks, BLOCK):
+        most = min(SEARCH, 500 + 3 * self.checker.features.patches // 2)  # about as long as the free space takes
+        for _ in range(0, most, BLOCK):
             if found := search.run(BLOCK):
                 return searcher.poses(found)
         return None
@@ -258,7 +261,7 @@ def plan_many(
     scene: Scene | FreeSpace,
     queries: Iterable[tuple[Pose, Pose]],
     *,
-    improve: float = 0.0,
+    improve: float | None = None,
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> list[Path | Separated]:
@@ -268,7 +271,7 @@ def plan_many(
     ----------
     scene : Scene or FreeSpace
     queries : pairs (start, goal) of Pose
-    improve : float, seconds
+    improve : float, seconds, optional
         As in `plan`, for each of them.
     threads : int, optional
         All cores by default. The answers do not depend on it, unless `improve` is given.
