@@ -56,7 +56,7 @@ class Clearance:
     obstacle: tuple[int, int]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Path:
     """A start and motions.
 
@@ -86,6 +86,10 @@ class Path:
     def __init__(self, start: Pose, motions: Iterable[Motion], units: str = "", frame: str = "world") -> None:
         for name, value in (("start", start), ("motions", tuple(motions)), ("units", units), ("frame", frame)):
             object.__setattr__(self, name, value)
+
+    def __repr__(self) -> str:
+        n = len(self.motions)
+        return f"Path({n} motion{'s' * (n != 1)}, length {self.length:.6g}, turning {self.turning:.6g})"
 
     @cached_property
     def poses(self) -> tuple[Pose, ...]:

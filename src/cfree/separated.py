@@ -78,7 +78,7 @@ class Pieces:
         return cls(boundary.contact_kind[patch], robot, obstacle, Trapezoids(**columns))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Separated:
     """A proof that no motion joins two poses.
 
@@ -114,6 +114,9 @@ class Separated:
     units: str = field(default="", compare=False, repr=False)
     frame: str = field(default="world", compare=False, repr=False)
     scene: Scene | None = field(default=None, compare=False, repr=False)
+
+    def __repr__(self) -> str:
+        return f"Separated(of={self.of!r}, cells={self.cells}, {len(self.pieces)} pieces of {self.obstacles})"
 
     @cached_property
     def obstacles(self) -> tuple[int, ...]:

@@ -75,8 +75,8 @@ def plan(
 
     Notes
     -----
-    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. Unless
-    a time is given, the same question has the same answer everywhere. "clear" looks for a path of a robot grown by a
+    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. The
+    same question has the same answer everywhere, unless a time is given. "clear" looks for a path of a robot grown by a
     margin, as large as is found, between the first place on a short path where that one fits and the last.
 
     Examples
