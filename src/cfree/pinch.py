@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cfree.features import BOUNDS, WORKSPACE
+from cfree.motion import Translation
+from cfree.motion_check import MotionChecker
 from cfree.pose import Pose
 from cfree.trapezoids import Floats, Ints
 
@@ -21,7 +23,8 @@ if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
 COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a pinch
-MOST = 2000  # samples of a pinch that are compared
+MOST = 100  # samples of a pinch that are pushed
+NUDGE = 1e-9  # of the robot's size: off what a sample touches
 COVERED = -1
 NAMES = {BOUNDS: "the bounds", WORKSPACE: "the workspace"}
 
@@ -66,15 +69,21 @@ def pinches(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> t
     """
     if len(larger.boundary.features.robot.vertices) != len(smaller.boundary.features.robot.vertices):
         return ()
+    cells = larger.locate([start, goal]).tolist()
     samples = sampled(smaller, smaller.faces(int(smaller.locate(start))), COARSE)
     label = labels(larger, smaller, samples)
     group = _groups(label, samples)
-    found = []
-    for number in _route(label, group, samples, larger.locate([start, goal]).tolist()):
+    checker, found = MotionChecker(smaller.boundary.scene), []
+    for number in _route(label, group, samples, cells):
         at = np.flatnonzero(group == number)
-        near = np.isin(samples.one, at)
-        faces = np.unique(samples.face[np.concatenate([at, samples.other[near]])])
-        pinch = _narrowest(larger, smaller, sampled(smaller, faces, FINE))
+        faces = np.unique(samples.face[np.concatenate([at, samples.other[np.isin(samples.one, at)]])])
+        closer = sampled(smaller, faces, FINE)
+        its_label = labels(larger, smaller, closer)
+        its_group = _groups(its_label, closer)
+        route = _route(its_label, its_group, closer, cells)
+        chosen = np.flatnonzero(np.isin(its_group, route) if route else its_group >= 0)
+        some = chosen[:: -(-len(chosen) // MOST) or 1].astype(np.int32)
+        pinch = _narrowest(smaller, closer, some, checker)
         found += [] if pinch is None else [pinch]
     return tuple(found)
 
@@ -165,27 +174,20 @@ def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list
     return route[::-1]
 
 
-def _narrowest(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Pinch | None:
-    """Between the two closest samples at a pinch that face each other."""
-    group = _groups(labels(larger, smaller, samples), samples)
-    chosen = np.flatnonzero(group >= 0)
-    k = chosen[:: -(-len(chosen) // MOST) or 1]
-    walls, theta = smaller.walls, samples.theta[k]
-    patch = walls.trapezoids.patch[samples.face[k]]
-    xy, first, last = (walls.evaluate(patch, t, theta) for t in (samples.t[k], np.zeros(len(k)), np.ones(len(k))))
-    along = last - first
-    along /= np.hypot(*along.T)[:, None]
-    step, turned = xy[None] - xy[:, None], np.abs(np.mod(theta[None] - theta[:, None] + math.pi, math.tau) - math.pi)
-    distance = np.hypot(step[..., 0], step[..., 1]) + _reach(smaller) * turned
-    distance[along @ along.T > -0.5] = np.inf
-    if not np.isfinite(distance).any():
-        return None
-    i, j = np.unravel_index(int(distance.argmin()), distance.shape)
+def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: MotionChecker) -> Pinch | None:
+    """Where a sample pushed into the free side comes to a stop first, halfway."""
+    walls, theta = space.walls, samples.theta[chosen]
+    patch = walls.trapezoids.patch[samples.face[chosen]]
+    xy = walls.evaluate(patch, samples.t[chosen], theta)
+    u, v = (walls.evaluate(patch, np.ones(len(patch)), theta) - walls.evaluate(patch, np.zeros(len(patch)), theta)).T
     owner = walls.features.obstacles.owner_polygon[walls.contact_obstacle[patch]]
-    x, y = ((xy[i] + xy[j]) / 2).tolist()
-    return Pinch(Pose(x, y, float(theta[i])), (int(owner[i]), int(owner[j])))
-
-
-def _reach(space: FreeSpace) -> float:
-    """How far the robot's farthest vertex is from its reference point."""
-    return float(np.hypot(*space.boundary.features.robot.xy.T).max())
+    best: tuple[float, Pinch] | None = None
+    push = np.column_stack([v, -u]) * float(np.ptp(walls.features.robot.xy, axis=0).max()) / np.hypot(u, v)[:, None]
+    rows = zip(xy.tolist(), theta.tolist(), push.tolist(), owner.tolist(), strict=True)
+    for (x, y), angle, (dx, dy), obstacle in rows:
+        met = checker.first_contact(Pose(x + NUDGE * dx, y + NUDGE * dy, angle), Translation((dx, dy)))
+        if met is None or not (share := float(met.at)) > 0:
+            continue
+        if best is None or share < best[0]:
+            best = share, Pinch(Pose(x + share / 2 * dx, y + share / 2 * dy, angle), (obstacle, met.obstacle))
+    return best and best[1]
