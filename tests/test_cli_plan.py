@@ -1,0 +1,168 @@
+"""`cfree plan` and `cfree verify` of its answers, as users call them."""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from typer.testing import CliRunner
+
+import cfree
+from cfree.cli import app
+
+SCENES = Path("examples/scenes")
+PARKING, SWIM, CONVEX = (str(SCENES / f"{name}.json") for name in ("benchmr_parking1", "nest_swim", "five_convex"))
+
+Run = Callable[..., Any]
+
+
+@pytest.fixture
+def run() -> Run:
+    return lambda *arguments: CliRunner().invoke(app, [str(argument) for argument in arguments])
+
+
+def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path) -> None:
+    answer, picture, film = (tmp_path / name for name in ("way.json", "way.png", "way.gif"))
+    result = run("plan", CONVEX, "-o", answer, "--picture", picture, "--film", film, "--improve", "50ms")
+    assert result.exit_code == 0, result.output
+    assert "a path, each motion proved free" in result.stdout
+    assert picture.read_bytes()[:4] == b"\x89PNG" and film.read_bytes()[:3] == b"GIF"
+    data = json.loads(answer.read_text())
+    scene = cfree.load_scene(CONVEX)
+    assert data["answer"] == "path" and scene.start and scene.goal
+    for name, pose in (("start", scene.start), ("goal", scene.goal)):
+        assert data[name] == [float(pose.x), float(pose.y), pose.theta]
+    x, y, theta = data["start"]
+    for motion in data["motions"]:  # as a reader without fractions applies them
+        if motion["type"] == "translation":
+            x, y = x + motion["vector"][0], y + motion["vector"][1]
+        else:
+            (px, py), angle = motion["pole"], motion["angle"]
+            c, s = math.cos(angle), math.sin(angle)
+            x, y = px + c * (x - px) - s * (y - py), py + s * (x - px) + c * (y - py)
+            theta += angle
+    assert math.hypot(x - data["goal"][0], y - data["goal"][1]) < 1e-6
+    assert abs(math.remainder(theta - data["goal"][2], math.tau)) < 1e-9
+    assert run("verify", CONVEX, answer).exit_code == 0
+
+
+def test_a_proof_has_exit_code_1(run: Run, tmp_path: Path) -> None:
+    answer = tmp_path / "proof.json"
+    result = run("plan", SWIM, "-o", answer, "--json")
+    assert result.exit_code == 1
+    facts = json.loads(result.stdout)
+    assert facts["answer"] == "no path at all, proved"
+    assert json.loads(answer.read_text())["answer"] == "separated"
+    assert run("verify", SWIM, answer).exit_code == 0
+    assert run("verify", CONVEX, answer).exit_code != 0
+
+
+def test_a_proof_is_no_path_to_film_or_to_sample(run: Run, tmp_path: Path) -> None:
+    result = run("plan", SWIM, "-o", tmp_path / "way.csv", "--film", tmp_path / "way.gif")
+    assert result.exit_code == 1
+    assert "there is no path" in result.output
+    assert not list(tmp_path.iterdir())
+
+
+def test_start_and_goal_are_given_in_any_form(run: Run, tmp_path: Path) -> None:
+    answer = tmp_path / "way.json"
+    ends = "--start", "1/2,0,90deg", "--goal", "0.5,1e-1,tau:1/3"
+    empty = tmp_path / "scene.json"
+    empty.write_text('{"robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "obstacles": []}')
+    assert run("plan", empty, *ends, "-o", answer).exit_code == 0
+    data = json.loads(answer.read_text())
+    assert data["exact"] == {"start": ["1/2", "0", {"tau": "1"}], "goal": ["1/2", "1/10", {"tau": "1/3"}]}
+
+
+@pytest.mark.parametrize("name", ["way.csv", "way.yaml", "way.geojson"])
+def test_paths_for_other_programs(run: Run, tmp_path: Path, name: str) -> None:
+    file = tmp_path / name
+    assert run("plan", CONVEX, "-o", file).exit_code == 0
+    if name.endswith("csv"):
+        rows = list(csv.DictReader(file.read_text().splitlines()))
+        assert list(rows[0]) == ["x", "y", "theta"] and len(rows) > 10
+    elif name.endswith("yaml"):
+        message = yaml.safe_load(file.read_text())
+        assert message["header"]["frame_id"] == "world" and len(message["poses"]) > 10
+    else:
+        assert json.loads(file.read_text())["type"] == "FeatureCollection"
+
+
+def test_a_form_may_be_asked_for(run: Run, tmp_path: Path) -> None:
+    file = tmp_path / "poses.txt"
+    assert run("plan", CONVEX, "-o", file, "--format", "ros").exit_code == 0
+    assert yaml.safe_load(file.read_text())["poses"]
+    assert run("plan", CONVEX, "-o", file, "--format", "xml").exit_code == 2
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--start", "1,2"], "--start: '1,2'"),
+        (["--goal", "1,2,sideways"], "--goal: '1,2,sideways'"),
+        (["--start", "inf,0,0"], "--start"),
+        (["--improve", "soon"], "--improve: 'soon'"),
+        (["--objective", "fast"], "--objective: 'fast'"),
+        (["-o", "way.doc"], "way.doc: paths are written as"),
+        (["--picture", "way.doc"], "way.doc"),
+        (["--film", "way.doc"], "way.doc"),
+    ],
+)
+def test_bad_wishes_get_one_clear_message(run: Run, arguments: list[str], message: str) -> None:
+    result = run("plan", PARKING, *arguments)
+    assert result.exit_code == 2
+    assert message in result.output
+    assert "Traceback" not in result.output
+
+
+def test_a_forbidden_start_is_explained(run: Run, tmp_path: Path) -> None:
+    answer = tmp_path / "way.json"
+    result = run("plan", PARKING, "--start", "1,-2,0", "-o", answer)
+    assert result.exit_code == 2
+    assert "start (1, -2, 0 deg) is forbidden: robot part 0 overlaps obstacle" in result.output
+    assert "is free and near by" in result.output
+    assert not answer.exists()
+
+
+def test_a_scene_without_a_goal_needs_one(run: Run, tmp_path: Path) -> None:
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "obstacles": [], "start": [0, 0, 0]}')
+    result = run("plan", scene)
+    assert result.exit_code == 2
+    assert "no goal" in result.output
+
+
+def test_a_limit_has_exit_code_3(run: Run, tmp_path: Path) -> None:
+    answer = tmp_path / "way.json"
+    result = run("plan", SWIM, "--max-seconds", "0.001", "-o", answer)
+    assert result.exit_code == 3
+    assert "not enough" in result.output
+    assert not answer.exists()
+
+
+def test_a_boundary_file_stands_for_its_scene(run: Run, tmp_path: Path) -> None:
+    boundary = tmp_path / "boundary.npz"
+    assert run("boundary", CONVEX, "-o", boundary).exit_code == 0
+    assert run("plan", boundary).exit_code == 0
+
+
+def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:
+    answer = tmp_path / "way.json"
+    command = [sys.executable, "-m", "cfree", "plan", PARKING, "-o", str(answer), "--improve", "60s"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    time.sleep(4)
+    process.send_signal(signal.SIGINT)
+    _, message = process.communicate(timeout=20)
+    assert process.returncode == 130
+    assert message.splitlines()[-1] == "error: interrupted; no file was left half-written"
+    assert not answer.exists()
