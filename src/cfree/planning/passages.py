@@ -16,9 +16,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cfree.cells import NO_CELL
 from cfree.exact import simplest_between
+from cfree.features import BOUNDS
 from cfree.planning.exits import NEAR, Way
-from cfree.planning.sheet import contact_line, cross, minus, positions
+from cfree.planning.search import simple_ways
+from cfree.planning.sheet import Sheet, between, contact_line, cross, minus, positions
 from cfree.pose import Pose, chart_of, tau_in_chart
 from cfree.trapezoids import CURVE
 
@@ -78,17 +81,33 @@ class Passages:
         else:
             yield from self.exits.of(node).items()
             for pose in poses:
-                if pose != node and self.walker.joins([node, pose]):
-                    yield pose, [node, pose]
+                if pose != node and (way := self.walker.first_joining(*simple_ways(node, pose))):
+                    yield pose, list(way)
 
     @cached_property
     def places(self) -> list[Pose]:
-        """Ends of isolated segments, and poses at which boundaries of cells touch, where they are rational."""
+        """Ends of isolated segments and of slits, and poses at which cells touch, where they are rational."""
         places = [(x, y, theta) for x, y, theta, _ in self._pinches()]
         table = self.space.boundary.isolated
         for k in np.flatnonzero(table.kind != CURVE).tolist():
             places += self.space.boundary.isolated_part(k).ends
-        return list(dict.fromkeys(pose for place in places for pose in self._exact(*place)))
+        return list(
+            dict.fromkeys([*(pose for place in places for pose in self._exact(*place)), *self._ends_of_slits()])
+        )
+
+    def _ends_of_slits(self) -> Iterator[Pose]:
+        """Ends, at one orientation each, of trapezoids between bounds and an obstacle, with free space of no width."""
+        boundary = self.space.boundary
+        if boundary is self.space.walls:
+            return
+        owner = boundary.features.obstacles.owner_polygon[boundary.contact_obstacle]
+        for face in np.flatnonzero(owner[boundary.trapezoids.patch] == BOUNDS).tolist():
+            sheet = Sheet(boundary, face)
+            if sheet.low < sheet.high:
+                tau = between(sheet.low, sheet.high)
+                low, high = sheet.limits(tau)
+                if self.space.locate(sheet.pose(between(low, high), tau)) == NO_CELL:
+                    yield from (sheet.pose(t, tau) for t in (low, high))
 
     def _pinches(self) -> Iterator[tuple[float, float, float, set[int]]]:
         """Vertices where several cells meet, with doubles."""

@@ -20,7 +20,7 @@ from cfree.forbidden import boundary
 from cfree.invalid import require_free
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
-from cfree.planning.search import Places, Searcher, motion_between
+from cfree.planning.search import Places, Searcher, motion_between, simple_ways
 from cfree.pose import Pose
 from cfree.scene import Scene
 
@@ -154,7 +154,7 @@ class Planner:
         for pose, name in ((start, "start"), (goal, "goal")):
             if not self.is_free([pose, pose]):
                 require_free(self.scene, pose, name)
-        poses = self._direct(start, goal)
+        poses = self.first_free(simple_ways(start, goal))
         if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
         if poses is None and (cell := self.cell_of(start, goal)) is not None:
@@ -166,6 +166,10 @@ class Planner:
         if objective == "clear":
             return self.path(self._cleared(self.shortened(poses, None), improve))
         return self.path(self.shortened(poses, improve))
+
+    def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
+        """The first of some ways that is free."""
+        return next(filter(self.is_free, ways), None)
 
     def _separated(self, start: Pose, goal: Pose) -> Separated:
         from cfree.separated import separation
@@ -205,16 +209,10 @@ class Planner:
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene)
-            found = larger._direct(start, goal) or larger._searched(start, goal)
+            found = larger.first_free(simple_ways(start, goal)) or larger._searched(start, goal)
             return None if found is None else larger.shortened(found, seconds and seconds / 4)
 
         return clear(self.scene, poses, self.angle_scale, way_of)
-
-    def _direct(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
-        """A turn and a straight way, or one motion."""
-        turned, moved = (Pose(p.x, p.y, {"tau": q.tau}) for p, q in ((start, goal), (goal, start)))
-        ways: list[list[Pose]] = [[start, turned, goal], [start, moved, goal], [start, goal]]
-        return next((list(dict.fromkeys(way)) for way in ways if self.is_free(way)), None)
 
     def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])

@@ -36,6 +36,12 @@ def motion_between(a: Pose, b: Pose) -> Motion:
     return Rotation(pole, {"tau": turned.tau})
 
 
+def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:
+    """A turn and a straight way in either order, and one motion."""
+    turned, moved = (Pose(p.x, p.y, {"tau": q.tau}) for p, q in ((start, goal), (goal, start)))
+    return [list(dict.fromkeys(way)) for way in ([start, turned, goal], [start, moved, goal], [start, goal])]
+
+
 class Searcher:
     """Searches in one scene."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -10,9 +11,10 @@ from cfree.features import SceneFeatures, ShapeFeatures, unpacked
 from cfree.pose import Pose, half_angle_rotation, tau_in_chart
 
 if TYPE_CHECKING:
-    from cfree.cells import FreeSpace
+    from cfree.forbidden import Boundary
 
 FINEST = 32  # bits of tau that doubles are trusted with
+AngleOf = Callable[[int, bool, int], tuple[Fraction, Fraction]]
 Vector = tuple[Fraction, Fraction]
 Line = tuple[Vector, Vector, Vector, Vector]  # p, q, a, g of a surface
 
@@ -73,28 +75,33 @@ class Sheet:
     ----------
     low, high : Fraction
         All orientations from the first to the second, in its chart, are strictly within; `refine` makes them more.
+
+    Parameters
+    ----------
+    angle : callable, optional
+        `FreeSpace.angle`, to know them better.
     """
 
-    def __init__(self, space: FreeSpace, face: int) -> None:
-        walls = space.walls
-        table = walls.trapezoids
-        self.space = space
+    def __init__(self, boundary: Boundary, face: int, angle: AngleOf | None = None) -> None:
+        table = boundary.trapezoids
         self.face = face
+        self._angle = angle
         self.chart = int(table.chart[face])
         self.low, self.high = Fraction(float(table.from_hi[face])), Fraction(float(table.to_lo[face]))
         self.codes = int(table.lower[face]), int(table.upper[face])
-        self._features = walls.features
+        self._features = boundary.features
         patch = int(table.patch[face])
-        kind, i, j = (int(c[patch]) for c in (walls.contact_kind, walls.contact_robot, walls.contact_obstacle))
-        self.line = contact_line(walls.features, kind, i, j)
+        contact = (int(c[patch]) for c in (boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle))
+        self.line = contact_line(boundary.features, *contact)
         bits = FINEST
-        while self.low >= self.high:
+        while angle and self.low >= self.high:
             bits *= 2
             self.refine(bits)
 
     def refine(self, bits: int) -> None:
         """Come as near as 2**-bits to its first and last orientation."""
-        (_, self.low), (self.high, _) = (self.space.angle(self.face, last, bits) for last in (False, True))
+        if self._angle:
+            (_, self.low), (self.high, _) = (self._angle(self.face, last, bits) for last in (False, True))
 
     def at(self, tau: Fraction) -> tuple[Vector, Vector]:
         """P and U: positions P + t U, at tau in the chart."""

@@ -59,6 +59,9 @@ class Walker:
         found = self.checker.first_contact(pose, Translation(direction))
         return Fraction(1) if found is None else found.at.p
 
+    def _sheet(self, face: int) -> Sheet:
+        return Sheet(self.space.walls, face, self.space.angle)
+
     # --- on one sheet ---
 
     def off(self, sheet: Sheet, t: Fraction, tau: Fraction) -> Pose:
@@ -167,7 +170,7 @@ class Walker:
                 assert entered and left
                 yield from (entered.pose, _turned(entered.pose, left.pose), left.pose)
             else:
-                f = Sheet(self.space, face)
+                f = self._sheet(face)
                 if entered:
                     tau = entered.pose.chart[1]
                     yield from (entered.pose, f.pose(f.middle(tau), tau), self.off(f, f.middle(tau), tau))
@@ -175,7 +178,7 @@ class Walker:
                     end = left.pose.chart[1]
                     yield from (*self.along(f, tau, end), f.pose(f.middle(end), end), left.pose)
                 else:
-                    end, steps, after = self._over(f, Sheet(self.space, way[k + 1][0]), h, tau)
+                    end, steps, after = self._over(f, self._sheet(way[k + 1][0]), h, tau)
                     yield from (*self.along(f, tau, end), *steps)
                     tau = after
             entered = None
@@ -221,7 +224,7 @@ class Walker:
             far = Pose(self._far, pose.y, {"tau": pose.tau})
             return Landing(FAR, far) if y == 0 and x < 0 and self.joins([pose, far]) else None
         there = Pose(pose.x + contact.at.p * direction[0], pose.y + contact.at.p * direction[1], {"tau": pose.tau})
-        faces = (face for face in self.corridors.near(there) if Sheet(self.space, face).holds(there))
+        faces = (face for face in self.corridors.near(there) if self._sheet(face).holds(there))
         return next((Landing(face, there) for face in faces), None)
 
     @cached_property
@@ -251,7 +254,7 @@ class Walker:
         table = self.space.walls.trapezoids
         faces = np.flatnonzero((self.space.component == component) & self.corridors.open)
         for face in faces[np.argsort(-(table.tau_to - table.tau_from)[faces], kind="stable")[:RAYS]].tolist():
-            f = Sheet(self.space, face)
+            f = self._sheet(face)
             tau = between(f.low, f.high)
             while self.corridors.may_be_critical(f.chart, tau):
                 tau = (tau + f.high) / 2
