@@ -19,6 +19,7 @@ from cfree.errors import FormatError, UnsupportedError
 from cfree.motion import Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
+from cfree.path_clearance import narrowest
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Scene
@@ -243,3 +244,20 @@ def test_the_example_of_the_format_page_is_what_is_written(request: pytest.Fixtu
     with pytest.raises(FormatError) as caught:
         load_answer(file)
     assert str(caught.value) == f"{file}:{fault}"
+
+
+def test_narrowest_places_are_those_of_dense_samples() -> None:
+    gates = [box(x, -9, x + 1, Fraction(-gap, 8)) for x, gap in ((4, 11), (9, 8), (14, 16), (20, 9))]
+    scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=gates)
+    path = Path(Pose(0, 0), [Translation((10, 0)), Rotation(("10.5", "0.5"), "90deg"), Translation((14, 0))])
+    found = narrowest(path, scene, 4)
+    assert [place.obstacle[0] for place in found] == [1, 3, 0, 2]
+    for place in found:
+        assert place.least <= place.found
+        pose = path.poses[place.motion]
+        (sample,) = path.motions[place.motion].sample(pose, [place.share])
+        corners = sample.apply(scene.robot[0].vertices)
+        lowest = corners[:, 1].min()
+        wall = gates[place.obstacle[0]].vertices[:, 1].max()
+        assert place.found == pytest.approx(lowest - float(wall), abs=1e-3)
+    assert narrowest(path, scene, 1)[0].found == path.clearance(scene).found

@@ -73,6 +73,7 @@ if TYPE_CHECKING:
     from cfree.motion_check import is_free_motion as is_free_motion
     from cfree.path import Clearance as Clearance
     from cfree.path import Path as Path
+    from cfree.path_clearance import narrowest as narrowest
     from cfree.pinch import Pinch as Pinch
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.planner import plan as plan
@@ -156,6 +157,7 @@ _HOMES = {
     "motion": "Rotation Translation rotations",
     "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
     "path": "Clearance Path",
+    "path_clearance": "narrowest",
     "pinch": "Pinch",
     "planning.planner": "Planner plan plan_many",
     "planning.search": "motion_between",

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cfree.mesh import robot_radius
-from cfree.motion import Translation
-from cfree.nearest import Walls
-from cfree.pace import reach
+from cfree.motion import Motion, Translation
+from cfree.motion_check import MotionChecker
+from cfree.nearest import Floats, Ints, Walls
+from cfree.pace import Pace, reach
 from cfree.path import Clearance, Path
+from cfree.planning.search import motion_between
+from cfree.pose import Poses
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
@@ -63,3 +69,84 @@ def least_clearance(path: Path, scene: Scene, tolerance: float | None) -> Cleara
         motion, low, high = np.tile(motion, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
     value, at, share, i, j = best
     return Clearance(max(0.0, least - ROUNDING * size), value, at, share, walls.robot_names[i], walls.names[j])
+
+
+def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]:
+    """The narrowest places of a path: where its distance from obstacles is less than before and after.
+
+    Parameters
+    ----------
+    path : Path
+        Free in the scene.
+    scene : Scene
+    count : int
+        How many places at most.
+
+    Returns
+    -------
+    tuple of Clearance
+        The narrowest first, each with a certified lower bound for a part of the path around it, which ends where it is
+        twice as wide, or at the widest place before another part. Empty if there is nothing to be near to.
+
+    Raises
+    ------
+    ValueError
+        If the path is not free.
+
+    Notes
+    -----
+    Parts are told apart by samples, at each hundredth of the robot's radius that it travels. Where it touches, a part
+    ends at a distance of a hundredth of the radius.
+
+    Examples
+    --------
+    >>> from cfree.pose import Pose
+    >>> from cfree.scene import Scene
+    >>> gates = [[(x, -9), (x + 1, -9), (x + 1, -gap), (x, -gap)] for x, gap in ((3, 1), (9, 2), (15, 1.5))]
+    >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=gates)
+    >>> [(place.found, place.obstacle[0]) for place in narrowest(Path(Pose(0, 0), [Translation((20, 0))]), scene)]
+    [(1.0, 0), (1.5, 2), (2.0, 1)]
+    """
+    if not path.is_free(MotionChecker(scene)):
+        raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
+    walls, pace, radius = Walls(scene), Pace(path, scene), robot_radius(scene)
+    if not len(walls.segments):
+        return ()
+    travel = np.linspace(0, pace.total, math.ceil(100 * pace.total / radius) + 2)
+    rows = pace.at(travel)
+    placed = Poses(rows[:, :2], rows[:, 2]).apply(walls.robot.reshape(-1, 2)).reshape(-1, *walls.robot.shape)
+    distance, _, _ = walls.nearest(placed)
+    around = np.concatenate(([np.inf], distance, [np.inf]))
+    lows = np.where((distance <= around[:-2]) & (distance <= around[2:]), distance, np.inf)
+    found: list[Clearance] = []
+    taken = np.zeros(len(travel), bool)
+    while len(found) < count and np.isfinite(lows).any():
+        k = int(lows.argmin())
+        wide = np.flatnonzero(taken | (distance >= max(2 * distance[k], radius / 100)))
+        first, last = wide[wide < k].max(initial=0), wide[wide > k].min(initial=len(travel) - 1)
+        first, last = first + int(distance[first : k + 1].argmax()), k + int(distance[k : last + 1].argmax())
+        if place := _least_between(path, scene, *pace.places(travel[[first, last]])):
+            found.append(place)
+        taken[first : last + 1], lows[first : last + 1] = True, np.inf
+    return tuple(sorted(found, key=lambda place: place.found))
+
+
+def _least_between(path: Path, scene: Scene, motion: Ints, share: Floats) -> Clearance | None:
+    """The least clearance between two places of a path; the place found is one of the whole path."""
+    if not path.motions:
+        return least_clearance(path, scene, None)
+    (i, j), (u, v) = motion.tolist(), map(Fraction, share.tolist())
+    poses = [path.motions[i].at(path.poses[i], u), *path.poses[i + 1 : j + 1], path.motions[j].at(path.poses[j], v)]
+    part = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)])
+    place = least_clearance(part, scene, None)
+    if place is None:
+        return None
+    k, s = i + place.motion, place.share
+    begin = _share(path.motions[k], u) if k == i else 0.0
+    end = _share(path.motions[k], v) if k == j else 1.0
+    return replace(place, motion=k, share=begin + s * (end - begin))
+
+
+def _share(motion: Motion, u: Fraction) -> float:
+    """Of the length or of the angle, at a parameter."""
+    return float(u) if isinstance(motion, Translation) else motion.until(u).turn / motion.turn
