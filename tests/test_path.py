@@ -256,8 +256,6 @@ def test_narrowest_places_are_those_of_dense_samples() -> None:
         assert place.least <= place.found
         pose = path.poses[place.motion]
         (sample,) = path.motions[place.motion].sample(pose, [place.share])
-        corners = sample.apply(scene.robot[0].vertices)
-        lowest = corners[:, 1].min()
-        wall = gates[place.obstacle[0]].vertices[:, 1].max()
-        assert place.found == pytest.approx(lowest - float(wall), abs=1e-3)
+        placed = shapely.Polygon(sample.apply(scene.robot[0].vertices))
+        assert place.found == pytest.approx(placed.distance(gates[place.obstacle[0]].to_shapely()), abs=1e-9)
     assert narrowest(path, scene, 1)[0].found == path.clearance(scene).found
