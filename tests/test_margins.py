@@ -22,8 +22,8 @@ from cfree import (
     nearest_miss,
     separation,
 )
+from cfree.grown import FARTHEST_OUT, SIDES, _around_a_disc
 from cfree.inset import inset, with_robot
-from cfree.margins import SIDES, _around_a_disc
 from cfree.pinch import pinches
 from cfree.polygon import Polygon
 from compared import scene_of
@@ -120,11 +120,11 @@ def test_margins() -> None:
 
 
 def test_the_polygon_is_around_the_disc_and_inside_the_other() -> None:
-    ring, outer = _around_a_disc()
-    assert len(ring) == SIDES and outer < 1.02
+    ring = _around_a_disc()
+    assert len(ring) == SIDES and FARTHEST_OUT < 1.02
     for (x, y), (u, v) in zip(ring, ring[1:] + ring[:1], strict=True):
         assert (x * v - y * u) ** 2 >= (u - x) ** 2 + (v - y) ** 2  # the line is at least 1 from the centre
-        assert x * x + y * y <= Fraction(outer) ** 2
+        assert x * x + y * y <= Fraction(FARTHEST_OUT) ** 2
 
 
 def test_insets_are_inside() -> None:
