@@ -18,7 +18,20 @@ from measure import Report, machine
 from rich.console import Console
 from rich.table import Table
 
-BENCHES = ("boundary", "exact", "growth", "threads", "slice", "surface", "mesh", "free", "cells", "plan", "start")
+BENCHES = (
+    "boundary",
+    "exact",
+    "growth",
+    "threads",
+    "slice",
+    "surface",
+    "mesh",
+    "free",
+    "cells",
+    "plan",
+    "tight",
+    "start",
+)
 
 
 def main() -> int:

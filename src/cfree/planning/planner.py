@@ -151,10 +151,11 @@ class Planner:
         self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
     ) -> Path | Separated:
         """See `cfree.plan`."""
-        for pose, name in ((start, "start"), (goal, "goal")):
-            if not self.is_free([pose, pose]):
-                require_free(self.scene, pose, name)
         poses = self.first_free(simple_ways(start, goal))
+        if poses is None:
+            for pose, name in ((start, "start"), (goal, "goal")):
+                if not self.is_free([pose, pose]):
+                    require_free(self.scene, pose, name)
         if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
         if poses is None and (cell := self.cell_of(start, goal)) is not None:
