@@ -22,7 +22,9 @@ COMMENT = re.compile(r"//.*")
 NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?")
 # computed from the exact structure, in doubles
 COMPUTED = ("contact_curve", "mesh", "sheet", "slice", "surface", "triangulation")
-NOT_DECIDING = {name + suffix for name in COMPUTED for suffix in (".cpp", ".hpp")}
+# guesses, whose motions are then decided
+GUESSED = ("configuration", "search", "shorten")
+NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED for suffix in (".cpp", ".hpp")}
 
 
 def tolerances(source: str) -> list[str]:

@@ -165,8 +165,8 @@ Rays::Rays(Scene s, int by, Patches p, Trapezoids x, std::vector<Index> of)
       index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 3) {
     for (Index part = 0; part < index.count(); ++part) {
         for (const Index k : index.at(part)) extents.push_back(extent(k, index.from(part), index.to(part)));
-        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& p, const Extent& q) {
-            return p.low < q.low || (p.low == q.low && p.trapezoid < q.trapezoid);
+        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& a, const Extent& b) {
+            return a.low < b.low || (a.low == b.low && a.trapezoid < b.trapezoid);
         });
         plant(index.begin(part), index.begin(part + 1));
     }
