@@ -25,3 +25,11 @@ def test_ompl_without_collisions(capsys: pytest.CaptureFixture[str], monkeypatch
     found = runpy.run_path(str(GALLERY / "plot_ompl_without_collisions.py"))
     said = capsys.readouterr().out
     assert "motions, free: True" in said and found["clearance"].least > 0
+
+
+def test_from_start_to_goal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(GALLERY.parents[1])
+    found = runpy.run_path(str(GALLERY / "plot_from_start_to_goal.py"))
+    said = capsys.readouterr().out
+    assert "free: True" in said and "not even one that touches. verified" in said
+    assert found["proof"].of == "closed" and found["clear"].clearance(found["scene"]).least > 0.01

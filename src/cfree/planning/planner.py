@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 Objective = Literal["short", "clear"]
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
+OTHERS = 30  # other ways looked for
+COMPLETE = 30_000  # contact patches at most of a grown robot whose free space is computed
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 
 
@@ -194,16 +196,23 @@ class Planner:
         return Path(poses[0], motions, self.scene.units)
 
     def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
-        """A shorter path, after some time, or a number of attempts."""
+        """A shorter path, after a number of attempts; or of ways found in half of some time the best, in the rest."""
         if seconds == 0 or len(poses) < 3:
             return poses
-        searcher = self._searcher(poses)
-        shortener = searcher.shortener(poses)
         end = time.perf_counter() + (seconds or 0)
-        shortener.run(REFINE if seconds is None else BLOCK)
+        searcher = self._searcher(poses)
+        best = searcher.shortener(poses)
+        best.run(REFINE)
+        seed = 0
+        while seconds and time.perf_counter() < end - seconds / 2 and seed < OTHERS:
+            seed += 1
+            if other := searcher.search(poses[0], poses[-1], seed).run(self._checks):
+                shortener = searcher.shortener(searcher.poses(other))
+                shortener.run(REFINE)
+                best = min(best, shortener, key=lambda s: s.length())
         while time.perf_counter() < end:
-            shortener.run(BLOCK)
-        return searcher.poses(shortener.path())
+            best.run(BLOCK)
+        return searcher.poses(best.path())
 
     def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         from cfree.planning.clear import clear
@@ -211,15 +220,22 @@ class Planner:
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene)
             found = larger.first_free(simple_ways(start, goal)) or larger._searched(start, goal)
+            is_small = larger.checker.features.patches <= COMPLETE
+            if found is None and is_small and (cell := larger.cell_of(start, goal)) is not None:
+                found = larger.walker.walk(start, goal, cell)
             return None if found is None else larger.shortened(found, seconds and seconds / 4)
 
         return clear(self.scene, poses, self.angle_scale, way_of)
 
+    @property
+    def _checks(self) -> int:
+        """Motions that a search may check: these take about as long as the free space does."""
+        return min(SEARCH, 500 + 3 * self.checker.features.patches // 2)
+
     def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
         search = searcher.search(start, goal)
-        most = min(SEARCH, 500 + 3 * self.checker.features.patches // 2)  # about as long as the free space takes
-        for _ in range(0, most, BLOCK):
+        for _ in range(0, self._checks, BLOCK):
             if found := search.run(BLOCK):
                 return searcher.poses(found)
         return None

@@ -45,22 +45,21 @@ def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:
 class Searcher:
     """Searches in one scene."""
 
-    def __init__(self, checker: MotionChecker, area: Places, angle_scale: float, seed: int = 0) -> None:
+    def __init__(self, checker: MotionChecker, area: Places, angle_scale: float) -> None:
         self.checker = checker
         self._scale, self._shift = checker.units
         self._unit = self._scale * 0.5**self._shift  # of lengths in the core's doubles
         self._area = [c * self._unit for c in area]
         self._extent = math.frexp(max(abs(c) for c in self._area) or 1.0)[1]
         self._weight = angle_scale * self._unit
-        self._seed = seed
 
-    def search(self, start: Pose, goal: Pose) -> Any:
+    def search(self, start: Pose, goal: Pose, seed: int = 0) -> Any:
         """To be run by ``run(checks)``, until it returns poses; see `poses`."""
         from cfree import _core
 
         (p, at), (q, to) = map(self._configuration, (start, goal))
         grid = self._grid(PLACE_BITS, ANGLE_BITS)
-        return _core.Search(self.checker.core, grid, self._area, self._weight, p, at, q, to, self._seed)
+        return _core.Search(self.checker.core, grid, self._area, self._weight, p, at, q, to, seed)
 
     def shortener(self, poses: Sequence[Pose]) -> Any:
         """To be run by ``run(checks)``; ``path()`` is the best so far."""
@@ -68,7 +67,7 @@ class Searcher:
 
         numbers, places = zip(*map(self._configuration, poses), strict=True)
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
-        return _core.Shortener(self.checker.core, grid, self._weight, list(numbers), list(places), self._seed)
+        return _core.Shortener(self.checker.core, grid, self._weight, list(numbers), list(places), 0)
 
     def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
         """Exact poses from those of the core."""

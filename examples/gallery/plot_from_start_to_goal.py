@@ -1,0 +1,104 @@
+"""
+From start to goal
+==================
+
+Can the robot get there? A path of motions that are proved free, or a proof that there is none.
+"""
+
+import cfree
+
+# %%
+# A scene
+# -------
+#
+# A table, a wall with a door, and the room around them. Any coordinates will do: integers, floats, fractions, "1/3".
+# The table is turned by 20 degrees at the end.
+
+table = [(-1, "-0.4"), (1, "-0.4"), (1, "0.4"), (-1, "0.4")]
+door = "0.9"
+wall = [
+    [(-4, "-0.1"), (-1, "-0.1"), (-1, "0.1"), (-4, "0.1")],
+    [(f"{-0.1}", "-0.1"), (4, "-0.1"), (4, "0.1"), (f"{-0.1}", "0.1")],
+]
+room = [(-4, -3), (4, -3), (4, 3), (-4, 3)]
+start, goal = cfree.Pose(-2, 2), cfree.Pose(2, -2, "20deg")
+scene = cfree.Scene(table, wall, workspace=room, start=start, goal=goal, units="m", name="through the door")
+
+# %%
+# A path
+# ------
+#
+# The door is 0.9 m wide, the table 0.8: it has to go through sideways. Each motion is a translation, or a rotation
+# about a pole, and free as a whole: that is decided exactly, without steps.
+
+path = cfree.plan(scene)
+print(path)
+print(path.motions[0])
+print("free:", path.is_free(cfree.MotionChecker(scene)))
+
+# %%
+# Short paths come close to obstacles. ``objective="clear"`` keeps away from them as far as it finds a way;
+# ``narrowest`` says where it is narrow, with certified distances.
+
+clear = cfree.plan(scene, objective="clear", improve=1.0)
+for place in cfree.narrowest(clear, scene):
+    print(f"{place.found:.4f} m (certainly {place.least:.4f}) to {scene.obstacle_names[place.obstacle[0]]}")
+
+# %%
+# On the left the table along its way, on the right its way among the contact patches: the door is the gap between them.
+
+space = cfree.free_space(cfree.boundary(scene))
+figure = cfree.picture(clear, scene, space.boundary)
+
+# %%
+# How much room is left? The table may be so many times as large, and so far from everything all along:
+
+print("scale", cfree.max_scale(scene, start, goal, tolerance=0.05))
+print("margin", cfree.max_margin(scene, start, goal, tolerance=0.05), "m")
+
+# %%
+# A proof
+# -------
+#
+# With a table of 0.95 m the answer is no. It is a closed surface in the configuration space made of contacts, with
+# start and goal on two sides. "closed": not even a motion that touches the door frame leads through.
+
+wide = [(-1, "-0.475"), (1, "-0.475"), (1, "0.475"), (-1, "0.475")]
+too_wide = cfree.Scene(wide, wall, workspace=room, start=start, goal=goal, units="m", name="too wide")
+proof = cfree.plan(too_wide)
+print(proof)
+print(cfree.nearest_miss(too_wide, start, goal))
+figure = cfree.picture(proof, too_wide)
+
+# %%
+# Who does not believe it has it checked by other exact code, as ``cfree verify SCENE ANSWER.json`` does:
+
+for answer, its in ((clear, scene), (proof, too_wide)):
+    print(cfree.verify.answer(its, answer).verdict)
+
+# %%
+# An exact fit
+# ------------
+#
+# A table just as wide as the door gets through: touching is allowed. By a hair more it does not.
+
+for width in ("0.45", "0.450000000001"):
+    fit = [(-1, f"-{width}"), (1, f"-{width}"), (1, width), (-1, width)]
+    print(width, cfree.plan(cfree.Scene(fit, wall, workspace=room), start, goal))
+
+# %%
+# Many questions
+# --------------
+#
+# What is known of a scene is kept in its free space: its cells, which poses are in which, and paths between them.
+
+print(space, [round(cell.volume, 3) for cell in space.cells])
+poses = [cfree.Pose(x, y) for x in (-2, 0, 2) for y in (-2, 2)]
+print(space.locate(poses))
+for answer in cfree.plan_many(space, [(poses[0], pose) for pose in poses[1:]]):
+    print(answer)
+
+# %%
+# For other programs: poses in a CSV file, a ROS message or GeoJSON, and everything exactly in JSON.
+
+print("x,y,theta:", clear.sample(step=0.5).xy[:3].round(3).tolist(), "...")
