@@ -8,6 +8,8 @@ test of whole motions. The car park is a scene of the benchmark Bench-MR; it com
 OMPL is needed: ``pip install 'cfree[ompl]'``.
 """
 
+from pathlib import Path
+
 import matplotlib.pyplot as plt
 import numpy as np
 from ompl import util
@@ -16,7 +18,8 @@ import cfree
 import cfree.ompl
 
 util.setLogLevel(util.LogLevel.LOG_ERROR)
-scene = cfree.load_scene("examples/scenes/benchmr_parking1.json")
+scenes = Path("examples/scenes") if Path("examples").exists() else Path("../scenes")
+scene = cfree.load_scene(scenes / "benchmr_parking1.json")
 setup = cfree.ompl.simple_setup(scene)
 print(setup.solve(60.0))
 setup.simplifySolution(1.0)
