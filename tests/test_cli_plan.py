@@ -67,6 +67,22 @@ def test_a_proof_has_exit_code_1(run: Run, tmp_path: Path) -> None:
     assert run("verify", CONVEX, answer).exit_code != 0
 
 
+def test_the_nearest_miss_is_told_when_asked_for(run: Run, tmp_path: Path) -> None:
+    scene = tmp_path / "door.json"
+    walls = [[[-9, -1], [-1, -1], [-1, 1], [-9, 1]], [[1, -1], [9, -1], [9, 1], [1, 1]]]
+    square = [[-1.25, -1.25], [1.25, -1.25], [1.25, 1.25], [-1.25, 1.25]]
+    data = {
+        "robot": {"outer": square},
+        "obstacles": [{"outer": wall} for wall in walls],
+        "workspace": {"outer": [[-9, -9], [9, -9], [9, 9], [-9, 9]]},
+    }
+    scene.write_text(json.dumps(data | {"start": [0, 5, 0], "goal": [0, -5, 0]}))
+    result = run("plan", scene, "--nearest-miss")
+    assert result.exit_code == 1
+    assert "an inset of 0.2" in " ".join(result.stdout.split())
+    assert "nearest miss" not in run("plan", scene).stdout
+
+
 def test_a_proof_is_no_path_to_film_or_to_sample(run: Run, tmp_path: Path) -> None:
     result = run("plan", SWIM, "-o", tmp_path / "way.csv", "--film", tmp_path / "way.gif")
     assert result.exit_code == 1

@@ -198,6 +198,9 @@ def plan(
     film: Annotated[
         Path | None, typer.Option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.", show_default=False)
     ] = None,
+    miss: Annotated[
+        bool, typer.Option("--nearest-miss", help="Of a proof: by how much, and where. Takes a dozen times as long.")
+    ] = False,
     max_seconds: SecondsOption = None,
     as_json: JsonOption = False,
 ) -> None:
@@ -243,6 +246,12 @@ def plan(
         elif film:
             _leave_out(written, "film", "there is no path to film")
         facts = answer_rows(answer, planner.scene)
+        if miss and not isinstance(answer, Motions):
+            from cfree.margins import nearest_miss
+
+            with _bar("nearest miss") as progress:
+                found = nearest_miss(planner.scene, begin, end, progress=progress)
+            facts["nearest miss"] = str(found) if found else "no smaller robot gets there either"
         if as_json:
             _print_json({"file": str(scene), **facts, "files": written})
         else:
