@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -38,7 +39,9 @@ class Walls:
         walls = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
         self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
         self.segments, self.names = _edges(walls)
-        self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments))
+        # a power of two near their size, so that squares of tiny and of huge numbers are doubles
+        self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
+        self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments / self._unit))
 
     def nearest(self, placed: Floats) -> tuple[Floats, Ints, Ints]:
         """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); between which edge and which wall they are.
@@ -47,9 +50,9 @@ class Walls:
         """
         import shapely
 
-        lines = shapely.linestrings(placed.reshape(-1, 2, 2))
+        lines = shapely.linestrings(placed.reshape(-1, 2, 2) / self._unit)
         (_, wall), distance = self._tree.query_nearest(lines, return_distance=True, all_matches=False)
-        table = distance.reshape(len(placed), -1)
+        table = self._unit * distance.reshape(len(placed), -1)
         edge = table.argmin(axis=1)
         rows = np.arange(len(placed))
         return table[rows, edge], edge, wall.reshape(table.shape)[rows, edge]
@@ -58,8 +61,8 @@ class Walls:
         """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of a wall."""
         import shapely
 
-        line = shapely.shortest_line(shapely.linestrings(edge), shapely.linestrings(self.segments[wall]))
-        return np.asarray(shapely.get_coordinates(line))
+        pair = (shapely.linestrings(ends / self._unit) for ends in (edge, self.segments[wall]))
+        return self._unit * np.asarray(shapely.get_coordinates(shapely.shortest_line(*pair)))
 
 
 def _edges(shapes: list[tuple[int, Polygon]]) -> tuple[Floats, list[Name]]:

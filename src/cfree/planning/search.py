@@ -48,7 +48,7 @@ class Searcher:
     def __init__(self, checker: MotionChecker, area: Places, angle_scale: float) -> None:
         self.checker = checker
         self._scale, self._shift = checker.units
-        self._unit = self._scale * 0.5**self._shift  # of lengths in the core's doubles
+        self._unit = float(Fraction(self._scale, 1 << self._shift))  # of lengths in the core's doubles
         self._area = [c * self._unit for c in area]
         self._extent = math.frexp(max(abs(c) for c in self._area) or 1.0)[1]
         self._weight = angle_scale * self._unit
