@@ -132,6 +132,23 @@ def test_a_rectangle_round_an_upright_corner(sign: int) -> None:
         assert isinstance(found, Path if sign > 0 else Separated), digits
 
 
+@pytest.mark.parametrize(
+    ("size", "offset"),
+    [(Fraction(1, 10**120), 0), (Fraction(10) ** 120, 0), (Fraction(1, 3**40), 0), (Fraction(1), 10**9)],
+    ids=["tiny", "huge", "thirds", "far away"],
+)
+def test_sizes_and_places_do_not_matter(size: Fraction, offset: int) -> None:
+    """Neither for the decision nor for the evidence."""
+    for clearance in (Fraction(1, 1000), Fraction(0), Fraction(-1, 1000)):
+        scene, *ends = turned_corner(clearance)
+        assert scene.workspace
+        start, goal = (Pose(size * q.x + offset, size * q.y + offset, {"tau": q.tau}) for q in ends)
+        corners = [(size * x + offset, size * y + offset) for x, y in scene.workspace.exact_vertices]
+        robot = [(size * x, size * y) for x, y in scene.robot[0].exact_vertices]
+        found = checked(Scene(robot, workspace=corners), start, goal)
+        assert isinstance(found, Path) == (clearance >= 0)
+
+
 # --- random scenes ---
 
 
