@@ -30,6 +30,11 @@ CANDIDATES = 8  # faces that a pose may be on
 FAR = -1  # in place of a face: to the left of everything
 
 
+def place_of(pose: Pose) -> Place:
+    """Its x, y, theta."""
+    return float(pose.x), float(pose.y), pose.theta
+
+
 @dataclass(frozen=True)
 class Landing:
     """A pose on a face, or `FAR`."""
@@ -40,7 +45,7 @@ class Landing:
     @property
     def place(self) -> Place:
         """Its x, y, theta."""
-        return float(self.pose.x), float(self.pose.y), self.pose.theta
+        return place_of(self.pose)
 
 
 @dataclass(frozen=True)
@@ -90,49 +95,55 @@ class Corridors:
         return known
 
     def shortest(
-        self,
-        starts: list[Landing],
-        goals: list[Landing],
-        links: list[Link],
+        self, start: Place, starts: list[Landing], goal: Place, goals: list[Landing], links: list[Link]
     ) -> list[tuple[int, int]] | None:
-        """Coedges to leave faces by, from one of the starts to one of the goals.
+        """Coedges to leave faces by, from a place over one of the starts, and one of the goals, to another place.
 
         Returns
         -------
         list of (face, coedge)
             A face, and by which coedge it is left. From H on they stand for links, H + 2 k for the first end of link k,
             H + 2 k + 1 for the second; after them comes the end of the way. None if there is no way.
+
+        Notes
+        -----
+        A*: what is left is at least as long as the straight way.
         """
-        cells = self.space.complex
-        base = len(cells.face)
+        first, twin, face_of, middles = self._lists
+        base = len(face_of)
         ends = [end for link in links for end in link.ends]
-        places: list[Place] = [*map(tuple, self.middles.tolist()), *(end.place for end in ends)]
-        first, twin, face_of = cells.first.tolist(), cells.twin.tolist(), cells.face.tolist()
+        places = [*middles, *(end.place for end in ends), goal]
+        x, y, theta = np.array(places).T
+        turn = np.abs(np.remainder(theta - goal[2] + np.pi, math.tau) - np.pi)
+        left = (np.hypot(x - goal[0], y - goal[1]) + self.angle_scale * turn).tolist()
         at_face: dict[int, list[int]] = {}
         for k, end in enumerate(ends):
             at_face.setdefault(end.face, []).append(base + k)
         at_goal: dict[int, list[Place]] = {}
-        for goal in goals:
-            at_goal.setdefault(goal.face, []).append(goal.place)
+        for landing in goals:
+            at_goal.setdefault(landing.face, []).append(landing.place)
+        last = len(places) - 1
         came: dict[int, tuple[int, int]] = {}  # the coedge before, and the face after that
-        heap: list[tuple[float, int, int, int]] = []
+        heap: list[tuple[float, float, int, int, int]] = []
 
         def relax(cost: float, face: int, at: Place, before: int) -> None:
             sides = range(first[face], first[face + 1]) if face != FAR else ()
             for h in (*sides, *at_face.get(face, ())):
                 if h not in came:
-                    heapq.heappush(heap, (cost + self.apart(at, places[h]), h, before, face))
+                    there = cost + self.apart(at, places[h])
+                    heapq.heappush(heap, (there + left[h], there, h, before, face))
             for place in at_goal.get(face, ()):
-                heapq.heappush(heap, (cost + self.apart(at, place), len(places), before, face))
+                there = cost + self.apart(at, place) + self.apart(place, goal)
+                heapq.heappush(heap, (there, there, last, before, face))
 
-        for start in starts:
-            relax(0.0, start.face, start.place, -1)
+        for landing in starts:
+            relax(self.apart(start, landing.place), landing.face, landing.place, -1)
         while heap:
-            cost, h, before, face = heapq.heappop(heap)
+            _, cost, h, before, face = heapq.heappop(heap)
             if h in came:
                 continue
             came[h] = before, face
-            if h == len(places):
+            if h == last:
                 way = []
                 while h >= 0:
                     before, face = came[h]
@@ -140,11 +151,18 @@ class Corridors:
                     h = before
                 return way[::-1]
             if h < base:
+                came[twin[h]] = before, face
                 relax(cost, face_of[twin[h]], places[h], h)
             else:
                 other = base + ((h - base) ^ 1)
                 relax(cost + self.apart(places[h], places[other]), ends[other - base].face, places[other], h)
         return None
+
+    @cached_property
+    def _lists(self) -> tuple[list[int], list[int], list[int], list[Place]]:
+        """Of the complex: first, twin, face; and the middles."""
+        cells = self.space.complex
+        return cells.first.tolist(), cells.twin.tolist(), cells.face.tolist(), [*map(tuple, self.middles.tolist())]
 
     def apart(self, a: Place, b: Place) -> float:
         """Length of the way between two places."""

@@ -18,7 +18,7 @@ import numpy as np
 from cfree.errors import InvariantError
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
-from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link
+from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
 from cfree.planning.exits import Exits
 from cfree.planning.search import motion_between
 from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, rotated
@@ -150,7 +150,7 @@ class Walker:
         head, landings = self.leave(start, cell)
         tail, takeoffs = self.leave(goal, cell)
         links = self.links(cell)
-        way = self.corridors.shortest(landings, takeoffs, links)
+        way = self.corridors.shortest(place_of(head[-1]), landings, place_of(tail[-1]), takeoffs, links)
         if way is None:
             raise InvariantError(f"no way in cell {cell}", state=(start, goal))
         first = next(x for x in landings if x.face == way[0][0])
