@@ -207,10 +207,13 @@ def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
 
 
 def _frame(ax: Any, box: Window) -> None:
-    """What is seen beside."""
+    """What is seen beside, if that is a part of what is seen here."""
     from matplotlib.patches import Rectangle
 
     x0, y0, x1, y1 = box
+    (left, right), (bottom, top) = ax.get_xlim(), ax.get_ylim()
+    if not (left < x0 and x1 < right and bottom < y0 and y1 < top):
+        return
     style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "seen beside"}
     ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, **style))
 
