@@ -20,7 +20,7 @@ Configuration Grid::exact(double px, double py, double theta) const {
     const double x = std::nearbyint(std::ldexp(px, place_bits)), y = std::nearbyint(std::ldexp(py, place_bits));
     q.px = std::ldexp(x, -place_bits), q.py = std::ldexp(y, -place_bits);
     const int by = shift - place_bits;
-    q.x = static_cast<long long>(x), q.y = static_cast<long long>(y), q.unit = 1;
+    q.x = Int(x), q.y = Int(y), q.unit = 1;  // whole numbers
     if (by >= 0) q.x <<= static_cast<unsigned>(by), q.y <<= static_cast<unsigned>(by);
     else q.unit <<= static_cast<unsigned>(-by);
     return q;

@@ -10,6 +10,10 @@ namespace {
 
 constexpr double longest_step = 0.2;  // of the extent of the configuration space
 
+bool are_one(const Configuration& a, const Configuration& b) {
+    return a.px == b.px && a.py == b.py && a.theta == b.theta;
+}
+
 }  // namespace
 
 Search::Search(const MotionChecker& c, Grid g, Area a, double w, Configuration start, Configuration goal, std::uint64_t seed)
@@ -31,9 +35,10 @@ Index Search::nearest(const Tree& tree, const Configuration& q) const {
     return best;
 }
 
-bool Search::is_free(const Configuration& a, const Configuration& b) {
+// From a node of a tree on; the second tree's motions are run the other way, which matters for half turns.
+bool Search::is_free(bool of_goal, const Configuration& a, const Configuration& b) {
     --left;
-    return checker.is_free(motion_between(a, b));
+    return checker.is_free(of_goal ? motion_between(b, a) : motion_between(a, b));
 }
 
 Configuration Search::towards(const Configuration& a, const Configuration& b) const {
@@ -44,10 +49,11 @@ Configuration Search::towards(const Configuration& a, const Configuration& b) co
 }
 
 // A new node on the way from the nearest one, or -1.
-Index Search::extend(Tree& tree, const Configuration& q) {
+Index Search::extend(const Configuration& q) {
+    Tree& tree = trees[turn];
     const Index from = nearest(tree, q);
     Configuration next = towards(tree.nodes[from], q);
-    if (!is_free(tree.nodes[from], next)) return -1;
+    if (!is_free(turn, tree.nodes[from], next)) return -1;
     tree.nodes.push_back(std::move(next));
     tree.parent.push_back(from);
     return static_cast<Index>(tree.nodes.size()) - 1;
@@ -64,17 +70,18 @@ Route Search::joined(Index of_first, Index of_second) const {
 Route Search::run(int checks) {
     left = checks;
     while (left > 0) {
-        Tree &tree = trees[turn], &other = trees[!turn];
+        Tree& other = trees[!turn];
         const double x = area.x0 + random() * (area.x1 - area.x0), y = area.y0 + random() * (area.y1 - area.y0);
-        const Index k = extend(tree, grid.exact(x, y, random() * 2 * std::numbers::pi));
+        const Index k = extend(grid.exact(x, y, random() * 2 * std::numbers::pi));
         if (k >= 0) {
-            const Configuration aim = tree.nodes[k];
+            const Configuration aim = trees[turn].nodes[k];
             Index from = nearest(other, aim);
-            for (;;) {
+            while (left > 0) {
                 Configuration next = towards(other.nodes[from], aim);
-                const bool arrives = next.px == aim.px && next.py == aim.py && next.theta == aim.theta;
+                const bool arrives = are_one(next, aim);
                 if (arrives) next = aim;
-                if (!is_free(other.nodes[from], next)) break;
+                else if (are_one(next, other.nodes[from])) break;  // the grid is too coarse
+                if (!is_free(!turn, other.nodes[from], next)) break;
                 if (arrives) return turn ? joined(from, k) : joined(k, from);
                 other.nodes.push_back(std::move(next));
                 other.parent.push_back(from);

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from cfree.errors import UnsupportedError
 from cfree.exact import ExactPoint
 from cfree.polygon import Polygon
 from cfree.scene import Scene
@@ -100,7 +101,10 @@ def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:
         robot = [smaller for part in scene.robot for smaller in inset(part, by)]
         x0, y0, x1, y1 = scene.bounds or (by, by, -by, -by)
         bounds = scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
-        space.insets[power] = free_space(boundary(with_robot(scene, robot, bounds))) if robot else None
+        try:
+            space.insets[power] = free_space(boundary(with_robot(scene, robot, bounds))) if robot else None
+        except UnsupportedError:  # coordinates beyond what is allowed
+            space.insets[power] = None
     return space.insets[power]
 
 

@@ -121,7 +121,8 @@ def nearest_miss(
         return NearestMiss(0.0, float(min([*insets, most])), ())
     lo, hi = _bisected(separated, least, most, tolerance, progress)
     one, other = spaces[lo], spaces[hi]
-    assert one is not None and other is not None
+    if one is None or other is None:
+        return NearestMiss(0.0, float(hi), ())
     return NearestMiss(float(lo), float(hi), pinches(one, other, start, goal))
 
 
@@ -202,7 +203,7 @@ def max_margin(
     """
     _check(tolerance)
     if not _are_joined(_space(scene), start, goal):
-        raise ValueError("start and goal are not joined; see cfree.nearest_miss")
+        raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
 
     def is_joined(radius: Fraction) -> bool:
         return _are_joined(_space(with_robot(scene, grown(scene, radius), scene.bounds)), start, goal)
@@ -217,8 +218,8 @@ def max_margin(
 
 
 def _check(tolerance: float) -> None:
-    if not tolerance > 2.0 ** (2 - BITS):
-        raise ValueError(f"tolerance {tolerance}: give more than {2.0 ** (2 - BITS):g}")
+    if not 2.0 ** (2 - BITS) < tolerance < math.inf:
+        raise ValueError(f"tolerance {tolerance}: give a number, more than {2.0 ** (2 - BITS):g}")
 
 
 def _space(scene: Scene) -> FreeSpace:

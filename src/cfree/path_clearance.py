@@ -5,23 +5,22 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cfree.mesh import robot_radius
-from cfree.motion import Motion, Translation
+from cfree.motion import Motion, Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.nearest import Floats, Ints, Walls
 from cfree.pace import Pace, reach
 from cfree.path import Clearance, Path
-from cfree.planning.search import motion_between
 from cfree.pose import Poses
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
 
+MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
 MOST = 1 << 16  # parts of motions looked at together: where more would be needed, what is known is the bound
 ROUNDING = 2.0**-40  # relative to the coordinates: a thousand times what placing and measuring round away
 
@@ -95,8 +94,8 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
 
     Notes
     -----
-    Parts are told apart by samples, at each hundredth of the robot's radius that it travels. Where it touches, a part
-    ends at a distance of a hundredth of the radius.
+    Parts are told apart by samples, at each hundredth of the robot's radius that it travels; 20,000 at most. Where it
+    touches, a part ends at a distance of a hundredth of the radius.
 
     Examples
     --------
@@ -110,9 +109,10 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     if not path.is_free(MotionChecker(scene)):
         raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
     walls, pace, radius = Walls(scene), Pace(path, scene), robot_radius(scene)
-    if not len(walls.segments):
-        return ()
-    travel = np.linspace(0, pace.total, math.ceil(100 * pace.total / radius) + 2)
+    if not path.motions or not len(walls.segments):
+        whole = least_clearance(path, scene, None)
+        return () if whole is None else (whole,)
+    travel = np.linspace(0, pace.total, min(math.ceil(100 * pace.total / radius) + 2, MOST_SAMPLES))
     rows = pace.at(travel)
     placed = Poses(rows[:, :2], rows[:, 2]).apply(walls.robot.reshape(-1, 2)).reshape(-1, *walls.robot.shape)
     distance, _, _ = walls.nearest(placed)
@@ -133,11 +133,10 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
 
 def _least_between(path: Path, scene: Scene, motion: Ints, share: Floats) -> Clearance | None:
     """The least clearance between two places of a path; the place found is one of the whole path."""
-    if not path.motions:
-        return least_clearance(path, scene, None)
     (i, j), (u, v) = motion.tolist(), map(Fraction, share.tolist())
-    poses = [path.motions[i].at(path.poses[i], u), *path.poses[i + 1 : j + 1], path.motions[j].at(path.poses[j], v)]
-    part = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)])
+    ends = [(u if k == i else Fraction(0), v if k == j else Fraction(1)) for k in range(i, j + 1)]
+    start = path.motions[i].at(path.poses[i], u)
+    part = Path(start, [_between(path.motions[i + k], *both) for k, both in enumerate(ends)])
     place = least_clearance(part, scene, None)
     if place is None:
         return None
@@ -145,6 +144,15 @@ def _least_between(path: Path, scene: Scene, motion: Ints, share: Floats) -> Cle
     begin = _share(path.motions[k], u) if k == i else 0.0
     end = _share(path.motions[k], v) if k == j else 1.0
     return replace(place, motion=k, share=begin + s * (end - begin))
+
+
+def _between(motion: Motion, u: Fraction, v: Fraction) -> Motion:
+    """The part of a motion between two parameters."""
+    if isinstance(motion, Translation):
+        return Translation(((v - u) * motion.vector[0], (v - u) * motion.vector[1]))
+    (q0, p0), (q1, p1) = motion.until(u).half, motion.until(v).half
+    q, p = q0 * q1 + p0 * p1, q0 * p1 - p0 * q1  # the second half angle less the first
+    return Rotation(motion.pole, {"tau": Fraction(p, q) if q else "-inf" if p < 0 else "inf"})
 
 
 def _share(motion: Motion, u: Fraction) -> float:

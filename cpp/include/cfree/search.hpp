@@ -40,9 +40,9 @@ private:
     };
     double distance(const Configuration& a, const Configuration& b) const;
     Index nearest(const Tree& tree, const Configuration& q) const;
-    bool is_free(const Configuration& a, const Configuration& b);
+    bool is_free(bool of_goal, const Configuration& a, const Configuration& b);
     Configuration towards(const Configuration& a, const Configuration& b) const;
-    Index extend(Tree& tree, const Configuration& q);
+    Index extend(const Configuration& q);
     Route joined(Index of_first, Index of_second) const;
 
     const MotionChecker& checker;

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 
+from cfree.errors import UnsupportedError
 from cfree.free import Checker
 from cfree.grown import grown
 from cfree.inset import with_robot
@@ -37,19 +39,26 @@ def clear(scene: Scene, poses: Sequence[Pose], radius: float, way_of: WayOf) -> 
     way_of : callable
         Poses of a path from one pose to another in a scene, or None if it finds none.
     """
-    scenes = [with_robot(scene, grown(scene, Fraction(radius) / 2**k), scene.bounds) for k in range(HALVINGS)]
-    checkers = [Checker(larger) for larger in scenes]
+
+    @cache
+    def larger(level: int) -> tuple[Scene, Checker] | None:
+        try:
+            grown_scene = with_robot(scene, grown(scene, Fraction(radius) / 2**level), scene.bounds)
+        except UnsupportedError:  # coordinates beyond what is allowed
+            return None
+        return grown_scene, Checker(grown_scene)
 
     def cleared(poses: Sequence[Pose], level: int) -> Sequence[Pose]:
         if level == HALVINGS or len(poses) < 2:
             return poses
-        places = list(_places(poses))
-        free = np.flatnonzero(checkers[level].is_free(Poses.from_poses([pose for _, pose in places])))
         way = None
-        if len(free) > 1:
-            (i, first), (j, last) = places[free[0]], places[free[-1]]
-            if all(checkers[level].is_free(pose) for pose in (first, last)):  # the table's were rounded
-                way = way_of(scenes[level], first, last)
+        if found := larger(level):
+            places = list(_places(poses))
+            free = np.flatnonzero(found[1].is_free(Poses.from_poses([pose for _, pose in places])))
+            if len(free) > 1:
+                (i, first), (j, last) = places[free[0]], places[free[-1]]
+                if all(found[1].is_free(pose) for pose in (first, last)):  # the table's were rounded
+                    way = way_of(found[0], first, last)
         if way is None:
             return cleared(poses, level + 1)
         return [*cleared([*poses[: i + 1], first], level + 1), *way, *cleared([last, *poses[j + 1 :]], level + 1)]

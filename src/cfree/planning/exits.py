@@ -40,7 +40,6 @@ class Exits:
         """Cells that short motions from a pose lead into, with these."""
         if pose not in self._known:
             found: dict[int, Way] = {}
-            self._known[pose] = found
             wanted = self._cells_near(pose)
             rays = [self._ray(pose, contact) for contact in self._contacts(pose)]
             for k in STEPS:
@@ -55,6 +54,7 @@ class Exits:
                         self._add(found, way)
                 if wanted <= found.keys():
                     break
+            self._known[pose] = found
         return self._known[pose]
 
     def _add(self, found: dict[int, Way], way: Way) -> None:

@@ -81,8 +81,10 @@ class Passages:
         else:
             yield from self.exits.of(node).items()
             for pose in poses:
-                if pose != node and (way := self.walker.first_joining(*simple_ways(node, pose))):
-                    yield pose, list(way)
+                # along a segment there is no turning; where bounds leave a slit there is
+                tried = simple_ways(node, pose) if self._slits else [[node, pose]] * (node.tau == pose.tau)
+                if pose != node and (joining := self.walker.first_joining(*tried)):
+                    yield pose, list(joining)
 
     @cached_property
     def places(self) -> list[Pose]:
@@ -91,15 +93,15 @@ class Passages:
         table = self.space.boundary.isolated
         for k in np.flatnonzero(table.kind != CURVE).tolist():
             places += self.space.boundary.isolated_part(k).ends
-        return list(
-            dict.fromkeys([*(pose for place in places for pose in self._exact(*place)), *self._ends_of_slits()])
-        )
+        return list(dict.fromkeys([*(pose for place in places for pose in self._exact(*place)), *self._slits]))
 
-    def _ends_of_slits(self) -> Iterator[Pose]:
+    @cached_property
+    def _slits(self) -> list[Pose]:
         """Ends, at one orientation each, of trapezoids between bounds and an obstacle, with free space of no width."""
         boundary = self.space.boundary
         if boundary is self.space.walls:
-            return
+            return []
+        found = []
         owner = boundary.features.obstacles.owner_polygon[boundary.contact_obstacle]
         for face in np.flatnonzero(owner[boundary.trapezoids.patch] == BOUNDS).tolist():
             sheet = Sheet(boundary, face)
@@ -107,7 +109,8 @@ class Passages:
                 tau = between(sheet.low, sheet.high)
                 low, high = sheet.limits(tau)
                 if self.space.locate(sheet.pose(between(low, high), tau)) == NO_CELL:
-                    yield from (sheet.pose(t, tau) for t in (low, high))
+                    found += [sheet.pose(t, tau) for t in (low, high)]
+        return found
 
     def _pinches(self) -> Iterator[tuple[float, float, float, set[int]]]:
         """Vertices where several cells meet, with doubles."""

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
-from cfree.errors import IncompleteError, InvalidPoseError
+from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.forbidden import boundary
 from cfree.invalid import require_free
 from cfree.motion_check import MotionChecker
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
     from cfree.separated import Separated
 
 Objective = Literal["short", "clear"]
+FARTHEST = 10**150  # of a start or a goal: as of a scene's coordinates
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
 OTHERS = 30  # other ways looked for
@@ -60,7 +62,7 @@ def plan(
     objective : "short" or "clear"
         What to prefer: short paths, or those that keep away from obstacles; see Notes.
     max_seconds : float, optional
-        Give up when the free space is not known by then.
+        Give up if computing the free space takes longer.
     progress : callable, optional
         Called with the share of the free space that is computed, if it has to be.
 
@@ -111,6 +113,8 @@ class Planner:
     space: FreeSpace | None = None
     max_seconds: float | None = None
     progress: Callable[[float], object] | None = None
+    stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
+    _lock: threading.RLock = field(default_factory=threading.RLock, repr=False)  # of all that is kept for later
 
     @cached_property
     def checker(self) -> MotionChecker:
@@ -153,33 +157,42 @@ class Planner:
         self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
     ) -> Path | Separated:
         """See `cfree.plan`."""
+        if objective not in ("short", "clear"):
+            raise ValueError(f'objective {objective!r}; give "short" or "clear"')
+        if improve is not None and not 0 <= improve < math.inf:
+            raise ValueError(f"improve {improve}: give seconds, 0 or more")
+        for pose, name in ((start, "start"), (goal, "goal")):
+            if max(abs(pose.x), abs(pose.y)) > FARTHEST:
+                raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
+            if not self.is_free([pose, pose]):
+                require_free(self.scene, pose, name)
         poses = self.first_free(simple_ways(start, goal))
-        if poses is None:
-            for pose, name in ((start, "start"), (goal, "goal")):
-                if not self.is_free([pose, pose]):
-                    require_free(self.scene, pose, name)
         if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
-        if poses is None and (cell := self.cell_of(start, goal)) is not None:
-            poses = self.walker.walk(start, goal, cell)
         if poses is None:
-            poses = self._passages.path(start, goal)
-        if poses is None:
-            return self._separated(start, goal)
+            with self._lock:
+                answer = self._known(start, goal)
+            if not isinstance(answer, list):
+                return answer
+            poses = answer
         if objective == "clear":
             return self.path(self._cleared(self.shortened(poses, None), improve))
         return self.path(self.shortened(poses, improve))
 
+    def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
+        """What the free space says: poses of a path, or a proof."""
+        from cfree.separated import separation
+
+        if (cell := self.cell_of(start, goal)) is not None:
+            return self.walker.walk(start, goal, cell)
+        proof = separation(self.free_space, start, goal)
+        assert proof is not None, "not in one cell"
+        way = None if proof.of == "closed" else self._passages.path(start, goal)
+        return proof if way is None else way
+
     def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
         """The first of some ways that is free."""
         return next(filter(self.is_free, ways), None)
-
-    def _separated(self, start: Pose, goal: Pose) -> Separated:
-        from cfree.separated import separation
-
-        proof = separation(self.free_space, start, goal)
-        assert proof is not None, "not in one cell"
-        return proof
 
     def cell_of(self, start: Pose, goal: Pose) -> int | None:
         """The cell that both are in."""
@@ -191,9 +204,18 @@ class Planner:
         return all(self.checker.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
 
     def path(self, poses: Sequence[Pose]) -> Path:
-        """Through these poses."""
+        """Through these poses, all of it checked once more.
+
+        Raises
+        ------
+        InvariantError
+            If a motion is not free: a fault of cfree.
+        """
         motions = [motion_between(a, b) for a, b in pairwise(poses) if a != b]
-        return Path(poses[0], motions, self.scene.units)
+        found = Path(poses[0], motions, self.scene.units)
+        if not found.is_free(self.checker):
+            raise InvariantError("a path is not free", state=found)
+        return found
 
     def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         """A shorter path, after a number of attempts; or of ways found in half of some time the best, in the rest."""
@@ -206,16 +228,19 @@ class Planner:
         seed = 0
         while seconds and time.perf_counter() < end - seconds / 2 and seed < OTHERS:
             seed += 1
-            if other := searcher.search(poses[0], poses[-1], seed).run(self._checks):
+            if other := self._run(searcher.search(poses[0], poses[-1], seed), end - seconds / 2):
                 shortener = searcher.shortener(searcher.poses(other))
                 shortener.run(REFINE)
                 best = min(best, shortener, key=lambda s: s.length())
         while time.perf_counter() < end:
+            self._look_up()
             best.run(BLOCK)
         return searcher.poses(best.path())
 
     def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         from cfree.planning.clear import clear
+
+        end = time.perf_counter() + (seconds or 0)
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene)
@@ -223,7 +248,9 @@ class Planner:
             is_small = larger.checker.features.patches <= COMPLETE
             if found is None and is_small and (cell := larger.cell_of(start, goal)) is not None:
                 found = larger.walker.walk(start, goal, cell)
-            return None if found is None else larger.shortened(found, seconds and seconds / 4)
+            if found is None:
+                return None
+            return larger.shortened(found, seconds and max(0.0, end - time.perf_counter()) / 3)
 
         return clear(self.scene, poses, self.angle_scale, way_of)
 
@@ -234,11 +261,20 @@ class Planner:
 
     def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
-        search = searcher.search(start, goal)
+        found = self._run(searcher.search(start, goal), math.inf)
+        return searcher.poses(found) if found else None
+
+    def _run(self, search: Any, end: float) -> Any:
+        """What a search finds in time."""
         for _ in range(0, self._checks, BLOCK):
-            if found := search.run(BLOCK):
-                return searcher.poses(found)
+            self._look_up()
+            if (found := search.run(BLOCK)) or time.perf_counter() > end:
+                return found
         return None
+
+    def _look_up(self) -> None:
+        if self.stop.is_set():
+            raise KeyboardInterrupt
 
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
         return Searcher(self.checker, self._area(poses), self.angle_scale)
@@ -298,6 +334,13 @@ def plan_many(
     list of Path or Separated
         In the order of the queries, as of `plan` with the free space known.
 
+    Raises
+    ------
+    InvalidPoseError
+        If a start or a goal is forbidden; the message has the number of the query.
+    ValueError
+        If `threads` is less than 1.
+
     Examples
     --------
     >>> import cfree
@@ -315,14 +358,24 @@ def plan_many(
         raise ValueError(f"threads: {threads}; give at least 1")
     space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
     asked = list(queries)
-    answers = []
+    planner, answers = space.planner, []
+
+    def answer_to(number: int) -> Path | Separated:
+        try:
+            return planner.plan(*asked[number], improve=improve)
+        except InvalidPoseError as error:
+            raise InvalidPoseError(f"query {number}: {error}", free=error.free) from None
+
     with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
         try:
-            for answer in pool.map(lambda query: space.planner.plan(*query, improve=improve), asked):
-                answers.append(answer)
+            for found in pool.map(answer_to, range(len(asked))):
+                answers.append(found)
                 if progress is not None:
                     progress(len(answers) / len(asked))
         except BaseException:
+            planner.stop.set()
             pool.shutdown(cancel_futures=True)
             raise
+        finally:
+            planner.stop.clear()
     return answers

@@ -50,7 +50,8 @@ class Searcher:
         self._scale, self._shift = checker.units
         self._unit = float(Fraction(self._scale, 1 << self._shift))  # of lengths in the core's doubles
         self._area = [c * self._unit for c in area]
-        self._extent = math.frexp(max(abs(c) for c in self._area) or 1.0)[1]
+        x0, y0, x1, y1 = self._area
+        self._extent = math.frexp(max(x1 - x0, y1 - y0) or 1.0)[1]
         self._weight = angle_scale * self._unit
 
     def search(self, start: Pose, goal: Pose, seed: int = 0) -> Any:
