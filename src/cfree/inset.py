@@ -19,6 +19,7 @@ from cfree.errors import UnsupportedError
 from cfree.exact import ExactPoint
 from cfree.polygon import Polygon
 from cfree.scene import Scene
+from cfree.sweep import EdgesMeet, sweep
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -47,8 +48,6 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     >>> [part.exact_area for part in inset(square, Fraction(1, 4))], inset(square, Fraction(1, 2))
     ([Fraction(1, 4)], [])
     """
-    from cfree.verify.inside import strictly_inside  # imports much that imports this
-
     grid = Fraction(2) ** (math.frexp(by)[1] - FINER)
 
     def snapped(ring: shapely.LinearRing) -> list[ExactPoint]:
@@ -68,7 +67,7 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
                 smaller = Polygon(outer, holes)
             except ValueError:  # not simple, or too thin for the grid
                 continue
-            if strictly_inside(smaller, polygon):
+            if _is_inside(smaller, polygon):
                 found.append(smaller)
         if found:
             return found
@@ -89,6 +88,34 @@ def _mitred(polygon: Polygon, by: Fraction) -> list[list[ExactPoint]]:
     if any((x1 - x0) * u + (y1 - y0) * v <= 0 for (x0, y0), (x1, y1), (u, v) in ends):
         return []
     return [moved[i:j] for i, j in pairwise(polygon.ring_offsets)]
+
+
+def _is_inside(inner: Polygon, outer: Polygon) -> bool:
+    """Is all of a polygon, its boundary included, in the interior of another? Exact, and not the verifier's code."""
+    scale = math.lcm(inner.denominator, outer.denominator)
+    points, offsets = [], [0]
+    for polygon in (inner, outer):
+        factor = scale // polygon.denominator
+        points += [(x * factor, y * factor) for x, y in polygon.numerators]
+        offsets += [int(end) + offsets[-1] for end in polygon.ring_offsets[1:]]
+    count = len(inner.numerators)
+    nesting = sweep(points, offsets)
+    if isinstance(nesting, EdgesMeet) or nesting.touching or not set(points[:count]).isdisjoint(points[count:]):
+        return False
+    first = len(inner.ring_offsets) - 1
+    mine, its = range(first), range(first, len(offsets) - 1)
+
+    def is_in(ring: int, others: range) -> bool:
+        x, y = points[offsets[ring]]
+        crossings = 0
+        for k in others:
+            corners = points[offsets[k] : offsets[k + 1]]
+            for (a, b), (c, d) in zip(corners, corners[1:] + corners[:1], strict=True):
+                if (b > y) != (d > y):
+                    crossings += ((c - a) * (y - b) - (d - b) * (x - a) > 0) == (d > b)
+        return crossings % 2 == 1
+
+    return all(is_in(ring, its) for ring in mine) and not any(is_in(ring, mine) for ring in its)
 
 
 def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.errors import InvariantError
+from cfree.errors import InvariantError, UnsupportedError
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
 from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
@@ -27,6 +27,7 @@ from cfree.pose import Pose
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
+FARTHEST = 2.0**40  # from the origin, in extents, that doubles still tell places apart
 MOST_HALVINGS = 200
 MOST_TURNS = 30  # halvings of a radian, where a turn may leave
 REFINED = 8  # steps towards a critical angle before it is known better
@@ -119,7 +120,7 @@ class Walker:
                 f.refine(FINEST + 4 * k)
                 g.refine(FINEST + 4 * k)
             ends = [s.high if end else s.low for s, end in zip((f, g), at_end, strict=True)]
-            aims = [between(min(a, end), max(a, end)) for a, end in zip(aims, ends, strict=True)]
+            aims = [_nearer(a, end, 1 + k // REFINED) for a, end in zip(aims, ends, strict=True)]
             sigma, tau = aims
             if (places := common_part(f, sigma, g, tau)) is None:
                 continue
@@ -144,9 +145,15 @@ class Walker:
 
         Raises
         ------
+        UnsupportedError
+            If the scene is so far from the origin that doubles do not tell its places apart.
         InvariantError
             If none is found, a fault of cfree.
         """
+        if len(self.space.component) == 0:
+            return [start, _turned(start, goal), goal]
+        if self._farthest > FARTHEST * float(self._extent):
+            raise UnsupportedError("the scene is 2**40 times its size from the origin: move it there")
         head, landings = self.leave(start, cell)
         tail, takeoffs = self.leave(goal, cell)
         links = self.links(cell)
@@ -233,6 +240,11 @@ class Walker:
         return Fraction(float(2 * (np.ptp(xs) + np.ptp(ys)))) + 2 * self.reach
 
     @cached_property
+    def _farthest(self) -> float:
+        """From the origin, of positions on the boundary."""
+        return float(max(np.abs(self.space.complex.x).max(), np.abs(self.space.complex.y).max()))
+
+    @cached_property
     def _far(self) -> Fraction:
         return Fraction(float(self.space.complex.x.min())) - 2 * self.reach
 
@@ -267,6 +279,12 @@ class Walker:
                     first, last = self._landing(middle, 1, 0), self._landing(middle, -1, 0)
                     if first and last:
                         yield Link((first, last))
+
+
+def _nearer(tau: Fraction, end: Fraction, halvings: int) -> Fraction:
+    """A simple tau between one and an end: nearer to that."""
+    tau = end + (tau - end) / 2 ** (halvings - 1)
+    return between(min(tau, end), max(tau, end))
 
 
 def _turned(pose: Pose, to: Pose) -> Pose:
