@@ -60,7 +60,7 @@ class Exits:
     def _add(self, found: dict[int, Way], way: Way) -> None:
         """Note the cell that a way ends in."""
         cell = self.space.locate(way[-1])
-        if cell >= 0 and cell not in found and self.walker.landings(way[-1]):
+        if cell >= 0 and cell not in found and self.walker.landings(way[-1], cell):
             found[cell] = way
 
     def _cells_near(self, pose: Pose) -> set[int]:

@@ -212,16 +212,20 @@ class Walker:
             for by in (Fraction(1, 2**k), -Fraction(1, 2**k)):
                 turned = _turned(pose, pose @ Pose(0, 0, {"tau": by}))
                 is_inside = self.joins([pose, turned]) and self.space.locate(turned) == cell
-                if is_inside and (landings := self.landings(turned)):
+                if is_inside and (landings := self.landings(turned, cell)):
                     return [pose, turned], landings
         way = self.exits.of(pose).get(cell)
         if way is None:
             raise InvariantError(f"no way from {pose} into cell {cell}")
-        return way, self.landings(way[-1])
+        return way, self.landings(way[-1], cell)
 
-    def landings(self, pose: Pose) -> list[Landing]:
-        """Where straight ways from a pose lead to."""
-        return [landing for x, y in DIRECTIONS if (landing := self._landing(pose, x, y)) is not None]
+    def landings(self, pose: Pose, cell: int) -> list[Landing]:
+        """Where straight ways from a pose lead to that is on the boundary of a cell."""
+        found = filter(None, (self._landing(pose, x, y) for x, y in DIRECTIONS))
+        return [landing for landing in found if self._cell_at(landing.face) == cell]
+
+    def _cell_at(self, face: int) -> int:
+        return self.space.outside if face == FAR else int(self.space.cell_of[self.space.component[face]])
 
     def _landing(self, pose: Pose, x: int, y: int) -> Landing | None:
         """Where a straight way leads to, if it is well within a face or far away; a way far away is one to the left."""
