@@ -60,7 +60,12 @@ def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
         ('"type": "rotation"', '"type": "turn"', r'motions\[1\]: expected a motion with "type"'),
         ('"vector": [2.0', '"vectr": [2.0', r'motions\[0\].vectr: unknown key "vectr"; did you mean "vector"\?'),
         ('"tau": "-1"', '"tau": "x"', r'motions\[1\].exact.tau: expected the tangent of half the angle, .*got "x"'),
-        ('"tau": "-1"', '"tau": "-1/2"', "the motions do not lead to the exact goal; correct one of them"),
+        ('"tau": "-1"', '"tau": "-1/2"', r"motions\[1\]: an angle of -1.57\d* beside the exact -0.92\d*: correct one"),
+        ('"vector": [2.0', '"vector": [2.1', r"motions\[0\]: 2.1 beside the exact 2.0: correct one of them"),
+        ('"pole": [2.0, 1.0]', '"pole": [2.0, 1e308]', r"motions\[1\]: a number beyond 1e300 beside the exact 1.0"),
+        ('"goal": [-1.3333333333333333', '"goal": [-1.3333', r"-1.3333 beside the exact -1.33333"),
+        ('"start": [0.0, 0.0', '"start": [1e999, 0.0', r"start: a position beyond 1e150"),
+        ('"vector": ["2", "1/3"]', '"vector": ["2", "0.333333333333"]', "the motions do not lead to the exact goal"),
         ('"pole": [2.0, 1.0]', '"pole": [2.0]', r"motions\[1\].pole: expected a point \[x, y\], got \[2.0\]"),
         ('"motions": [', '"motions": [7, ', r"motions\[0\]: expected .*got 7"),
         ('"version": 1', '"version": 2', "version: expected version 1"),
@@ -244,6 +249,19 @@ def test_the_example_of_the_format_page_is_what_is_written(request: pytest.Fixtu
     with pytest.raises(FormatError) as caught:
         load_answer(file)
     assert str(caught.value) == f"{file}:{fault}"
+
+
+def test_decimals_alone_lead_all_the_way_to_the_goal_they_state(tmp_path: FilePath) -> None:
+    """What is missing is one motion more, and checked as any other."""
+    file = tmp_path / "way.json"
+    scene = Scene(robot=[(-1, -1), (1, -1), (1, 1), (-1, 1)], obstacles=[[(1, -5), (3, -5), (3, 5), (1, 5)]])
+    for goal, is_free in (("-1e-7", True), ("1e-7", False)):
+        file.write_text(f'{{"answer": "path", "start": [0, 0, 0], "goal": [{goal}, 0, 0], "motions": []}}')
+        path = load_answer(file)
+        assert isinstance(path, Path)
+        assert path.goal == Pose(goal, 0)
+        assert path.is_free(MotionChecker(scene)) == is_free
+        assert cfree.verify.answer(scene, file).verified == is_free
 
 
 def test_narrowest_places_are_those_of_dense_samples() -> None:

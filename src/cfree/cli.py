@@ -7,6 +7,7 @@ import json
 import math
 import os
 import sys
+import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -17,8 +18,10 @@ import typer
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
+    from cfree.path import Path as Motions
     from cfree.planning.planner import Planner
     from cfree.pose import Angle, Pose
+    from cfree.separated import Separated
 
 REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
@@ -165,7 +168,7 @@ def boundary(
     epilog="Examples: `cfree plan scene.json`; "
     "`cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png`; "
     "`cfree plan scene.json -o way.csv --improve 2s`. "
-    "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: stopped by a limit."
+    "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: stopped by a limit, or proved but for paths that touch."
 )
 def plan(
     scene: SourceArgument,
@@ -210,7 +213,7 @@ def plan(
         from cfree.path import Path as Motions
         from cfree.path import form_of
         from cfree.planning.planner import required
-        from cfree.report import answer_rows, print_rows
+        from cfree.report import answer_facts, answer_rows, print_rows
 
         written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
         kind = form_of(output, form) if output else "json"
@@ -225,7 +228,6 @@ def plan(
                 answer = planner.plan(begin, end, improve=seconds, objective=objective)  # type: ignore[arg-type]
             except IncompleteError as error:
                 _fail(str(error), INCOMPLETE)
-        is_path = isinstance(answer, Motions)
         if output:
             if isinstance(answer, Motions):
                 answer.save(output, planner.angle_scale / 20, scene=planner.scene, form=kind)
@@ -245,7 +247,7 @@ def plan(
                 film_path(answer, planner.scene, film, progress=progress)
         elif film:
             _leave_out(written, "film", "there is no path to film")
-        facts = answer_rows(answer, planner.scene)
+        facts = answer_facts(answer, planner.scene) if as_json else answer_rows(answer, planner.scene)
         if miss and not isinstance(answer, Motions):
             from cfree.margins import nearest_miss
 
@@ -256,8 +258,8 @@ def plan(
             _print_json({"file": str(scene), **facts, "files": written})
         else:
             print_rows(planner.scene.name or str(scene), facts, written)
-    if not is_path:
-        raise typer.Exit(REFUTED)
+    if code := _exit_code(answer):
+        raise typer.Exit(code)
 
 
 @app.command(
@@ -452,7 +454,8 @@ def _read_pose(text: str | None, name: str) -> Pose | None:
         x, y, theta = parts
         return Pose(x, y, _read_angle(theta))
     except ValueError as error:
-        raise ValueError(f'{name}: {text!r}: {error}; give X,Y,THETA as in "1,1/2,30deg"') from None
+        fault = f"{len(parts)} numbers" if len(parts) != 3 else error
+        raise ValueError(f'{name}: {text!r}: {fault}; give X,Y,THETA as in "1,1/2,30deg"') from None
 
 
 def _read_seconds(text: str) -> float:
@@ -500,6 +503,12 @@ def _planner_of(source: Path, max_seconds: float | None, progress: Callable[[flo
         space = free_space(load_boundary(source))
         return Planner(space.boundary.scene, space)
     return Planner(load_scene(source), max_seconds=max_seconds, progress=progress)
+
+
+def _exit_code(answer: Motions | Separated) -> int:
+    """0 for a path, 1 for a proof that there is none; 3 if one that touches may exist."""
+    of = getattr(answer, "of", None)
+    return {None: 0, "closed": REFUTED}.get(of, INCOMPLETE)
 
 
 def _leave_out(files: dict[str, str], name: str, why: str) -> None:
@@ -589,11 +598,16 @@ def _one_line_faults() -> Iterator[None]:
         _fail(str(error), BUG)
     except (CfreeError, ValueError) as error:
         _fail(str(error), BAD_INPUT)
+    except typer.Exit:
+        raise
     except OSError as error:
         if error.errno == errno.EPIPE:
             raise
         name = f"{error.filename}: " if error.filename else ""
         _fail(f"{name}{error.strerror or error}", BAD_INPUT)
+    except Exception:  # no answer: not to be taken for one
+        traceback.print_exc()
+        _fail("this is a bug in cfree, please report it", BUG)
 
 
 def _fail(message: str, code: int) -> NoReturn:

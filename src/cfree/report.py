@@ -103,6 +103,28 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
     return rows
 
 
+def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
+    """The same as numbers, for machines: lengths in the scene's unit, radians."""
+    from cfree.motion import Rotation
+    from cfree.path import Path
+
+    if not isinstance(answer, Path):
+        facts = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
+        return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
+    rotations = sum(isinstance(motion, Rotation) for motion in answer.motions)
+    least = answer.clearance(scene)
+    return {
+        "answer": "path",
+        "translations": len(answer.motions) - rotations,
+        "rotations": rotations,
+        "length": answer.length,
+        "turning": answer.turning,
+        "clearance": None
+        if least is None
+        else {"found": least.found, "proved": least.least, "motion": least.motion, "obstacle": least.obstacle[0]},
+    }
+
+
 def part_name(scene: Scene, obstacle: int) -> str:
     """Name of an obstacle by its number."""
     return {-1: "the bounds", -2: "the workspace"}.get(obstacle) or scene.obstacle_names[obstacle]

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field, PlainValidator, model_validator
 
@@ -17,12 +18,14 @@ from cfree.formats.scene_format import Configuration, Point, Strict, Text, Versi
 from cfree.motion import Motion, Rotation, Translation, rotations
 from cfree.outlines import rings_of
 from cfree.path import Path
+from cfree.planning.search import motion_between
 from cfree.pose import Pose, Poses
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
 
-CLOSE = 1e-6  # of the path's size: how far decimals alone may lead from the goal
+CLOSE = Fraction(1, 10**9)  # of their size: how far decimals may be from what they stand for
+NEAR = 1e-6  # of the path's size: how far decimals alone may lead from the goal
 
 
 def _turning(value: Any) -> Any:
@@ -30,7 +33,7 @@ def _turning(value: Any) -> Any:
     try:
         rotations((0, 0), value)
         return value
-    except ValueError:
+    except (ValueError, OverflowError):
         raise fault('expected radians or "90deg", got {got}') from None
 
 
@@ -40,6 +43,26 @@ def _half_tangent(value: Any) -> Any:
         return value
     except InvalidPoseError:
         raise fault('expected the tangent of half the angle, "p/q", "inf" or "-inf", got {got}') from None
+
+
+def agree(decimals: Iterable[Any], exact: Iterable[Any]) -> None:
+    """See that decimals are what exact numbers beside them are: other programs go by them."""
+    pairs = [(Fraction(d), Fraction(e)) for d, e in zip(decimals, exact, strict=True)]
+    size = max(max(abs(d), abs(e)) for d, e in pairs)
+    for d, e in pairs:
+        if abs(d - e) > CLOSE * size:
+            raise fault(f"{_shown(d)} beside the exact {_shown(e)}: correct one of them")
+
+
+def agree_as_poses(decimals: Pose, exact: Pose) -> None:
+    """The same for poses."""
+    agree((decimals.x, decimals.y), (exact.x, exact.y))
+    if abs(math.remainder(decimals.theta - exact.theta, math.tau)) > CLOSE:
+        raise fault(f"{decimals.theta!r} radians beside the exact {exact.theta!r}: correct one of them")
+
+
+def _shown(value: Fraction) -> str:
+    return f"{float(value)!r}" if abs(value) < 10**300 else "a number beyond 1e300"
 
 
 class ExactTranslation(Strict):
@@ -54,6 +77,12 @@ class TranslationModel(Strict):
     type: Literal["translation"]
     vector: Point
     exact: ExactTranslation | None = None
+
+    @model_validator(mode="after")
+    def _agrees(self) -> TranslationModel:
+        if self.exact:
+            agree(self.vector, self.exact.vector)
+        return self
 
     @property
     def motions(self) -> tuple[Motion, ...]:
@@ -74,6 +103,16 @@ class RotationModel(Strict):
     pole: Point
     angle: Annotated[Any, PlainValidator(_turning)]
     exact: ExactRotation | None = None
+
+    @model_validator(mode="after")
+    def _agrees(self) -> RotationModel:
+        if self.exact:
+            agree(self.pole, self.exact.pole)
+            given = sum(m.turn for m in rotations(self.pole, self.angle))
+            exact = Rotation(self.exact.pole, {"tau": self.exact.tau}).turn
+            if abs(given - exact) > CLOSE:
+                raise fault(f"an angle of {given!r} beside the exact {exact!r}: correct one of them")
+        return self
 
     @property
     def motions(self) -> tuple[Motion, ...]:
@@ -104,7 +143,10 @@ class PathModel(Strict):
     @model_validator(mode="after")
     def _arrives(self) -> PathModel:
         ends: Any = self.exact or self
-        path, goal = self.result, ends.goal
+        if self.exact:
+            agree_as_poses(cast(Pose, self.start), cast(Pose, ends.start))
+            agree_as_poses(cast(Pose, self.goal), cast(Pose, ends.goal))
+        path, goal = self._moved, ends.goal
         if self.exact and all(motion.exact for motion in self.motions):
             if path.goal != goal:
                 raise fault("the motions do not lead to the exact goal; correct one of them")
@@ -112,15 +154,23 @@ class PathModel(Strict):
         size = 1 + max(abs(float(c)) for q in path.poses for c in (q.x, q.y))
         apart = abs(float(path.goal.x - goal.x)), abs(float(path.goal.y - goal.y))
         turned = abs(math.remainder(path.goal.theta - goal.theta, math.tau))
-        if max(*apart, turned * size) > CLOSE * size:
+        if max(*apart, turned * size) > NEAR * size:
             x, y, theta = float(path.goal.x), float(path.goal.y), path.goal.theta
             raise fault(f"the motions lead to [{x:.9g}, {y:.9g}, {theta:.9g}] and not to the goal; correct one of them")
         return self
 
     @property
-    def result(self) -> Path:
+    def _moved(self) -> Path:
         ends: Any = self.exact or self
         return Path(ends.start, (m for model in self.motions for m in model.motions), self.units, self.frame)
+
+    @property
+    def result(self) -> Path:
+        """What is left to the goal as it is written is one motion more."""
+        ends: Any = self.exact or self
+        path = self._moved
+        last = [] if path.goal == ends.goal else [motion_between(path.goal, ends.goal)]
+        return Path(path.start, [*path.motions, *last], path.units, path.frame)
 
 
 def path_text(path: Path) -> str:

@@ -46,6 +46,9 @@ def fault(message: str, **context: object) -> PydanticCustomError:
     return PydanticCustomError("cfree", "{message}", {"message": message, **context})
 
 
+FARTHEST = 10**150  # of a start or a goal: as of coordinates
+
+
 def _coordinate(value: object) -> Fraction:
     if isinstance(value, (int, Decimal, str)) and not isinstance(value, bool):
         try:
@@ -78,6 +81,8 @@ def _angle(value: Any) -> Any:
 
 
 def _pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
+    if max(abs(value[0]), abs(value[1])) > FARTHEST:
+        raise fault("a position beyond 1e150; give one nearer to the scene")
     return Pose(*value)
 
 

@@ -7,15 +7,16 @@ from __future__ import annotations
 
 import json
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 import numpy as np
 from pydantic import Field, PlainValidator, model_validator
 
 from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
-from cfree.formats.path_format import ExactEnds, configuration, exact_configuration
+from cfree.formats.path_format import ExactEnds, agree_as_poses, configuration, exact_configuration
 from cfree.formats.scene_format import Bounds, Configuration, PolygonModel, Strict, Text, Version, fault
 from cfree.polygon import Polygon
+from cfree.pose import Pose
 from cfree.separated import Pieces, Separated
 from cfree.trapezoids import CODED, COLUMNS, Trapezoids
 
@@ -109,6 +110,9 @@ class SeparationModel(Strict):
 
     @model_validator(mode="after")
     def _fits(self) -> SeparationModel:
+        if self.exact:
+            agree_as_poses(cast(Pose, self.start), cast(Pose, self.exact.start))
+            agree_as_poses(cast(Pose, self.goal), cast(Pose, self.exact.goal))
         if (self.of == "closed") != bool(self.smaller_robot):
             raise fault('"smaller_robot" belongs to what is "of": "closed", and to nothing else; correct one of them')
         if self.of == "interior" and self.larger_bounds:
