@@ -180,11 +180,14 @@ _HOMES = {
     "touch": "contact_features is_contact is_forbidden is_pseudo_contact",
     "turn": "turn_in_place",
 }
+_PACKAGES = ("figures", "ompl", "verify")  # whose names stay their own
 _MODULE = {name: module for module, names in _HOMES.items() for name in names.split()}
 __all__ = ["__version__", *_MODULE]
 
 
 def __getattr__(name: str) -> Any:
+    if name in _PACKAGES:
+        return import_module(f"cfree.{name}")
     if name not in _MODULE:
         raise AttributeError(f"module 'cfree' has no attribute {name!r}")
     value = getattr(import_module(f"cfree.{_MODULE[name]}"), name)

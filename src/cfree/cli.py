@@ -168,7 +168,7 @@ def boundary(
     epilog="Examples: `cfree plan scene.json`; "
     "`cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png`; "
     "`cfree plan scene.json -o way.csv --improve 2s`. "
-    "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: stopped by a limit, or proved but for paths that touch."
+    "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch."
 )
 def plan(
     scene: SourceArgument,
