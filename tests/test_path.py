@@ -264,6 +264,27 @@ def test_decimals_alone_lead_all_the_way_to_the_goal_they_state(tmp_path: FilePa
         assert cfree.verify.answer(scene, file).verified == is_free
 
 
+def test_places_after_a_distance_are_where_samples_are() -> None:
+    path = Path(Pose(0, 0), [Rotation((1, 0), "180deg"), Translation((3, 4)), Rotation((9, 9), {"tau": "-3/7"})])
+    total = path.length + 2 * path.turning
+    for k in range(101):
+        distance = k * total / 100
+        pose = path.after(distance, angle_scale=2)
+        done = 0.0
+        for start, motion in zip(path.poses, path.motions, strict=False):
+            part = Path(start, [motion])
+            whole = part.length + 2 * part.turning
+            if distance <= done + whole + 1e-12:
+                (expected,) = motion.sample(start, [min(1.0, (distance - done) / whole)])
+                assert np.allclose([float(pose.x), float(pose.y)], [float(expected.x), float(expected.y)], atol=1e-9)
+                assert abs(math.remainder(pose.theta - expected.theta, math.tau)) < 1e-9
+                break
+            done += whole
+    assert path.after(0) == path.start and path.after(path.length + path.turning) == path.goal
+    with pytest.raises(ValueError, match="is not on the path"):
+        path.after(total + 1, angle_scale=2)
+
+
 def test_narrowest_places_are_those_of_dense_samples() -> None:
     gates = [box(x, -9, x + 1, Fraction(-gap, 8)) for x, gap in ((4, 11), (9, 8), (14, 16), (20, 9))]
     scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=gates)

@@ -82,7 +82,8 @@ class Cell:
     def roomiest(self) -> tuple[Pose, float] | None:
         """A pose in it, and the radius of a disc in which it may be put at that orientation without a collision.
 
-        The largest found at nine orientations of it; None if it is too narrow there for one of more than rounding.
+        The largest found at nine orientations of it; None if it is too narrow there for one of more than rounding. Of
+        an unbounded cell the largest near the obstacles; infinite if there are none.
         """
         from cfree.roomiest import roomiest
 

@@ -83,7 +83,7 @@ def nearest_miss(
     Raises
     ------
     ValueError
-        If they are joined as it is, or the tolerance is not positive.
+        If a path that keeps a distance joins them as it is, or the tolerance is not positive.
 
     Notes
     -----
@@ -139,8 +139,9 @@ def max_scale(
     Returns
     -------
     Interval
-        Scaled by `lo` start and goal are joined, by `hi` they are not, or one is forbidden. `hi` is infinite if a
-        robot 2**63 times as large gets there, `lo` is 0 if none 2**63 times smaller does.
+        Scaled by `lo` a path that keeps a distance joins them, by `hi` none does, or one is forbidden; the scale of an
+        exact fit, which a path that touches may pass, is between the two. `hi` is infinite if a robot 2**63 times as
+        large gets there, `lo` is 0 if none 2**63 times smaller does.
 
     Notes
     -----

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from os import PathLike
 from pathlib import Path as FilePath
@@ -128,6 +129,32 @@ class Path:
             raise ValueError(f"position {position} is not on the path; give one from 0 to {len(self.motions)}")
         k = min(math.floor(exact), max(len(self.motions) - 1, 0))
         return self.motions[k].at(self.poses[k], exact - k) if self.motions else self.start
+
+    def after(self, distance: float, angle_scale: float = 1.0) -> Pose:
+        """A pose after a distance along the path: travel of the reference point, and turning times `angle_scale`.
+
+        It is an exact one of the path; the distance is that but for rounding.
+
+        Raises
+        ------
+        ValueError
+            If the distance is negative, or more than the whole.
+
+        Examples
+        --------
+        >>> path = Path(Pose(0, 0), [Translation((2, 0)), Translation((0, 3))])
+        >>> path.after(3.5) == Pose(2, "3/2")
+        True
+        """
+        lengths = [_distance(q, m) + angle_scale * _turned(m) for q, m in zip(self.poses, self.motions, strict=False)]
+        until = np.cumsum([0.0, *lengths])
+        if not 0 <= distance <= until[-1]:
+            raise ValueError(f"distance {distance} is not on the path; give one from 0 to {until[-1]:g}")
+        k = int(np.searchsorted(until, distance, side="right")) - 1
+        if k == len(lengths):
+            return self.goal
+        share = (distance - float(until[k])) / lengths[k]
+        return self.motions[k].at(self.poses[k], _parameter(self.motions[k], share))
 
     def sample(self, step: float, turn: float = math.radians(5)) -> Poses:
         """Poses along the path, the ends of all motions among them.
@@ -285,6 +312,17 @@ def _distance(pose: Pose, motion: Motion) -> float:
         return motion.length
     arm = math.hypot(float(pose.x - motion.pole[0]), float(pose.y - motion.pole[1]))
     return arm * abs(motion.turn)
+
+
+def _parameter(motion: Motion, share: float) -> Fraction:
+    """Where a share of a motion's length or angle is done."""
+    if isinstance(motion, Translation):
+        return Fraction(share)
+    half, (q, p) = share * motion.turn / 2, motion.half
+    c, s = math.cos(half), math.sin(half)
+    # (1 - u) (L, 0) + u (q, p) has that direction
+    u = s / (c * float(Fraction(p, motion.first)) - s * float(Fraction(q, motion.first)) + s) if s else 0.0
+    return Fraction(min(max(u, 0.0), 1.0))
 
 
 def _turned(motion: Motion) -> float:

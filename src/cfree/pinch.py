@@ -46,6 +46,8 @@ class Pinch:
 
     def __str__(self) -> str:
         one, other = (NAMES.get(k, f"obstacle {k}") for k in sorted(self.obstacles, reverse=True))
+        if one == other:
+            return f"parts of {one} at {math.degrees(self.pose.theta):.3g} deg"
         return f"{one} and {other} at {math.degrees(self.pose.theta):.3g} deg"
 
 

@@ -130,12 +130,23 @@ def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = 
 def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     """Start, goal and the obstacles that part them; beside it the surface between them."""
     window = _window(answer, scene)
-    figure, ax = _new_picture(window, True)
+    figure, ax = _new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, scene)
     _draw_barrier(ax, scene, answer.obstacles)
     draw_robot(ax, scene, answer.start, "start", faint=False)
     draw_robot(ax, scene, answer.goal, "goal", faint=True)
     set_window(ax, window, scene.units)
+    if len(answer.pieces):
+        _draw_surface(figure, ax, answer, scene)
+    without = "path" if answer.of == "closed" else "path of positive clearance"
+    named = [_name(scene, k) for k in answer.obstacles[:6]] + ["..."] * (len(answer.obstacles) > 6)
+    parted = "parted by " + ", ".join(named) if named else "the one or the other touches, and fits exactly"
+    _head(figure, scene, f"no {without} from start to goal", parted)
+    return figure
+
+
+def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene) -> None:
+    """The surface between start and goal, and what is seen of them beside it."""
     surface = surface_of(answer, scene)
     box = _around_surface(surface)
     space = _right(figure)
@@ -146,10 +157,6 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
         x, y = float(pose.x), float(pose.y)
         if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
             _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
-    without = "path" if answer.of == "closed" else "path of positive clearance"
-    named = [_name(scene, k) for k in answer.obstacles[:6]] + ["..."] * (len(answer.obstacles) > 6)
-    _head(figure, scene, f"no {without} from start to goal", "parted by " + ", ".join(named))
-    return figure
 
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,11 +21,13 @@ def roomiest(cell: Cell) -> tuple[Pose, float] | None:
     """The centre of the largest disc found, and its radius; see `Cell.roomiest`."""
     boundary = cell.free_space.walls
     start, stop = cell.theta_range
+    if len(boundary.trapezoids) == 0:
+        return Pose(0, 0), math.inf
     best: tuple[Pose, float] | None = None
     for k in range(ORIENTATIONS):
         theta = float(np.mod(start + (stop - start) * (k + 0.5) / ORIENTATIONS, 2 * np.pi))
         forbidden = boundary.slice(theta).forbidden
-        frame = boundary.features.rim or shapely.buffer(forbidden, 1).bounds
+        frame = boundary.features.rim or _around(forbidden)
         for part in shapely.get_parts(shapely.box(*frame).difference(forbidden)).tolist():
             disc = shapely.maximum_inscribed_circle(part, PRECISION * part.length)
             (x, y), radius = disc.coords[0], shapely.length(disc)
@@ -34,3 +37,10 @@ def roomiest(cell: Cell) -> tuple[Pose, float] | None:
             if cell.free_space.locate(pose) == cell.index:
                 best = pose, float(radius)
     return best
+
+
+def _around(region: shapely.Geometry) -> tuple[float, float, float, float]:
+    """A rectangle around a region, wider by a quarter."""
+    x0, y0, x1, y1 = region.bounds
+    margin = max(x1 - x0, y1 - y0) / 4
+    return x0 - margin, y0 - margin, x1 + margin, y1 + margin

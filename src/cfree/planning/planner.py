@@ -304,6 +304,8 @@ def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose,
     for pose, name in ((start, "start"), (goal, "goal")):
         if pose is None:
             raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give x, y and theta")
+        if not isinstance(pose, Pose):
+            raise InvalidPoseError(f"{name} {pose!r}: give a Pose(x, y, theta)")
     assert start and goal
     return start, goal
 

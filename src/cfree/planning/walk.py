@@ -7,6 +7,7 @@ off the contact, by half of the room there, are joined by one motion where that 
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
@@ -146,7 +147,8 @@ class Walker:
         Raises
         ------
         UnsupportedError
-            If the scene is so far from the origin that doubles do not tell its places apart.
+            If the scene is so far from the origin that doubles do not tell its places apart; or if an end is in
+            contacts that no translation or rotation was found to leave.
         InvariantError
             If none is found, a fault of cfree.
         """
@@ -216,7 +218,9 @@ class Walker:
                     return [pose, turned], landings
         way = self.exits.of(pose).get(cell)
         if way is None:
-            raise InvariantError(f"no way from {pose} into cell {cell}")
+            x, y, theta = place_of(pose)
+            place = f"({x:g}, {y:g}, {math.degrees(theta):g} deg)"
+            raise UnsupportedError(f"no translation or rotation was found that leaves {place}, only slides may")
         return way, self.landings(way[-1], cell)
 
     def landings(self, pose: Pose, cell: int) -> list[Landing]:
