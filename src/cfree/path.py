@@ -148,11 +148,11 @@ class Path:
         """
         lengths = [_distance(q, m) + angle_scale * _turned(m) for q, m in zip(self.poses, self.motions, strict=False)]
         until = np.cumsum([0.0, *lengths])
-        if not 0 <= distance <= until[-1]:
+        if not 0 <= distance <= until[-1] * (1 + 2**-40):  # sums are rounded
             raise ValueError(f"distance {distance} is not on the path; give one from 0 to {until[-1]:g}")
-        k = int(np.searchsorted(until, distance, side="right")) - 1
-        if k == len(lengths):
+        if distance >= until[-1] * (1 - 2**-40):
             return self.goal
+        k = int(np.searchsorted(until, distance, side="right")) - 1
         share = (distance - float(until[k])) / lengths[k]
         return self.motions[k].at(self.poses[k], _parameter(self.motions[k], share))
 
