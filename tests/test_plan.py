@@ -288,6 +288,50 @@ def test_many_queries_have_the_answers_of_single_ones() -> None:
             assert found == single
 
 
+def test_threads_do_not_change_answers_through_exact_fits() -> None:
+    scene, start, goal = slot(Fraction(0))
+    queries = [(start, Pose(goal.x + Fraction(k, 7), goal.y - Fraction(k, 3), f"{10 * k}deg")) for k in range(6)]
+    for _ in range(3):
+        space = free_space(boundary(scene))
+        found = plan_many(space, queries, threads=6)
+        assert [type(answer) for answer in found] == [Path] * 6
+
+
+def test_a_forbidden_pose_is_forbidden_to_itself_too() -> None:
+    scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[[(-1, -1), (2, -1), (2, 2), (-1, 2)]])
+    for start in (Pose(0, 0), Pose("1/2", "1/2", "45deg")):
+        with pytest.raises(InvalidPoseError, match="forbidden"):
+            plan(scene, start, start)
+        with pytest.raises(InvalidPoseError, match=r"query 0: start .* forbidden"):
+            plan_many(scene, [(start, start)])
+    assert plan(scene, Pose(5, 5), Pose(5, 5)).motions == ()  # type: ignore[union-attr]
+
+
+def test_what_only_a_slide_passes_is_not_called_impossible() -> None:
+    """A square round a T of corridors as wide as it turns with two contacts that slide: not done, and not denied."""
+    T = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
+    scene = Scene(robot=[(-1, -1), (1, -1), (1, 1), (-1, 1)], workspace=T)
+    found = plan(scene, Pose(-5, 1), Pose(5, 1, "90deg"))
+    assert isinstance(found, Separated) and found.of == "interior"
+    assert isinstance(plan(scene, Pose(-5, 1), Pose(0, 5)), Path)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"objective": "fast"}, "objective 'fast'"),
+        ({"improve": -1}, "improve -1"),
+        ({"improve": math.nan}, "improve nan"),
+        ({"goal": (1, 2, 3)}, "give a Pose"),
+        ({"goal": Pose(10**200, 0)}, "beyond 1e150"),
+    ],
+)
+def test_bad_wishes_are_refused(options: dict[str, Any], message: str) -> None:
+    scene = Scene(robot=[(0, 0), (1, 0), (1, 1)], start=Pose(0, 0), goal=Pose(1, 1))
+    with pytest.raises(ValueError, match=message):
+        plan(scene, **options)
+
+
 def test_improving_makes_shorter_paths() -> None:
     scene = load_scene(ROOT / "examples/scenes/five_convex.json")
     first, better = plan(scene), plan(scene, improve=0.2)
