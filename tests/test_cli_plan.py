@@ -172,13 +172,25 @@ def test_a_boundary_file_stands_for_its_scene(run: Run, tmp_path: Path) -> None:
     assert run("plan", boundary).exit_code == 0
 
 
-def test_an_interrupt_leaves_nothing(tmp_path: Path) -> None:
-    answer = tmp_path / "way.json"
-    command = [sys.executable, "-m", "cfree", "plan", PARKING, "-o", str(answer), "--improve", "60s"]
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
-    time.sleep(4)
+def interrupted(after: float, *arguments: str) -> tuple[int, str]:
+    process = subprocess.Popen([sys.executable, "-m", "cfree", *arguments], stderr=subprocess.PIPE, text=True)
+    time.sleep(after)
     process.send_signal(signal.SIGINT)
     _, message = process.communicate(timeout=20)
-    assert process.returncode == 130
+    return process.returncode, message
+
+
+def test_an_interrupt_ends_improving_and_keeps_the_path(tmp_path: Path) -> None:
+    answer = tmp_path / "way.json"
+    code, _ = interrupted(4, "plan", PARKING, "-o", str(answer), "--improve", "60s")
+    assert code == 0
+    found = cfree.load_answer(answer)
+    assert isinstance(found, cfree.Path) and found.is_free(cfree.MotionChecker(cfree.load_scene(PARKING)))
+
+
+def test_an_interrupt_while_filming_leaves_no_film(tmp_path: Path) -> None:
+    film = tmp_path / "way.gif"
+    code, message = interrupted(4, "plan", PARKING, "--film", str(film))
+    assert code == 130
     assert message.splitlines()[-1] == "error: interrupted; no file was left half-written"
-    assert not answer.exists()
+    assert not list(tmp_path.iterdir())

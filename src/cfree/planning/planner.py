@@ -58,7 +58,8 @@ def plan(
     start, goal : Pose, optional
         Those of the scene unless given.
     improve : float, seconds, optional
-        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given.
+        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given. Ctrl-C ends it
+        early, and the path so far is the answer.
     objective : "short" or "clear"
         What to prefer: short paths, or those that keep away from obstacles; see Notes.
     max_seconds : float, optional
@@ -226,15 +227,19 @@ class Planner:
         best = searcher.shortener(poses)
         best.run(REFINE)
         seed = 0
-        while seconds and time.perf_counter() < end - seconds / 2 and seed < OTHERS:
-            seed += 1
-            if other := self._run(searcher.search(poses[0], poses[-1], seed), end - seconds / 2):
-                shortener = searcher.shortener(searcher.poses(other))
-                shortener.run(REFINE)
-                best = min(best, shortener, key=lambda s: s.length())
-        while time.perf_counter() < end:
-            self._look_up()
-            best.run(BLOCK)
+        try:
+            while seconds and time.perf_counter() < end - seconds / 2 and seed < OTHERS:
+                seed += 1
+                if other := self._run(searcher.search(poses[0], poses[-1], seed), end - seconds / 2):
+                    shortener = searcher.shortener(searcher.poses(other))
+                    shortener.run(REFINE)
+                    best = min(best, shortener, key=lambda s: s.length())
+            while time.perf_counter() < end:
+                self._look_up()
+                best.run(BLOCK)
+        except KeyboardInterrupt:  # enough: there is a path
+            if self.stop.is_set():
+                raise
         return searcher.poses(best.path())
 
     def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
