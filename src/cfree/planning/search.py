@@ -30,10 +30,11 @@ def motion_between(a: Pose, b: Pose) -> Motion:
     dx, dy = b.x - a.x, b.y - a.y
     if a.tau == b.tau:
         return Translation((dx, dy))
-    turned = b @ a.inverse()
-    cotangent = 0 if turned.tau is None else 1 / turned.tau
+    (q, p), (r, s) = ((0, 1) if tau is None else (tau.denominator, tau.numerator) for tau in (a.tau, b.tau))
+    cosine, sine = q * r + p * s, q * s - p * r  # of half the angle between them, times the same
+    cotangent = Fraction(cosine, sine)
     pole = (a.x + b.x - cotangent * dy) / 2, (a.y + b.y + cotangent * dx) / 2
-    return Rotation(pole, {"tau": turned.tau})
+    return Rotation(pole, {"tau": Fraction(sine, cosine) if cosine else None})
 
 
 def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:
