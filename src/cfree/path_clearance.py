@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from cfree.scene import Scene
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
-MOST = 1 << 16  # parts of motions looked at together: where more would be needed, what is known is the bound
+MOST = 1 << 12  # parts of motions looked at together: where more would be needed, what is known is the bound
 ROUNDING = 2.0**-40  # relative to the coordinates: a thousand times what placing and measuring round away
 
 

@@ -165,11 +165,14 @@ class Planner:
         for pose, name in ((start, "start"), (goal, "goal")):
             if max(abs(pose.x), abs(pose.y)) > FARTHEST:
                 raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
-            if not self.is_free([pose, pose]):
-                require_free(self.scene, pose, name)
-        poses = self.first_free(simple_ways(start, goal))
-        if poses is None and (self.space is None or self.cell_of(start, goal) is not None):
+        poses = self.first_free(simple_ways(start, goal)) if start != goal else None
+        if poses is None and start != goal and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
+        if poses is None:  # a motion that is free has free ends
+            for pose, name in ((start, "start"), (goal, "goal")):
+                if not self.is_free([pose, pose]):
+                    require_free(self.scene, pose, name)
+            poses = [start] if start == goal else None
         if poses is None:
             with self._lock:
                 answer = self._known(start, goal)
