@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from cfree.mesh import save_mesh as save_mesh
     from cfree.motion import Rotation as Rotation
     from cfree.motion import Translation as Translation
+    from cfree.motion import motion_between as motion_between
     from cfree.motion import rotations as rotations
     from cfree.motion_check import FirstContact as FirstContact
     from cfree.motion_check import MotionChecker as MotionChecker
@@ -78,7 +79,6 @@ if TYPE_CHECKING:
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.planner import plan as plan
     from cfree.planning.planner import plan_many as plan_many
-    from cfree.planning.search import motion_between as motion_between
     from cfree.plot import plot_boundary as plot_boundary
     from cfree.plot import plot_overview as plot_overview
     from cfree.plot import plot_slice as plot_slice
@@ -154,13 +154,12 @@ _HOMES = {
     "io": "load_polygons load_scene",
     "margins": "Interval NearestMiss max_margin max_scale nearest_miss",
     "mesh": "Mesh save_mesh",
-    "motion": "Rotation Translation rotations",
+    "motion": "Rotation Translation motion_between rotations",
     "motion_check": "FirstContact MotionChecker first_contact is_free_motion",
     "path": "Clearance Path",
     "path_clearance": "narrowest",
     "pinch": "Pinch",
     "planning.planner": "Planner plan plan_many",
-    "planning.search": "motion_between",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
     "plot_answer": "picture plot_path_space",
     "plot_path": "plot_path",

@@ -198,6 +198,24 @@ class Rotation:
 Motion = Translation | Rotation
 
 
+def motion_between(a: Pose, b: Pose) -> Motion:
+    """The translation from one pose to another, or the rotation by at most half a turn: Chasles.
+
+    Examples
+    --------
+    >>> motion_between(Pose(1, 0), Pose(0, 1, "90deg"))
+    Rotation(pole=(Fraction(0, 1), Fraction(0, 1)), tau=Fraction(1, 1), clockwise=False, angle_error=0.0)
+    """
+    dx, dy = b.x - a.x, b.y - a.y
+    if a.tau == b.tau:
+        return Translation((dx, dy))
+    (q, p), (r, s) = ((0, 1) if tau is None else (tau.denominator, tau.numerator) for tau in (a.tau, b.tau))
+    cosine, sine = q * r + p * s, q * s - p * r  # of half the angle between them, times the same
+    cotangent = Fraction(cosine, sine)
+    pole = (a.x + b.x - cotangent * dy) / 2, (a.y + b.y + cotangent * dx) / 2
+    return Rotation(pole, {"tau": Fraction(sine, cosine) if cosine else None})
+
+
 def rotations(pole: tuple[Number, Number], angle: Number) -> tuple[Rotation, ...]:
     """A turn of any size about a pole, as rotations of at most half a turn each, all of one direction.
 

@@ -6,13 +6,15 @@ The core decides; here motions become integers, and its answers objects.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from cfree.contact import EdgeVertex, VertexEdge
 from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
-from cfree.motion import Motion, Rotation
+from cfree.motion import Motion, Rotation, motion_between
 from cfree.pose import Pose
 from cfree.rational.surd import Surd
 
@@ -99,6 +101,14 @@ class MotionChecker:
         False
         """
         return self._outside(pose) is None and self.core.is_free(*self._integers(pose, motion))
+
+    def joins(self, poses: Sequence[Pose]) -> bool:
+        """Are the motions from each of these poses to the next free, as of `motion_between`?"""
+        return all(self.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
+
+    def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
+        """The first of some ways, each given by poses, that is free."""
+        return next(filter(self.joins, ways), None)
 
     def first_contact(self, pose: Pose, motion: Motion) -> FirstContact | None:
         """Where a motion becomes forbidden for the first time; None if it is free."""

@@ -27,10 +27,9 @@ except ImportError as error:
 
 from cfree.free import Checker
 from cfree.invalid import require_free
-from cfree.motion import Motion
+from cfree.motion import Motion, motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
-from cfree.planning.search import motion_between
 from cfree.pose import Pose
 
 if TYPE_CHECKING:

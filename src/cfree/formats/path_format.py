@@ -15,10 +15,9 @@ from pydantic import Field, PlainValidator, model_validator
 
 from cfree.errors import InvalidPoseError
 from cfree.formats.scene_format import Configuration, Point, Strict, Text, Version, fault
-from cfree.motion import Motion, Rotation, Translation, rotations
+from cfree.motion import Motion, Rotation, Translation, motion_between, rotations
 from cfree.outlines import rings_of
 from cfree.path import Path
-from cfree.planning.search import motion_between
 from cfree.pose import Pose, Poses
 
 if TYPE_CHECKING:

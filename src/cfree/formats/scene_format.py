@@ -30,7 +30,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact import to_fraction
-from cfree.extent import range_fault
+from cfree.extent import LARGEST, range_fault
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path, shortened
 from cfree.polygon import Polygon
@@ -44,9 +44,6 @@ MAX_NESTING = 32
 def fault(message: str, **context: object) -> PydanticCustomError:
     """A problem for `report`; ``{got}`` in the message becomes the value as written in the file."""
     return PydanticCustomError("cfree", "{message}", {"message": message, **context})
-
-
-FARTHEST = 10**150  # of a start or a goal: as of coordinates
 
 
 def _coordinate(value: object) -> Fraction:
@@ -81,7 +78,7 @@ def _angle(value: Any) -> Any:
 
 
 def _pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
-    if max(abs(value[0]), abs(value[1])) > FARTHEST:
+    if max(abs(value[0]), abs(value[1])) > LARGEST:
         raise fault("a position beyond 1e150; give one nearer to the scene")
     return Pose(*value)
 

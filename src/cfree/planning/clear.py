@@ -17,7 +17,7 @@ from cfree.errors import UnsupportedError
 from cfree.free import Checker
 from cfree.grown import grown
 from cfree.inset import with_robot
-from cfree.planning.search import motion_between
+from cfree.motion import motion_between
 from cfree.pose import Pose, Poses
 from cfree.scene import Scene
 

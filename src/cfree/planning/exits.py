@@ -43,14 +43,14 @@ class Exits:
             wanted = self._cells_near(pose)
             rays = [self._ray(pose, contact) for contact in self._contacts(pose)]
             for k in STEPS:
-                firsts = [q for q in self._moves(pose, rays, k) if self.walker.joins([pose, q])]
+                firsts = [q for q in self._moves(pose, rays, k) if self.walker.checker.joins([pose, q])]
                 for way in ([pose, q] for q in firsts):
                     self._add(found, way)
                 seconds = ([pose, q, p] for q in firsts for p in self._moves(q, rays, k + 3))
                 for way in seconds:
                     if wanted <= found.keys():
                         break
-                    if self.walker.joins(way[1:]):
+                    if self.walker.checker.joins(way[1:]):
                         self._add(found, way)
                 if wanted <= found.keys():
                     break

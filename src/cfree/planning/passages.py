@@ -83,13 +83,13 @@ class Passages:
             for pose in poses:
                 # along a segment there is no turning; where bounds leave a slit there is
                 tried = simple_ways(node, pose) if self._slits else [[node, pose]] * (node.tau == pose.tau)
-                if pose != node and (joining := self.walker.first_joining(*tried)):
+                if pose != node and (joining := self.walker.checker.first_free(tried)):
                     yield pose, list(joining)
 
     @cached_property
     def places(self) -> list[Pose]:
         """Ends of isolated segments and of slits, and poses at which cells touch, where they are rational."""
-        places = [(x, y, theta) for x, y, theta, _ in self._pinches()]
+        places = list(self._pinches())
         table = self.space.boundary.isolated
         for k in np.flatnonzero(table.kind != CURVE).tolist():
             places += self.space.boundary.isolated_part(k).ends
@@ -112,7 +112,7 @@ class Passages:
                     found += [sheet.pose(t, tau) for t in (low, high)]
         return found
 
-    def _pinches(self) -> Iterator[tuple[float, float, float, set[int]]]:
+    def _pinches(self) -> Iterator[tuple[float, float, float]]:
         """Vertices where several cells meet, with doubles."""
         cells = self.space.complex
         cell = np.empty(cells.vertices, np.int32)
@@ -122,8 +122,8 @@ class Passages:
         order = np.lexsort(rows.T)
         groups = np.split(order, np.flatnonzero(np.any(np.diff(rows[order], axis=0) != 0, axis=1)) + 1)
         for group in groups:
-            if len(group) > 1 and len(members := set(cell[group].tolist())) > 1:
-                yield float(cells.x[group[0]]), float(cells.y[group[0]]), float(cells.theta[group[0]]), members
+            if len(set(cell[group].tolist())) > 1:
+                yield float(cells.x[group[0]]), float(cells.y[group[0]]), float(cells.theta[group[0]])
 
     def _exact(self, x: float, y: float, theta: float) -> Iterator[Pose]:
         """A free pose near a place, fixed by two of the contacts that it may be in."""
@@ -135,9 +135,9 @@ class Passages:
                     continue
                 t = cross(minus(Q, P), v) / d
                 pose = Pose(P[0] + t * u[0], P[1] + t * u[1], {"tau": about.tau})
-                if math.hypot(float(pose.x) - x, float(pose.y) - y) <= NEAR * self.exits.size and self.walker.joins(
-                    [pose, pose]
-                ):
+                if math.hypot(
+                    float(pose.x) - x, float(pose.y) - y
+                ) <= NEAR * self.exits.size and self.walker.checker.joins([pose, pose]):
                     yield pose
                     return
 

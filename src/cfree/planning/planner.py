@@ -16,12 +16,17 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
+from cfree.extent import LARGEST
 from cfree.forbidden import boundary
 from cfree.invalid import require_free
+from cfree.mesh import robot_radius
+from cfree.motion import motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
-from cfree.planning.search import Places, Searcher, motion_between, simple_ways
+from cfree.planning.search import Places, Searcher, simple_ways
 from cfree.pose import Pose
 from cfree.scene import Scene
 
@@ -32,7 +37,6 @@ if TYPE_CHECKING:
     from cfree.separated import Separated
 
 Objective = Literal["short", "clear"]
-FARTHEST = 10**150  # of a start or a goal: as of a scene's coordinates
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
 OTHERS = 30  # other ways looked for
@@ -124,8 +128,7 @@ class Planner:
     @cached_property
     def angle_scale(self) -> float:
         """Length per radian: the robot's radius about its reference point."""
-        corners = [vertex for part in self.scene.robot for vertex in part.exact_vertices]
-        return max(math.hypot(float(x), float(y)) for x, y in corners)
+        return robot_radius(self.scene)
 
     @cached_property
     def walker(self) -> Walker:
@@ -163,14 +166,14 @@ class Planner:
         if improve is not None and not 0 <= improve < math.inf:
             raise ValueError(f"improve {improve}: give seconds, 0 or more")
         for pose, name in ((start, "start"), (goal, "goal")):
-            if max(abs(pose.x), abs(pose.y)) > FARTHEST:
+            if max(abs(pose.x), abs(pose.y)) > LARGEST:
                 raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
-        poses = self.first_free(simple_ways(start, goal)) if start != goal else None
+        poses = self.checker.first_free(simple_ways(start, goal)) if start != goal else None
         if poses is None and start != goal and (self.space is None or self.cell_of(start, goal) is not None):
             poses = self._searched(start, goal)
         if poses is None:  # a motion that is free has free ends
             for pose, name in ((start, "start"), (goal, "goal")):
-                if not self.is_free([pose, pose]):
+                if not self.checker.joins([pose, pose]):
                     require_free(self.scene, pose, name)
             poses = [start] if start == goal else None
         if poses is None:
@@ -194,18 +197,10 @@ class Planner:
         way = None if proof.of == "closed" else self._passages.path(start, goal)
         return proof if way is None else way
 
-    def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
-        """The first of some ways that is free."""
-        return next(filter(self.is_free, ways), None)
-
     def cell_of(self, start: Pose, goal: Pose) -> int | None:
         """The cell that both are in."""
         first, second = self.free_space.locate([start, goal]).tolist()
         return first if first == second >= 0 else None
-
-    def is_free(self, poses: Sequence[Pose]) -> bool:
-        """Are the motions between poses free?"""
-        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
 
     def path(self, poses: Sequence[Pose]) -> Path:
         """Through these poses, all of it checked once more.
@@ -252,7 +247,7 @@ class Planner:
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene)
-            found = larger.first_free(simple_ways(start, goal)) or larger._searched(start, goal)
+            found = larger.checker.first_free(simple_ways(start, goal)) or larger._searched(start, goal)
             is_small = larger.checker.features.patches <= COMPLETE
             if found is None and is_small and (cell := larger.cell_of(start, goal)) is not None:
                 found = larger.walker.walk(start, goal, cell)
@@ -289,15 +284,15 @@ class Planner:
 
     def _area(self, poses: Sequence[Pose]) -> Places:
         """Of positions to try."""
-        scene = self.scene
-        if scene.bounds is not None:
-            x0, y0, x1, y1 = map(float, scene.bounds)
+        if self.scene.bounds is not None:
+            x0, y0, x1, y1 = map(float, self.scene.bounds)
             return x0, y0, x1, y1
-        around = [scene.workspace] if scene.workspace else scene.obstacles
-        corners: list[Any] = [v for polygon in around for v in polygon.exact_vertices]
-        margin = 0.0 if scene.workspace else 2 * self.angle_scale
-        xs, ys = zip(*corners, *((pose.x, pose.y) for pose in poses), strict=True)
-        return float(min(xs)) - margin, float(min(ys)) - margin, float(max(xs)) + margin, float(max(ys)) + margin
+        points = [(float(q.x), float(q.y)) for q in poses]
+        around = [self.scene.workspace] if self.scene.workspace else self.scene.obstacles
+        corners = np.concatenate([points, *(polygon.vertices for polygon in around)])
+        margin = 0.0 if self.scene.workspace else 2 * self.angle_scale
+        (x0, y0), (x1, y1) = (corners.min(axis=0) - margin).tolist(), (corners.max(axis=0) + margin).tolist()
+        return x0, y0, x1, y1
 
 
 def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose, Pose]:

@@ -10,31 +10,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from cfree.motion import Motion, Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.pose import Pose
 
 Places = tuple[float, float, float, float]
 PLACE_BITS, ANGLE_BITS = 24, 20  # of random poses: few, for short integers
 FINE_PLACE_BITS, FINE_ANGLE_BITS = 40, 36  # of poses on paths
-
-
-def motion_between(a: Pose, b: Pose) -> Motion:
-    """The translation from one pose to another, or the rotation by at most half a turn: Chasles.
-
-    Examples
-    --------
-    >>> motion_between(Pose(1, 0), Pose(0, 1, "90deg"))
-    Rotation(pole=(Fraction(0, 1), Fraction(0, 1)), tau=Fraction(1, 1), clockwise=False, angle_error=0.0)
-    """
-    dx, dy = b.x - a.x, b.y - a.y
-    if a.tau == b.tau:
-        return Translation((dx, dy))
-    (q, p), (r, s) = ((0, 1) if tau is None else (tau.denominator, tau.numerator) for tau in (a.tau, b.tau))
-    cosine, sine = q * r + p * s, q * s - p * r  # of half the angle between them, times the same
-    cotangent = Fraction(cosine, sine)
-    pole = (a.x + b.x - cotangent * dy) / 2, (a.y + b.y + cotangent * dx) / 2
-    return Rotation(pole, {"tau": Fraction(sine, cosine) if cosine else None})
 
 
 def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:

@@ -21,7 +21,6 @@ from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
 from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
 from cfree.planning.exits import Exits
-from cfree.planning.search import motion_between
 from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, rotated
 from cfree.pose import Pose
 
@@ -46,15 +45,6 @@ class Walker:
         self.reach = Fraction(angle_scale)
         self.exits = Exits(self)
         self._links: dict[int, list[Link]] = {}
-
-    # --- motions ---
-
-    def joins(self, poses: Sequence[Pose]) -> bool:
-        """Are all motions between these free?"""
-        return all(self.checker.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
-
-    def first_joining(self, *ways: Sequence[Pose]) -> Sequence[Pose] | None:
-        return next((way for way in ways if self.joins(way)), None)
 
     def room(self, pose: Pose, direction: Vector) -> Fraction:
         """A share of the direction, at most 1, as far as a translation is free."""
@@ -84,9 +74,9 @@ class Walker:
             p, q = self.off(sheet, t, tau), self.off(sheet, end, to)
             C, D = sheet.pose(t, tau), sheet.pose(end, to)
             turned = rotated(C, sheet.contact_point(t), D.tau)
-            slid = Pose(*self._slid(sheet, end, tau), {"tau": C.tau})
+            slid = sheet.pose(end, tau)
             slid_off = rotated(slid, sheet.contact_point(end), D.tau)
-            way = self.first_joining([p, q], [p, C, turned, D, q], [p, C, slid, slid_off, q])
+            way = self.checker.first_free([[p, q], [p, C, turned, D, q], [p, C, slid, slid_off, q]])
             if way is not None:
                 yield from way[1:]
             elif depth == MOST_HALVINGS:
@@ -95,10 +85,6 @@ class Walker:
                 middle = between(min(tau, to), max(tau, to))
                 stack += [(middle, to, depth + 1), (tau, middle, depth + 1)]
 
-    def _slid(self, sheet: Sheet, t: Fraction, tau: Fraction) -> Vector:
-        P, U = sheet.at(tau)
-        return P[0] + t * U[0], P[1] + t * U[1]
-
     # --- from sheet to sheet ---
 
     def over_curve(self, f: Sheet, g: Sheet, tau: Fraction, side: int) -> Sequence[Pose]:
@@ -106,7 +92,7 @@ class Walker:
         t, end = f.middle(tau), g.middle(tau)
         p, q = self.off(f, t, tau), self.off(g, end, tau)
         corner = f.pose(f.limits(tau)[side], tau)
-        way = self.first_joining([p, q], [p, f.pose(t, tau), corner, g.pose(end, tau), q])
+        way = self.checker.first_free([[p, q], [p, f.pose(t, tau), corner, g.pose(end, tau), q]])
         if way is None:
             raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=tau)
         return way
@@ -129,12 +115,12 @@ class Walker:
             C, D = f.pose(t, sigma), g.pose(s, tau)
             p, q = self.off(f, t, sigma), self.off(g, s, tau)
             turned = rotated(C, f.contact_point(t), D.tau)
-            way = self.first_joining([p, q], [p, C, turned, D, q], [p, C, turned, q], [p, C, D, q])
+            way = self.checker.first_free([[p, q], [p, C, turned, D, q], [p, C, turned, q], [p, C, D, q]])
             if way is not None:
                 m, n = f.middle(sigma), g.middle(tau)
                 begin, end = self.off(f, m, sigma), self.off(g, n, tau)
-                head = self.first_joining([begin, p], [begin, f.pose(m, sigma), C, p])
-                tail = self.first_joining([q, end], [q, D, g.pose(n, tau), end])
+                head = self.checker.first_free([[begin, p], [begin, f.pose(m, sigma), C, p]])
+                tail = self.checker.first_free([[q, end], [q, D, g.pose(n, tau), end]])
                 assert head and tail
                 return sigma, [*head[1:-1], *way[:-1], *tail], tau
         raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=aims)
@@ -213,7 +199,7 @@ class Walker:
         for k in range(3, MOST_TURNS, 2):
             for by in (Fraction(1, 2**k), -Fraction(1, 2**k)):
                 turned = _turned(pose, pose @ Pose(0, 0, {"tau": by}))
-                is_inside = self.joins([pose, turned]) and self.space.locate(turned) == cell
+                is_inside = self.checker.joins([pose, turned]) and self.space.locate(turned) == cell
                 if is_inside and (landings := self.landings(turned, cell)):
                     return [pose, turned], landings
         way = self.exits.of(pose).get(cell)
@@ -237,7 +223,7 @@ class Walker:
         contact = self.checker.first_contact(pose, Translation(direction))
         if contact is None:
             far = Pose(self._far, pose.y, {"tau": pose.tau})
-            return Landing(FAR, far) if y == 0 and x < 0 and self.joins([pose, far]) else None
+            return Landing(FAR, far) if y == 0 and x < 0 and self.checker.joins([pose, far]) else None
         there = Pose(pose.x + contact.at.p * direction[0], pose.y + contact.at.p * direction[1], {"tau": pose.tau})
         faces = (face for face in self.corridors.near(there) if self._sheet(face).holds(there))
         return next((Landing(face, there) for face in faces), None)
@@ -283,7 +269,7 @@ class Walker:
                 yield Link((Landing(face, f.pose(f.middle(tau), tau)), left), (pose,))
             for x, other in pairwise([*self.corridors.crossings(pose).tolist(), float(self._far)]):
                 middle = Pose((x + other) / 2, pose.y, {"tau": pose.tau})
-                if self.joins([middle, middle]):
+                if self.checker.joins([middle, middle]):
                     first, last = self._landing(middle, 1, 0), self._landing(middle, -1, 0)
                     if first and last:
                         yield Link((first, last))
