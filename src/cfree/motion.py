@@ -1,4 +1,4 @@
-"""Motions of the robot: translations, and rotations about a pole of at most half a turn; exact.
+"""Motions of the robot: translations, rotations about a pole of at most half a turn, and slides; exact.
 
 Every displacement of the plane is one of these two (Chasles). A pure rotation moves on the helix of its pole (the
 paper's Lemma 1 and Remark 2), a translation on a straight line of the configuration space.
@@ -22,6 +22,7 @@ from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.exact import angle as angle_of
 from cfree.pose import Angle, Pose, Poses
+from cfree.slide import Slide
 
 Floats = NDArray[np.float64]
 MOST_HALVES = 1000
@@ -59,6 +60,11 @@ class Translation:
         return math.hypot(*map(float, self.vector))
 
     @property
+    def turn(self) -> float:
+        """No angle."""
+        return 0.0
+
+    @property
     def displacement(self) -> Pose:
         """The whole motion as an element of SE(2)."""
         return Pose(*self.vector)
@@ -73,7 +79,11 @@ class Translation:
 
     def until(self, u: Number) -> Translation:
         """The motion as far as u."""
-        share = to_fraction(u)
+        return self.between(0, u)
+
+    def between(self, u: Number, v: Number) -> Translation:
+        """The part of the motion from u to v."""
+        share = to_fraction(v) - to_fraction(u)
         return Translation((share * self.vector[0], share * self.vector[1]))
 
     def reversed(self) -> Translation:
@@ -171,6 +181,12 @@ class Rotation:
             return Rotation(self.pole, {"tau": sine / cosine})
         return Rotation(self.pole, {"tau": "-inf" if sine < 0 else "inf"})
 
+    def between(self, u: Number, v: Number) -> Rotation:
+        """The part of the motion from u to v."""
+        (q0, p0), (q1, p1) = self.until(u).half, self.until(v).half
+        q, p = q0 * q1 + p0 * p1, q0 * p1 - p0 * q1  # the second half angle less the first
+        return Rotation(self.pole, {"tau": Fraction(p, q) if q else "-inf" if p < 0 else "inf"})
+
     @property
     def first(self) -> int:
         """The L of the parameter."""
@@ -195,10 +211,10 @@ class Rotation:
         return Poses(xy, pose.theta + s * self.turn)
 
 
-Motion = Translation | Rotation
+Motion = Translation | Rotation | Slide
 
 
-def motion_between(a: Pose, b: Pose) -> Motion:
+def motion_between(a: Pose, b: Pose) -> Translation | Rotation:
     """The translation from one pose to another, or the rotation by at most half a turn: Chasles.
 
     Examples

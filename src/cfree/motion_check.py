@@ -13,10 +13,13 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from cfree.contact import EdgeVertex, VertexEdge
+from cfree.errors import UnsupportedError
+from cfree.exact import common_denominator
 from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
-from cfree.motion import Motion, Rotation, motion_between
+from cfree.motion import Motion, Rotation, Translation, motion_between
 from cfree.pose import Pose
 from cfree.rational.surd import Surd
+from cfree.slide import Slide
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
@@ -100,7 +103,11 @@ class MotionChecker:
         >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
         False
         """
-        return self._outside(pose) is None and self.core.is_free(*self._integers(pose, motion))
+        if self._outside(pose) is not None:
+            return False
+        if isinstance(motion, Slide):
+            return bool(self.core.is_slide_free(self._slide_integers(pose, motion)))
+        return bool(self.core.is_free(*self._integers(pose, motion)))
 
     def joins(self, poses: Sequence[Pose]) -> bool:
         """Are the motions from each of these poses to the next free, as of `motion_between`?"""
@@ -110,8 +117,16 @@ class MotionChecker:
         """The first of some ways, each given by poses, that is free."""
         return next(filter(self.joins, ways), None)
 
-    def first_contact(self, pose: Pose, motion: Motion) -> FirstContact | None:
-        """Where a motion becomes forbidden for the first time; None if it is free."""
+    def first_contact(self, pose: Pose, motion: Translation | Rotation) -> FirstContact | None:
+        """Where a motion becomes forbidden for the first time; None if it is free.
+
+        Raises
+        ------
+        UnsupportedError
+            For slides: where they end is known by `is_free` of parts of them only.
+        """
+        if isinstance(motion, Slide):
+            raise UnsupportedError("a slide has no first contact; ask is_free for parts of it, as of Slide.between")
         if (outside := self._outside(pose)) is not None:
             return FirstContact(Surd(0), outside[0], outside[1], None)
         found: Any = self.core.first_collision(*self._integers(pose, motion))
@@ -146,7 +161,16 @@ class MotionChecker:
                     return k, WORKSPACE
         return None
 
-    def _integers(self, pose: Pose, motion: Motion) -> tuple[bool, tuple[int, ...]]:
+    def _slide_integers(self, pose: Pose, slide: Slide) -> list[int]:
+        """What the core calls a slide: polynomials in u."""
+        scale, q, p = self.features.scale, slide.tau.denominator, slide.tau.numerator
+        x = [scale * (pose.x * d + c) for c, d in zip(slide.x, slide.d, strict=True)]
+        y = [scale * (pose.y * d + c) for c, d in zip(slide.y, slide.d, strict=True)]
+        terms = [c * slide.tau**k for values in (x, y, slide.d) for k, c in enumerate(values)]
+        whole = common_denominator(terms)
+        return [*pose.rotation, q, p, *(int(c * whole) for c in terms)]
+
+    def _integers(self, pose: Pose, motion: Translation | Rotation) -> tuple[bool, tuple[int, ...]]:
         """What the core calls a motion."""
         turns = isinstance(motion, Rotation)
         vx, vy = motion.pole if isinstance(motion, Rotation) else motion.vector
@@ -174,7 +198,7 @@ def is_free_motion(scene: Scene, pose: Pose, motion: Motion) -> bool:
     return MotionChecker(scene).is_free(pose, motion)
 
 
-def first_contact(scene: Scene, pose: Pose, motion: Motion) -> FirstContact | None:
+def first_contact(scene: Scene, pose: Pose, motion: Translation | Rotation) -> FirstContact | None:
     """Where a motion becomes forbidden for the first time; None if it is free.
 
     Examples

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.motion import Motion, Translation
 from cfree.pose import Pose
+from cfree.slide import Slide
 
 if TYPE_CHECKING:
     from cfree.path import Path
@@ -50,7 +51,7 @@ class Pace:
         robot = np.concatenate([part.vertices for part in scene.robot])
         self._motions, self._poses = path.motions, path.poses
         lengths = [reach(pose, motion, robot) for pose, motion in zip(path.poses, path.motions, strict=False)]
-        turns = [0.0 if isinstance(motion, Translation) else motion.turn for motion in path.motions]
+        turns = [motion.turn for motion in path.motions]
         self._until = np.cumsum([0.0, *lengths])
         self._theta = path.start.theta + np.cumsum([0.0, *turns])
         self.total = float(self._until[-1])
@@ -78,8 +79,10 @@ class Pace:
 
 
 def reach(pose: Pose, motion: Motion, points: Floats) -> float:
-    """How far the farthest of these points of the robot, (n, 2), travels in a motion."""
+    """How far the farthest of these points of the robot, (n, 2), travels in a motion; of a slide, a bound of it."""
     if isinstance(motion, Translation):
         return motion.length
+    if isinstance(motion, Slide):
+        return motion.reach(float(np.hypot(points[..., 0], points[..., 1]).max()))
     corners = pose.apply(points) - [float(c) for c in motion.pole]
     return float(np.hypot(corners[..., 0], corners[..., 1]).max()) * abs(motion.turn)

@@ -20,9 +20,10 @@ from numpy.typing import NDArray
 from cfree.errors import UnsupportedError
 from cfree.exact import Number, to_fraction
 from cfree.files import replacing
-from cfree.motion import Motion, Translation
+from cfree.motion import Motion, Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.pose import Pose, Poses
+from cfree.slide import Slide
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
@@ -64,7 +65,7 @@ class Path:
     Parameters
     ----------
     start : Pose
-    motions : sequence of Translation or Rotation
+    motions : sequence of Translation, Rotation or Slide
         In world coordinates, applied one after the other.
     units : str, optional
         Unit of length; nothing is computed from it.
@@ -113,7 +114,7 @@ class Path:
     @property
     def turning(self) -> float:
         """All angles turned, without signs, in radians."""
-        return math.fsum(_turned(motion) for motion in self.motions)
+        return math.fsum(abs(motion.turn) for motion in self.motions)
 
     def at(self, position: Number) -> Pose:
         """Exact pose at a position: k + u is the parameter u of motion k, whole numbers the poses between motions.
@@ -146,7 +147,7 @@ class Path:
         >>> path.after(3.5) == Pose(2, "3/2")
         True
         """
-        lengths = [_distance(q, m) + angle_scale * _turned(m) for q, m in zip(self.poses, self.motions, strict=False)]
+        lengths = [_distance(q, m) + angle_scale * abs(m.turn) for q, m in zip(self.poses, self.motions, strict=False)]
         until = np.cumsum([0.0, *lengths])
         if not 0 <= distance <= until[-1] * (1 + 2**-40):  # sums are rounded
             raise ValueError(f"distance {distance} is not on the path; give one from 0 to {until[-1]:g}")
@@ -186,7 +187,7 @@ class Path:
             raise ValueError(f"step {step}, turn {turn}: give positive ones")
         found = []
         for pose, motion in zip(self.poses, self.motions, strict=False):
-            count = max(1, math.ceil(_distance(pose, motion) / step), math.ceil(_turned(motion) / turn))
+            count = max(1, math.ceil(_distance(pose, motion) / step), math.ceil(abs(motion.turn) / turn))
             found.append(np.arange(1, count + 1) / count)
         return found
 
@@ -308,7 +309,7 @@ def form_of(path: str | PathLike[str], form: str | None) -> str:
 
 def _distance(pose: Pose, motion: Motion) -> float:
     """How far the reference point travels."""
-    if isinstance(motion, Translation):
+    if not isinstance(motion, Rotation):
         return motion.length
     arm = math.hypot(float(pose.x - motion.pole[0]), float(pose.y - motion.pole[1]))
     return arm * abs(motion.turn)
@@ -318,12 +319,10 @@ def _parameter(motion: Motion, share: float) -> Fraction:
     """Where a share of a motion's length or angle is done."""
     if isinstance(motion, Translation):
         return Fraction(share)
-    half, (q, p) = share * motion.turn / 2, motion.half
-    c, s = math.cos(half), math.sin(half)
+    half = share * motion.turn / 2
+    if isinstance(motion, Slide):
+        return Fraction(min(math.tan(half) / float(motion.tau), 1.0))
+    (q, p), c, s = motion.half, math.cos(half), math.sin(half)
     # (1 - u) (L, 0) + u (q, p) has that direction
     u = s / (c * float(Fraction(p, motion.first)) - s * float(Fraction(q, motion.first)) + s) if s else 0.0
     return Fraction(min(max(u, 0.0), 1.0))
-
-
-def _turned(motion: Motion) -> float:
-    return 0.0 if isinstance(motion, Translation) else abs(motion.turn)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cfree.mesh import robot_radius
-from cfree.motion import Motion, Rotation, Translation
+from cfree.motion import Motion, Translation
 from cfree.motion_check import MotionChecker
 from cfree.nearest import Floats, Ints, Walls
 from cfree.pace import Pace, reach
@@ -136,7 +136,7 @@ def _least_between(path: Path, scene: Scene, motion: Ints, share: Floats) -> Cle
     (i, j), (u, v) = motion.tolist(), map(Fraction, share.tolist())
     ends = [(u if k == i else Fraction(0), v if k == j else Fraction(1)) for k in range(i, j + 1)]
     start = path.motions[i].at(path.poses[i], u)
-    part = Path(start, [_between(path.motions[i + k], *both) for k, both in enumerate(ends)])
+    part = Path(start, [path.motions[i + k].between(*both) for k, both in enumerate(ends)])
     place = least_clearance(part, scene, None)
     if place is None:
         return None
@@ -144,15 +144,6 @@ def _least_between(path: Path, scene: Scene, motion: Ints, share: Floats) -> Cle
     begin = _share(path.motions[k], u) if k == i else 0.0
     end = _share(path.motions[k], v) if k == j else 1.0
     return replace(place, motion=k, share=begin + s * (end - begin))
-
-
-def _between(motion: Motion, u: Fraction, v: Fraction) -> Motion:
-    """The part of a motion between two parameters."""
-    if isinstance(motion, Translation):
-        return Translation(((v - u) * motion.vector[0], (v - u) * motion.vector[1]))
-    (q0, p0), (q1, p1) = motion.until(u).half, motion.until(v).half
-    q, p = q0 * q1 + p0 * p1, q0 * p1 - p0 * q1  # the second half angle less the first
-    return Rotation(motion.pole, {"tau": Fraction(p, q) if q else "-inf" if p < 0 else "inf"})
 
 
 def _share(motion: Motion, u: Fraction) -> float:

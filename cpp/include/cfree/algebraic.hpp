@@ -1,4 +1,4 @@
-// Real algebraic numbers of degree at most 4, compared exactly.
+// Real algebraic numbers of degree at most 6, compared exactly.
 #pragma once
 #include "cfree/polynomial.hpp"
 

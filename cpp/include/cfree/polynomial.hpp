@@ -28,7 +28,7 @@ struct Coefficients {
 };
 std::optional<int> sign_at(const Coefficients<Ball>& p, const Ball& tau);
 
-// Coefficients from the constant up; no leading zeros; degree at most 4; empty is zero.
+// Coefficients from the constant up; no leading zeros; degree at most 6; empty is zero.
 class Poly {
 public:
     Poly() = default;
@@ -59,7 +59,7 @@ public:
     const Int* end() const { return c + count; }
 
 private:
-    Int c[5];
+    Int c[7];
     int count = 0;
 };
 

@@ -1,0 +1,89 @@
+"""Slides from a pose that is in two contacts: the rational curve on which both are kept.
+
+At an orientation the reference point is on a line for each contact. In the half-angle tangent t of the turning both
+lines are rational, and so is the point where they meet; if they coincide at t = 0, common factors are divided out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import combinations
+from typing import Any
+
+from flint import fmpq, fmpq_poly
+
+from cfree.errors import InvalidPoseError
+from cfree.features import SceneFeatures, ShapeFeatures
+from cfree.planning.sheet import Vector, contact_line
+from cfree.pose import Pose, half_angle_rotation
+from cfree.slide import Slide, Touch, terms_of
+
+Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature
+Curve = tuple[fmpq_poly, fmpq_poly]
+
+
+def slides(features: SceneFeatures, pose: Pose, contacts: Sequence[Contact], tau: Fraction) -> Iterator[Slide]:
+    """Along any two of the contacts that a pose is in, as far as the half-angle tangent; not all need be free."""
+    for first, last in combinations(contacts, 2):
+        touches = [touch(features, *contact) for contact in (first, last)]
+        if None in touches or (meeting := _meeting(features, pose, first, last)) is None:
+            continue
+        x, y, d = map(terms_of, meeting)
+        try:
+            slide = Slide((touches[0], touches[1]), x, y, d, tau)
+        except InvalidPoseError:  # the lines are parallel on the way, or do not meet at the pose
+            continue
+        yield slide
+
+
+def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
+    """A contact as files name it; None if no vertex of the scene is there."""
+
+    def feature(shape: ShapeFeatures, k: int) -> tuple[int, int]:
+        return int(shape.owner_polygon[k]), int(shape.owner_vertex[k])
+
+    robot, obstacle = feature(features.robot, i), feature(features.obstacles, j)
+    if min(robot[1], obstacle[1]) < 0:
+        return None
+    return Touch("vertex-edge" if kind == 1 else "edge-vertex", robot, obstacle)
+
+
+def _meeting(
+    features: SceneFeatures, pose: Pose, first: Contact, last: Contact
+) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly] | None:
+    """x, y, d: where two contact lines meet, from the pose; None if they never do."""
+    P, U = _line(features, pose, first)
+    Q, V = _line(features, pose, last)
+    w, across = fmpq_poly([1, 0, 1]), _cross(U, V)
+    if not across:
+        return None
+    # P + s U, s = (Q - P) x V / U x V; all of them are over w
+    along = _cross((Q[0] - P[0], Q[1] - P[1]), V)
+    d = w * across
+    x, y = (P[k] * across + along * U[k] - _exact((pose.x, pose.y)[k]) * d for k in (0, 1))
+    common = d.gcd(x).gcd(y)
+    return x // common, y // common, d // common
+
+
+def _line(features: SceneFeatures, pose: Pose, contact: Contact) -> tuple[Curve, Curve]:
+    """P and U, times 1 + t^2: the reference point is at P + s U when the robot has turned from a pose by 2 atan(t)."""
+    p, q, a, g = contact_line(features, *contact)
+    c, s, w = half_angle_rotation(pose.tau)
+    c0, s0 = fmpq(c, w), fmpq(s, w)
+    cosine, sine = fmpq_poly([c0, -2 * s0, -c0]), fmpq_poly([s0, 2 * c0, -s0])
+
+    def less_turned(fixed: Vector, v: Vector) -> Curve:
+        x, y = map(_exact, v)
+        X, Y = (_exact(coordinate) * fmpq_poly([1, 0, 1]) for coordinate in fixed)
+        return X - x * cosine + y * sine, Y - x * sine - y * cosine
+
+    return less_turned(p, a), less_turned(q, g)
+
+
+def _cross(u: Curve, v: Curve) -> fmpq_poly:
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def _exact(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)

@@ -1,0 +1,221 @@
+"""Motions along two contacts: for exact fits, where free space is too thin for translations and rotations.
+
+As the robot turns by 2 atan(t), its reference point moves by (x(t), y(t)) / d(t), to where the lines of two contacts
+meet: polynomials of degree at most 4 (theory, section 14). The parameter u in [0, 1] of a slide is t / tau.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Literal
+
+import numpy as np
+from flint import fmpq, fmpq_poly
+from numpy.polynomial import polynomial
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.errors import InvalidPoseError
+from cfree.exact import ExactPoint, Number, to_fraction
+from cfree.pose import Pose, Poses
+
+DEGREE = 4
+Floats = NDArray[np.float64]
+Terms = tuple[Fraction, ...]  # of a polynomial, the constant first
+Feature = tuple[int, int]  # polygon, and vertex; an edge by the vertex where it begins
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Which features touch.
+
+    Attributes
+    ----------
+    kind : "vertex-edge" or "edge-vertex"
+        The robot's feature comes first.
+    robot, obstacle : (polygon, vertex)
+        Numbered as in `docs/answer-format.md`: -1 is the bounds and the reference point, -2 the workspace.
+    """
+
+    kind: Literal["vertex-edge", "edge-vertex"]
+    robot: Feature
+    obstacle: Feature
+
+
+@dataclass(frozen=True, init=False)
+class Slide:
+    """Turn by less than half a turn, the reference point on a rational curve: two contacts are kept.
+
+    Parameters
+    ----------
+    contacts : pair of Touch
+        For people; `cfree.verify` checks that they are kept, and nothing else uses them.
+    x, y, d : sequences of numbers
+        Coefficients of polynomials in t, the constant first, five at most: when the robot has turned by 2 atan(t), the
+        reference point is (x(t), y(t)) / d(t) from where it was. In the world, in the scene's unit of length.
+    tau : number
+        Tangent of half the whole angle.
+
+    Raises
+    ------
+    InvalidPoseError
+        If it does not begin where the robot is, has too many coefficients, or the Bernstein coefficients of d for
+        t from 0 to tau are not all of one sign.
+
+    Examples
+    --------
+    >>> on_floor, on_wall = Touch("vertex-edge", (0, 0), (0, 2)), Touch("vertex-edge", (0, 1), (1, 1))
+    >>> ladder = Slide((on_floor, on_wall), [0, 0, 2], [0, 2], [1, 0, 1], 1)  # x, y = 1 - cos, sin of the angle
+    >>> ladder.apply(Pose(0, 0)) == Pose(1, 1, "90deg"), [*map(str, ladder.moved(Fraction(1, 2)))]
+    (True, ['2/5', '4/5'])
+    >>> ladder.reversed().apply(ladder.apply(Pose(0, 0))) == Pose(0, 0)
+    True
+    """
+
+    contacts: tuple[Touch, Touch]
+    x: Terms
+    y: Terms
+    d: Terms
+    tau: Fraction
+
+    def __init__(
+        self, contacts: tuple[Touch, Touch], x: Iterable[Number], y: Iterable[Number], d: Iterable[Number], tau: Number
+    ) -> None:
+        first, last = contacts
+        given = {name: _terms(name, values) for name, values in (("x", x), ("y", y), ("d", d))}
+        end = to_fraction(tau)
+        if given["x"][0] or given["y"][0]:
+            raise InvalidPoseError(f"x begins with {given['x'][0]}, y with {given['y'][0]}; both have to begin with 0")
+        begin = given["d"][0] or Fraction(1)
+        given = {name: tuple(c / begin for c in terms) for name, terms in given.items()}
+        if min(control_points(given["d"], end)) <= 0:
+            raise InvalidPoseError(f"d may be zero for t between 0 and {end}; end before, or in several slides")
+        for name, terms in given.items():
+            object.__setattr__(self, name, terms)
+        object.__setattr__(self, "contacts", (first, last))
+        object.__setattr__(self, "tau", end)
+
+    @property
+    def turn(self) -> float:
+        """Signed angle in radians."""
+        return 2 * math.atan(self.tau)
+
+    def apply(self, pose: Pose) -> Pose:
+        """Where a pose ends, exactly."""
+        return self.at(pose, 1)
+
+    def at(self, pose: Pose, u: Number) -> Pose:
+        """Where a pose is at the parameter u in [0, 1], exactly."""
+        t = to_fraction(u) * self.tau
+        dx, dy = self.moved(t)
+        return Pose(pose.x + dx, pose.y + dy, {"tau": (Pose(0, 0, {"tau": t}) @ pose).tau})
+
+    def moved(self, t: Fraction) -> ExactPoint:
+        """How far the reference point is from where it was."""
+        x, y, d = (_value(terms, t) for terms in (self.x, self.y, self.d))
+        return x / d, y / d
+
+    def until(self, u: Number) -> Slide:
+        """The motion as far as u."""
+        return Slide(self.contacts, self.x, self.y, self.d, to_fraction(u) * self.tau)
+
+    def between(self, u: Number, v: Number) -> Slide:
+        """The part of the motion from u to v, backwards if v is less."""
+        first, last = to_fraction(u) * self.tau, to_fraction(v) * self.tau
+        x, y, d = (_beyond(terms, first) for terms in (self.x, self.y, self.d))
+        dx, dy = (_flint(c) for c in self.moved(first))
+        tau = (last - first) / (1 + last * first)
+        return Slide(self.contacts, terms_of(x - dx * d), terms_of(y - dy * d), terms_of(d), tau)
+
+    def reversed(self) -> Slide:
+        """The way back."""
+        return self.between(1, 0)
+
+    def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
+        """Poses at shares of the angle, (n,), in double precision."""
+        s = np.asarray(shares, dtype=np.float64)
+        x, y, d = _values(self, np.tan(0.5 * self.turn * s))
+        return Poses(np.stack((float(pose.x) + x / d, float(pose.y) + y / d), axis=1), pose.theta + s * self.turn)
+
+    @property
+    def length(self) -> float:
+        """How far the reference point moves, but for rounding: Gauss-Legendre quadrature."""
+        nodes, weights = np.polynomial.legendre.leggauss(64)
+        half = 0.5 * self.turn
+        t = np.tan(half * (1 + nodes) / 2)
+        (x, y, d), (dx, dy, dd) = _values(self, t), _values(self, t, 1)
+        speed = np.hypot(dx * d - x * dd, dy * d - y * dd) / d**2 * (1 + t * t)
+        return float(abs(half) / 2 * (weights * speed).sum())
+
+    def reach(self, radius: float) -> float:
+        """Bound, but for rounding: no point of the robot so near the reference point moves further in a share of 1.
+
+        Notes
+        -----
+        The derivative of x / d is (x' d - x d') / d^2, and polynomials are between their Bernstein coefficients.
+        """
+        d = fmpq_poly([*map(_flint, self.d)])
+        least = min(control_points(self.d, self.tau)) ** 2
+        fastest = []
+        for terms in (self.x, self.y):
+            f = fmpq_poly([*map(_flint, terms)])
+            g = terms_of(f.derivative() * d - f * d.derivative())
+            fastest.append(float(max(map(abs, control_points(g, self.tau))) / least))
+        return math.hypot(*fastest) * 0.5 * abs(self.turn) * float(1 + self.tau**2) + abs(self.turn) * radius
+
+
+def control_points(terms: Terms, tau: Fraction) -> list[Fraction]:
+    """Bernstein coefficients of a polynomial for t from 0 to tau: it is between the least and the largest of them.
+
+    Examples
+    --------
+    >>> control_points((Fraction(1), Fraction(-2), Fraction(1)), Fraction(1)) == [1, 0, 0]
+    True
+    """
+    n = len(terms) - 1
+    scaled = [c * tau**k / math.comb(n, k) for k, c in enumerate(terms)]
+    return [sum((math.comb(i, k) * c for k, c in enumerate(scaled[: i + 1])), Fraction(0)) for i in range(n + 1)]
+
+
+def terms_of(poly: fmpq_poly) -> Terms:
+    """Coefficients of a polynomial."""
+    return tuple(Fraction(int(c.p), int(c.q)) for c in poly.coeffs()) or (Fraction(0),)
+
+
+def _terms(name: str, values: Iterable[Number]) -> Terms:
+    """As many coefficients as there may be."""
+    try:
+        terms = [to_fraction(value) for value in values]
+    except (TypeError, ValueError) as error:
+        raise InvalidPoseError(f"{name}: {error}; give coefficients, the constant first") from None
+    while terms and terms[-1] == 0:
+        terms.pop()
+    if len(terms) > DEGREE + 1:
+        raise InvalidPoseError(f"{name} has degree {len(terms) - 1}; give at most {DEGREE}")
+    return (*terms, *[Fraction(0)] * (DEGREE + 1 - len(terms)))
+
+
+def _value(terms: Terms, t: Fraction) -> Fraction:
+    value = Fraction(0)
+    for c in reversed(terms):
+        value = value * t + c
+    return value
+
+
+def _values(slide: Slide, t: Floats, derivative: int = 0) -> Floats:
+    """x, y, d or their derivatives, (3, n), in doubles."""
+    rows = np.array([[float(c) for c in terms] for terms in (slide.x, slide.y, slide.d)])
+    return np.asarray(polynomial.polyval(t, polynomial.polyder(rows.T, derivative)), np.float64)
+
+
+def _beyond(terms: Terms, s: Fraction) -> fmpq_poly:
+    """A polynomial of (r + s) / (1 - r s), times the power of the denominator that makes it one of r."""
+    above, below = fmpq_poly([_flint(s), 1]), fmpq_poly([1, -_flint(s)])
+    parts = (_flint(c) * above**k * below ** (DEGREE - k) for k, c in enumerate(terms))
+    return sum(parts, fmpq_poly())
+
+
+def _flint(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
