@@ -23,6 +23,7 @@ from cfree import (
     Rotation,
     Scene,
     Separated,
+    Slide,
     Translation,
     boundary,
     free_space,
@@ -307,13 +308,52 @@ def test_a_forbidden_pose_is_forbidden_to_itself_too() -> None:
     assert plan(scene, Pose(5, 5), Pose(5, 5)).motions == ()  # type: ignore[union-attr]
 
 
-def test_what_only_a_slide_passes_is_not_called_impossible() -> None:
-    """A square round a T of corridors as wide as it turns with two contacts that slide: not done, and not denied."""
-    T = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
-    scene = Scene(robot=[(-1, -1), (1, -1), (1, 1), (-1, 1)], workspace=T)
-    found = plan(scene, Pose(-5, 1), Pose(5, 1, "90deg"))
-    assert isinstance(found, Separated) and found.of == "interior"
-    assert isinstance(plan(scene, Pose(-5, 1), Pose(0, 5)), Path)
+T = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
+
+
+@pytest.mark.parametrize("start", [Pose(-5, 1), Pose(0, 1), Pose(0, 5, "180deg")])
+@pytest.mark.parametrize("goal", [Pose(5, 1, "90deg"), Pose(0, 7), Pose(0, "1.5", "45deg")])
+def test_a_square_turns_in_a_junction_of_corridors_as_wide_as_it(start: Pose, goal: Pose) -> None:
+    """Next to the upright square there is no room for a rotation: two contacts slide."""
+    scene = Scene(robot=[(-1, -1), (1, -1), (1, 1), (-1, 1)], obstacles=[], workspace=T)
+    found = checked(scene, start, goal)
+    assert isinstance(found, Path)
+    turns = (goal.theta - start.theta) % math.tau > 0
+    assert any(isinstance(motion, Slide) for motion in found.motions) == turns
+    assert found.clearance(scene).least == 0
+    back = checked(scene, goal, start)
+    assert isinstance(back, Path)
+
+
+def feet_on_walls() -> Scene:
+    """Three feet slide on three walls: free without room, at each angle between two irrational ones one point."""
+    half = Fraction(1, 2)
+    feet = [
+        [(4, 8), (5, 8 - half), (5, 8 + half)],
+        [(4, 0), (4 + half, 1), (4 - half, 1)],
+        [(0, 4), (-1, 4 - half), (-half, 3)],
+    ]
+    walls = [
+        [(-1, 6), (0, 6), (0, 10), (-1, 10)],
+        [(-2, -1), (2, -1), (2, 0), (-2, 0)],
+        [(-6, 6), (-2, 2), (-1, 3), (-5, 7)],
+    ]
+    return Scene(robot=feet, obstacles=walls)
+
+
+def test_three_feet_slide_on_three_walls_and_off_them() -> None:
+    scene, middle = feet_on_walls(), Pose(-4, 0)
+    checker = MotionChecker(scene)
+    assert checker.joins([middle, middle])
+    for goal in (Pose(100, 100), Pose(-100, 0, 1)):
+        found = checked(scene, middle, goal)
+        assert isinstance(found, Path) and isinstance(found.motions[0], Slide)
+        assert isinstance(checked(scene, goal, middle), Path)
+    # a pose on the curve: where two feet keep their contacts
+    (slide,) = (m for m in checked(scene, middle, Pose(100, 100)).motions[:1])
+    near = slide.at(middle, "1/2")
+    found = checked(scene, middle, near)
+    assert isinstance(found, Path) and [type(m) for m in found.motions] == [Slide]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 """Ways off a pose that touches obstacles, into the cells it is on the boundary of.
 
-Short motions are tried that contacts suggest, ever shorter ones, and each is checked exactly.
+Short motions are tried that contacts suggest, ever shorter ones, and each is checked exactly. Slides come last.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import numpy as np
 
 from cfree.features import SceneFeatures
 from cfree.planning.sheet import Vector, contact_line, cross, dot, minus, positions, vertex
+from cfree.planning.slides import Contact, slides
 from cfree.pose import Pose
 
 if TYPE_CHECKING:
@@ -23,7 +24,6 @@ if TYPE_CHECKING:
 NEAR = 1e-9  # of the scene's size: which contacts a place in doubles may be in
 STEPS = (4, 8, 14, 22, 32, 44)  # halvings of the robot's radius, and of a radian
 
-Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature
 Ray = tuple[Vector, Vector]  # a point of contact, and the direction of the edge there
 Way = list[Pose]
 
@@ -40,10 +40,13 @@ class Exits:
         """Cells that short motions from a pose lead into, with these."""
         if pose not in self._known:
             found: dict[int, Way] = {}
-            wanted = self._cells_near(pose)
-            rays = [self._ray(pose, contact) for contact in self._contacts(pose)]
-            for k in STEPS:
-                firsts = [q for q in self._moves(pose, rays, k) if self.walker.checker.joins([pose, q])]
+            wanted, contacts = self._cells_near(pose), self._contacts(pose)
+            rays = [self._ray(pose, contact) for contact in contacts]
+            for k, slides in [(k, slides) for slides in (False, True) for k in STEPS]:
+                if slides:
+                    firsts = [q for sign in (1, -1) for q in self.slid(pose, contacts, Fraction(sign, 2**k))]
+                else:
+                    firsts = [q for q in self._moves(pose, rays, k) if self.walker.checker.joins([pose, q])]
                 for way in ([pose, q] for q in firsts):
                     self._add(found, way)
                 seconds = ([pose, q, p] for q in firsts for p in self._moves(q, rays, k + 3))
@@ -56,6 +59,22 @@ class Exits:
                     break
             self._known[pose] = found
         return self._known[pose]
+
+    def slid(self, pose: Pose, contacts: Sequence[Contact], tau: Fraction) -> Iterator[Pose]:
+        """Where free slides along two of some contacts lead that turn by this half-angle tangent."""
+        for slide in slides(self.features, pose, contacts, tau):
+            if self.walker.checker.is_free(pose, slide):
+                end = slide.apply(pose)
+                self.walker.slides[pose, end] = slide
+                yield end
+
+    def slid_to(self, pose: Pose, goal: Pose) -> Way | None:
+        """A free slide from a pose to another, along two contacts that both are in."""
+        turn = Pose(0, 0, {"tau": goal.tau}) @ Pose(0, 0, {"tau": pose.tau}).inverse()
+        common = [contact for contact in self._contacts(pose) if self._misses(goal, contact) == 0]
+        if turn.tau and goal in self.slid(pose, common, turn.tau):
+            return [pose, goal]
+        return None
 
     def _add(self, found: dict[int, Way], way: Way) -> None:
         """Note the cell that a way ends in."""

@@ -28,6 +28,8 @@ from cfree.trapezoids import CURVE
 if TYPE_CHECKING:
     from cfree.planning.walk import Walker
 
+BEYOND = (6, 12, 20, 30)  # halvings of a radian: how far beyond the ends of a curve
+
 
 class Passages:
     """Ways between cells, and from poses in no cell, through exact fits.
@@ -53,8 +55,8 @@ class Passages:
                 if other not in came:
                     came[other] = node, way
                     queue.append(other)
-            if goal in came:
-                return self._joined(came, goal)
+                if other == goal:
+                    return self._joined(came, goal)
         return None
 
     def _joined(self, came: dict[int | Pose, tuple[int | Pose, Way]], goal: Pose) -> Way:
@@ -79,21 +81,31 @@ class Passages:
                 if node in (ways := self.exits.of(pose)):
                     yield pose, ways[node][::-1]
         else:
-            yield from self.exits.of(node).items()
             for pose in poses:
-                # along a segment there is no turning; where bounds leave a slit there is
-                tried = simple_ways(node, pose) if self._slits else [[node, pose]] * (node.tau == pose.tau)
-                if pose != node and (joining := self.walker.checker.first_free(tried)):
-                    yield pose, list(joining)
+                # a segment is one motion; where bounds leave a slit more may be needed
+                tried = simple_ways(node, pose) if self._slits else [[node, pose]]
+                if pose != node and (way := self.walker.checker.first_free(tried) or self.exits.slid_to(node, pose)):
+                    yield pose, list(way)
+            yield from self.exits.of(node).items()
 
     @cached_property
     def places(self) -> list[Pose]:
-        """Ends of isolated segments and of slits, and poses at which cells touch, where they are rational."""
+        """Ends of isolated parts and of slits, poses at which cells touch, where they are rational; poses on curves."""
         places = list(self._pinches())
-        table = self.space.boundary.isolated
-        for k in np.flatnonzero(table.kind != CURVE).tolist():
+        for k in range(len(self.space.boundary.isolated)):
             places += self.space.boundary.isolated_part(k).ends
-        return list(dict.fromkeys([*(pose for place in places for pose in self._exact(*place)), *self._slits]))
+        ends = (pose for place in places for pose in self._exact(*place))
+        return list(dict.fromkeys([*ends, *self._on_curves(), *self._slits]))
+
+    def _on_curves(self) -> Iterator[Pose]:
+        """A pose well within each isolated curve, and free ones a little beyond its ends, in the same contacts."""
+        for k in np.flatnonzero(self.space.boundary.isolated.kind == CURVE).tolist():
+            sheet = Sheet(self.space.boundary, k, isolated=True)
+            if sheet.low < sheet.high:
+                taus = [between(sheet.low, sheet.high)]
+                taus += [tau for b in BEYOND for tau in (sheet.low - Fraction(1, 2**b), sheet.high + Fraction(1, 2**b))]
+                poses = (sheet.pose(sheet.limits(tau)[0], tau) for tau in taus)
+                yield from (pose for pose in poses if self.walker.checker.joins([pose, pose]))
 
     @cached_property
     def _slits(self) -> list[Pose]:

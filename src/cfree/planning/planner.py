@@ -29,6 +29,7 @@ from cfree.path import Path
 from cfree.planning.search import Places, Searcher, simple_ways
 from cfree.pose import Pose
 from cfree.scene import Scene
+from cfree.slide import Slide
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -119,6 +120,7 @@ class Planner:
     max_seconds: float | None = None
     progress: Callable[[float], object] | None = None
     stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
+    _slides: dict[tuple[Pose, Pose], Slide] = field(default_factory=dict, repr=False)  # by the poses that they join
     _lock: threading.RLock = field(default_factory=threading.RLock, repr=False)  # of all that is kept for later
 
     @cached_property
@@ -135,7 +137,7 @@ class Planner:
         """Of the free space."""
         from cfree.planning.walk import Walker
 
-        return Walker(self.free_space, self.checker, self.angle_scale)
+        return Walker(self.free_space, self.checker, self.angle_scale, self._slides)
 
     @cached_property
     def _passages(self) -> Passages:
@@ -182,9 +184,11 @@ class Planner:
             if not isinstance(answer, list):
                 return answer
             poses = answer
+        parts = self._without_slides(poses)
+        seconds = improve and improve / len(parts)
         if objective == "clear":
-            return self.path(self._cleared(self.shortened(poses, None), improve))
-        return self.path(self.shortened(poses, improve))
+            return self.path([q for part in parts for q in self._cleared(self.shortened(part, None), seconds)])
+        return self.path([q for part in parts for q in self.shortened(part, seconds)])
 
     def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """What the free space says: poses of a path, or a proof."""
@@ -210,11 +214,22 @@ class Planner:
         InvariantError
             If a motion is not free: a fault of cfree.
         """
-        motions = [motion_between(a, b) for a, b in pairwise(poses) if a != b]
+        motions = [self._slide(a, b) or motion_between(a, b) for a, b in pairwise(poses) if a != b]
         found = Path(poses[0], motions, self.scene.units)
         if not found.is_free(self.checker):
             raise InvariantError("a path is not free", state=found)
         return found
+
+    def _slide(self, a: Pose, b: Pose) -> Slide | None:
+        """The slide that joins two poses, if one does."""
+        if (b, a) in self._slides:
+            return self._slides[b, a].reversed()
+        return self._slides.get((a, b))
+
+    def _without_slides(self, poses: Sequence[Pose]) -> list[Sequence[Pose]]:
+        """Parts of a way, joined by slides."""
+        after = [k for k in range(1, len(poses)) if self._slide(poses[k - 1], poses[k])]
+        return [poses[i:j] for i, j in pairwise([0, *after, len(poses)])]
 
     def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         """A shorter path, after a number of attempts; or of ways found in half of some time the best, in the rest."""
@@ -251,7 +266,7 @@ class Planner:
             is_small = larger.checker.features.patches <= COMPLETE
             if found is None and is_small and (cell := larger.cell_of(start, goal)) is not None:
                 found = larger.walker.walk(start, goal, cell)
-            if found is None:
+            if found is None or len(larger._without_slides(found)) > 1:
                 return None
             return larger.shortened(found, seconds and max(0.0, end - time.perf_counter()) / 3)
 

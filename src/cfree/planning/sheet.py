@@ -80,10 +80,12 @@ class Sheet:
     ----------
     angle : callable, optional
         `FreeSpace.angle`, to know them better.
+    isolated : bool
+        An isolated part of the boundary and not a trapezoid, of a number in their table.
     """
 
-    def __init__(self, boundary: Boundary, face: int, angle: AngleOf | None = None) -> None:
-        table = boundary.trapezoids
+    def __init__(self, boundary: Boundary, face: int, angle: AngleOf | None = None, isolated: bool = False) -> None:
+        table = boundary.isolated if isolated else boundary.trapezoids
         self.face = face
         self._angle = angle
         self.chart = int(table.chart[face])

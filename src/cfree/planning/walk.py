@@ -23,6 +23,7 @@ from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing,
 from cfree.planning.exits import Exits
 from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, rotated
 from cfree.pose import Pose
+from cfree.slide import Slide
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -36,11 +37,20 @@ DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -
 
 
 class Walker:
-    """Paths along the boundaries of the cells of a free space."""
+    """Paths along the boundaries of the cells of a free space.
 
-    def __init__(self, space: FreeSpace, checker: MotionChecker, angle_scale: float) -> None:
+    Parameters
+    ----------
+    slides : dict
+        The slides found are added to it, by the poses that they join; `motion_between` joins all others.
+    """
+
+    def __init__(
+        self, space: FreeSpace, checker: MotionChecker, angle_scale: float, slides: dict[tuple[Pose, Pose], Slide]
+    ) -> None:
         self.space = space
         self.checker = checker
+        self.slides = slides
         self.corridors = Corridors(space, angle_scale)
         self.reach = Fraction(angle_scale)
         self.exits = Exits(self)
@@ -206,7 +216,7 @@ class Walker:
         if way is None:
             x, y, theta = place_of(pose)
             place = f"({x:g}, {y:g}, {math.degrees(theta):g} deg)"
-            raise UnsupportedError(f"no translation or rotation was found that leaves {place}, only slides may")
+            raise UnsupportedError(f"no motion was found that leaves {place}; start beside it")
         return way, self.landings(way[-1], cell)
 
     def landings(self, pose: Pose, cell: int) -> list[Landing]:
