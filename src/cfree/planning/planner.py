@@ -222,9 +222,10 @@ class Planner:
 
     def _slide(self, a: Pose, b: Pose) -> Slide | None:
         """The slide that joins two poses, if one does."""
-        if (b, a) in self._slides:
-            return self._slides[b, a].reversed()
-        return self._slides.get((a, b))
+        if not self._slides:
+            return None
+        back = self._slides.get((b, a))
+        return back.reversed() if back else self._slides.get((a, b))
 
     def _without_slides(self, poses: Sequence[Pose]) -> list[Sequence[Pose]]:
         """Parts of a way, joined by slides."""
