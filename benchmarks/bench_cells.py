@@ -35,7 +35,7 @@ def made(arrays: SceneArrays) -> cfree.Scene:
 
 def compare(name: str, scene: cfree.Scene, report: Report) -> None:
     boundary = cfree.boundary(scene)
-    table = uniform(scene, pieces_of(boundary.features.obstacles))[:COUNT]
+    table = uniform(scene, pieces_of(boundary.features.obstacles), 11)[:COUNT]
     (cells,) = timed(lambda: cfree.free_space(boundary), rounds=1, warm_up=False)
     space = cfree.free_space(boundary)
     poses = cfree.Poses(table[:, :2], table[:, 2])

@@ -15,12 +15,14 @@ namespace cfree {
 //   edge's normal   3 u in each component (an exact difference, rounded; its length; the quotient), 40 u more when it is
 //                   turned; times |p - v| <= 2 M in each coordinate: 172 u M
 //   n . p, h and their difference: 10 u M
+//   vertex seen from the robot, instead of the first and the turned normal: 78 u M in each coordinate, 111 u M along n;
+//                   edge's normal 3 u times at most 4 M, 24 u M; n . p and h 29 u M
 // In all below 239 u M; 512 u M is allowed. A range of poses adds its width: a point of the robot moves by at most
 // shift + turn |a|, a point b of an obstacle, seen from the robot, by shift + turn |b - r|.
 namespace {
 constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
 constexpr double most_cells = 1 << 16, cells_in_reach = 8;
-constexpr std::size_t chunk = 1024, sectors = 32, outside = std::numeric_limits<std::size_t>::max();
+constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
 
 Vec<double> unit_normal(const Vec<Int>& e) {
@@ -112,30 +114,55 @@ static Verdict beyond(const Vec<double>& n, double h, double margin, const doubl
     return least >= margin ? Verdict::free : Verdict::uncertain;
 }
 
+// The vertex of a ring farthest in a direction.
+static Index farthest(const Vec<double>& d, const double* x, const double* y, Index count) {
+    Index best = 0;
+    double most = -std::numeric_limits<double>::infinity();
+    for (Index k = 0; k < count; ++k) {
+        const double along = d.x * x[k] + d.y * y[k];
+        best = along > most ? k : best, most = std::max(along, most);
+    }
+    return best;
+}
+
+// The vertex of each piece that reaches farthest towards the other is on the inner side of most edges: they do not separate.
+// If it is inside the whole piece, the interiors meet.
 Verdict Checker::meet(const Placed& placed, Index i, Index j, const Range& range) const {
     const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
+    const Vec<double> towards{0.5 * (box[j].x0 + box[j].x1) - placed.at.x, 0.5 * (box[j].y0 + box[j].y1) - placed.at.y};
     Verdict all = Verdict::forbidden;
     double slack = margin + range.shift + range.turn * reach;
-    Index first = 0;
+    Index first = farthest(towards, &placed.x[a], &placed.y[a], n);
+    const double x = placed.x[a + first], y = placed.y[a + first];
+    bool is_inside = true;
     for (Index k = b; k < b + m; ++k) {
+        if (obstacles.nx[k] * x + obstacles.ny[k] * y - obstacles.h[k] <= -slack) continue;
+        is_inside = false;
         const Verdict v = beyond({obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], slack, &placed.x[a], &placed.y[a], n, first);
         if (v == Verdict::free) return v;
         if (v == Verdict::uncertain) all = v;
     }
+    if (is_inside) return Verdict::forbidden;
     if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
         const double dx = std::max(box[j].x1 - placed.at.x, placed.at.x - box[j].x0);
         const double dy = std::max(box[j].y1 - placed.at.y, placed.at.y - box[j].y0);
         slack = margin + range.shift + range.turn * (std::abs(dx) + std::abs(dy));
     }
-    first = 0;
+    first = farthest({-towards.x, -towards.y}, &obstacles.x[b], &obstacles.y[b], m);
+    // that one seen from the robot
+    const double dx = obstacles.x[b + first] - placed.at.x, dy = obstacles.y[b + first] - placed.at.y;
+    const double u = placed.at.c * dx + placed.at.s * dy, v = placed.at.c * dy - placed.at.s * dx;
+    is_inside = true;
     for (Index k = a; k < a + n; ++k) {
+        if (robot.nx[k] * u + robot.ny[k] * v - robot.h[k] <= -slack) continue;
+        is_inside = false;
         const auto normal = placed.normal(k);
         const double h = normal.x * placed.x[k] + normal.y * placed.y[k];
-        const Verdict v = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
-        if (v == Verdict::free) return v;
-        if (v == Verdict::uncertain) all = v;
+        const Verdict found = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
+        if (found == Verdict::free) return found;
+        if (found == Verdict::uncertain) all = found;
     }
-    return all;
+    return is_inside ? Verdict::forbidden : all;
 }
 
 // All pieces of the robot against some of the obstacles'; `decide` is asked about pairs that are uncertain.
@@ -244,11 +271,28 @@ std::size_t Checker::Grid::slot(double x, double y, double theta) const {
     return cell * sectors + std::min<std::size_t>(static_cast<std::size_t>(theta * (sectors / two_pi)), sectors - 1);
 }
 
+static double middle_of(std::size_t sector) { return (static_cast<double>(sector) + 0.5) * (two_pi / sectors); }
+
+// Cosine and sine of an angle in a sector: those of its middle, turned by series to the 8th power of at most pi / 64, whose
+// next terms are below 2^-57. In all within 2^-50.
+static Vec<double> direction(double theta, std::size_t sector) {
+    static const auto middles = [] {
+        std::array<Vec<double>, sectors> found;
+        for (std::size_t k = 0; k < sectors; ++k) found[k] = {std::cos(middle_of(k)), std::sin(middle_of(k))};
+        return found;
+    }();
+    const double d = theta - middle_of(sector), q = d * d;
+    const double s = d * (1 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040))));
+    const double c = 1 + q * (-0.5 + q * (1.0 / 24 + q * (-1.0 / 720 + q * (1.0 / 40320))));
+    return {middles[sector].x * c - middles[sector].y * s, middles[sector].y * c + middles[sector].x * s};
+}
+
 Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
     const std::size_t cell = slot / sectors, width = static_cast<std::size_t>(g.nx);
     const Index first = g.start[cell], end = g.start[cell + 1];
     const auto at = [&](double x, double y, double theta, const Range& range) {
-        placed.place({x, y, std::cos(theta), std::sin(theta)});
+        const auto [c, s] = direction(theta, slot % sectors);
+        placed.place({x, y, c, s});
         return against(placed, &g.member[first], static_cast<std::size_t>(end - first), range,
                        [](Index, Index) { return Verdict::uncertain; });
     };
@@ -257,7 +301,7 @@ Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& 
         g.known[slot].store(State::seen, std::memory_order_relaxed);
     } else if (state == State::seen) {
         const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
-        const double theta = (static_cast<double>(slot % sectors) + 0.5) * (two_pi / sectors);
+        const double theta = middle_of(slot % sectors);
         const Verdict all = at(g.x0 + x * g.side, g.y0 + y * g.side, theta, {g.radius, half_sector});
         g.known[slot].store(all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed,
                             std::memory_order_relaxed);
@@ -272,22 +316,28 @@ void Checker::check(const double* poses, std::size_t count, int threads, Verdict
     std::atomic<std::size_t> next = 0;
     in_parallel(threads, stop, [&] {
         Placed placed(robot);
-        std::vector<std::size_t> slots(chunk);
+        std::vector<std::size_t> slots(chunk), open(chunk);
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
             const std::size_t end = std::min(count, begin + chunk);
             for (std::size_t k = begin; k < end; ++k) {
                 const double* q = poses + 3 * k;
                 const bool is_within = limits[0] <= q[0] && q[0] <= limits[2] && limits[1] <= q[1] && q[1] <= limits[3];
                 out[k] = is_within ? Verdict::free : Verdict::forbidden;
-                slots[k - begin] = is_within ? g.slot(q[0], q[1], q[2]) : outside;
+                const std::size_t slot = is_within ? g.slot(q[0], q[1], q[2]) : outside;
+                slots[k - begin] = slot;
+                if (slot != outside) __builtin_prefetch(&g.known[slot]);
             }
+            std::size_t count_open = 0;  // without branches that nobody could foresee
             for (std::size_t k = begin; k < end; ++k) {
                 const std::size_t slot = slots[k - begin];
-                if (slot == outside) continue;
-                const State state = g.known[slot].load(std::memory_order_relaxed);
-                if (state == State::free) continue;
-                out[k] = state == State::forbidden ? Verdict::forbidden : verdict(g, slot, poses + 3 * k, placed);
+                const State state = slot == outside ? State::free : g.known[slot].load(std::memory_order_relaxed);
+                out[k] = state == State::forbidden ? Verdict::forbidden : out[k];
+                open[count_open] = k;
+                if (slot != outside) __builtin_prefetch(&g.start[slot / sectors]);
+                count_open += state != State::forbidden && state != State::free;
             }
+            for (std::size_t n = 0; n < count_open; ++n)
+                out[open[n]] = verdict(g, slots[open[n] - begin], poses + 3 * open[n], placed);
         }
     });
 }
