@@ -165,9 +165,11 @@ Verdict Checker::meet(const Placed& placed, Index i, Index j, const Range& range
     return is_inside ? Verdict::forbidden : all;
 }
 
-// All pieces of the robot against some of the obstacles'; `decide` is asked about pairs that are uncertain.
+// All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
+// uncertain.
 template <class F>
-Verdict Checker::against(const Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
+Verdict Checker::against(const Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide,
+                         Pair* by) const {
     Verdict all = Verdict::free;
     const double slack = range.shift + range.turn * reach;
     for (Index i = 0; i < robot.count(); ++i) {
@@ -179,7 +181,10 @@ Verdict Checker::against(const Placed& placed, const Index* list, std::size_t co
             if (r.x0 > o.x1 || o.x0 > r.x1 || r.y0 > o.y1 || o.y0 > r.y1) continue;
             Verdict v = meet(placed, i, j, range);
             if (v == Verdict::uncertain) v = decide(i, j);
-            if (v == Verdict::forbidden) return v;
+            if (v == Verdict::forbidden) {
+                if (by) *by = {i, j};
+                return v;
+            }
             if (v == Verdict::uncertain) all = v;
         }
     }
@@ -287,27 +292,34 @@ static Vec<double> direction(double theta, std::size_t sector) {
     return {middles[sector].x * c - middles[sector].y * s, middles[sector].y * c + middles[sector].x * s};
 }
 
+// What is known of the other poses in its box: that they have the same verdict, and for the same reason, or nothing.
 Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
-    const std::size_t cell = slot / sectors, width = static_cast<std::size_t>(g.nx);
-    const Index first = g.start[cell], end = g.start[cell + 1];
-    const auto at = [&](double x, double y, double theta, const Range& range) {
-        const auto [c, s] = direction(theta, slot % sectors);
+    const std::size_t cell = slot / sectors, sector = slot % sectors, width = static_cast<std::size_t>(g.nx);
+    const Index* list = &g.member[g.start[cell]];
+    const auto count = static_cast<std::size_t>(g.start[cell + 1] - g.start[cell]);
+    const auto place = [&](double x, double y, double theta) {
+        const auto [c, s] = direction(theta, sector);
         placed.place({x, y, c, s});
-        return against(placed, &g.member[first], static_cast<std::size_t>(end - first), range,
-                       [](Index, Index) { return Verdict::uncertain; });
     };
-    const State state = g.known[slot].load(std::memory_order_relaxed);
-    if (state == State::unseen) {
-        g.known[slot].store(State::seen, std::memory_order_relaxed);
-    } else if (state == State::seen) {
-        const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
-        const double theta = middle_of(slot % sectors);
-        const Verdict all = at(g.x0 + x * g.side, g.y0 + y * g.side, theta, {g.radius, half_sector});
-        g.known[slot].store(all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed,
-                            std::memory_order_relaxed);
-        if (all != Verdict::uncertain) return all;
+    Pair by;
+    place(pose[0], pose[1], pose[2]);
+    const Verdict found = against(placed, list, count, {}, [](Index, Index) { return Verdict::uncertain; }, &by);
+    std::atomic<State>& known = g.known[slot];
+    const State state = known.load(std::memory_order_relaxed);
+    if (state == State::unseen) known.store(State::seen, std::memory_order_relaxed);
+    if (state != State::seen) return found;
+    const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
+    const Range all{g.radius, half_sector};
+    State now = State::mixed;
+    place(g.x0 + x * g.side, g.y0 + y * g.side, middle_of(sector));
+    if (found == Verdict::free) {
+        const auto far = against(placed, list, count, all, [](Index, Index) { return Verdict::forbidden; });
+        if (far == Verdict::free) now = State::free;
+    } else if (found == Verdict::forbidden && meet(placed, by.robot, by.obstacle, all) == Verdict::forbidden) {
+        now = State::forbidden;
     }
-    return at(pose[0], pose[1], pose[2], {});
+    known.store(now, std::memory_order_relaxed);
+    return found;
 }
 
 void Checker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {

@@ -59,9 +59,13 @@ private:
     struct Range {
         double shift = 0, turn = 0;
     };
+    struct Pair {  // of pieces
+        Index robot, obstacle;
+    };
     Verdict meet(const Placed& robot, Index i, Index j, const Range& range) const;
     template <class F>
-    Verdict against(const Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide) const;
+    Verdict against(const Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide,
+                    Pair* by = nullptr) const;
     bool overlap(const ExactPlacement& at, Index i, Index j) const;
 
     // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
