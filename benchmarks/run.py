@@ -71,7 +71,7 @@ def print_report(console: Console, report: Report) -> None:
         table.add_row(*row)
     console.print(table)
     for note in report.notes:
-        console.print(note)
+        console.print(note, markup=False)
     console.print()
 
 

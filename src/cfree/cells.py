@@ -30,7 +30,7 @@ from cfree.trapezoids import COLUMNS, Floats, Ints
 if TYPE_CHECKING:
     from cfree.cell_complex import CellComplex
     from cfree.path import Path
-    from cfree.planning.planner import Planner
+    from cfree.planning.planner import Objective, Planner
     from cfree.separated import Separated
 
 FORBIDDEN, NO_CELL = -1, -2
@@ -285,14 +285,16 @@ class FreeSpace:
             found[k + asked] = cell
         return found
 
-    def plan(self, start: Pose, goal: Pose, *, improve: float | None = None) -> Path | Separated:
+    def plan(
+        self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
+    ) -> Path | Separated:
         """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
 
         Notes
         -----
         Which of the two it is takes two calls of `locate`, unless exact fits join cells.
         """
-        return self.planner.plan(start, goal, improve=improve)
+        return self.planner.plan(start, goal, improve=improve, objective=objective)
 
     @cached_property
     def planner(self) -> Planner:

@@ -334,6 +334,7 @@ def plan_many(
     queries: Iterable[tuple[Pose, Pose]],
     *,
     improve: float | None = None,
+    objective: Objective = "short",
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> list[Path | Separated]:
@@ -345,6 +346,8 @@ def plan_many(
     queries : pairs (start, goal) of Pose
     improve : float, seconds, optional
         As in `plan`, for each of them.
+    objective : "short" or "clear"
+        As in `plan`.
     threads : int, optional
         All cores by default. The answers do not depend on it, unless `improve` is given.
     progress : callable, optional
@@ -383,7 +386,7 @@ def plan_many(
 
     def answer_to(number: int) -> Path | Separated:
         try:
-            return planner.plan(*asked[number], improve=improve)
+            return planner.plan(*asked[number], improve=improve, objective=objective)
         except InvalidPoseError as error:
             raise InvalidPoseError(f"query {number}: {error}", free=error.free) from None
 
