@@ -358,6 +358,16 @@ def test_faults_say_place_value_and_remedy(tmp_path: FilePath, place: str, value
         load(file)
 
 
+def test_the_example_of_the_format_page_is_a_slide(request: pytest.FixtureRequest, tmp_path: FilePath) -> None:
+    page = (request.config.rootpath / "docs" / "answer-format.md").read_text()
+    motion = page.split("**Slides.**")[1].split("```json\n")[1].split("```")[0]
+    file = tmp_path / "way.json"
+    ends = '"start": [0, 1, 0], "goal": [-0.2, 1.4, 0.9272952180016122]'
+    file.write_text(f'{{"answer": "path", {ends}, "motions": [{motion}]}}')
+    read = load(file)
+    assert isinstance(read, Path) and read.motions[0] == turning("1/2")
+
+
 def test_a_path_with_slides_is_of_use_everywhere(tmp_path: FilePath) -> None:
     path = way()
     assert path.goal == Pose(0, 7, "90deg") and path.is_free(MotionChecker(TEE))
