@@ -141,7 +141,7 @@ class Slide:
 
     @property
     def length(self) -> float:
-        """How far the reference point moves, but for rounding: Gauss-Legendre quadrature."""
+        """How far the reference point moves, by quadrature: but for rounding, or a thousandth where it turns back."""
         nodes, weights = np.polynomial.legendre.leggauss(64)
         half = 0.5 * self.turn
         t = np.tan(half * (1 + nodes) / 2)
