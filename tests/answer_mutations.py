@@ -8,6 +8,7 @@ import random
 import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator
+from contextlib import suppress
 from fractions import Fraction
 from functools import cache
 from pathlib import Path as FilePath
@@ -23,12 +24,16 @@ from cfree import (
     Rotation,
     Scene,
     Separated,
+    Slide,
+    Touch,
     Translation,
     boundary,
     free_space,
     load_answer,
     separation,
 )
+from cfree.errors import InvalidPoseError
+from cfree.motion import Motion
 from compared import scene_of
 from shapes import PlainScene, box
 from test_cells import ROD, TIGHT, hollow
@@ -47,6 +52,16 @@ def corridor() -> tuple[Scene, Path]:
     path = Path(Pose(0, 0), [up, round_it, *quarter, *on])
     scene = scene_of(PlainScene([ROD], walls, bounds=(0, 0, 10, 22)))
     return with_ends(scene, path.start, path.goal), path
+
+
+def tee() -> tuple[Scene, Path]:
+    """A square turns from one corridor as wide as it into another: two contacts slide at the same time."""
+    walls = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
+    touches = Touch("vertex-edge", (0, 0), (-2, 1)), Touch("edge-vertex", (0, 2), (-2, 6))
+    turn = Slide(touches, [0, 0, -2, 2], [0, 2, -2], [1, 0, 1], 1)
+    parts = [turn.until("1/3"), turn.between("1/3", 1)]
+    path = Path(Pose(-5, 1), [Translation((5, 0)), *parts, Translation((0, 6))])
+    return Scene(box(-1, -1, 1, 1)[0], workspace=walls, start=path.start, goal=path.goal), path
 
 
 @cache
@@ -161,6 +176,55 @@ def change_start_and_goal(rng: random.Random, answer: Answer) -> bool:
         end[k] = moved(rng, end[k], by)
     for motion in motions(answer, "rotation"):
         motion["exact"]["pole"][k] = moved(rng, motion["exact"]["pole"][k], by)
+    return True
+
+
+# --- slides ---
+
+
+def slide_of(rng: random.Random, answer: Answer) -> Answer:
+    return rng.choice(motions(answer, "slide"))
+
+
+def change_a_coefficient(rng: random.Random, answer: Answer) -> bool:
+    terms = slide_of(rng, answer)["exact"][rng.choice("xyd")]
+    k = rng.randrange(len(terms))
+    terms[k] = moved(rng, terms[k])
+    return True
+
+
+def change_the_angle_of_a_slide(rng: random.Random, answer: Answer) -> bool:
+    exact = slide_of(rng, answer)["exact"]
+    exact["tau"] = moved(rng, exact["tau"])
+    return True
+
+
+def exchange_x_and_y(rng: random.Random, answer: Answer) -> bool:
+    exact = slide_of(rng, answer)["exact"]
+    exact["x"], exact["y"] = exact["y"], exact["x"]
+    return True
+
+
+def change_a_kept_contact(rng: random.Random, answer: Answer) -> bool:
+    contact, name = rng.choice(slide_of(rng, answer)["contacts"]), rng.choice(["robot", "obstacle"])
+    count = 4 if name == "robot" else 8
+    contact[name] = [contact[name][0], (contact[name][1] + rng.randrange(1, count)) % count]
+    return True
+
+
+def change_the_kind_of_a_kept_contact(rng: random.Random, answer: Answer) -> bool:
+    contact = rng.choice(slide_of(rng, answer)["contacts"])
+    contact["kind"] = {"vertex-edge": "edge-vertex", "edge-vertex": "vertex-edge"}[contact["kind"]]
+    return True
+
+
+def change_the_decimals_of_a_slide(rng: random.Random, answer: Answer) -> bool:
+    slide, by = slide_of(rng, answer), rng.choice([-1, 1]) * rng.choice([1, 1e-6])
+    k = rng.randrange(3)
+    if k < 2:
+        slide["vector"][k] += by
+    else:
+        slide["angle"] += by
     return True
 
 
@@ -288,7 +352,11 @@ OF_PATHS: tuple[Mutation, ...] = (
     change_a_vector, change_two_vectors, change_a_pole, change_an_angle, turn_the_other_way, drop_a_motion,
     repeat_a_motion, swap_two_motions, change_an_end, change_start_and_goal,
 )  # fmt: skip
-OF_MOTIONS = OF_PATHS[:-2]
+OF_SLIDES: tuple[Mutation, ...] = (
+    change_a_coefficient, change_the_angle_of_a_slide, exchange_x_and_y, change_a_kept_contact,
+    change_the_kind_of_a_kept_contact, change_the_decimals_of_a_slide,
+)  # fmt: skip
+UNREPAIRED = change_an_end, change_the_decimals_of_a_slide
 OF_SEPARATIONS: tuple[Mutation, ...] = (
     drop_a_piece, repeat_a_piece, drop_all_pieces, change_a_contact, change_the_kind_of_a_contact, change_a_chart,
     take_an_angle_of_another, move_an_interval, change_the_name_of_an_angle, swap_from_and_to, swap_lower_and_upper,
@@ -302,13 +370,17 @@ OF_SEPARATIONS: tuple[Mutation, ...] = (
 def repaired(answer: Answer) -> Answer:
     """With the goal to which the motions lead, so that there is something left to verify."""
     x, y, theta = answer["exact"]["start"]
-    moves = [
-        Translation(motion["exact"]["vector"])
-        if motion["type"] == "translation"
-        else Rotation(motion["exact"]["pole"], {"tau": motion["exact"]["tau"]})
-        for motion in answer["motions"]
-    ]
+    moves = [moved_by(motion["type"], motion["exact"], motion.get("contacts", ())) for motion in answer["motions"]]
     return json.loads(text_of(Path(Pose(x, y, theta), moves)))  # type: ignore[no-any-return]
+
+
+def moved_by(kind: str, exact: Answer, contacts: list[Answer]) -> Motion:
+    if kind == "translation":
+        return Translation(exact["vector"])
+    if kind == "rotation":
+        return Rotation(exact["pole"], {"tau": exact["tau"]})
+    first, last = (Touch(c["kind"], tuple(c["robot"]), tuple(c["obstacle"])) for c in contacts)
+    return Slide((first, last), exact["x"], exact["y"], exact["d"], exact["tau"])
 
 
 def verdict(scene: Scene, answer: Answer) -> str:
@@ -350,12 +422,15 @@ def mutants(rng: random.Random, answer: Path | Separated, mutate: Mutation, coun
 def tried(mutate: Mutation, count: int) -> Counter[str]:
     """What found the mutants; "" is for those that are verified, and true. Paths also where no ends are asked for."""
     rng = random.Random(mutate.__name__)
-    goods: list[tuple[Scene, Path | Separated]] = [corridor()] if mutate in OF_PATHS else list(separations())
+    goods: list[tuple[Scene, Path | Separated]] = (
+        [corridor()] if mutate in OF_PATHS else [tee()] if mutate in OF_SLIDES else list(separations())
+    )
     found: Counter[str] = Counter()
     for scene, good in goods:
         for bad in mutants(rng, good, mutate, count):
-            if mutate in OF_MOTIONS and verdict(scene, bad) == "bad file":
-                bad = repaired(bad)
+            if isinstance(good, Path) and mutate not in UNREPAIRED and verdict(scene, bad) == "bad file":
+                with suppress(InvalidPoseError):  # no slide at all
+                    bad = repaired(bad)
             found[verdict(scene, bad)] += 1
             if isinstance(good, Path):
                 found[verdict(with_ends(scene, None, None), bad)] += 1
@@ -364,8 +439,8 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
 
 def main(count: int = 20) -> None:
     print("| mutation | tried | rejected | still true | found by |", "|---|--:|--:|--:|---|", sep="\n")
-    for mutate in OF_PATHS + OF_SEPARATIONS:
-        found = tried(mutate, count * 2 if mutate in OF_PATHS else count)
+    for mutate in OF_PATHS + OF_SLIDES + OF_SEPARATIONS:
+        found = tried(mutate, count if mutate in OF_SEPARATIONS else count * 2)
         true = found.pop("", 0)
         checks = ", ".join(f"{check} {n}" for check, n in found.most_common(3))
         name, rejected = mutate.__name__.replace("_", " "), found.total()

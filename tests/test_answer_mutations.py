@@ -7,10 +7,21 @@ import json
 import pytest
 
 import cfree.verify
-from answer_mutations import OF_PATHS, OF_SEPARATIONS, Mutation, corridor, separations, text_of, tried, verdict
+from answer_mutations import (
+    OF_PATHS,
+    OF_SEPARATIONS,
+    OF_SLIDES,
+    Mutation,
+    corridor,
+    separations,
+    tee,
+    text_of,
+    tried,
+    verdict,
+)
 
 
-@pytest.mark.parametrize("mutate", [*OF_PATHS, *OF_SEPARATIONS], ids=lambda mutate: mutate.__name__)
+@pytest.mark.parametrize("mutate", [*OF_PATHS, *OF_SLIDES, *OF_SEPARATIONS], ids=lambda mutate: mutate.__name__)
 def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
     """That what is verified is true, by the core, is asserted on the way."""
     found = tried(mutate, 6)
@@ -19,6 +30,6 @@ def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
 
 
 def test_what_is_right_is_verified() -> None:
-    for scene, answer in (corridor(), *separations()):
+    for scene, answer in (corridor(), tee(), *separations()):
         assert verdict(scene, json.loads(text_of(answer))) == ""
         assert cfree.verify.answer(scene, answer).proved

@@ -111,6 +111,8 @@ if TYPE_CHECKING:
     from cfree.separated import Separated as Separated
     from cfree.separated import separation as separation
     from cfree.slice import Slice as Slice
+    from cfree.slide import Slide as Slide
+    from cfree.slide import Touch as Touch
     from cfree.storage import load_boundary as load_boundary
     from cfree.surface import EdgeEdgeSegment as EdgeEdgeSegment
     from cfree.surface import Helix as Helix
@@ -173,6 +175,7 @@ _HOMES = {
     "scene": "Scene",
     "separated": "Pieces Separated separation",
     "slice": "Slice",
+    "slide": "Slide Touch",
     "storage": "load_boundary",
     "surface": "EdgeEdgeSegment Helix Surface contact_helix contact_segment contact_surface helix_through "
     "rotation_about rotation_of_combination",

@@ -76,7 +76,6 @@ def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
 
 def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float | str]:
     """An answer in words and numbers."""
-    from cfree.motion import Rotation
     from cfree.path import Path
 
     unit = f" {scene.units}" if scene.units else ""
@@ -88,11 +87,9 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
             "surface between them": f"{len(answer.pieces):,} pieces of contact surfaces",
             "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
         }
-    rotations = sum(isinstance(motion, Rotation) for motion in answer.motions)
     rows: dict[str, int | float | str] = {
         "answer": "a path, each motion proved free",
-        "translations": len(answer.motions) - rotations,
-        "rotations": rotations,
+        **motion_counts(answer),
         "way of the reference point": f"{answer.length:.6g}{unit}",
         "turning": f"{math.degrees(answer.turning):.6g} degrees",
     }
@@ -105,24 +102,30 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
 
 def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
     """The same as numbers, for machines: lengths in the scene's unit, radians."""
-    from cfree.motion import Rotation
     from cfree.path import Path
 
     if not isinstance(answer, Path):
         facts = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
-    rotations = sum(isinstance(motion, Rotation) for motion in answer.motions)
     least = answer.clearance(scene)
     return {
         "answer": "path",
-        "translations": len(answer.motions) - rotations,
-        "rotations": rotations,
+        **motion_counts(answer),
         "length": answer.length,
         "turning": answer.turning,
         "clearance": None
         if least is None
         else {"found": least.found, "proved": least.least, "motion": least.motion, "obstacle": least.obstacle[0]},
     }
+
+
+def motion_counts(path: Path) -> dict[str, int]:
+    """How many of each kind."""
+    from cfree.motion import Rotation, Translation
+    from cfree.slide import Slide
+
+    kinds = {"translations": Translation, "rotations": Rotation, "slides": Slide}
+    return {name: sum(isinstance(motion, kind) for motion in path.motions) for name, kind in kinds.items()}
 
 
 def part_name(scene: Scene, obstacle: int) -> str:

@@ -18,7 +18,7 @@ from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import InvalidPoseError
-from cfree.exact import ExactPoint, Number, to_fraction
+from cfree.exact import ExactPoint, Number, angle, to_fraction
 from cfree.pose import Pose, Poses
 
 DEGREE = 4
@@ -100,7 +100,7 @@ class Slide:
     @property
     def turn(self) -> float:
         """Signed angle in radians."""
-        return 2 * math.atan(self.tau)
+        return 2 * angle(self.tau.denominator, self.tau.numerator)
 
     def apply(self, pose: Pose) -> Pose:
         """Where a pose ends, exactly."""
@@ -141,7 +141,7 @@ class Slide:
 
     @property
     def length(self) -> float:
-        """How far the reference point moves, but for rounding: Gauss-Legendre quadrature."""
+        """How far the reference point moves, by quadrature: but for rounding, or a thousandth where it turns back."""
         nodes, weights = np.polynomial.legendre.leggauss(64)
         half = 0.5 * self.turn
         t = np.tan(half * (1 + nodes) / 2)

@@ -36,7 +36,8 @@ def answer_from_json(findings: Findings, data: object) -> Path | Separated:
             if path[:1] == ("motions",) and len(path) > 2:
                 path = (*path[:2], *path[3:])  # without the tag of the union
             if item["type"].startswith("union_tag"):
-                findings.under(path, 'expected a motion with "type": "translation" or "rotation", got {got}')
+                kinds = '"translation", "rotation" or "slide"'
+                findings.under(path, f'expected a motion with "type": {kinds}, got {{got}}')
             elif item["type"] == "literal_error":
                 findings.under(path, f"expected {item['ctx']['expected']}, got {{got}}".replace("'", '"'))
             elif item["type"] in ("model_type", "model_attributes_type"):

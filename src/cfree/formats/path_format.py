@@ -8,17 +8,20 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable
+from dataclasses import asdict
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
-from pydantic import Field, PlainValidator, model_validator
+from pydantic import Field, PlainValidator, PrivateAttr, model_validator
 
 from cfree.errors import InvalidPoseError
-from cfree.formats.scene_format import Configuration, Point, Strict, Text, Version, fault
+from cfree.formats.contact_format import ContactModel
+from cfree.formats.scene_format import Configuration, Coordinate, Point, Strict, Text, Version, fault
 from cfree.motion import Motion, Rotation, Translation, motion_between, rotations
 from cfree.outlines import rings_of
 from cfree.path import Path
 from cfree.pose import Pose, Poses
+from cfree.slide import Slide, Touch
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
@@ -58,6 +61,13 @@ def agree_as_poses(decimals: Pose, exact: Pose) -> None:
     agree((decimals.x, decimals.y), (exact.x, exact.y))
     if abs(math.remainder(decimals.theta - exact.theta, math.tau)) > CLOSE:
         raise fault(f"{decimals.theta!r} radians beside the exact {exact.theta!r}: correct one of them")
+
+
+def _agree_as_turns(angle: Any, exact: float) -> None:
+    """The same for angles turned."""
+    given = sum(motion.turn for motion in rotations((0, 0), angle))
+    if abs(given - exact) > CLOSE:
+        raise fault(f"an angle of {given!r} beside the exact {exact!r}: correct one of them")
 
 
 def _shown(value: Fraction) -> str:
@@ -107,10 +117,7 @@ class RotationModel(Strict):
     def _agrees(self) -> RotationModel:
         if self.exact:
             agree(self.pole, self.exact.pole)
-            given = sum(m.turn for m in rotations(self.pole, self.angle))
-            exact = Rotation(self.exact.pole, {"tau": self.exact.tau}).turn
-            if abs(given - exact) > CLOSE:
-                raise fault(f"an angle of {given!r} beside the exact {exact!r}: correct one of them")
+            _agree_as_turns(self.angle, Rotation(self.exact.pole, {"tau": self.exact.tau}).turn)
         return self
 
     @property
@@ -118,6 +125,41 @@ class RotationModel(Strict):
         if self.exact:
             return (Rotation(self.exact.pole, {"tau": self.exact.tau}),)
         return rotations(self.pole, self.angle)
+
+
+class ExactSlide(Strict):
+    """Coefficients of the curve, and the half-angle tangent."""
+
+    x: list[Coordinate]
+    y: list[Coordinate]
+    d: list[Coordinate]
+    tau: Coordinate
+
+
+class SlideModel(Strict):
+    """Turn along two contacts."""
+
+    type: Literal["slide"]
+    contacts: Annotated[list[ContactModel], Field(min_length=2, max_length=2)]
+    vector: Point
+    angle: Annotated[Any, PlainValidator(_turning)]
+    exact: ExactSlide
+    _slide: Slide = PrivateAttr()
+
+    @model_validator(mode="after")
+    def _agrees(self) -> SlideModel:
+        first, last = (Touch(contact.kind, contact.robot, contact.obstacle) for contact in self.contacts)
+        try:
+            self._slide = Slide((first, last), self.exact.x, self.exact.y, self.exact.d, self.exact.tau)
+        except InvalidPoseError as error:
+            raise fault(str(error)) from None
+        agree(self.vector, self._slide.moved(self._slide.tau))
+        _agree_as_turns(self.angle, self._slide.turn)
+        return self
+
+    @property
+    def motions(self) -> tuple[Motion, ...]:
+        return (self._slide,)
 
 
 class ExactEnds(Strict):
@@ -136,7 +178,7 @@ class PathModel(Strict):
     answer: Literal["path"]
     start: Configuration
     goal: Configuration
-    motions: list[Annotated[TranslationModel | RotationModel, Field(discriminator="type")]]
+    motions: list[Annotated[TranslationModel | RotationModel | SlideModel, Field(discriminator="type")]]
     exact: ExactEnds | None = None
 
     @model_validator(mode="after")
@@ -253,6 +295,15 @@ def _record(motion: Motion) -> dict[str, Any]:
     if isinstance(motion, Translation):
         vector = motion.vector
         return {"type": "translation", "vector": [*map(float, vector)], "exact": {"vector": [*map(str, vector)]}}
+    if isinstance(motion, Slide):
+        vector, terms = motion.moved(motion.tau), {"x": motion.x, "y": motion.y, "d": motion.d}
+        return {
+            "type": "slide",
+            "contacts": [asdict(contact) for contact in motion.contacts],
+            "vector": [*map(float, vector)],
+            "angle": motion.turn,
+            "exact": {name: [*map(str, c)] for name, c in terms.items()} | {"tau": str(motion.tau)},
+        }
     tau = ("-inf" if motion.clockwise else "inf") if motion.tau is None else str(motion.tau)
     exact = {"pole": [*map(str, motion.pole)], "tau": tau}
     return {"type": "rotation", "pole": [*map(float, motion.pole)], "angle": motion.turn, "exact": exact}

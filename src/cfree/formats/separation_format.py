@@ -13,6 +13,7 @@ import numpy as np
 from pydantic import Field, PlainValidator, model_validator
 
 from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
+from cfree.formats.contact_format import ContactModel
 from cfree.formats.path_format import ExactEnds, agree_as_poses, configuration, exact_configuration
 from cfree.formats.scene_format import Bounds, Configuration, PolygonModel, Strict, Text, Version, fault
 from cfree.polygon import Polygon
@@ -33,14 +34,6 @@ def _code(value: Any) -> int:
     raise fault("expected [kind, robot feature, obstacle feature], kind from 1 to 4, got {got}")
 
 
-def _feature(value: Any) -> tuple[int, int]:
-    if isinstance(value, list) and len(value) == 2 and all(type(part) is int for part in value):
-        polygon, vertex = value
-        if -2 <= polygon < 2**31 and 0 <= vertex < 2**31:
-            return polygon, vertex
-    raise fault("expected [polygon, vertex], polygon -1 for the bounds and -2 for the workspace, got {got}")
-
-
 def _interval(value: Any) -> tuple[float, float]:
     try:
         lo, hi = map(float, value)
@@ -52,15 +45,6 @@ def _interval(value: Any) -> tuple[float, float]:
 
 
 Code = Annotated[int, PlainValidator(_code)]
-Feature = Annotated[tuple[int, int], PlainValidator(_feature)]
-
-
-class ContactModel(Strict):
-    """Which features touch."""
-
-    kind: Literal["vertex-edge", "edge-vertex"]
-    robot: Feature
-    obstacle: Feature
 
 
 class AngleModel(Strict):

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 from cfree.answer import load_answer
 from cfree.path import Path
-from cfree.verify.motions import CONTINUOUS, ENDS, FREE, end_findings, path_findings
+from cfree.slide import Slide
+from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, end_findings, path_findings
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.world import World
@@ -102,7 +103,9 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
 
 
 def _of_path(path: Path) -> dict[str, str]:
-    return {
+    slides = sum(isinstance(motion, Slide) for motion in path.motions)
+    kept = {KEPT: f"{slides:,} slides: their two vertices are on their edges all the way"} if slides else {}
+    return kept | {
         CONTINUOUS: f"{len(path.motions):,} motions lead from the start to the goal, one after the other",
         FREE: f"{len(path.motions):,} motions: at no pose does the robot overlap anything",
     }

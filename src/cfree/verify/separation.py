@@ -10,7 +10,7 @@ import numpy as np
 
 from cfree.scene import Scene
 from cfree.separated import Pieces
-from cfree.trapezoids import ISOLATED_COLUMNS, Ints, IsolatedParts
+from cfree.trapezoids import ISOLATED_COLUMNS, IsolatedParts
 from cfree.verify.algebra import Exact
 from cfree.verify.inside import strictly_inside
 from cfree.verify.motions import touches
@@ -18,9 +18,9 @@ from cfree.verify.parity import is_inside
 from cfree.verify.result import Finding
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader, Side, Trapezoid
+from cfree.verify.world import numbers
 
 if TYPE_CHECKING:
-    from cfree.features import ShapeFeatures
     from cfree.separated import Separated
     from cfree.verify.world import World
 
@@ -110,17 +110,6 @@ def _reader(pieces: Pieces, scene: Scene) -> Reader:
     contacts = pieces.kind, np.empty(0, np.int32), np.empty(0, np.int32)
     reader = Reader(scene, contacts, pieces.table, IsolatedParts(**columns))
     world = reader.world
-    robot, obstacle = _numbers(world.robot, pieces.robot), _numbers(world.obstacles, pieces.obstacle)
+    robot, obstacle = numbers(world.robot, pieces.robot.tolist()), numbers(world.obstacles, pieces.obstacle.tolist())
     reader.contacts = pieces.kind, robot, obstacle
     return reader
-
-
-def _numbers(shape: ShapeFeatures, named: Ints) -> Ints:
-    """Features by polygon and vertex."""
-    owners = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
-    number = {owner: k for k, owner in enumerate(owners) if owner[1] >= 0}
-    try:
-        return np.array([number[polygon, vertex] for polygon, vertex in named.tolist()], np.int32)
-    except KeyError as error:
-        polygon, vertex = error.args[0]
-        raise Fault(f"there is no vertex {vertex} of polygon {polygon}") from None

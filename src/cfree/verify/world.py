@@ -6,12 +6,15 @@ a number in the file means; whether two features make a contact is decided here,
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from cfree.features import scene_features, unpacked
+import numpy as np
+
+from cfree.features import ShapeFeatures, scene_features, unpacked
 from cfree.polygon import Polygon
+from cfree.trapezoids import Ints
 from cfree.verify.polygons import (
     Corner,
     Ring,
@@ -168,3 +171,14 @@ def edge_of(shape: Any, k: int) -> tuple[Vector, Vector]:
 def name_of(code: int) -> Name:
     kind, i, j = unpacked(code)
     return kind, i, j
+
+
+def numbers(shape: ShapeFeatures, named: Iterable[Sequence[int]]) -> Ints:
+    """Of features that an answer names by polygon and vertex."""
+    owners = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
+    number = {owner: k for k, owner in enumerate(owners) if owner[1] >= 0}
+    try:
+        return np.array([number[polygon, vertex] for polygon, vertex in named], np.int32)
+    except KeyError as error:
+        polygon, vertex = error.args[0]
+        raise Fault(f"there is no vertex {vertex} of polygon {polygon}") from None
