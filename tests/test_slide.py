@@ -187,7 +187,7 @@ def test_slides_along_contacts_are_free_where_all_their_poses_are(plain: PlainSc
 
 
 def test_slides_along_contacts_in_corridors() -> None:
-    """Both answers are met, and a contact is kept unless a vertex leaves its edge."""
+    """Both answers are met, and contacts are kept."""
     features, found = MotionChecker(TEE).features, []
     every = [(kind, i, j) for kind in (1, 2) for i in range(4) for j in range(len(features.obstacles.previous))]
     for u in (0, F(1, 2), F(5, 7), 1):
@@ -199,9 +199,9 @@ def test_slides_along_contacts_in_corridors() -> None:
                 by_core, by_verify = verdicts(TEE, pose, slide)
                 assert by_core == by_verify
                 found.append(by_core)
-                for finding in cfree.verify.answer(TEE, Path(pose, [slide])).findings:
-                    assert finding.kind != CONTINUOUS and not (finding.kind == KEPT and "line" in finding.text)
-    assert found.count(True) > 20 and found.count(False) > 100, (found.count(True), found.count(False))
+                kinds = {finding.kind for finding in cfree.verify.answer(TEE, Path(pose, [slide])).findings}
+                assert not kinds & {CONTINUOUS, KEPT}
+    assert found.count(True) > 20 and found.count(False) > 50
 
 
 def test_a_slide_has_no_first_contact() -> None:

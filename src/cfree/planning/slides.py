@@ -17,19 +17,23 @@ from cfree.errors import InvalidPoseError
 from cfree.features import SceneFeatures, ShapeFeatures
 from cfree.planning.sheet import Vector, contact_line
 from cfree.pose import Pose, half_angle_rotation
-from cfree.slide import Slide, Touch, terms_of
+from cfree.slide import Slide, Touch, control_points, terms_of
 
 Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature
 Curve = tuple[fmpq_poly, fmpq_poly]
 
 
 def slides(features: SceneFeatures, pose: Pose, contacts: Sequence[Contact], tau: Fraction) -> Iterator[Slide]:
-    """Along any two of the contacts that a pose is in, as far as the half-angle tangent; not all need be free."""
+    """Along any two of the contacts that a pose is in, as far as the half-angle tangent; not all need be free.
+
+    Points of contact stay within their edges: certainly, for Bernstein coefficients say so.
+    """
     for first, last in combinations(contacts, 2):
         touches = [touch(features, *contact) for contact in (first, last)]
-        if None in touches or (meeting := _meeting(features, pose, first, last)) is None:
+        meeting = _meeting(features, pose, first, last)
+        if None in touches or meeting is None or not all(_within_edge(*share, tau) for share in meeting[1]):
             continue
-        x, y, d = map(terms_of, meeting)
+        x, y, d = map(terms_of, meeting[0])
         try:
             slide = Slide((touches[0], touches[1]), x, y, d, tau)
         except InvalidPoseError:  # the lines are parallel on the way, or do not meet at the pose
@@ -51,19 +55,35 @@ def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
 
 def _meeting(
     features: SceneFeatures, pose: Pose, first: Contact, last: Contact
-) -> tuple[fmpq_poly, fmpq_poly, fmpq_poly] | None:
-    """x, y, d: where two contact lines meet, from the pose; None if they never do."""
+) -> tuple[tuple[fmpq_poly, ...], list[tuple[fmpq_poly, fmpq_poly]]] | None:
+    """x, y, d: where two contact lines meet, from the pose; and at which shares of both edges. None if they never do."""
     P, U = _line(features, pose, first)
     Q, V = _line(features, pose, last)
     w, across = fmpq_poly([1, 0, 1]), _cross(U, V)
     if not across:
         return None
-    # P + s U, s = (Q - P) x V / U x V; all of them are over w
-    along = _cross((Q[0] - P[0], Q[1] - P[1]), V)
+    # P + s U = Q + r V, s = (Q - P) x V / U x V and r = (Q - P) x U / U x V; all of them are over w
+    between = Q[0] - P[0], Q[1] - P[1]
+    along = _cross(between, V)
     d = w * across
     x, y = (P[k] * across + along * U[k] - _exact((pose.x, pose.y)[k]) * d for k in (0, 1))
-    common = d.gcd(x).gcd(y)
-    return x // common, y // common, d // common
+    return _reduced(x, y, d), [_reduced(along, across), _reduced(_cross(between, U), across)]
+
+
+def _reduced(*parts: fmpq_poly) -> Any:
+    """Without common factors."""
+    common = parts[-1]
+    for part in parts[:-1]:
+        common = common.gcd(part)
+    return tuple(part // common for part in parts)
+
+
+def _within_edge(share: fmpq_poly, whole: fmpq_poly, tau: Fraction) -> bool:
+    """Is a quotient certainly between 0 and 1 for t from 0 to tau?"""
+    low, high, positive = (
+        min(control_points(terms_of(part * whole(0)), tau)) for part in (share, whole - share, whole)
+    )
+    return positive > 0 and low >= 0 and high >= 0
 
 
 def _line(features: SceneFeatures, pose: Pose, contact: Contact) -> tuple[Curve, Curve]:
