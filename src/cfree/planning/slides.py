@@ -56,7 +56,7 @@ def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
 def _meeting(
     features: SceneFeatures, pose: Pose, first: Contact, last: Contact
 ) -> tuple[tuple[fmpq_poly, ...], list[tuple[fmpq_poly, fmpq_poly]]] | None:
-    """x, y, d: where two contact lines meet, from the pose; and at which shares of both edges. None if they never do."""
+    """x, y, d: where two contact lines meet, from the pose; and the shares of both edges. None if they never do."""
     P, U = _line(features, pose, first)
     Q, V = _line(features, pose, last)
     w, across = fmpq_poly([1, 0, 1]), _cross(U, V)
