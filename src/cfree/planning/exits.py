@@ -42,8 +42,8 @@ class Exits:
             found: dict[int, Way] = {}
             wanted, contacts = self._cells_near(pose), self._contacts(pose)
             rays = [self._ray(pose, contact) for contact in contacts]
-            for k, slides in [(k, slides) for slides in (False, True) for k in STEPS]:
-                if slides:
+            for k, sliding in [(k, sliding) for sliding in (False, True) for k in STEPS]:
+                if sliding:
                     firsts = [q for sign in (1, -1) for q in self.slid(pose, contacts, Fraction(sign, 2**k))]
                 else:
                     firsts = [q for q in self._moves(pose, rays, k) if self.walker.checker.joins([pose, q])]
