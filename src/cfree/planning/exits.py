@@ -9,6 +9,7 @@ import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
+from itertools import product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -42,7 +43,7 @@ class Exits:
             found: dict[int, Way] = {}
             wanted, contacts = self._cells_near(pose), self._contacts(pose)
             rays = [self._ray(pose, contact) for contact in contacts]
-            for k, sliding in [(k, sliding) for sliding in (False, True) for k in STEPS]:
+            for sliding, k in product((False, True), STEPS):
                 if sliding:
                     firsts = [q for sign in (1, -1) for q in self.slid(pose, contacts, Fraction(sign, 2**k))]
                 else:
