@@ -87,8 +87,8 @@ class Track:
             distance, _, _ = walls.nearest(edges)
             closest = _closest(path, walls, least)
         farthest = float(np.nanmax(distance, initial=0.0))
-        # beyond the robot's own size, clearances need not be told apart
-        most = min(farthest, 2 * robot_radius(scene)) or 1.0
+        # beyond the robot's own size, clearances need not be told apart, nor near what rounding makes of 0
+        most = min(max(farthest, PRECISION * robot_radius(scene)), 2 * robot_radius(scene)) or 1.0
         colours = ScalarMappable(Normalize(0.0, most), colormaps[SCALE])
         return cls(path, scene, pace, travel, rows, distance, least, closest, _window(scene, edges), most, colours)
 

@@ -22,6 +22,7 @@ from cfree.exact import ExactPoint, Number, angle, to_fraction
 from cfree.pose import Pose, Poses
 
 DEGREE = 4
+PARTS = 16  # for which speeds are bounded
 Floats = NDArray[np.float64]
 Terms = tuple[Fraction, ...]  # of a polynomial, the constant first
 Feature = tuple[int, int]  # polygon, and vertex; an edge by the vertex where it begins
@@ -150,20 +151,28 @@ class Slide:
         return float(abs(half) / 2 * (weights * speed).sum())
 
     def reach(self, radius: float) -> float:
-        """Bound, but for rounding: no point of the robot so near the reference point moves further in a share of 1.
+        """Bound, but for rounding: no point of the robot so near the reference point moves further in a share of 1."""
+        parts = [self.between(Fraction(k, PARTS), Fraction(k + 1, PARTS)) for k in range(PARTS)]
+        return abs(self.turn) * (max(map(_speed, parts)) / 2 + radius)
 
-        Notes
-        -----
-        The derivative of x / d is (x' d - x d') / d^2, and polynomials are between their Bernstein coefficients.
-        """
-        d = fmpq_poly([*map(_flint, self.d)])
-        least = min(control_points(self.d, self.tau)) ** 2
-        fastest = []
-        for terms in (self.x, self.y):
-            f = fmpq_poly([*map(_flint, terms)])
-            g = terms_of(f.derivative() * d - f * d.derivative())
-            fastest.append(float(max(map(abs, control_points(g, self.tau))) / least))
-        return math.hypot(*fastest) * 0.5 * abs(self.turn) * float(1 + self.tau**2) + abs(self.turn) * radius
+
+def _speed(slide: Slide) -> float:
+    """Bound of the reference point's way by half the angle turned.
+
+    Notes
+    -----
+    The derivative of x / d is (x' d - x d') / d^2, that of t is 1 + t^2. Polynomials are between their Bernstein
+    coefficients.
+    """
+    d = fmpq_poly([*map(_flint, slide.d)])
+    most = []
+    for terms in (slide.x, slide.y):
+        f = fmpq_poly([*map(_flint, terms)])
+        slope = terms_of(f.derivative() * d - f * d.derivative())
+        most.append(
+            float(max(map(abs, control_points(slope, slide.tau))) / min(control_points(slide.d, slide.tau)) ** 2)
+        )
+    return math.hypot(*most) * float(1 + slide.tau**2)
 
 
 def control_points(terms: Terms, tau: Fraction) -> list[Fraction]:
