@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.table import Table
 
+from cfree.features import NAMES
+
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.path import Path
@@ -127,7 +129,7 @@ def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
 
 def part_name(scene: Scene, obstacle: int) -> str:
     """Name of an obstacle by its number."""
-    return {-1: "the bounds", -2: "the workspace"}.get(obstacle) or scene.obstacle_names[obstacle]
+    return f"the {NAMES[obstacle]}" if obstacle in NAMES else scene.obstacle_names[obstacle]
 
 
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
