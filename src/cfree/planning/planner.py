@@ -16,8 +16,6 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.extent import LARGEST
 from cfree.forbidden import boundary
@@ -26,7 +24,7 @@ from cfree.mesh import robot_radius
 from cfree.motion import motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
-from cfree.planning.search import Places, Searcher, simple_ways
+from cfree.planning.search import Searcher, area, simple_ways
 from cfree.pose import Pose
 from cfree.scene import Scene
 
@@ -280,19 +278,7 @@ class Planner:
             raise KeyboardInterrupt
 
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
-        return Searcher(self.checker, self._area(poses), self.angle_scale)
-
-    def _area(self, poses: Sequence[Pose]) -> Places:
-        """Of positions to try."""
-        if self.scene.bounds is not None:
-            x0, y0, x1, y1 = map(float, self.scene.bounds)
-            return x0, y0, x1, y1
-        points = [(float(q.x), float(q.y)) for q in poses]
-        around = [self.scene.workspace] if self.scene.workspace else self.scene.obstacles
-        corners = np.concatenate([points, *(polygon.vertices for polygon in around)])
-        margin = 0.0 if self.scene.workspace else 2 * self.angle_scale
-        (x0, y0), (x1, y1) = (corners.min(axis=0) - margin).tolist(), (corners.max(axis=0) + margin).tolist()
-        return x0, y0, x1, y1
+        return Searcher(self.checker, area(self.scene, poses), self.angle_scale)
 
 
 def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose, Pose]:
