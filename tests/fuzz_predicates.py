@@ -13,7 +13,8 @@ import time
 import traceback
 from collections import Counter
 
-from differential import FAMILIES, ask, ask_junctions, distinct, random_surface
+from differential import ask, ask_junctions, random_surface
+from hard_scenes import FAMILIES, distinct
 
 
 def fuzz(seconds: float, seed: int, families: list[str]) -> int:

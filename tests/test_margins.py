@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
+from itertools import product
 from pathlib import Path
 
 import pytest
@@ -23,7 +24,7 @@ from cfree import (
     separation,
 )
 from cfree.grown import FARTHEST_OUT, SIDES, _around_a_disc
-from cfree.inset import inset, with_robot
+from cfree.inset import _is_inside, inset, with_robot
 from cfree.pinch import pinches
 from cfree.polygon import Polygon
 from compared import scene_of
@@ -136,6 +137,17 @@ def test_insets_are_inside() -> None:
     (smaller,) = inset(ring, Fraction(1, 2))
     assert smaller.exact_area == 64 - 16
     assert inset(Polygon(box(0, 0, 1, 1)[0]), Fraction(3, 4)) == []  # not a square of the other orientation
+
+
+def test_a_polygon_is_inside_another_only_without_its_holes() -> None:
+    def square(half: int, *holes: tuple[int, int]) -> Polygon:
+        return Polygon(box(-half, -half, half, half)[0], [box(x - h, x - h, x + h, x + h)[0] for x, h in holes])
+
+    many = ((), ((0, 1),), ((0, 3),), ((7, 1), (0, 5)))
+    shapes = [square(half, *holes) for half in (2, 4, 6, 9) for holes in many if all(x + h < half for x, h in holes)]
+    for inner, outer in product(shapes, shapes):
+        expected = outer.to_shapely().contains_properly(inner.to_shapely())
+        assert _is_inside(inner, outer) == expected, (inner, outer)
 
 
 def test_where_the_nest_opens() -> None:

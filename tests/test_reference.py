@@ -13,21 +13,9 @@ from flint import fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import differential
 from cfree import _core
-from differential import (
-    FAMILIES,
-    FIRST_WALL,
-    LAST_WALL,
-    Event,
-    Rings,
-    Surface,
-    ask,
-    ask_junctions,
-    distinct,
-    pack,
-    random_surface,
-)
+from differential import FIRST_WALL, LAST_WALL, Event, Surface, ask, ask_junctions, pack, random_surface
+from hard_scenes import FAMILIES, Ring, Rings, distinct
 from reference import (
     EDGE_VERTEX,
     VERTEX_EDGE,
@@ -41,8 +29,8 @@ from reference import (
     sign_before,
 )
 
-TRIANGLE: differential.Ring = [(0, 0), (3, 0), (1, 2)]
-BOX: differential.Ring = [(0, 0), (2, 0), (2, 1), (0, 1)]
+TRIANGLE: Ring = [(0, 0), (3, 0), (1, 2)]
+BOX: Ring = [(0, 0), (2, 0), (2, 1), (0, 1)]
 
 # --- examples ---
 
@@ -84,7 +72,7 @@ def test_a_double_root_moved_by_nearly_nothing_is_two_or_none(epsilon: Fraction)
 @pytest.mark.parametrize("chart", [0, 1])
 def test_one_line_both_ways_is_one_curve(contact: Feature, chart: int) -> None:
     # edges 1 and 7 are the one that two boxes share
-    beside: differential.Ring = [(2, 0), (4, 0), (4, 1), (2, 1)]
+    beside: Ring = [(2, 0), (4, 0), (4, 1), (2, 1)]
     surface = Surface(Rings([BOX, beside], [BOX, beside]), contact, chart)
     for i in range(8):
         for p, q in (
@@ -115,7 +103,7 @@ def test_a_scene_beyond_doubles_is_decided() -> None:
 def test_a_root_next_to_a_parallel_is_another_though_the_opposite_of_the_parallel_is_a_root() -> None:
     # the helix meets the line at theta = pi and where tan(theta / 2) = epsilon; E_2 is antiparallel to it at 0
     epsilon = Fraction(1, 2**60)
-    robot: differential.Ring = [(0, 0), (1, -epsilon), (3, 1), (0, 1)]
+    robot: Ring = [(0, 0), (1, -epsilon), (3, 1), (0, 1)]
     surface = Surface(Rings([robot], [[(0, 0), (1, 0), (0, epsilon)]]), Feature(VERTEX_EDGE, 0, 0), 0)
     (root,) = surface.check_offset(1, 2, [], FIRST_WALL, LAST_WALL)
     (parallel,) = surface.check_parallel(2, 0, [], FIRST_WALL, LAST_WALL)
@@ -128,7 +116,7 @@ def test_bounds_hold_where_products_underflow() -> None:
     for number in range(40):
         rng = random.Random(number)
 
-        def ring(*far: Any, rng: random.Random = rng) -> differential.Ring:
+        def ring(*far: Any, rng: random.Random = rng) -> Ring:
             return [(rng.getrandbits(30), rng.getrandbits(30)) for _ in range(4)] + list(far)
 
         kind = rng.choice([VERTEX_EDGE, EDGE_VERTEX])

@@ -312,6 +312,11 @@ class FreeSpace:
         cell: int = self._rays.locate_exactly(place, chart, *self._nesting)
         return NO_CELL if cell == FORBIDDEN else cell
 
+    def common_cell(self, start: Pose, goal: Pose) -> int | None:
+        """The cell that both are in."""
+        first, second = self._locate(start), self._locate(goal)
+        return first if first == second >= 0 else None
+
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
         """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
         low, p, high, q = self._rays.angle(face, last, bits)

@@ -7,23 +7,22 @@ import json
 import math
 import os
 import sys
-import traceback
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
+
+from cfree.cli_faults import INCOMPLETE, REFUTED, fail, one_line_faults
+from cfree.cli_values import read_angle, read_numbers, read_pixels, read_pose, read_seconds, read_size
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.path import Path as Motions
     from cfree.planning.planner import Planner
-    from cfree.pose import Angle, Pose
     from cfree.separated import Separated
-
-REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
 app = typer.Typer(
     name="cfree",
@@ -91,7 +90,7 @@ def _global_options(
 @app.command(epilog="Examples: `cfree check scene.json`; `cfree check scene.json --json | jq .patches`")
 def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
     """Validate a scene and describe it: vertices, pieces, patches to expect, start and goal."""
-    with _one_line_faults():
+    with one_line_faults():
         from cfree.describe import describe
         from cfree.io import load_scene
 
@@ -137,16 +136,16 @@ def boundary(
 
     If a limit stops it, what was done so far is written, marked as incomplete, and the exit code is 3.
     """
-    with _one_line_faults():
+    with one_line_faults():
         if error is not None and not (mesh and 0 < error < math.inf):
             raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
         written = _check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
-        result = _boundary_of(scene, threads, max_seconds, None if max_memory is None else _read_size(max_memory))
+        result = _boundary_of(scene, threads, max_seconds, None if max_memory is None else read_size(max_memory))
         if output:
             result.save(output)
         if not result.complete:
             kept = f"; what was done is in {output}" if output else ""
-            _fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
+            fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
         if mesh:
             from cfree.mesh import robot_radius, save_mesh
 
@@ -208,7 +207,7 @@ def plan(
     as_json: JsonOption = False,
 ) -> None:
     """Find a path from start to goal, each motion of it proved free, or prove that there is none."""
-    with _one_line_faults():
+    with one_line_faults():
         from cfree.errors import IncompleteError
         from cfree.path import Path as Motions
         from cfree.path import form_of
@@ -217,17 +216,17 @@ def plan(
 
         written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
         kind = form_of(output, form) if output else "json"
-        seconds = None if improve is None else _read_seconds(improve)
+        seconds = None if improve is None else read_seconds(improve)
         if objective not in ("short", "clear"):
             raise ValueError(f'--objective: {objective!r}; give "short" or "clear"')
-        ends = [_read_pose(text, name) for text, name in ((start, "--start"), (goal, "--goal"))]
+        ends = [read_pose(text, name) for text, name in ((start, "--start"), (goal, "--goal"))]
         with _bar("free space") as progress:
             planner = _planner_of(scene, max_seconds, progress)
             begin, end = required(planner.scene, *ends)
             try:
                 answer = planner.plan(begin, end, improve=seconds, objective=objective)  # type: ignore[arg-type]
             except IncompleteError as error:
-                _fail(str(error), INCOMPLETE)
+                fail(str(error), INCOMPLETE)
         if output:
             if isinstance(answer, Motions):
                 answer.save(output, planner.angle_scale / 20, scene=planner.scene, form=kind)
@@ -283,8 +282,8 @@ def cut(
     as_json: JsonOption = False,
 ) -> None:
     """Cut the forbidden space at one orientation of the robot."""
-    with _one_line_faults():
-        angle = _read_angle(theta)
+    with one_line_faults():
+        angle = read_angle(theta)
         written = _check_outputs(scene, {"geojson": output, "picture": picture})
         from cfree.describe import describe_slice
 
@@ -334,13 +333,13 @@ def film(
     ] = None,
 ) -> None:
     """Make a film: the robot among the obstacles, and the point it is in the configuration space."""
-    with _one_line_faults():
+    with one_line_faults():
         from cfree.film import save_film
         from cfree.film.reel import check_options
 
         for scene in scenes:
             written = _check_outputs(scene, {"film": output})
-        pixels = _read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
+        pixels = read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
         check_options(len(scenes), seconds, fps, pixels, storyboard)
         found = [_boundary_of(scene, None) for scene in scenes]
         with _bar("film") as progress:
@@ -375,7 +374,7 @@ def verify(
     as_json: JsonOption = False,
 ) -> None:
     """Check a boundary or an answer by independent exact code, and say what is proved and what is sampled."""
-    with _one_line_faults():
+    with one_line_faults():
         import cfree.verify
         from cfree.io import load_scene
 
@@ -409,10 +408,10 @@ def figures(
     as_json: JsonOption = False,
 ) -> None:
     """Draw the figures of the paper, from computed data, and three more."""
-    with _one_line_faults():
+    with one_line_faults():
         from cfree.figures import FIGURES, draw_all
 
-        numbers = None if only is None else _read_numbers(only)
+        numbers = None if only is None else read_numbers(only)
         with _bar("figures") as progress:
             files = draw_all(output, only=numbers, formats=formats.split(","), safe=safe, progress=progress)
         if as_json:
@@ -425,71 +424,6 @@ def figures(
 
 
 # input
-
-
-def _read_numbers(text: str) -> list[int]:
-    try:
-        return [int(number) for number in text.split(",")]
-    except ValueError:
-        raise ValueError(f'--only: {text!r}; give numbers of figures, as in "7" or "7,9"') from None
-
-
-def _read_angle(text: str) -> Angle:
-    """An angle as `Pose` takes it; ``tau:p/q`` gives the tangent of its half."""
-    from cfree.pose import Pose
-
-    angle: Angle = {"tau": text.removeprefix("tau:")} if text.startswith("tau:") else text
-    Pose(0, 0, angle)
-    return angle
-
-
-def _read_pose(text: str | None, name: str) -> Pose | None:
-    """A pose, from "1,1/2,30deg"."""
-    from cfree.pose import Pose
-
-    if text is None:
-        return None
-    parts = [part.strip() for part in text.split(",")]
-    try:
-        x, y, theta = parts
-        return Pose(x, y, _read_angle(theta))
-    except ValueError as error:
-        fault = f"{len(parts)} numbers" if len(parts) != 3 else error
-        raise ValueError(f'{name}: {text!r}: {fault}; give X,Y,THETA as in "1,1/2,30deg"') from None
-
-
-def _read_seconds(text: str) -> float:
-    """Seconds, from "2s", "500ms" or "2"."""
-    number, factor = (text.removesuffix("ms"), 1e-3) if text.endswith("ms") else (text.removesuffix("s"), 1.0)
-    try:
-        seconds = float(number) * factor
-    except ValueError:
-        seconds = math.nan
-    if not 0 <= seconds < math.inf:
-        raise ValueError(f'--improve: {text!r}; give a time such as "2s" or "500ms"')
-    return seconds
-
-
-def _read_size(text: str) -> float:
-    """Bytes, from "500MB", "1.5 GB", "2e9"."""
-    units = {"KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
-    unit = text.strip().upper()[-2:]
-    try:
-        size = float(text.strip()[: -2 if unit in units else None]) * units.get(unit, 1)
-    except ValueError:
-        size = 0
-    if not size > 0:
-        raise ValueError(f'--max-memory: {text!r}; give a size such as "500MB" or "4GB"')
-    return size
-
-
-def _read_pixels(text: str) -> tuple[int, int]:
-    """Width and height, from "1280x720"."""
-    try:
-        width, height = map(int, text.lower().split("x"))
-    except ValueError:
-        raise ValueError(f'--size: {text!r}; give width and height such as "1280x720"') from None
-    return width, height
 
 
 def _planner_of(source: Path, max_seconds: float | None, progress: Callable[[float], object] | None) -> Planner:
@@ -577,42 +511,6 @@ def _check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, st
         if not folder.is_dir() or not os.access(folder, os.W_OK | os.X_OK):
             raise PermissionError(errno.EACCES, f"cannot be made in {folder}; give another place", str(path))
     return {name: str(path) for name, path in files.items()}
-
-
-@contextmanager
-def _one_line_faults() -> Iterator[None]:
-    """Say what is wrong with the input in one message, without a traceback, and leave with its exit code."""
-    from cfree.errors import CfreeError, InvariantError
-
-    try:
-        yield
-    except KeyboardInterrupt:
-        _fail("interrupted; no file was left half-written", INTERRUPTED)
-    except InvariantError as error:
-        from cfree.scene import Scene
-
-        if isinstance(error.state, Scene):
-            from cfree.io import scene_text
-
-            _fail(f"{error}, with this scene:\n{scene_text(error.state)}", BUG)
-        _fail(str(error), BUG)
-    except (CfreeError, ValueError) as error:
-        _fail(str(error), BAD_INPUT)
-    except typer.Exit:
-        raise
-    except OSError as error:
-        if error.errno == errno.EPIPE:
-            raise
-        name = f"{error.filename}: " if error.filename else ""
-        _fail(f"{name}{error.strerror or error}", BAD_INPUT)
-    except Exception:  # no answer: not to be taken for one
-        traceback.print_exc()
-        _fail("this is a bug in cfree, please report it", BUG)
-
-
-def _fail(message: str, code: int) -> NoReturn:
-    print(f"error: {message}", file=sys.stderr)
-    raise typer.Exit(code)
 
 
 def _print_json(facts: dict[str, Any]) -> None:

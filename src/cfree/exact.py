@@ -89,12 +89,12 @@ def common_denominator(fractions: Iterable[Fraction]) -> int:
 
 
 def simplest_between(low: Fraction, high: Fraction) -> Fraction:
-    """Fraction of the least denominator in a closed interval of positive numbers.
+    """Fraction of the least denominator in a closed interval, and of those the nearest to 0.
 
     Parameters
     ----------
     low, high : Fraction
-        0 < low <= high.
+        low <= high.
 
     Notes
     -----
@@ -102,9 +102,11 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
 
     Examples
     --------
-    >>> simplest_between(Fraction(33, 100), Fraction(34, 100))
-    Fraction(1, 3)
+    >>> simplest_between(Fraction(33, 100), Fraction(34, 100)), simplest_between(Fraction(-3), Fraction(-5, 2))
+    (Fraction(1, 3), Fraction(-3, 1))
     """
+    if low <= 0:
+        return -simplest_between(-high, -low) if high < 0 else Fraction(0)
     (a, b), (c, d) = low.as_integer_ratio(), high.as_integer_ratio()
     p, q, previous_p, previous_q = 1, 0, 0, 1  # the last two convergents
     while (whole := -(-a // b)) * d > c:

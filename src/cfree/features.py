@@ -38,6 +38,7 @@ RING_COLUMNS = ("previous", "convex", "emit", "layer", "owner_polygon", "owner_v
 
 
 BOUNDS, WORKSPACE = -1, -2  # owners that are not polygons of the user's robot or obstacles
+NAMES = {BOUNDS: "bounds", WORKSPACE: "workspace"}
 
 
 class ShapeFeatures:

@@ -18,6 +18,7 @@ import shapely
 from cfree.errors import UnsupportedError
 from cfree.exact import ExactPoint
 from cfree.polygon import Polygon
+from cfree.rings import containers, doubled_area
 from cfree.scene import Scene
 from cfree.sweep import EdgesMeet, sweep
 
@@ -102,20 +103,11 @@ def _is_inside(inner: Polygon, outer: Polygon) -> bool:
     nesting = sweep(points, offsets)
     if isinstance(nesting, EdgesMeet) or nesting.touching or not set(points[:count]).isdisjoint(points[count:]):
         return False
-    first = len(inner.ring_offsets) - 1
-    mine, its = range(first), range(first, len(offsets) - 1)
-
-    def is_in(ring: int, others: range) -> bool:
-        x, y = points[offsets[ring]]
-        crossings = 0
-        for k in others:
-            corners = points[offsets[k] : offsets[k + 1]]
-            for (a, b), (c, d) in zip(corners, corners[1:] + corners[:1], strict=True):
-                if (b > y) != (d > y):
-                    crossings += ((c - a) * (y - b) - (d - b) * (x - a) > 0) == (d > b)
-        return crossings % 2 == 1
-
-    return all(is_in(ring, its) for ring in mine) and not any(is_in(ring, mine) for ring in its)
+    rings = [points[i:j] for i, j in pairwise(offsets)]
+    around = containers([*map(doubled_area, rings)], nesting, [r for r, ring in enumerate(rings) for _ in ring])
+    mine, its = 0, len(inner.ring_offsets) - 1  # outer rings
+    # holes of the outer polygon are outside the inner one, or in holes of it
+    return around[mine] == its and all(around[hole] != mine for hole in range(its + 1, len(rings)))
 
 
 def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:

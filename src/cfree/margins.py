@@ -101,7 +101,7 @@ def nearest_miss(
     (True, [0, 1])
     """
     _check(tolerance)
-    if _are_joined(_space(scene), start, goal):
+    if _space(scene).common_cell(start, goal) is not None:
         raise ValueError("start and goal are joined: nothing is missing")
     spaces: dict[Fraction, FreeSpace | None] = {}
 
@@ -109,7 +109,7 @@ def nearest_miss(
         robot = [smaller for part in scene.robot for smaller in inset(part, by)]
         spaces[by] = _space(with_robot(scene, robot, scene.bounds)) if robot else None
         space = spaces[by]
-        return space is None or not _are_joined(space, start, goal)
+        return space is None or space.common_cell(start, goal) is None
 
     deepest = max(shapely.length(shapely.maximum_inscribed_circle(part.to_shapely())) for part in scene.robot)
     most = _rounded(0.98 * deepest)
@@ -160,7 +160,7 @@ def max_scale(
 
     def is_joined(scale: Fraction) -> bool:
         robot = [_mapped(part, lambda p: (scale * p[0], scale * p[1])) for part in scene.robot]
-        return _are_joined(_space(with_robot(scene, robot, scene.bounds)), start, goal)
+        return _space(with_robot(scene, robot, scene.bounds)).common_cell(start, goal) is not None
 
     lo, hi = _bracket(is_joined, Fraction(1))
     if lo and hi:
@@ -203,11 +203,11 @@ def max_margin(
     True
     """
     _check(tolerance)
-    if not _are_joined(_space(scene), start, goal):
+    if _space(scene).common_cell(start, goal) is None:
         raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")
 
     def is_joined(radius: Fraction) -> bool:
-        return _are_joined(_space(with_robot(scene, grown(scene, radius), scene.bounds)), start, goal)
+        return _space(with_robot(scene, grown(scene, radius), scene.bounds)).common_cell(start, goal) is not None
 
     lo, hi = _bracket(is_joined, Fraction(2) ** (size_power(scene) - 3))
     if lo and hi:
@@ -225,11 +225,6 @@ def _check(tolerance: float) -> None:
 
 def _space(scene: Scene) -> FreeSpace:
     return free_space(boundary(scene))
-
-
-def _are_joined(space: FreeSpace, start: Pose, goal: Pose) -> bool:
-    first, second = space.locate([start, goal]).tolist()
-    return bool(first == second >= 0)
 
 
 def _bracket(holds: Callable[[Fraction], bool], first: Fraction) -> tuple[Fraction, Fraction]:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.features import WORKSPACE
+from cfree.mesh import robot_radius
 
 if TYPE_CHECKING:
     from cfree.polygon import Polygon
@@ -27,6 +28,8 @@ class Walls:
     robot : (e, 2, 2) float64
         Ends of the robot's edges at rest.
     robot_names : list of (polygon, edge)
+    radius : float
+        Of the robot about its reference point.
     segments : (w, 2, 2) float64
         Ends of the walls.
     names : list of (obstacle, edge)
@@ -38,6 +41,7 @@ class Walls:
 
         walls = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
         self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
+        self.radius = robot_radius(scene)
         self.segments, self.names = _edges(walls)
         # a power of two near their size, so that squares of tiny and of huge numbers are doubles
         self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])

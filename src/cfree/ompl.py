@@ -17,8 +17,6 @@ import math
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 try:
     from ompl import base as ob
     from ompl import geometric as og
@@ -30,6 +28,7 @@ from cfree.invalid import require_free
 from cfree.motion import Motion, motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
+from cfree.planning.search import area
 from cfree.pose import Pose
 
 if TYPE_CHECKING:
@@ -57,7 +56,8 @@ def state_space(scene: Scene) -> Any:
     twice the robot's radius.
     """
     space, limits = ob.SE2StateSpace(), ob.RealVectorBounds(2)
-    for k, (low, high) in enumerate(_box(scene)):
+    x0, y0, x1, y1 = area(scene, [pose for pose in (scene.start, scene.goal) if pose])
+    for k, (low, high) in enumerate(((x0, x1), (y0, y1))):
         limits.setLow(k, low)
         limits.setHigh(k, high)
     space.setBounds(limits)
@@ -187,16 +187,3 @@ def sweep_of(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[f
     if abs(turn) > math.pi:
         turn -= math.copysign(math.tau, turn)
     return (x, y, yaw), (goal.getX() - x, goal.getY() - y, turn)
-
-
-def _box(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
-    if scene.bounds is not None:
-        x0, y0, x1, y1 = map(float, scene.bounds)
-        return (x0, x1), (y0, y1)
-    shapes = [scene.workspace] if scene.workspace is not None else list(scene.obstacles)
-    points = [shape.vertices for shape in shapes]
-    points += [np.array([[float(q.x), float(q.y)]]) for q in (scene.start, scene.goal) if q is not None]
-    robot = np.concatenate([part.vertices for part in scene.robot])
-    reach = 0.0 if scene.workspace is not None else 2 * float(np.hypot(*robot.T).max())
-    low, high = np.min([p.min(0) for p in points], axis=0) - reach, np.max([p.max(0) for p in points], axis=0) + reach
-    return (float(low[0]), float(high[0])), (float(low[1]), float(high[1]))

@@ -240,11 +240,9 @@ class Path:
         >>> found.found, found.least > 0.249, found.obstacle
         (0.25, True, (0, 0))
         """
-        from cfree.path_clearance import least_clearance
+        from cfree.path_clearance import least_clearance, walls_beside
 
-        if not self.is_free(MotionChecker(scene)):
-            raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-        return least_clearance(self, scene, tolerance)
+        return least_clearance(self, walls_beside(self, scene), tolerance)
 
     def save(
         self,

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.mesh import robot_radius
 from cfree.motion import Motion, Translation
 from cfree.motion_check import MotionChecker
 from cfree.nearest import Floats, Ints, Walls
@@ -25,24 +24,35 @@ MOST = 1 << 12  # parts of motions looked at together: where more would be neede
 ROUNDING = 2.0**-40  # relative to the coordinates: a thousand times what placing and measuring round away
 
 
-def least_clearance(path: Path, scene: Scene, tolerance: float | None) -> Clearance | None:
+def walls_beside(path: Path, scene: Scene) -> Walls:
+    """What a free path keeps away from.
+
+    Raises
+    ------
+    ValueError
+        If it is not free.
+    """
+    if not path.is_free(MotionChecker(scene)):
+        raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
+    return Walls(scene)
+
+
+def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Clearance | None:
     """See `Path.clearance`."""
     if tolerance is None:
-        found = least_clearance(path, scene, 1e-3 * robot_radius(scene))
+        found = least_clearance(path, walls, 1e-3 * walls.radius)
         if found is None or found.least > 0 or found.found == 0:
             return found
-        return least_clearance(path, scene, found.found / 4)
-    walls = Walls(scene)
-    if not len(walls.segments):
-        return None
+        return least_clearance(path, walls, found.found / 4)
     segments, robot = walls.segments, walls.robot
-    radius = float(np.hypot(robot[..., 0], robot[..., 1]).max())
+    if not len(segments):
+        return None
     if not tolerance > 0:
         raise ValueError(f"tolerance {tolerance}: give a positive one")
     motions = path.motions or (Translation((0, 0)),)
     travel = np.array([reach(q, m, robot) for q, m in zip(path.poses, motions, strict=False)])
     places = max(abs(float(c)) for q in path.poses for c in (q.x, q.y))
-    size = max(float(np.abs(segments).max()), places + radius + float(travel.max()))
+    size = max(float(np.abs(segments).max()), places + walls.radius + float(travel.max()))
     motion, low, high = np.arange(len(motions)), np.zeros(len(motions)), np.ones(len(motions))
     least, best = math.inf, (math.inf, 0, 0.0, 0, 0)
     while len(motion):
@@ -106,13 +116,11 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     >>> [(place.found, place.obstacle[0]) for place in narrowest(Path(Pose(0, 0), [Translation((20, 0))]), scene)]
     [(1.0, 0), (1.5, 2), (2.0, 1)]
     """
-    if not path.is_free(MotionChecker(scene)):
-        raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-    walls, pace, radius = Walls(scene), Pace(path, scene), robot_radius(scene)
+    walls, pace = walls_beside(path, scene), Pace(path, scene)
     if not path.motions or not len(walls.segments):
-        whole = least_clearance(path, scene, None)
+        whole = least_clearance(path, walls, None)
         return () if whole is None else (whole,)
-    travel = np.linspace(0, pace.total, min(math.ceil(100 * pace.total / radius) + 2, MOST_SAMPLES))
+    travel = np.linspace(0, pace.total, min(math.ceil(100 * pace.total / walls.radius) + 2, MOST_SAMPLES))
     rows = pace.at(travel)
     placed = Poses(rows[:, :2], rows[:, 2]).apply(walls.robot.reshape(-1, 2)).reshape(-1, *walls.robot.shape)
     distance, _, _ = walls.nearest(placed)
@@ -122,22 +130,22 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     taken = np.zeros(len(travel), bool)
     while len(found) < count and np.isfinite(lows).any():
         k = int(lows.argmin())
-        wide = np.flatnonzero(taken | (distance >= max(2 * distance[k], radius / 100)))
+        wide = np.flatnonzero(taken | (distance >= max(2 * distance[k], walls.radius / 100)))
         first, last = wide[wide < k].max(initial=0), wide[wide > k].min(initial=len(travel) - 1)
         first, last = first + int(distance[first : k + 1].argmax()), k + int(distance[k : last + 1].argmax())
-        if place := _least_between(path, scene, *pace.places(travel[[first, last]])):
+        if place := _least_between(path, walls, *pace.places(travel[[first, last]])):
             found.append(place)
         taken[first : last + 1], lows[first : last + 1] = True, np.inf
     return tuple(sorted(found, key=lambda place: place.found))
 
 
-def _least_between(path: Path, scene: Scene, motion: Ints, share: Floats) -> Clearance | None:
+def _least_between(path: Path, walls: Walls, motion: Ints, share: Floats) -> Clearance | None:
     """The least clearance between two places of a path; the place found is one of the whole path."""
     (i, j), (u, v) = motion.tolist(), map(Fraction, share.tolist())
     ends = [(u if k == i else Fraction(0), v if k == j else Fraction(1)) for k in range(i, j + 1)]
     start = path.motions[i].at(path.poses[i], u)
     part = Path(start, [path.motions[i + k].between(*both) for k, both in enumerate(ends)])
-    place = least_clearance(part, scene, None)
+    place = least_clearance(part, walls, None)
     if place is None:
         return None
     k, s = i + place.motion, place.share

@@ -13,10 +13,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.features import BOUNDS, WORKSPACE
+from cfree.features import NAMES
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
 from cfree.pose import Pose
+from cfree.scene import default_name
 from cfree.trapezoids import Floats, Ints
 
 if TYPE_CHECKING:
@@ -26,7 +27,6 @@ COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of t
 MOST = 100  # samples of a pinch that are pushed
 NUDGE = 1e-9  # of the robot's size: off what a sample touches
 COVERED = -1
-NAMES = {BOUNDS: "the bounds", WORKSPACE: "the workspace"}
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,9 @@ class Pinch:
     obstacles: tuple[int, int]
 
     def __str__(self) -> str:
-        one, other = (NAMES.get(k, f"obstacle {k}") for k in sorted(self.obstacles, reverse=True))
+        one, other = (
+            f"the {NAMES[k]}" if k in NAMES else default_name(k) for k in sorted(self.obstacles, reverse=True)
+        )
         if one == other:
             return f"parts of {one} at {math.degrees(self.pose.theta):.3g} deg"
         return f"{one} and {other} at {math.degrees(self.pose.theta):.3g} deg"

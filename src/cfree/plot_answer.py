@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
+from cfree.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
 from cfree.mesh import robot_radius
 from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.plot import around, new_figure, new_space, set_window, with_unit
@@ -139,7 +139,8 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     if len(answer.pieces):
         _draw_surface(figure, ax, answer, scene)
     without = "path" if answer.of == "closed" else "path of positive clearance"
-    named = [_name(scene, k) for k in answer.obstacles[:6]] + ["..."] * (len(answer.obstacles) > 6)
+    named = [NAMES.get(k) or scene.obstacle_names[k] for k in answer.obstacles]
+    named[6:] = ["..."] * (len(named) > 6)
     parted = "parted by " + ", ".join(named) if named else "the one or the other touches, and fits exactly"
     _head(figure, scene, f"no {without} from start to goal", parted)
     return figure
@@ -223,10 +224,6 @@ def _frame(ax: Any, box: Window) -> None:
         return
     style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "seen beside"}
     ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, **style))
-
-
-def _name(scene: Scene, number: int) -> str:
-    return {BOUNDS: "bounds", WORKSPACE: "workspace"}.get(number) or scene.obstacle_names[number]
 
 
 # space

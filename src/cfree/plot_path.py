@@ -14,6 +14,7 @@ from cfree.motion import Translation
 from cfree.nearest import Walls
 from cfree.outlines import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.pace import Pace
+from cfree.path_clearance import least_clearance, walls_beside
 from cfree.plot import around, new_axes, set_window, with_unit
 from cfree.pose import Pose, Poses
 
@@ -33,7 +34,6 @@ GHOSTS, APART = 48, 0.45  # so many at most, and no closer than this part of the
 TRACE = 600
 LABEL = 30  # typographic points from a place to its label
 SAME = 1e-9  # of the robot's radius: less is touching, for the eye
-PRECISION, SHARES = 1e-3, 50_000  # of the least clearance: a part of the robot's radius, or of its travel if more
 NEAR = 2.0  # obstacles within so many times the least clearance limit it
 
 
@@ -78,17 +78,17 @@ class Track:
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import Normalize
 
-        pace, walls = Pace(path, scene), Walls(scene)
+        pace, walls = Pace(path, scene), walls_beside(path, scene)
         travel = np.linspace(0, pace.total, TRACE)
         rows = pace.at(travel)
-        least = path.clearance(scene, max(PRECISION * robot_radius(scene), pace.total / SHARES))
+        least = least_clearance(path, walls, None)
         distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), placed(rows, walls)
         if least is not None:
             distance, _, _ = walls.nearest(edges)
             closest = _closest(path, walls, least)
         farthest = float(np.nanmax(distance, initial=0.0))
-        # beyond the robot's own size, clearances need not be told apart, nor near what rounding makes of 0
-        most = min(max(farthest, PRECISION * robot_radius(scene)), 2 * robot_radius(scene)) or 1.0
+        # beyond the robot's own size, clearances need not be told apart
+        most = min(farthest, 2 * walls.radius) if farthest > SAME * walls.radius else walls.radius
         colours = ScalarMappable(Normalize(0.0, most), colormaps[SCALE])
         return cls(path, scene, pace, travel, rows, distance, least, closest, _window(scene, edges), most, colours)
 
@@ -131,8 +131,8 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
 
     Notes
     -----
-    The clearance in the title is the least found, and a proved bound of it. They differ by at most a thousandth of the
-    robot's radius, or 1 / 50,000 of its travel if that is more. Colours are distances at 600 poses, in doubles.
+    The clearance in the title is the least found, and a proved bound of it: see `Path.clearance`. Colours are distances
+    at 600 poses, in doubles.
 
     Examples
     --------

@@ -467,11 +467,9 @@ def _rationalize(quarter_turns: int, rest: Fraction) -> tuple[Fraction | None, f
     Relative errors of tan(rest / 2): 1.6 * 2^-53 from rounding rest, 2^-52 allowed to the library's tangent,
     2^-53 for the simplest fraction. The angle errs by less than tau, relatively: below 2^-50 |rest| in all.
     """
-    tangent = Fraction(math.tan(abs(float(rest)) / 2))
-    margin = tangent / 2**53
-    tau: Fraction | None = simplest_between(tangent - margin, tangent + margin) if tangent else Fraction(0)
-    if tau and rest < 0:
-        tau = -tau
+    tangent = Fraction(math.tan(float(rest) / 2))
+    margin = abs(tangent) / 2**53
+    tau: Fraction | None = simplest_between(tangent - margin, tangent + margin)
     for _ in range(quarter_turns % 4):
         tau = _sum_of_angles(tau, Fraction(1))
     quarters = 4 if rest < 0 and quarter_turns % 4 == 0 else quarter_turns % 4

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.table import Table
 
+from cfree.features import NAMES
+
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
     from cfree.path import Path
@@ -89,7 +91,7 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
         }
     rows: dict[str, int | float | str] = {
         "answer": "a path, each motion proved free",
-        **motion_counts(answer),
+        **{name: count for name, count in motion_counts(answer).items() if count or name != "slides"},
         "way of the reference point": f"{answer.length:.6g}{unit}",
         "turning": f"{math.degrees(answer.turning):.6g} degrees",
     }
@@ -130,7 +132,7 @@ def motion_counts(path: Path) -> dict[str, int]:
 
 def part_name(scene: Scene, obstacle: int) -> str:
     """Name of an obstacle by its number."""
-    return {-1: "the bounds", -2: "the workspace"}.get(obstacle) or scene.obstacle_names[obstacle]
+    return f"the {NAMES[obstacle]}" if obstacle in NAMES else scene.obstacle_names[obstacle]
 
 
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:

@@ -171,7 +171,7 @@ def _check(rings: Sequence[_Ring], areas: Sequence[int], denominator: int) -> No
     if isinstance(found, EdgesMeet):
         first, second = sorted(places[e] for e in found.edges)
         raise _meeting(rings, first, second, denominator)
-    container = _containers(areas, found, [r for r, _ in places])
+    container = containers(areas, found, [r for r, _ in places])
     for hole in range(1, len(rings)):
         around = container[hole]
         if container[0] == hole:
@@ -182,7 +182,7 @@ def _check(rings: Sequence[_Ring], areas: Sequence[int], denominator: int) -> No
             raise _fault(hole, f"it lies inside {_name(around)}; give it as another polygon")
 
 
-def _containers(areas: Sequence[int], nesting: Nesting, ring_of: Sequence[int]) -> dict[int, int | None]:
+def containers(areas: Sequence[int], nesting: Nesting, ring_of: Sequence[int]) -> dict[int, int | None]:
     """Innermost ring around each ring."""
     container: dict[int, int | None] = {}
     for ring, edge in nesting.below.items():

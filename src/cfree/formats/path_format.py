@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import asdict
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, Literal, Self, cast
 
 from pydantic import Field, PlainValidator, PrivateAttr, model_validator
 
@@ -169,25 +169,40 @@ class ExactEnds(Strict):
     goal: Configuration
 
 
-class PathModel(Strict):
-    """A start, motions, and the goal they lead to."""
+class AnswerModel(Strict):
+    """What every answer has: the question."""
 
     version: Version = 1
     units: Text = ""
     frame: Text = "world"
-    answer: Literal["path"]
+    answer: str
     start: Configuration
     goal: Configuration
-    motions: list[Annotated[TranslationModel | RotationModel | SlideModel, Field(discriminator="type")]]
     exact: ExactEnds | None = None
 
     @model_validator(mode="after")
-    def _arrives(self) -> PathModel:
-        ends: Any = self.exact or self
+    def _ends_agree(self) -> Self:
         if self.exact:
-            agree_as_poses(cast(Pose, self.start), cast(Pose, ends.start))
-            agree_as_poses(cast(Pose, self.goal), cast(Pose, ends.goal))
-        path, goal = self._moved, ends.goal
+            for decimals, exact in zip((self.start, self.goal), self.ends, strict=True):
+                agree_as_poses(cast(Pose, decimals), exact)
+        return self
+
+    @property
+    def ends(self) -> tuple[Pose, Pose]:
+        """Start and goal, exact where they are given so."""
+        ends: Any = self.exact or self
+        return ends.start, ends.goal
+
+
+class PathModel(AnswerModel):
+    """A start, motions, and the goal they lead to."""
+
+    answer: Literal["path"]
+    motions: list[Annotated[TranslationModel | RotationModel | SlideModel, Field(discriminator="type")]]
+
+    @model_validator(mode="after")
+    def _arrives(self) -> PathModel:
+        path, goal = self._moved, self.ends[1]
         if self.exact and all(motion.exact for motion in self.motions):
             if path.goal != goal:
                 raise fault("the motions do not lead to the exact goal; correct one of them")
@@ -202,15 +217,13 @@ class PathModel(Strict):
 
     @property
     def _moved(self) -> Path:
-        ends: Any = self.exact or self
-        return Path(ends.start, (m for model in self.motions for m in model.motions), self.units, self.frame)
+        return Path(self.ends[0], (m for model in self.motions for m in model.motions), self.units, self.frame)
 
     @property
     def result(self) -> Path:
         """What is left to the goal as it is written is one motion more."""
-        ends: Any = self.exact or self
-        path = self._moved
-        last = [] if path.goal == ends.goal else [motion_between(path.goal, ends.goal)]
+        path, goal = self._moved, self.ends[1]
+        last = [] if path.goal == goal else [motion_between(path.goal, goal)]
         return Path(path.start, [*path.motions, *last], path.units, path.frame)
 
 

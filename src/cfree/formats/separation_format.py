@@ -7,17 +7,16 @@ from __future__ import annotations
 
 import json
 from itertools import pairwise
-from typing import Annotated, Any, Literal, cast
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, PlainValidator, model_validator
 
 from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
 from cfree.formats.contact_format import ContactModel
-from cfree.formats.path_format import ExactEnds, agree_as_poses, configuration, exact_configuration
-from cfree.formats.scene_format import Bounds, Configuration, PolygonModel, Strict, Text, Version, fault
+from cfree.formats.path_format import AnswerModel, configuration, exact_configuration
+from cfree.formats.scene_format import Bounds, PolygonModel, Strict, fault
 from cfree.polygon import Polygon
-from cfree.pose import Pose
 from cfree.separated import Pieces, Separated
 from cfree.trapezoids import CODED, COLUMNS, Trapezoids
 
@@ -75,16 +74,10 @@ class PieceModel(Strict):
         return row
 
 
-class SeparationModel(Strict):
+class SeparationModel(AnswerModel):
     """Two poses, and a closed surface between them."""
 
-    version: Version = 1
-    units: Text = ""
-    frame: Text = "world"
     answer: Literal["separated"]
-    start: Configuration
-    goal: Configuration
-    exact: ExactEnds | None = None
     of: Literal["closed", "interior"]
     cells: Annotated[list[Annotated[int, Field(ge=-2, lt=2**31)]], Field(min_length=2, max_length=2)]
     obstacles: list[Annotated[int, Field(ge=-2, lt=2**31)]]
@@ -94,9 +87,6 @@ class SeparationModel(Strict):
 
     @model_validator(mode="after")
     def _fits(self) -> SeparationModel:
-        if self.exact:
-            agree_as_poses(cast(Pose, self.start), cast(Pose, self.exact.start))
-            agree_as_poses(cast(Pose, self.goal), cast(Pose, self.exact.goal))
         if (self.of == "closed") != bool(self.smaller_robot):
             raise fault('"smaller_robot" belongs to what is "of": "closed", and to nothing else; correct one of them')
         if self.of == "interior" and self.larger_bounds:
@@ -107,11 +97,11 @@ class SeparationModel(Strict):
 
     @property
     def result(self) -> Separated:
-        ends: Any = self.exact or self
+        start, goal = self.ends
         first, second = self.cells
         return Separated(
-            start=ends.start,
-            goal=ends.goal,
+            start=start,
+            goal=goal,
             of=self.of,
             cells=(first, second),
             pieces=_pieces(self.surface),

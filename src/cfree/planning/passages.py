@@ -158,6 +158,4 @@ def _simple_tau(theta: float) -> Fraction | None:
     """The simplest half-angle tangent near an angle."""
     chart, tau = chart_of(np.array([theta % math.tau]))
     t = Fraction(float(tau[0]))
-    low, high = t - Fraction(NEAR), t + Fraction(NEAR)
-    near = Fraction(0) if low <= 0 <= high else simplest_between(low, high) if t > 0 else -simplest_between(-high, -low)
-    return tau_in_chart(int(chart[0]), near)
+    return tau_in_chart(int(chart[0]), simplest_between(t - Fraction(NEAR), t + Fraction(NEAR)))

@@ -16,8 +16,6 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Literal
 
-import numpy as np
-
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.extent import LARGEST
 from cfree.forbidden import boundary
@@ -26,7 +24,7 @@ from cfree.mesh import robot_radius
 from cfree.motion import motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
-from cfree.planning.search import Places, Searcher, simple_ways
+from cfree.planning.search import Searcher, area, simple_ways
 from cfree.pose import Pose
 from cfree.scene import Scene
 from cfree.slide import Slide
@@ -171,7 +169,7 @@ class Planner:
             if max(abs(pose.x), abs(pose.y)) > LARGEST:
                 raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
         poses = self.checker.first_free(simple_ways(start, goal)) if start != goal else None
-        if poses is None and start != goal and (self.space is None or self.cell_of(start, goal) is not None):
+        if poses is None and start != goal and (self.space is None or self.space.common_cell(start, goal) is not None):
             poses = self._searched(start, goal)
         if poses is None:  # a motion that is free has free ends
             for pose, name in ((start, "start"), (goal, "goal")):
@@ -194,17 +192,12 @@ class Planner:
         """What the free space says: poses of a path, or a proof."""
         from cfree.separated import separation
 
-        if (cell := self.cell_of(start, goal)) is not None:
+        if (cell := self.free_space.common_cell(start, goal)) is not None:
             return self.walker.walk(start, goal, cell)
         proof = separation(self.free_space, start, goal)
         assert proof is not None, "not in one cell"
         way = None if proof.of == "closed" else self._passages.path(start, goal)
         return proof if way is None else way
-
-    def cell_of(self, start: Pose, goal: Pose) -> int | None:
-        """The cell that both are in."""
-        first, second = self.free_space.locate([start, goal]).tolist()
-        return first if first == second >= 0 else None
 
     def path(self, poses: Sequence[Pose]) -> Path:
         """Through these poses, all of it checked once more.
@@ -265,7 +258,7 @@ class Planner:
             larger = Planner(scene)
             found = larger.checker.first_free(simple_ways(start, goal)) or larger._searched(start, goal)
             is_small = larger.checker.features.patches <= COMPLETE
-            if found is None and is_small and (cell := larger.cell_of(start, goal)) is not None:
+            if found is None and is_small and (cell := larger.free_space.common_cell(start, goal)) is not None:
                 found = larger.walker.walk(start, goal, cell)
             if found is None or len(larger._without_slides(found)) > 1:
                 return None
@@ -296,19 +289,7 @@ class Planner:
             raise KeyboardInterrupt
 
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
-        return Searcher(self.checker, self._area(poses), self.angle_scale)
-
-    def _area(self, poses: Sequence[Pose]) -> Places:
-        """Of positions to try."""
-        if self.scene.bounds is not None:
-            x0, y0, x1, y1 = map(float, self.scene.bounds)
-            return x0, y0, x1, y1
-        points = [(float(q.x), float(q.y)) for q in poses]
-        around = [self.scene.workspace] if self.scene.workspace else self.scene.obstacles
-        corners = np.concatenate([points, *(polygon.vertices for polygon in around)])
-        margin = 0.0 if self.scene.workspace else 2 * self.angle_scale
-        (x0, y0), (x1, y1) = (corners.min(axis=0) - margin).tolist(), (corners.max(axis=0) + margin).tolist()
-        return x0, y0, x1, y1
+        return Searcher(self.checker, area(self.scene, poses), self.angle_scale)
 
 
 def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose, Pose]:

@@ -8,14 +8,33 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from cfree.mesh import robot_radius
 from cfree.motion_check import MotionChecker
 from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
 
 Places = tuple[float, float, float, float]
 PLACE_BITS, ANGLE_BITS = 24, 20  # of random poses: few, for short integers
 FINE_PLACE_BITS, FINE_ANGLE_BITS = 40, 36  # of poses on paths
+
+
+def area(scene: Scene, poses: Sequence[Pose]) -> Places:
+    """Of positions to try: bounds, else around the workspace, else with room around obstacles and poses."""
+    if scene.bounds is not None:
+        x0, y0, x1, y1 = map(float, scene.bounds)
+        return x0, y0, x1, y1
+    points = np.array([(float(q.x), float(q.y)) for q in poses]).reshape(-1, 2)
+    around = [scene.workspace] if scene.workspace else scene.obstacles
+    corners = np.concatenate([points, *(polygon.vertices for polygon in around)])
+    margin = 0.0 if scene.workspace else 2 * robot_radius(scene)
+    (x0, y0), (x1, y1) = (corners.min(axis=0) - margin).tolist(), (corners.max(axis=0) + margin).tolist()
+    return x0, y0, x1, y1
 
 
 def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:

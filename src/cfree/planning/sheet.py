@@ -22,10 +22,7 @@ Line = tuple[Vector, Vector, Vector, Vector]  # p, q, a, g of a surface
 def between(low: Fraction, high: Fraction) -> Fraction:
     """A simple fraction in the middle half of an interval."""
     quarter = (high - low) / 4
-    low, high = low + quarter, high - quarter
-    if low > 0:
-        return simplest_between(low, high)
-    return -simplest_between(-high, -low) if high < 0 else Fraction(0)
+    return simplest_between(low + quarter, high - quarter)
 
 
 def cross(u: Vector, v: Vector) -> Fraction:

@@ -1,0 +1,74 @@
+"""What the options of the command line mean, read from their texts."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cfree.pose import Angle, Pose
+
+
+def read_numbers(text: str) -> list[int]:
+    try:
+        return [int(number) for number in text.split(",")]
+    except ValueError:
+        raise ValueError(f'--only: {text!r}; give numbers of figures, as in "7" or "7,9"') from None
+
+
+def read_angle(text: str) -> Angle:
+    """An angle as `Pose` takes it; ``tau:p/q`` gives the tangent of its half."""
+    from cfree.pose import Pose
+
+    angle: Angle = {"tau": text.removeprefix("tau:")} if text.startswith("tau:") else text
+    Pose(0, 0, angle)
+    return angle
+
+
+def read_pose(text: str | None, name: str) -> Pose | None:
+    """A pose, from "1,1/2,30deg"."""
+    from cfree.pose import Pose
+
+    if text is None:
+        return None
+    parts = [part.strip() for part in text.split(",")]
+    try:
+        x, y, theta = parts
+        return Pose(x, y, read_angle(theta))
+    except ValueError as error:
+        fault = f"{len(parts)} numbers" if len(parts) != 3 else error
+        raise ValueError(f'{name}: {text!r}: {fault}; give X,Y,THETA as in "1,1/2,30deg"') from None
+
+
+def read_seconds(text: str) -> float:
+    """Seconds, from "2s", "500ms" or "2"."""
+    number, factor = (text.removesuffix("ms"), 1e-3) if text.endswith("ms") else (text.removesuffix("s"), 1.0)
+    try:
+        seconds = float(number) * factor
+    except ValueError:
+        seconds = math.nan
+    if not 0 <= seconds < math.inf:
+        raise ValueError(f'--improve: {text!r}; give a time such as "2s" or "500ms"')
+    return seconds
+
+
+def read_size(text: str) -> float:
+    """Bytes, from "500MB", "1.5 GB", "2e9"."""
+    units = {"KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
+    unit = text.strip().upper()[-2:]
+    try:
+        size = float(text.strip()[: -2 if unit in units else None]) * units.get(unit, 1)
+    except ValueError:
+        size = 0
+    if not size > 0:
+        raise ValueError(f'--max-memory: {text!r}; give a size such as "500MB" or "4GB"')
+    return size
+
+
+def read_pixels(text: str) -> tuple[int, int]:
+    """Width and height, from "1280x720"."""
+    try:
+        width, height = map(int, text.lower().split("x"))
+    except ValueError:
+        raise ValueError(f'--size: {text!r}; give width and height such as "1280x720"') from None
+    return width, height
