@@ -18,7 +18,7 @@ table = [(-1, "-0.4"), (1, "-0.4"), (1, "0.4"), (-1, "0.4")]
 door = "0.9"
 wall = [
     [(-4, "-0.1"), (-1, "-0.1"), (-1, "0.1"), (-4, "0.1")],
-    [(f"{-0.1}", "-0.1"), (4, "-0.1"), (4, "0.1"), (f"{-0.1}", "0.1")],
+    [("-0.1", "-0.1"), (4, "-0.1"), (4, "0.1"), ("-0.1", "0.1")],
 ]
 room = [(-4, -3), (4, -3), (4, 3), (-4, 3)]
 start, goal = cfree.Pose(-2, 2), cfree.Pose(2, -2, "20deg")
@@ -85,6 +85,18 @@ for answer, its in ((clear, scene), (proof, too_wide)):
 for width in ("0.45", "0.450000000001"):
     fit = [(-1, f"-{width}"), (1, f"-{width}"), (1, width), (-1, width)]
     print(width, cfree.plan(cfree.Scene(fit, wall, workspace=room), start, goal))
+
+# %%
+# Where corridors as wide as a square meet, it turns in place of a rotation by a slide: a vertex stays on the floor, and
+# an edge on a corner. The reference point moves on a rational curve, and the motion is decided exactly like the others.
+
+corridors = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
+junction = cfree.Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], workspace=corridors, name="a T of corridors")
+turned = cfree.plan(junction, cfree.Pose(-5, 1), cfree.Pose(5, 1, "90deg"))
+for motion in turned.motions:
+    print(type(motion).__name__, f"{motion.turn:.4f}")
+print(cfree.verify.answer(junction, turned).verdict)
+figure = cfree.picture(turned, junction)
 
 # %%
 # Many questions
