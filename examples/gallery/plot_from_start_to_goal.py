@@ -87,8 +87,8 @@ for width in ("0.45", "0.450000000001"):
     print(width, cfree.plan(cfree.Scene(fit, wall, workspace=room), start, goal))
 
 # %%
-# Where corridors as wide as a square meet, it turns in place of a rotation by a slide: a vertex stays on the floor, and
-# an edge on a corner. The reference point moves on a rational curve, and the motion is decided exactly like the others.
+# Where corridors as wide as a square meet, it can only turn while a vertex slides on the floor and an edge on a corner.
+# Then the reference point moves on a rational curve, and this motion is decided exactly like the others.
 
 corridors = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
 junction = cfree.Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], workspace=corridors, name="a T of corridors")
@@ -113,4 +113,4 @@ for answer in cfree.plan_many(space, [(poses[0], pose) for pose in poses[1:]]):
 # %%
 # For other programs: poses in a CSV file, a ROS message or GeoJSON, and everything exactly in JSON.
 
-print("x,y,theta:", clear.sample(step=0.5).xy[:3].round(3).tolist(), "...")
+print("x, y:", clear.sample(step=0.5).xy[:3].round(3).tolist(), "...")
