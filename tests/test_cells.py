@@ -25,7 +25,7 @@ from cfree import (
     load_scene,
 )
 from cfree.cells import _parents
-from cfree.pose import tau_in_chart
+from cfree.half_angle import tau_in_chart
 from cfree.storage import CELL_COLUMNS, save_boundary
 from compared import plain_of, scene_of
 from flood import flood

@@ -26,8 +26,9 @@ from cfree.contact import (
     edge_edge_range,
 )
 from cfree.errors import InvalidPoseError
+from cfree.half_angle import chart_intervals, half_tangent
 from cfree.polygon import Polygon
-from cfree.pose import Pose, chart_intervals, half_tangent
+from cfree.pose import Pose
 from cfree.predicates import Location
 from cfree.rational.model import (
     RationalHelix,

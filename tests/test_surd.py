@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import strategies
-from cfree.pose import half_angle_rotation
+from cfree.half_angle import half_angle_rotation
 from cfree.predicates import Order, Orientation, turn
 from cfree.rational.surd import ExactAngle, Surd
 

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 import strategies
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
+from cfree.half_angle import Angle
 from cfree.polygon import Polygon
-from cfree.pose import Angle, Pose
+from cfree.pose import Pose
 from cfree.surface import (
     contact_helix,
     contact_segment,

@@ -6,7 +6,8 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cfree.pose import Angle, Pose, normalize_angles, tau_in_chart, theta_in
+from cfree.half_angle import Angle, normalize_angles, tau_in_chart, theta_in
+from cfree.pose import Pose
 from cfree.verify.algebra import Root
 
 FINE = Fraction(1, 1 << 60)

@@ -23,7 +23,8 @@ from cfree.features import BOUNDS, WORKSPACE
 from cfree.forbidden import Boundary
 from cfree.free import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.pose import Pose, Poses, chart_of, tau_in_chart
+from cfree.half_angle import chart_of, tau_in_chart
+from cfree.pose import Pose, Poses
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
 from cfree.trapezoids import COLUMNS, Floats, Ints
 

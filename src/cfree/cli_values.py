@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from cfree.pose import Angle, Pose
+    from cfree.half_angle import Angle
+    from cfree.pose import Pose
 
 
 def read_numbers(text: str) -> list[int]:

@@ -19,8 +19,8 @@ import math
 from dataclasses import dataclass
 
 from cfree.exact import IntPoint, angle
+from cfree.half_angle import normalize_angles
 from cfree.polygon import Polygon
-from cfree.pose import normalize_angles
 from cfree.predicates import (
     Location,
     Order,

@@ -48,7 +48,7 @@ class InvalidPolygonError(CfreeError, ValueError):
 
 
 class InvalidPoseError(CfreeError, ValueError):
-    """A position or an angle that is not a number of the kind documented in `cfree.pose`, or a pose that is not free.
+    """A position or an angle that is not a number of the kind documented in `cfree.Pose`, or a pose that is not free.
 
     `free` is then a free pose near by, if one was found.
     """

@@ -16,7 +16,8 @@ from typing import Any
 
 from cfree.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.forbidden import Boundary, boundary
-from cfree.pose import Pose, normalize_angles, tau_in_chart
+from cfree.half_angle import normalize_angles, tau_in_chart
+from cfree.pose import Pose
 from cfree.scene import Scene
 from cfree.trapezoids import Trapezoids
 from cfree.verify.algebra import Root, between

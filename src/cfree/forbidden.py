@@ -20,8 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.collector import collection_paused
 from cfree.errors import IncompleteError, InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
+from cfree.half_angle import Angle, tau_in
 from cfree.patch import IsolatedPart, Patches, Trapezoid
-from cfree.pose import Angle, tau_in
 from cfree.scene import Scene
 from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
 

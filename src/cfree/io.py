@@ -21,8 +21,9 @@ from cfree.exact import MAX_DIGITS
 from cfree.files import replacing
 from cfree.formats.findings import Findings, read_text
 from cfree.formats.json_text import read_json
+from cfree.half_angle import Angle
 from cfree.polygon import Polygon
-from cfree.pose import Angle, Pose
+from cfree.pose import Pose
 from cfree.scene import Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.pose import tau_in
+from cfree.half_angle import tau_in
 from cfree.trapezoids import CURVE
 
 if TYPE_CHECKING:

@@ -21,7 +21,8 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.exact import angle as angle_of
-from cfree.pose import Angle, Pose, Poses
+from cfree.half_angle import Angle
+from cfree.pose import Pose, Poses
 from cfree.slide import Slide
 
 Floats = NDArray[np.float64]

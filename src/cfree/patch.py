@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import InvariantError
 from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
-from cfree.pose import theta_in
+from cfree.half_angle import theta_in
 from cfree.surface import evaluate
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.pose import Angle, place_of
+from cfree.half_angle import Angle, place_of
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

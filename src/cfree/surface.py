@@ -22,8 +22,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
 from cfree.exact import ExactPoint, Number, finite, to_fraction
+from cfree.half_angle import Angle
 from cfree.polygon import Polygon
-from cfree.pose import Angle, Pose
+from cfree.pose import Pose
 
 Floats = NDArray[np.float64]
 

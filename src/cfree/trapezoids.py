@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.pose import theta_in
+from cfree.half_angle import theta_in
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]

@@ -19,10 +19,11 @@ import numpy as np
 from cfree.cells import NO_CELL
 from cfree.exact import simplest_between
 from cfree.features import BOUNDS
+from cfree.half_angle import chart_of, tau_in_chart
 from cfree.planning.exits import NEAR, Way
 from cfree.planning.search import simple_ways
 from cfree.planning.sheet import Sheet, between, contact_line, cross, minus, positions
-from cfree.pose import Pose, chart_of, tau_in_chart
+from cfree.pose import Pose
 from cfree.trapezoids import CURVE
 
 if TYPE_CHECKING:

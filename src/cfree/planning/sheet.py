@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from cfree.exact import simplest_between
 from cfree.features import SceneFeatures, ShapeFeatures, unpacked
-from cfree.pose import Pose, half_angle_rotation, tau_in_chart
+from cfree.half_angle import half_angle_rotation, tau_in_chart
+from cfree.pose import Pose
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary

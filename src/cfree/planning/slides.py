@@ -15,8 +15,9 @@ from flint import fmpq, fmpq_poly
 
 from cfree.errors import InvalidPoseError
 from cfree.features import SceneFeatures, ShapeFeatures
+from cfree.half_angle import half_angle_rotation
 from cfree.planning.sheet import Vector, contact_line
-from cfree.pose import Pose, half_angle_rotation
+from cfree.pose import Pose
 from cfree.slide import Slide, Touch, control_points, terms_of
 
 Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature

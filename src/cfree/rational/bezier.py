@@ -13,7 +13,7 @@ bidegree (1, 2) in (x, y) alone. Control points are values of the polar form; so
 
 The middle weight of degree 2 is positive exactly if the angle spans less than half a turn; those of degree 3 are at
 least 2/3 for u and v of one chart. Since tau has no value at the half turn, a patch that passes it is cut, and where
-|tau| > 1 it is written in the other chart of `cfree.pose`.
+|tau| > 1 it is written in the other chart of `cfree.half_angle`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from numpy.typing import NDArray
 
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.files import replacing
-from cfree.pose import chart_intervals, seen_in_chart
+from cfree.half_angle import chart_intervals, seen_in_chart
 from cfree.rational.model import RationalSurface
 from cfree.surface import Surface
 

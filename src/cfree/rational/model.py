@@ -27,8 +27,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, end_directions
 from cfree.exact import Number, to_fraction
+from cfree.half_angle import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
 from cfree.polygon import Polygon
-from cfree.pose import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
 from cfree.predicates import Location, Order, compare_directions, locate_in_sector
 from cfree.rational.surd import ExactAngle, Surd
 from cfree.surface import Helix, Surface, contact_helix, contact_surface

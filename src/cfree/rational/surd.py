@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from cfree.exact import Number, angle, to_fraction
-from cfree.pose import chart_of_direction, tau_in_chart
+from cfree.half_angle import chart_of_direction, tau_in_chart
 from cfree.predicates import Order, compare_with_surd
 
 
