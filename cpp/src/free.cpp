@@ -168,8 +168,7 @@ Verdict Checker::meet(const Placed& placed, Index i, Index j, const Range& range
 // All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
 // uncertain.
 template <class F>
-Verdict Checker::against(const Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide,
-                         Pair* by) const {
+Verdict Checker::against(const Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
     Verdict all = Verdict::free;
     const double slack = range.shift + range.turn * reach;
     for (Index i = 0; i < robot.count(); ++i) {
@@ -181,10 +180,7 @@ Verdict Checker::against(const Placed& placed, const Index* list, std::size_t co
             if (r.x0 > o.x1 || o.x0 > r.x1 || r.y0 > o.y1 || o.y0 > r.y1) continue;
             Verdict v = meet(placed, i, j, range);
             if (v == Verdict::uncertain) v = decide(i, j);
-            if (v == Verdict::forbidden) {
-                if (by) *by = {i, j};
-                return v;
-            }
+            if (v == Verdict::forbidden) return v;
             if (v == Verdict::uncertain) all = v;
         }
     }
@@ -292,7 +288,7 @@ static Vec<double> direction(double theta, std::size_t sector) {
     return {middles[sector].x * c - middles[sector].y * s, middles[sector].y * c + middles[sector].x * s};
 }
 
-// What is known of the other poses in its box: that they have the same verdict, and for the same reason, or nothing.
+// What is known of the other poses in its box: that they have the same verdict, or nothing.
 Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
     const std::size_t cell = slot / sectors, sector = slot % sectors, width = static_cast<std::size_t>(g.nx);
     const Index* list = &g.member[g.start[cell]];
@@ -301,23 +297,19 @@ Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& 
         const auto [c, s] = direction(theta, sector);
         placed.place({x, y, c, s});
     };
-    Pair by;
     place(pose[0], pose[1], pose[2]);
-    const Verdict found = against(placed, list, count, {}, [](Index, Index) { return Verdict::uncertain; }, &by);
+    const Verdict found = against(placed, list, count, {}, [](Index, Index) { return Verdict::uncertain; });
     std::atomic<State>& known = g.known[slot];
     const State state = known.load(std::memory_order_relaxed);
-    if (state == State::unseen) known.store(State::seen, std::memory_order_relaxed);
-    if (state != State::seen) return found;
+    if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
+    if (state == State::once) known.store(State::twice, std::memory_order_relaxed);
+    if (state != State::twice) return found;
     const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
-    const Range all{g.radius, half_sector};
-    State now = State::mixed;
     place(g.x0 + x * g.side, g.y0 + y * g.side, middle_of(sector));
-    if (found == Verdict::free) {
-        const auto far = against(placed, list, count, all, [](Index, Index) { return Verdict::forbidden; });
-        if (far == Verdict::free) now = State::free;
-    } else if (found == Verdict::forbidden && meet(placed, by.robot, by.obstacle, all) == Verdict::forbidden) {
-        now = State::forbidden;
-    }
+    const Verdict other = found == Verdict::free ? Verdict::forbidden : Verdict::uncertain;  // one pair ends the search, or none
+    const Verdict all = against(placed, list, count, {g.radius, half_sector}, [=](Index, Index) { return other; });
+    State now = State::mixed;
+    if (all == found && found != Verdict::uncertain) now = found == Verdict::free ? State::free : State::forbidden;
     known.store(now, std::memory_order_relaxed);
     return found;
 }

@@ -59,18 +59,14 @@ private:
     struct Range {
         double shift = 0, turn = 0;
     };
-    struct Pair {  // of pieces
-        Index robot, obstacle;
-    };
     Verdict meet(const Placed& robot, Index i, Index j, const Range& range) const;
     template <class F>
-    Verdict against(const Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide,
-                    Pair* by = nullptr) const;
+    Verdict against(const Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide) const;
     bool overlap(const ExactPlacement& at, Index i, Index j) const;
 
     // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
-    // of all poses there, found when a second one comes by; threads may find it twice, and find the same.
-    enum class State : std::uint8_t { unseen, seen, forbidden, free, mixed };
+    // of all poses there, found when a third one comes by; threads may find it twice, and find the same.
+    enum class State : std::uint8_t { unseen, once, twice, forbidden, free, mixed };
     struct Grid {
         double x0 = 0, y0 = 0, side = 0, per_unit = 0, radius = 0;  // radius: of a cell, and a little more
         Index nx = 0, ny = 0;
