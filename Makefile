@@ -1,7 +1,7 @@
 # Everything lives in .venv; needs python3 (3.11 or newer), g++ and make. Rebuilt only when its sources change.
 PYTHON ?= python3
 BIN := .venv/bin
-SANITIZED := $(addprefix tests/test_,core.py motion.py patch.py slice.py storage.py mesh.py surface.py exact_slices.py cases.py cells.py free.py plan.py)
+SANITIZED := $(addprefix tests/test_,core.py motion.py slide.py patch.py slice.py storage.py mesh.py surface.py exact_slices.py cases.py cells.py free.py plan.py)
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
