@@ -30,6 +30,19 @@ Vec<double> unit_normal(const Vec<Int>& e) {
     const double dx = ball(e.x, bits).hi, dy = ball(e.y, bits).hi, length = std::sqrt(dx * dx + dy * dy);
     return {dy / length, -dx / length};
 }
+
+double middle_of(std::size_t sector) { return (static_cast<double>(sector) + 0.5) * (two_pi / sectors); }
+
+// Sixteenths of the circle, by signs and two comparisons; tan(pi / 8) is between the tangents of the middles of two.
+std::size_t direction_of(const Vec<double>& d) {
+    const double x = std::abs(d.x), y = std::abs(d.y), less = std::min(x, y), more = std::max(x, y);
+    return std::size_t(d.x < 0) + 2 * std::size_t(d.y < 0) + 4 * std::size_t(y > x) + 8 * std::size_t(less > 0.41421356 * more);
+}
+Vec<double> middle_of_direction(std::size_t k) {
+    const double less = std::tan((k & 8 ? 3 : 1) * std::numbers::pi / 16);
+    const Vec<double> d = k & 4 ? Vec<double>{less, 1} : Vec<double>{1, less};
+    return {k & 1 ? -d.x : d.x, k & 2 ? -d.y : d.y};
+}
 }  // namespace
 
 Checker::Pieces Checker::pieces_of(const Shape& shape, const double* xy) {
@@ -46,6 +59,13 @@ Checker::Pieces Checker::pieces_of(const Shape& shape, const double* xy) {
             p.nx.push_back(n.x), p.ny.push_back(n.y), p.h.push_back(n.x * xy[2 * v] + n.y * xy[2 * v + 1]);
         }
         p.first.push_back(static_cast<Index>(p.x.size()));
+        auto& far = p.far.emplace_back();
+        for (std::size_t d = 0; d < far.size(); ++d) {
+            const Vec<double> to = middle_of_direction(d);
+            far[d] = p.first[p.first.size() - 2];
+            for (Index m = far[d]; m < p.first.back(); ++m)
+                if (to.x * p.x[m] + to.y * p.y[m] > to.x * p.x[far[d]] + to.y * p.y[far[d]]) far[d] = m;
+        }
     }
     return p;
 }
@@ -67,34 +87,49 @@ Checker::Checker(std::shared_ptr<const Scene> s, Int unit, const double* robot_x
     }
 }
 
-// The robot in a pose, in doubles; memory is kept from one pose to the next.
+// The robot in a pose, in doubles; memory is kept from one pose to the next. Vertices of a piece are placed when asked for.
 struct Checker::Placed {
     const Pieces& at_rest;
     Placement at{};
     std::vector<double> x, y;
-    std::vector<Ranges> box;
-    explicit Placed(const Pieces& p) : at_rest(p) {
-        x.resize(p.x.size()), y.resize(p.x.size()), box.resize(p.number.size());
+    std::vector<Ranges> box;  // around the pieces
+    std::vector<char> is_placed;
+    explicit Placed(const Pieces& p)
+        : at_rest(p), x(p.x.size()), y(p.x.size()), box(p.number.size()), is_placed(p.number.size()) {}
+    // With boxes that are known for the pose at the origin.
+    void place(const Placement& pose, const Ranges* around) {
+        at = pose;
+        for (std::size_t i = 0; i < box.size(); ++i) {
+            box[i] = {at.x + around[i].x0, at.y + around[i].y0, at.x + around[i].x1, at.y + around[i].y1};
+            is_placed[i] = false;
+        }
     }
     void place(const Placement& pose) {
         at = pose;
-        const Pieces& p = at_rest;
-        for (std::size_t k = 0; k < x.size(); ++k) {
-            x[k] = at.x + (at.c * p.x[k] - at.s * p.y[k]);
-            y[k] = at.y + (at.s * p.x[k] + at.c * p.y[k]);
+        for (Index i = 0; i < at_rest.count(); ++i) {
+            is_placed[i] = false;
+            put(i);
+            const auto begin = at_rest.first[i], end = at_rest.first[i + 1];
+            const auto [x0, x1] = std::minmax_element(x.begin() + begin, x.begin() + end);
+            const auto [y0, y1] = std::minmax_element(y.begin() + begin, y.begin() + end);
+            box[i] = {*x0, *y0, *x1, *y1};
         }
-        for (Index i = 0; i < p.count(); ++i) {
-            Ranges r{x[p.first[i]], y[p.first[i]], x[p.first[i]], y[p.first[i]]};
-            for (Index k = p.first[i] + 1; k < p.first[i + 1]; ++k) {
-                r.x0 = std::min(r.x0, x[k]), r.x1 = std::max(r.x1, x[k]);
-                r.y0 = std::min(r.y0, y[k]), r.y1 = std::max(r.y1, y[k]);
-            }
-            box[i] = r;
+    }
+    void put(Index i) {
+        if (is_placed[i]) return;
+        is_placed[i] = true;
+        for (Index k = at_rest.first[i]; k < at_rest.first[i + 1]; ++k) {
+            const auto v = vertex(k);
+            x[k] = v.x, y[k] = v.y;
         }
+    }
+    Vec<double> vertex(Index k) const {
+        return {at.x + (at.c * at_rest.x[k] - at.s * at_rest.y[k]), at.y + (at.s * at_rest.x[k] + at.c * at_rest.y[k])};
     }
     Vec<double> normal(Index k) const {
         return {at.c * at_rest.nx[k] - at.s * at_rest.ny[k], at.s * at_rest.nx[k] + at.c * at_rest.ny[k]};
     }
+    Vec<double> seen_from(const Vec<double>& d) const { return {at.c * d.x + at.s * d.y, at.c * d.y - at.s * d.x}; }
 };
 
 // Is the outer side of a line n . p = h, by the margin, free of points? A point that is certainly inside is tried first the
@@ -114,53 +149,44 @@ static Verdict beyond(const Vec<double>& n, double h, double margin, const doubl
     return least >= margin ? Verdict::free : Verdict::uncertain;
 }
 
-// The vertex of a ring farthest in a direction.
-static Index farthest(const Vec<double>& d, const double* x, const double* y, Index count) {
-    Index best = 0;
-    double most = -std::numeric_limits<double>::infinity();
-    for (Index k = 0; k < count; ++k) {
-        const double along = d.x * x[k] + d.y * y[k];
-        best = along > most ? k : best, most = std::max(along, most);
-    }
-    return best;
-}
-
-// The vertex of each piece that reaches farthest towards the other is on the inner side of most edges: they do not separate.
-// If it is inside the whole piece, the interiors meet.
-Verdict Checker::meet(const Placed& placed, Index i, Index j, const Range& range) const {
+// A vertex of each piece that reaches far towards the other is on the inner side of most edges: they do not separate. If it
+// is inside the whole piece, the interiors meet.
+Verdict Checker::meet(Placed& placed, Index i, Index j, const Range& range) const {
     const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
     const Vec<double> towards{0.5 * (box[j].x0 + box[j].x1) - placed.at.x, 0.5 * (box[j].y0 + box[j].y1) - placed.at.y};
-    Verdict all = Verdict::forbidden;
     double slack = margin + range.shift + range.turn * reach;
-    Index first = farthest(towards, &placed.x[a], &placed.y[a], n);
-    const double x = placed.x[a + first], y = placed.y[a + first];
-    bool is_inside = true;
-    for (Index k = b; k < b + m; ++k) {
-        if (obstacles.nx[k] * x + obstacles.ny[k] * y - obstacles.h[k] <= -slack) continue;
-        is_inside = false;
+    Index first = robot.far[i][direction_of(placed.seen_from(towards))];
+    const Vec<double> p = placed.vertex(first);
+    const auto is_inner = [&](Index k) { return obstacles.nx[k] * p.x + obstacles.ny[k] * p.y - obstacles.h[k] <= -slack; };
+    Index k = b;
+    while (k < b + m && is_inner(k)) ++k;
+    if (k == b + m) return Verdict::forbidden;
+    placed.put(i);
+    first -= a;
+    Verdict all = Verdict::forbidden;
+    for (; k < b + m; ++k) {
+        if (is_inner(k)) continue;
         const Verdict v = beyond({obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], slack, &placed.x[a], &placed.y[a], n, first);
         if (v == Verdict::free) return v;
         if (v == Verdict::uncertain) all = v;
     }
-    if (is_inside) return Verdict::forbidden;
     if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
         const double dx = std::max(box[j].x1 - placed.at.x, placed.at.x - box[j].x0);
         const double dy = std::max(box[j].y1 - placed.at.y, placed.at.y - box[j].y0);
         slack = margin + range.shift + range.turn * (std::abs(dx) + std::abs(dy));
     }
-    first = farthest({-towards.x, -towards.y}, &obstacles.x[b], &obstacles.y[b], m);
-    // that one seen from the robot
-    const double dx = obstacles.x[b + first] - placed.at.x, dy = obstacles.y[b + first] - placed.at.y;
-    const double u = placed.at.c * dx + placed.at.s * dy, v = placed.at.c * dy - placed.at.s * dx;
-    is_inside = true;
-    for (Index k = a; k < a + n; ++k) {
-        if (robot.nx[k] * u + robot.ny[k] * v - robot.h[k] <= -slack) continue;
+    first = obstacles.far[j][direction_of({-towards.x, -towards.y})];
+    const Vec<double> q = placed.seen_from({obstacles.x[first] - placed.at.x, obstacles.y[first] - placed.at.y});
+    first -= b;
+    bool is_inside = true;
+    for (k = a; k < a + n; ++k) {
+        if (robot.nx[k] * q.x + robot.ny[k] * q.y - robot.h[k] <= -slack) continue;
         is_inside = false;
         const auto normal = placed.normal(k);
         const double h = normal.x * placed.x[k] + normal.y * placed.y[k];
-        const Verdict found = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
-        if (found == Verdict::free) return found;
-        if (found == Verdict::uncertain) all = found;
+        const Verdict v = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
+        if (v == Verdict::free) return v;
+        if (v == Verdict::uncertain) all = v;
     }
     return is_inside ? Verdict::forbidden : all;
 }
@@ -168,7 +194,7 @@ Verdict Checker::meet(const Placed& placed, Index i, Index j, const Range& range
 // All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
 // uncertain.
 template <class F>
-Verdict Checker::against(const Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
+Verdict Checker::against(Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
     Verdict all = Verdict::free;
     const double slack = range.shift + range.turn * reach;
     for (Index i = 0; i < robot.count(); ++i) {
@@ -253,6 +279,12 @@ void Checker::fill(Grid& g) const {
     g.member.resize(found.size());
     std::vector<Index> next(g.start.begin(), g.start.end() - 1);
     for (const auto& [c, j] : found) g.member[next[c]++] = j;
+    Placed turned(robot);
+    for (std::size_t k = 0; k < sectors; ++k) {
+        turned.place({0, 0, std::cos(middle_of(k)), std::sin(middle_of(k))});
+        const double r = half_sector * reach + margin;
+        for (const Ranges& at : turned.box) g.around.push_back({at.x0 - r, at.y0 - r, at.x1 + r, at.y1 + r});
+    }
     g.known = std::vector<std::atomic<State>>(blocked.size() * sectors);
     for (std::size_t c = 0; c < blocked.size(); ++c)
         if (blocked[c] || g.start[c] == g.start[c + 1])
@@ -271,8 +303,6 @@ std::size_t Checker::Grid::slot(double x, double y, double theta) const {
     const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(column);
     return cell * sectors + std::min<std::size_t>(static_cast<std::size_t>(theta * (sectors / two_pi)), sectors - 1);
 }
-
-static double middle_of(std::size_t sector) { return (static_cast<double>(sector) + 0.5) * (two_pi / sectors); }
 
 // Cosine and sine of an angle in a sector: those of its middle, turned by series to the 8th power of at most pi / 64, whose
 // next terms are below 2^-57. In all within 2^-50.
@@ -295,7 +325,7 @@ Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& 
     const auto count = static_cast<std::size_t>(g.start[cell + 1] - g.start[cell]);
     const auto place = [&](double x, double y, double theta) {
         const auto [c, s] = direction(theta, sector);
-        placed.place({x, y, c, s});
+        placed.place({x, y, c, s}, &g.around[sector * robot.number.size()]);
     };
     place(pose[0], pose[1], pose[2]);
     const Verdict found = against(placed, list, count, {}, [](Index, Index) { return Verdict::uncertain; });

@@ -47,6 +47,7 @@ private:
     struct Pieces {
         std::vector<Index> number, first;  // in the shape; of its vertices, and the end
         std::vector<double> x, y, nx, ny, h;
+        std::vector<std::array<Index, 16>> far;  // of a piece, vertices that reach far in sixteen directions
         Index count() const { return static_cast<Index>(number.size()); }
     };
     struct Ranges {  // of a piece's coordinates
@@ -59,9 +60,9 @@ private:
     struct Range {
         double shift = 0, turn = 0;
     };
-    Verdict meet(const Placed& robot, Index i, Index j, const Range& range) const;
+    Verdict meet(Placed& robot, Index i, Index j, const Range& range) const;
     template <class F>
-    Verdict against(const Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide) const;
+    Verdict against(Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide) const;
     bool overlap(const ExactPlacement& at, Index i, Index j) const;
 
     // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
@@ -71,6 +72,7 @@ private:
         double x0 = 0, y0 = 0, side = 0, per_unit = 0, radius = 0;  // radius: of a cell, and a little more
         Index nx = 0, ny = 0;
         std::vector<Index> start, member;
+        std::vector<Ranges> around;  // by sector and robot piece: boxes that hold it, the reference point at the origin
         std::vector<std::atomic<State>> known;
         std::size_t slot(double x, double y, double theta) const;
     };
