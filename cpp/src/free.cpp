@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <tuple>
 
 #include "parallel.hpp"
 
@@ -255,7 +256,11 @@ void Checker::fill(Grid& g) const {
     double core = 0;  // of a disc in the robot, around its reference point
     for (Index i = 0; i < robot.count(); ++i)
         core = std::max(core, *std::min_element(&robot.h[robot.first[i]], robot.h.data() + robot.first[i + 1]) - margin);
-    std::vector<std::pair<Index, Index>> found;  // cell, piece
+    struct Near {
+        Index cell, piece;
+        double distance;
+    };
+    std::vector<Near> found;
     std::vector<char> blocked(static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(g.ny));
     for (Index j = 0; j < obstacles.count(); ++j) {
         const Ranges& b = box[j];
@@ -269,16 +274,16 @@ void Checker::fill(Grid& g) const {
                 const double x = g.x0 + (column + 0.5) * side, y = g.y0 + (row + 0.5) * side;
                 const double d = distance(obstacles, j, x, y);
                 if (d + radius < core) blocked[cell_number] = true;
-                else if (d < reach + radius) found.emplace_back(cell_number, j);
+                else if (d < reach + radius) found.push_back({cell_number, j, d});
             }
     }
-    std::erase_if(found, [&](const auto& item) { return blocked[item.first]; });
+    std::erase_if(found, [&](const Near& near) { return blocked[near.cell]; });
+    std::sort(found.begin(), found.end(), [](const Near& p, const Near& q) {  // what overlaps most likely is asked first
+        return std::tie(p.cell, p.distance, p.piece) < std::tie(q.cell, q.distance, q.piece);
+    });
     g.start.assign(blocked.size() + 1, 0);
-    for (const auto& [c, j] : found) ++g.start[c + 1];
+    for (const Near& near : found) ++g.start[near.cell + 1], g.member.push_back(near.piece);
     std::partial_sum(g.start.begin(), g.start.end(), g.start.begin());
-    g.member.resize(found.size());
-    std::vector<Index> next(g.start.begin(), g.start.end() - 1);
-    for (const auto& [c, j] : found) g.member[next[c]++] = j;
     Placed turned(robot);
     for (std::size_t k = 0; k < sectors; ++k) {
         turned.place({0, 0, std::cos(middle_of(k)), std::sin(middle_of(k))});
