@@ -168,7 +168,7 @@ Verdict Checker::meet(Placed& placed, Index i, Index j, const Range& range) cons
     for (; k < b + m; ++k) {
         if (is_inner(k)) continue;
         const Verdict v = beyond({obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], slack, &placed.x[a], &placed.y[a], n, first);
-        if (v == Verdict::free) return v;
+        if (v == Verdict::free || (v == Verdict::uncertain && range.wanted == Verdict::forbidden)) return v;
         if (v == Verdict::uncertain) all = v;
     }
     if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
@@ -186,7 +186,7 @@ Verdict Checker::meet(Placed& placed, Index i, Index j, const Range& range) cons
         const auto normal = placed.normal(k);
         const double h = normal.x * placed.x[k] + normal.y * placed.y[k];
         const Verdict v = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
-        if (v == Verdict::free) return v;
+        if (v == Verdict::free || (v == Verdict::uncertain && range.wanted == Verdict::forbidden)) return v;
         if (v == Verdict::uncertain) all = v;
     }
     return is_inside ? Verdict::forbidden : all;
@@ -342,7 +342,7 @@ Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& 
     const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
     place(g.x0 + x * g.side, g.y0 + y * g.side, middle_of(sector));
     const Verdict other = found == Verdict::free ? Verdict::forbidden : Verdict::uncertain;  // one pair ends the search, or none
-    const Verdict all = against(placed, list, count, {g.radius, half_sector}, [=](Index, Index) { return other; });
+    const Verdict all = against(placed, list, count, {g.radius, half_sector, found}, [=](Index, Index) { return other; });
     State now = State::mixed;
     if (all == found && found != Verdict::uncertain) now = found == Verdict::free ? State::free : State::forbidden;
     known.store(now, std::memory_order_relaxed);

@@ -59,6 +59,7 @@ private:
     // Poses around one: the reference point no further away than `shift`, turned by no more than `turn`. Verdicts hold for all.
     struct Range {
         double shift = 0, turn = 0;
+        Verdict wanted = Verdict::uncertain;  // forbidden: others need not be told apart
     };
     Verdict meet(Placed& robot, Index i, Index j, const Range& range) const;
     template <class F>
