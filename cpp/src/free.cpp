@@ -34,10 +34,10 @@ Vec<double> unit_normal(const Vec<Int>& e) {
 
 double middle_of(std::size_t sector) { return (static_cast<double>(sector) + 0.5) * (two_pi / sectors); }
 
-// Sixteenths of the circle, by signs and two comparisons; tan(pi / 8) is between the tangents of the middles of two.
+// Sixteenths of the circle, nearly: by signs and two comparisons, as the tangent of pi / 8 is about 5 / 12.
 std::size_t direction_of(const Vec<double>& d) {
     const double x = std::abs(d.x), y = std::abs(d.y), less = std::min(x, y), more = std::max(x, y);
-    return std::size_t(d.x < 0) + 2 * std::size_t(d.y < 0) + 4 * std::size_t(y > x) + 8 * std::size_t(less > 0.41421356 * more);
+    return std::size_t(d.x < 0) + 2 * std::size_t(d.y < 0) + 4 * std::size_t(y > x) + 8 * std::size_t(12 * less > 5 * more);
 }
 Vec<double> middle_of_direction(std::size_t k) {
     const double less = std::tan((k & 8 ? 3 : 1) * std::numbers::pi / 16);
