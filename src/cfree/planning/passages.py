@@ -105,8 +105,13 @@ class Passages:
             if sheet.low < sheet.high:
                 taus = [between(sheet.low, sheet.high)]
                 taus += [tau for b in BEYOND for tau in (sheet.low - Fraction(1, 2**b), sheet.high + Fraction(1, 2**b))]
-                poses = (sheet.pose(sheet.limits(tau)[0], tau) for tau in taus)
-                yield from (pose for pose in poses if self.walker.checker.joins([pose, pose]))
+                for tau in taus:
+                    try:
+                        pose = sheet.pose(sheet.limits(tau)[0], tau)
+                    except ZeroDivisionError:  # beyond an end the two lines may be parallel
+                        continue
+                    if self.walker.checker.joins([pose, pose]):
+                        yield pose
 
     @cached_property
     def _slits(self) -> list[Pose]:
