@@ -1,0 +1,259 @@
+"""Questions asked both ways and in other words, answers saved, loaded, verified and replayed, until a time is up.
+
+    python tests/fuzz_answers.py --seconds 600 --seed 7 --families slot room tiny
+    python tests/fuzz_answers.py SCENE.json
+
+Question k of family f is the same for ever; the first have the number `--seed`, and the last line says where to go on.
+Each kind of fault is shown once a family, as its smallest scene; how often it was seen is in the summary.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import multiprocessing
+import random
+import signal
+import sys
+import tempfile
+import time
+import traceback
+from collections import Counter, defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
+from itertools import count
+from multiprocessing.connection import Connection
+from pathlib import Path as FilePath
+from typing import Any
+
+import cfree.verify
+import fuzz
+from cfree import Path, Scene, Separated, load_answer, load_scene, plan
+from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
+from cfree.io import scene_text
+from laws import broken, laws
+from questions import FAMILIES, Question, question
+from replay import CLOSE, deviation
+
+PATIENCE = 20.0  # seconds of CPU for one answer with all that is checked of it
+SHRINKING = 15.0  # seconds of CPU for making a question small
+LAWS = 2  # other questions for each, beside the way back
+
+Fault = tuple[str, str]  # kind, for counting; what exactly
+
+
+@dataclass
+class Outcome:
+    """What came of a question and its relatives."""
+
+    verdicts: list[str] = field(default_factory=list)
+    faults: list[Fault] = field(default_factory=list)
+
+
+def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
+    """The question, its way back, and a few of its other relatives."""
+    rng, outcome = random.Random(seed), Outcome()
+    verdict = _answered(asked, outcome)
+    if asked.known and verdict and verdict not in (asked.known, "refused"):
+        outcome.faults.append((f"known: {asked.known}, answer: {verdict}", ""))
+    if verdict not in ("path", "closed", "interior"):
+        return outcome
+    back, *others = laws(rng, asked)
+    for law in [back, *rng.sample(others, min(most, len(others)))]:
+        other = _answered(law.other, outcome)
+        if other in ("path", "closed", "interior") and (wrong := broken(law, verdict, other)):
+            outcome.faults.append((wrong, ""))
+        elif other == "forbidden":
+            outcome.faults.append((f"{law.name}: {verdict}, then a forbidden pose", ""))
+    return outcome
+
+
+def _answered(asked: Question, outcome: Outcome) -> str | None:
+    """The verdict, after its evidence was looked at; None if there was a fault instead."""
+    try:
+        with _limited(PATIENCE):
+            scene = asked.scene
+            found = plan(scene, improve=0)
+            outcome.faults += evidence(scene, found)
+            verdict = "path" if isinstance(found, Path) else found.of
+    except InvalidPoseError:
+        verdict = "forbidden"
+    except UnsupportedError:
+        verdict = "refused"
+    except Exception as error:
+        outcome.verdicts.append("error")
+        outcome.faults.append((_kind(error), traceback.format_exc()))
+        return None
+    outcome.verdicts.append(verdict)
+    return verdict
+
+
+def evidence(scene: Scene, found: Path | Separated) -> list[Fault]:
+    """What is wrong with an answer in a file."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = FilePath(folder) / "answer.json"
+        found.save(file)
+        faults = [] if load_answer(file) == found else [("another answer after loading", "")]
+        result = cfree.verify.answer(scene, file)
+        if not result.verified:
+            kinds = sorted({finding.kind for finding in result.findings})
+            faults.append((f"not verified: {', '.join(kinds)}", "; ".join(map(str, result.findings[:2]))))
+        if isinstance(found, Path) and (astray := deviation(scene, found, file)) > CLOSE:
+            faults.append(("decimals lead astray", f"by {astray:.3g} robot sizes"))
+        return faults
+
+
+def _kind(error: Exception) -> str:
+    """The error, and the innermost place in the package."""
+    places = [frame for frame in traceback.extract_tb(error.__traceback__) if "cfree" in frame.filename]
+    place = f" in {FilePath(places[-1].filename).stem}.{places[-1].name}" if places else ""
+    if isinstance(error, TimeoutError):
+        return f"not finished after {PATIENCE:g} s"
+    return f"{type(error).__name__}{place}: {str(error)[:60]}"
+
+
+@contextlib.contextmanager
+def _limited(seconds: float) -> Iterator[None]:
+    """An error in the middle after so much CPU."""
+
+    def stop(*_: Any) -> None:
+        raise TimeoutError
+
+    signal.signal(signal.SIGPROF, stop)
+    signal.setitimer(signal.ITIMER_PROF, seconds)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+
+
+# --- making a question small ---
+
+
+def reduced(asked: Question, seed: str, kind: str) -> Question:
+    """Something smaller with the same fault, found in time."""
+    end = time.process_time() + SHRINKING
+
+    def fails(plain: Any) -> bool:
+        with contextlib.suppress(InvalidPolygonError):
+            faults = examined(replace(asked, plain=plain), seed).faults if time.process_time() < end else []
+            return any(fault[0] == kind for fault in faults)
+        return False
+
+    return asked if kind.startswith("known") else replace(asked, plain=fuzz.reduced(asked.plain, fails))
+
+
+# --- the run ---
+
+
+def work(connection: Connection) -> None:
+    """Names come in, outcomes go out; with a kind of fault, the question made small."""
+    while True:
+        family, number, kind = connection.recv()
+        asked, seed = question(family, number), f"laws {family} {number}"
+        if kind is None:
+            connection.send(asked and examined(asked, seed))
+        else:
+            assert asked
+            connection.send(scene_text(reduced(asked, seed, kind).scene))
+
+
+class Worker:
+    """A process that is replaced when it does not answer."""
+
+    def __init__(self) -> None:
+        self.start()
+
+    def start(self) -> None:
+        context = multiprocessing.get_context("fork")
+        self.connection, theirs = context.Pipe()
+        self.process = context.Process(target=work, args=(theirs,), daemon=True)
+        self.process.start()
+        theirs.close()
+
+    def ask(self, family: str, number: int, kind: str | None = None) -> Any:
+        """What it says; None after too long or a crash, as a fault."""
+        self.connection.send((family, number, kind))
+        try:
+            if self.connection.poll(10 * PATIENCE):
+                return self.connection.recv()
+            fault = "hangs"
+        except EOFError:
+            fault = "crashes"
+        self.process.kill()
+        self.process.join()
+        fault += f" ({self.process.exitcode})"
+        self.start()
+        return Outcome(["error"], [(fault, "")]) if kind is None else scene_text(_asked(family, number).scene)
+
+
+def _asked(family: str, number: int) -> Question:
+    asked = question(family, number)
+    assert asked
+    return asked
+
+
+@dataclass
+class Tally:
+    """Counts by family."""
+
+    verdicts: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+    faults: defaultdict[str, Counter[str]] = field(default_factory=lambda: defaultdict(Counter))
+
+    @property
+    def scenes(self) -> int:
+        return sum(sum(counts.values()) for counts in self.verdicts.values())
+
+    def __str__(self) -> str:
+        lines = [f"{self.scenes:,} scenes"]
+        for family, counts in self.verdicts.items():
+            lines.append(f"  {family}: {sum(counts.values()):,}; " + _listed(counts))
+            lines += [f"    {n} x {kind}" for kind, n in self.faults[family].most_common()]
+        return "\n".join(lines)
+
+
+def _listed(counts: Counter[str]) -> str:
+    return ", ".join(f"{n:,} {name}" for name, n in sorted(counts.items()))
+
+
+def run(families: list[str], seed: int, seconds: float, most: int) -> int:
+    """Ask until a time is up or so many scenes were; returns 1 if there was a fault."""
+    end, tally, worker, seen = time.monotonic() + seconds, Tally(), Worker(), set()
+    for number in count(seed):
+        for family in families:
+            outcome = worker.ask(family, number)
+            if outcome is None:
+                continue
+            tally.verdicts[family].update(outcome.verdicts)
+            for kind, text in outcome.faults:
+                tally.faults[family][kind] += 1
+                if (family, kind) not in seen:
+                    seen.add((family, kind))
+                    small = worker.ask(family, number, kind)
+                    print(f"--- {family} {number}: {kind}", text, small, sep="\n", flush=True)
+        if (number - seed) % 50 == 49:
+            print(f"{time.strftime('%H:%M')} {tally}", flush=True)
+        if time.monotonic() > end or tally.scenes >= most:
+            print(f"{tally}\ngo on with --seed {number + 1}")
+            return int(bool(seen))
+    raise AssertionError
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scenes", nargs="*", type=FilePath, help="files with start and goal, instead of random ones")
+    parser.add_argument("--seconds", type=float, default=600)
+    parser.add_argument("--count", type=int, default=sys.maxsize, help="scenes at most, relatives counted")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--families", nargs="+", default=list(FAMILIES), choices=FAMILIES)
+    options = parser.parse_args()
+    if not options.scenes:
+        return run(options.families, options.seed, options.seconds, options.count)
+    outcomes = {path: examined(Question.of(load_scene(path)), "0", 99) for path in options.scenes}
+    for path, outcome in outcomes.items():
+        print(path, *outcome.verdicts, *(": ".join(fault) for fault in outcome.faults), sep="\n  ")
+    return int(any(outcome.faults for outcome in outcomes.values()))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
