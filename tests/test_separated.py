@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from cfree import (
     separation,
 )
 from cfree.cli import app
+from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
 from test_cells import ROD, TIGHT, hollow, space_of
 
@@ -170,6 +172,21 @@ def test_files_hold_separations_exactly(tmp_path: Path) -> None:
         assert again == proof and isinstance(again, Separated) and again.obstacles == proof.obstacles
     with pytest.raises(UnsupportedError, match=r"written as \.json"):
         proof.save(tmp_path / "proof.csv")
+
+
+def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Angles may be named by diagonals; another version may draw others, and other programs none."""
+    plain = random_scene(36, "axis_parallel")
+    space = space_of(plain)
+    proof = proved(space, Pose(4, -2), Pose(99, 0))
+    assert {item.kind for item in proof.pieces.auxiliary} == {"edge"}
+    proof.save(tmp_path / "proof.json")
+    again = load_answer(tmp_path / "proof.json")
+    assert isinstance(again, Separated) and again == proof
+    bare = replace(again, pieces=replace(again.pieces, auxiliary=()))
+    assert bare != proof and not cfree.verify.answer(space.boundary.scene, bare).verified
+    monkeypatch.setattr("cfree.decompose._merge", lambda v, rings, triangles: triangles[::-1])
+    assert cfree.verify.answer(scene_of(plain), load_answer(tmp_path / "proof.json")).verified
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 from itertools import chain
 from os import PathLike
@@ -19,17 +20,39 @@ from numpy.typing import NDArray
 
 from cfree.cells import FORBIDDEN, FreeSpace
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
+from cfree.exact import ExactPoint
+from cfree.features import unpacked
 from cfree.files import replacing
 from cfree.inset import INSETS, inset_space, size_power
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Bounds
-from cfree.trapezoids import COLUMNS, Ints, Trapezoids
+from cfree.trapezoids import CODED, COLUMNS, Ints, Trapezoids
 
 if TYPE_CHECKING:
+    from cfree.features import SceneFeatures
     from cfree.forbidden import Boundary
     from cfree.margins import NearestMiss
     from cfree.scene import Scene
+
+
+@dataclass(frozen=True)
+class Auxiliary:
+    """A point, or a line through two, by which an angle or a curve is named, and which is no feature of the scene.
+
+    Attributes
+    ----------
+    of : "robot" or "obstacles"
+        In whose frame it is, and among whose features it has its number.
+    kind : "vertex" or "edge"
+    number : int
+    points : one exact point, or two
+    """
+
+    of: Literal["robot", "obstacles"]
+    kind: Literal["vertex", "edge"]
+    number: int
+    points: tuple[ExactPoint, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,12 +68,15 @@ class Pieces:
         workspace's complement: vertices are the workspace's, whose rings it runs through the other way.
     table : Trapezoids
         Their angles and curves; patch k is that of contact k.
+    auxiliary : tuple of Auxiliary
+        What the table names and the scene does not have: diagonals of convex pieces, corners beyond the bounds.
     """
 
     kind: NDArray[np.uint8]
     robot: Ints
     obstacle: Ints
     table: Trapezoids
+    auxiliary: tuple[Auxiliary, ...] = ()
 
     def __len__(self) -> int:
         return len(self.kind)
@@ -58,7 +84,8 @@ class Pieces:
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Pieces):
             return NotImplemented
-        return all(np.array_equal(mine, theirs) for mine, theirs in zip(self._columns, other._columns, strict=True))
+        same = all(np.array_equal(mine, theirs) for mine, theirs in zip(self._columns, other._columns, strict=True))
+        return same and self.auxiliary == other.auxiliary
 
     @property
     def _columns(self) -> Iterator[NDArray[Any]]:
@@ -75,7 +102,23 @@ class Pieces:
         )
         columns = {name: getattr(boundary.trapezoids, name)[faces] for name in COLUMNS}
         columns["patch"] = np.arange(len(faces), dtype=np.int32)
-        return cls(boundary.contact_kind[patch], robot, obstacle, Trapezoids(**columns))
+        table = Trapezoids(**columns)
+        return cls(boundary.contact_kind[patch], robot, obstacle, table, tuple(_auxiliary(boundary.features, table)))
+
+
+def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary]:
+    """What a table's names need and the rings of the scene's polygons do not have."""
+    codes = np.unique(np.concatenate([getattr(table, name) for name in CODED]))
+    kind, i, j = unpacked(codes[codes > 0])
+    for of, shape, number, first in (("robot", features.robot, i, 1), ("obstacles", features.obstacles, j, 2)):
+        is_vertex = (kind == first) | (kind == 3)
+        owned = np.append(shape.owner_vertex >= 0, False)
+        foreign = ~owned[np.minimum(number, len(owned) - 1)]
+        for name, chosen in (("vertex", is_vertex), ("edge", ~is_vertex)):
+            for k in np.unique(number[foreign & chosen]).tolist():
+                ends = (k,) if name == "vertex" else (int(shape.v[k]), int(shape.w[k]))
+                points = [[Fraction(c, shape.scale) for c in shape.vertices[end]] for end in ends]
+                yield Auxiliary(of, name, k, tuple((x, y) for x, y in points))  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, repr=False)

@@ -15,9 +15,9 @@ from pydantic import Field, PlainValidator, model_validator
 from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.path_format import AnswerModel, configuration, exact_configuration
-from cfree.formats.scene_format import Bounds, PolygonModel, Strict, fault
+from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict, fault
 from cfree.polygon import Polygon
-from cfree.separated import Pieces, Separated
+from cfree.separated import Auxiliary, Pieces, Separated
 from cfree.trapezoids import CODED, COLUMNS, Trapezoids
 
 KINDS = {1: "vertex-edge", 2: "edge-vertex"}
@@ -74,6 +74,25 @@ class PieceModel(Strict):
         return row
 
 
+class AuxiliaryModel(Strict):
+    """A point or a line that names use and the scene does not have."""
+
+    of: Literal["robot", "obstacles"]
+    kind: Literal["vertex", "edge"]
+    number: Annotated[int, Field(ge=0, lt=MOST_OBSTACLE_FEATURES)]
+    points: list[Point]
+
+    @model_validator(mode="after")
+    def _fits(self) -> AuxiliaryModel:
+        if not len(set(self.points)) == len(self.points) == {"vertex": 1, "edge": 2}[self.kind]:
+            raise fault("expected one point of a vertex, two of an edge, got {got}")
+        return self
+
+    @property
+    def result(self) -> Auxiliary:
+        return Auxiliary(self.of, self.kind, self.number, tuple(self.points))
+
+
 class SeparationModel(AnswerModel):
     """Two poses, and a closed surface between them."""
 
@@ -83,6 +102,7 @@ class SeparationModel(AnswerModel):
     obstacles: list[Annotated[int, Field(ge=-2, lt=2**31)]]
     smaller_robot: Annotated[list[PolygonModel], Field(default_factory=list)]
     larger_bounds: Bounds | None = None
+    auxiliary: Annotated[list[AuxiliaryModel], Field(default_factory=list)]
     surface: list[PieceModel]
 
     @model_validator(mode="after")
@@ -93,6 +113,8 @@ class SeparationModel(AnswerModel):
             raise fault('"larger_bounds" belong to what is "of": "closed"; leave them out')
         if sorted(set(self.obstacles)) != sorted({piece.contact.obstacle[0] for piece in self.surface}):
             raise fault('"obstacles" are not those of the surface; correct one of them')
+        if len({(item.of, item.kind, item.number) for item in self.auxiliary}) < len(self.auxiliary):
+            raise fault("one of the auxiliary features is there twice; keep one")
         return self
 
     @property
@@ -104,7 +126,7 @@ class SeparationModel(AnswerModel):
             goal=goal,
             of=self.of,
             cells=(first, second),
-            pieces=_pieces(self.surface),
+            pieces=_pieces(self.surface, tuple(item.result for item in self.auxiliary)),
             robot=tuple(part.polygon for part in self.smaller_robot),
             bounds=self.larger_bounds,
             units=self.units,
@@ -112,7 +134,7 @@ class SeparationModel(AnswerModel):
         )
 
 
-def _pieces(models: list[PieceModel]) -> Pieces:
+def _pieces(models: list[PieceModel], auxiliary: tuple[Auxiliary, ...]) -> Pieces:
     of_kind = {name: kind for kind, name in KINDS.items()}
     kind = np.array([of_kind[m.contact.kind] for m in models], np.uint8)
     robot, obstacle = (
@@ -123,7 +145,7 @@ def _pieces(models: list[PieceModel]) -> Pieces:
     for name, values in zip(COLUMNS[1:], rows, strict=True):
         dtype = np.uint64 if name in CODED else np.float64 if name.endswith(("lo", "hi")) else np.uint8
         columns[name] = np.array(values, dtype)
-    return Pieces(kind, robot, obstacle, Trapezoids(**columns))
+    return Pieces(kind, robot, obstacle, Trapezoids(**columns), auxiliary)
 
 
 def separation_text(proof: Separated) -> str:
@@ -144,6 +166,11 @@ def separation_text(proof: Separated) -> str:
         head["smaller_robot"] = [_polygon(part) for part in proof.robot]
     if proof.bounds:
         head["larger_bounds"] = [*map(str, proof.bounds)]
+    if proof.pieces.auxiliary:
+        head["auxiliary"] = [
+            {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
+            for a in proof.pieces.auxiliary
+        ]
     lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
     members = [*(f'"{key}": {json.dumps(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
     return "{" + ",\n ".join(members) + "}\n"

@@ -18,7 +18,7 @@ from cfree.verify.parity import is_inside
 from cfree.verify.result import Finding
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader, Side, Trapezoid
-from cfree.verify.world import numbers
+from cfree.verify.world import Feature, numbers
 
 if TYPE_CHECKING:
     from cfree.separated import Separated
@@ -108,7 +108,8 @@ def odd_ends(loops: Iterable[list[Side | None]]) -> int:
 def _reader(pieces: Pieces, scene: Scene) -> Reader:
     columns: dict[str, Any] = {name: np.empty(0, np.int32) for name in ISOLATED_COLUMNS}
     contacts = pieces.kind, np.empty(0, np.int32), np.empty(0, np.int32)
-    reader = Reader(scene, contacts, pieces.table, IsolatedParts(**columns))
+    auxiliary: dict[Feature, Any] = {(item.of, item.kind, item.number): item.points for item in pieces.auxiliary}
+    reader = Reader(scene, contacts, pieces.table, IsolatedParts(**columns), auxiliary)
     world = reader.world
     robot, obstacle = numbers(world.robot, pieces.robot.tolist()), numbers(world.obstacles, pieces.obstacle.tolist())
     reader.contacts = pieces.kind, robot, obstacle

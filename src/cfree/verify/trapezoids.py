@@ -5,7 +5,7 @@ A trapezoid is {lower(theta) <= t <= upper(theta), start <= theta <= stop} on a 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from cfree.verify.algebra import Exact, Root, between, part, roots
 from cfree.verify.section import Section
-from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, polynomial
-from cfree.verify.world import World, name_of
+from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, Vector, polynomial
+from cfree.verify.world import Feature, World, name_of
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
@@ -43,8 +43,15 @@ class Piece:
 class Reader:
     """The columns of a boundary."""
 
-    def __init__(self, scene: Scene, contacts: Contacts, table: Trapezoids, isolated: IsolatedParts) -> None:
-        self.world, self.contacts, self.table, self.isolated = World(scene), contacts, table, isolated
+    def __init__(
+        self,
+        scene: Scene,
+        contacts: Contacts,
+        table: Trapezoids,
+        isolated: IsolatedParts,
+        auxiliary: Mapping[Feature, Sequence[Vector]] | None = None,
+    ) -> None:
+        self.world, self.contacts, self.table, self.isolated = World(scene, auxiliary), contacts, table, isolated
         self.surface = lru_cache(maxsize=64)(self._surface)
         self.curve = lru_cache(maxsize=4096)(self._curve)
 

@@ -6,7 +6,7 @@ a number in the file means; whether two features make a contact is decided here,
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from cfree.scene import Scene
 
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
+Feature = tuple[str, str, int]  # of "robot" or "obstacles", "vertex" or "edge", number
 
 
 @dataclass
@@ -40,6 +41,9 @@ class World:
 
     Attributes
     ----------
+    auxiliary : mapping, optional
+        Points of what names may use and the scene does not have. If not
+        given these are the features' own: diagonals of pieces, corners beyond the bounds.
     parts, walls : list of Ring
         Convex pieces of the robot and of the obstacles, the complement of the workspace among them.
     beyond : list of Ring
@@ -51,6 +55,7 @@ class World:
     """
 
     scene: Scene
+    auxiliary: Mapping[Feature, Sequence[Vector]] | None = None
     scale: int = field(init=False)
     parts: list[Ring] = field(default_factory=list)
     walls: list[Ring] = field(default_factory=list)
@@ -122,25 +127,46 @@ class World:
         """Numerator and denominator of the curve that a pair of features names on a surface."""
         kind, i, j = name
         if kind == 3:
-            return helix(surface, self.robot.vertices[i], self.obstacles.vertices[j])
+            return helix(surface, self._vertex(self.robot, i), self._vertex(self.obstacles, j))
         if kind not in (1, 2):
             raise Fault("a curve without a name")
         if kind == 1:
-            b, end = edge_of(self.obstacles, j)
-            return cut(surface, Surface(self.robot.vertices[i], ZERO, b, minus(end, b)))
-        a, end = edge_of(self.robot, i)
-        return cut(surface, Surface(a, minus(end, a), self.obstacles.vertices[j], ZERO))
+            b, end = self._edge(self.obstacles, j)
+            return cut(surface, Surface(self._vertex(self.robot, i), ZERO, b, minus(end, b)))
+        a, end = self._edge(self.robot, i)
+        return cut(surface, Surface(a, minus(end, a), self._vertex(self.obstacles, j), ZERO))
 
     def angle(self, surface: Surface, name: Name) -> Form:
         """Zero at the angle that one pair of features names."""
         kind, i, j = name
         if kind == 3:
-            return surface.form(minus(self.obstacles.vertices[j], surface.b), minus(self.robot.vertices[i], surface.a))
+            a, b = self._vertex(self.robot, i), self._vertex(self.obstacles, j)
+            return surface.form(minus(b, surface.b), minus(a, surface.a))
         if kind != 4:
             raise Fault("an angle whose name is neither a helix nor a pair of edges")
-        (a, a_end), (b, b_end) = edge_of(self.robot, i), edge_of(self.obstacles, j)
+        (a, a_end), (b, b_end) = self._edge(self.robot, i), self._edge(self.obstacles, j)
         g, f = minus(a_end, a), minus(b_end, b)
         return 0, cross(g, f), -dot(g, f)
+
+    def _vertex(self, shape: ShapeFeatures, k: int) -> Vector:
+        if self.auxiliary is None or _is_own(shape, k):
+            return shape.vertices[k]
+        return self._foreign(shape, "vertex", k)[0]
+
+    def _edge(self, shape: ShapeFeatures, k: int) -> tuple[Vector, Vector]:
+        if self.auxiliary is None or _is_own(shape, k):
+            return shape.vertices[int(shape.v[k])], shape.vertices[int(shape.w[k])]
+        first, last = self._foreign(shape, "edge", k)
+        return first, last
+
+    def _foreign(self, shape: ShapeFeatures, kind: str, k: int) -> list[Vector]:
+        of = "robot" if shape is self.robot else "obstacles"
+        if self.auxiliary is None or (points := self.auxiliary.get((of, kind, k))) is None:
+            raise Fault(f"{kind} {k} of the {of} is neither in the scene nor among the auxiliary features")
+        scaled = [(x * self.scale, y * self.scale) for x, y in points]
+        if any(c.denominator > 1 for point in scaled for c in point):
+            raise Fault(f"auxiliary {kind} {k} of the {of} has another denominator than the scene")
+        return [(int(x), int(y)) for x, y in scaled]
 
 
 def vertex_edge(corner: Corner, b: Vector, end: Vector) -> Surface:
@@ -164,8 +190,9 @@ def corner_of(shape: Any, k: int) -> Corner:
     return previous, shape.vertices[k], shape.vertices[int(shape.w[k])]
 
 
-def edge_of(shape: Any, k: int) -> tuple[Vector, Vector]:
-    return shape.vertices[int(shape.v[k])], shape.vertices[int(shape.w[k])]
+def _is_own(shape: ShapeFeatures, k: int) -> bool:
+    """Is it a feature of a polygon of the scene, or of its bounds?"""
+    return bool(k < len(shape.owner_vertex) and shape.owner_vertex[k] >= 0)
 
 
 def name_of(code: int) -> Name:
