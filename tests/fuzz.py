@@ -32,6 +32,7 @@ from strategies import convex_ring
 
 PRIME = 1_000_003  # no critical angle of a small scene has this denominator
 TURNS = [(Fraction(3, 5), Fraction(4, 5)), (Fraction(12, 13), Fraction(5, 13)), (Fraction(4, 5), Fraction(-3, 5))]
+UNLUCKY = (2**61 - 1, 4342619061296019901, 3612245056613796809)  # the last two are the first in fingerprint.cpp
 PATIENCE = 20.0  # seconds for one boundary
 
 
@@ -44,6 +45,7 @@ def mistakes(plain: PlainScene, seed: str) -> tuple[list[str], int]:
     rng, compared = random.Random(seed), 0
     try:
         result = boundary(scene, threads=1, progress=_deadline())
+        assert result.complex.components or not len(result.trapezoids)
         generic = [Fraction(rng.randint(-3 * PRIME, 3 * PRIME), PRIME) for _ in range(2)]
         for half_tangent in [*generic, *_critical(result, rng)]:
             try:
@@ -195,6 +197,21 @@ def sliver(rng: random.Random) -> PlainScene:
     return plain._replace(obstacles=[mapped(shape, shaken) for shape in plain.obstacles])
 
 
+def words(rng: random.Random) -> PlainScene:
+    """Lattice shapes moved by powers of two, short modulo 2^61 - 1, or times numbers that are 0 modulo a prime."""
+    plain = rng.choice([boxes, lattices, fit, sliver])(rng)
+    powers = rng.sample([58, 59, 60, 61, 62, 119, 120, 121, 122, 183], 2)
+    hairs = [Fraction(n, 2**k) for k in powers for n in (0, 0, 1, 1, -1, 2)]
+    factor = rng.choice([1, 1, *UNLUCKY, UNLUCKY[0] * UNLUCKY[1]])
+
+    def shaken(x: Any, y: Any) -> Point:
+        return x + rng.choice(hairs), y + rng.choice(hairs)
+
+    robot = [mapped(shape, shaken) for shape in plain.robot] if rng.random() < 0.5 else plain.robot
+    obstacles = [mapped(shape, shaken) for shape in plain.obstacles]
+    return everywhere(plain._replace(robot=robot, obstacles=obstacles), lambda x, y: (x * factor, y * factor))
+
+
 def feet(rng: random.Random) -> PlainScene:
     """A robot of points that touch at once: small triangles at lattice points, among lattice shapes."""
     foot = [(0, 0), (Fraction(1, 2), 0), (0, Fraction(1, 2))]
@@ -242,7 +259,7 @@ def walled(rng: random.Random, plain: PlainScene) -> PlainScene:
 
 KINDS: dict[str, Callable[[random.Random], PlainScene]] = {
     f.__name__: f
-    for f in (boxes, lattices, congruent, fit, corridor, cut, chain, sliver, feet, pythagorean)
+    for f in (boxes, lattices, congruent, fit, corridor, cut, chain, sliver, words, feet, pythagorean)
 }  # fmt: skip
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import fuzz
 from cfree import Boundary, InvariantError, Scene, boundary, load_scene
 from cfree.cell_complex import CellComplex
 from compared import scene_of
@@ -101,6 +102,18 @@ def test_pinched_edges_pair_the_sides_of_free_sectors() -> None:
         around = cells.at_edge(int(edge))
         assert len(around) > 2 and len(around) % 2 == 0
         assert set(cells.twin[around].tolist()) == set(around.tolist())
+
+
+def test_numbers_that_vanish_modulo_the_primes_of_fingerprints_change_nothing() -> None:
+    rows = ("vertices", "edges", "components", "first", "side", "twin", "component")
+
+    def arrays(factor: int) -> list[list[int]]:
+        scene = fuzz.everywhere(fuzz.scene("lattices", 8), lambda x, y: (x * factor, y * factor))
+        cells = check(boundary(scene_of(scene), threads=1))
+        return [np.asarray(getattr(cells, name)).tolist() for name in rows]
+
+    expected = arrays(1)
+    assert all(arrays(factor) == expected for factor in (*fuzz.UNLUCKY, fuzz.UNLUCKY[1] * fuzz.UNLUCKY[2]))
 
 
 def test_walkers_go_round() -> None:

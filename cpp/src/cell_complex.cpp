@@ -61,7 +61,7 @@ private:
         bool is_upper;
     };
     void glue_curves();
-    void glue_curve(const CurveSide* begin, const CurveSide* end);
+    void glue_curve(CurveSide* begin, CurveSide* end);
     void pair_around_point(Index from, Index to, const std::vector<Index>& live);
 
     // --- walls: horizontal segments at one critical angle ---
@@ -98,10 +98,11 @@ void Gluer::glue_curves() {
     const auto n = static_cast<Index>(trapezoids.patch.size());
     std::vector<CurveSide> sides;
     sides.reserve(2 * static_cast<std::size_t>(n));
-    Fingerprints prints(scene);
+    const Fingerprints prints(scene, 2 * static_cast<std::size_t>(n),
+                              [&](std::size_t k) { return curve(static_cast<Index>(k / 2), k % 2 != 0); });
     for (Index k = 0; k < n; ++k)
         for (const bool upper : {false, true})
-            sides.push_back({prints.of(curve(k, upper)), angles.from[k], angles.to[k], k, upper});
+            sides.push_back({prints[2 * static_cast<std::size_t>(k) + upper], angles.from[k], angles.to[k], k, upper});
     std::sort(sides.begin(), sides.end(), [](const CurveSide& x, const CurveSide& y) {
         if (x.curve != y.curve) return x.curve < y.curve;
         return x.from < y.from || (x.from == y.from && x.trapezoid < y.trapezoid);
@@ -114,15 +115,14 @@ void Gluer::glue_curves() {
     }
 }
 
-void Gluer::glue_curve(const CurveSide* begin, const CurveSide* end) {
-    // one fingerprint, one curve: so it is if the two surfaces of one side are those of the other
+// Sides with one fingerprint: first those on the first's curve, then others.
+void Gluer::glue_curve(CurveSide* begin, CurveSide* end) {
     const NamedCurve first = curve(begin->trapezoid, begin->is_upper);
-    for (const CurveSide* s = begin + 1; s != end; ++s) {
-        const NamedCurve c = curve(s->trapezoid, s->is_upper);
-        const auto same = [&](const Feature& f, const Feature& g) { return code(scene, f) == code(scene, g); };
-        if (!(same(c.on, first.other) && same(c.other, first.on)) && !is_same_curve(scene, first, c))
-            fail("two curves with one fingerprint", s->trapezoid);
-    }
+    CurveSide* others = std::stable_partition(begin + 1, end, [&](const CurveSide& s) {
+        return is_same_curve(scene, first, curve(s.trapezoid, s.is_upper));
+    });
+    if (others != end) glue_curve(others, end);
+    end = others;
     std::vector<Index> ranks;
     for (const CurveSide* s = begin; s != end; ++s) ranks.push_back(s->from), ranks.push_back(s->to);
     std::sort(ranks.begin(), ranks.end());

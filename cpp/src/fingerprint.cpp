@@ -1,69 +1,107 @@
 #include "cfree/fingerprint.hpp"
 
+#include <boost/multiprecision/miller_rabin.hpp>
+#include <stdexcept>
+
 namespace cfree {
 
-namespace {
-
-using Word = std::uint64_t;
-constexpr Word prime = (Word(1) << 61) - 1;
-
-Word plus(Word x, Word y) { return x + y >= prime ? x + y - prime : x + y; }
-Word minus(Word x, Word y) { return x >= y ? x - y : x + prime - y; }
-Word times(Word x, Word y) {
-    const Wide z = static_cast<Wide>(x) * y;
-    return plus(static_cast<Word>(z & prime), static_cast<Word>(z >> 61));
+Residues::Residues(Word prime) : p(prime), inverse_of_p(prime) {
+    for (int k = 0; k < 5; ++k) inverse_of_p *= 2 - p * inverse_of_p;  // Newton's method: 3 bits are right, 6, 12, ...
+    one = static_cast<Word>((Wide(1) << 64) % p), square = static_cast<Word>(static_cast<Wide>(one) * one % p);
 }
-Word inverse(Word x) {  // x^(prime - 2)
-    Word result = 1;
-    for (Word e = prime - 2; e != 0; e >>= 1, x = times(x, x))
+
+Residues::Word Residues::of(const Int& n) const {
+    const Int r = n % Int(p);
+    return times(static_cast<Word>(r.sign() < 0 ? Int(r + p) : r), square);
+}
+
+Residues::Word Residues::inverse(Word x) const {  // x^(p - 2)
+    Word result = one;
+    for (Word e = p - 2; e != 0; e >>= 1, x = times(x, x))
         if (e & 1) result = times(result, x);
     return result;
 }
 
-}  // namespace
+namespace {
 
-Fingerprints::Fingerprints(const Scene& sc) : scene(sc), robot(reduced(sc.robot)), obstacles(reduced(sc.obstacles)) {
-    const Word tau = 1234567891011121314u % prime, q = times(tau, tau), w = inverse(plus(1, q));
-    c = times(minus(1, q), w), s = times(plus(tau, tau), w);
+// Whether two lines are parallel at every orientation: there is no curve then.
+bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
+    const auto direction = [&](const Feature& f) {
+        return f.kind == Kind::vertex_edge ? edge<Int>(scene.obstacles, f.obstacle) : edge<Int>(scene.robot, f.robot);
+    };
+    const auto is_point = [](const Vec<Int>& d) { return d.x.is_zero() && d.y.is_zero(); };
+    const auto d = direction(x), e = direction(y);
+    return x.kind == y.kind ? cross(d, e).is_zero() : is_point(d) || is_point(e);
 }
 
-std::vector<Fingerprints::Point> Fingerprints::reduced(const Shape& shape) {
-    const Int p = prime;
-    const auto word = [&](const Int& n) {
-        const Int r = n % p;
-        return static_cast<Word>(r.sign() < 0 ? Int(r + p) : r);
+}  // namespace
+
+Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve) : scene(sc) {
+    prints.reserve(count);
+    for (unsigned attempt = 0; prints.size() < count; ++attempt) {
+        choose(attempt);
+        for (prints.clear(); prints.size() < count;) {
+            const NamedCurve next = curve(prints.size());
+            const auto print = of(next);
+            if (!print && are_parallel(scene, next.on, next.other)) throw std::logic_error("a curve of two parallel surfaces");
+            if (!print) break;
+            prints.push_back(*print);
+        }
+    }
+}
+
+// Primes and orientations without any pattern: coordinates have patterns, and are short modulo 2^61 - 1.
+void Fingerprints::choose(unsigned attempt) {
+    Word seed = attempt;
+    const auto next = [&] {  // splitmix64
+        Word z = seed += 0x9e3779b97f4a7c15u;
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u, z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+        return z ^ z >> 31;
     };
+    Word prime = next() >> 3 | Word(1) << 61 | 1;
+    while (!boost::multiprecision::miller_rabin_test(Int(prime), 25)) prime += 2;
+    in = Residues(prime);
+    robot = reduced(scene.robot), obstacles = reduced(scene.obstacles);
+    const Word unit = in.of(1), tau = in.of(next() >> 3), q = in.times(tau, tau), w = in.inverse(in.plus(unit, q));
+    c = in.times(in.minus(unit, q), w), s = in.times(in.plus(tau, tau), w);
+}
+
+std::vector<Fingerprints::Point> Fingerprints::reduced(const Shape& shape) const {
     std::vector<Point> result;
-    for (std::size_t k = 0; k < shape.X.size(); ++k) result.push_back({word(shape.X[k]), word(shape.Y[k])});
+    for (std::size_t k = 0; k < shape.X.size(); ++k) result.push_back({in.of(shape.X[k]), in.of(shape.Y[k])});
     return result;
 }
 
 Fingerprints::Point Fingerprints::placed(Index a, Index b) const {
     const Point &A = robot[a], &B = obstacles[b];
-    return {minus(B.x, minus(times(c, A.x), times(s, A.y))), minus(B.y, plus(times(s, A.x), times(c, A.y)))};
+    return {in.minus(B.x, in.minus(in.times(c, A.x), in.times(s, A.y))),
+            in.minus(B.y, in.plus(in.times(s, A.x), in.times(c, A.y)))};
 }
 
 std::array<Fingerprints::Point, 2> Fingerprints::line(const Feature& f) const {
     const Feature first = end_helix(scene, f, 0), last = end_helix(scene, f, 1);
     const Point p = placed(first.robot, first.obstacle), q = placed(last.robot, last.obstacle);
-    return {p, {minus(q.x, p.x), minus(q.y, p.y)}};
+    return {p, {in.minus(q.x, p.x), in.minus(q.y, p.y)}};
 }
 
-Fingerprint Fingerprints::of(const NamedCurve& curve) const {
+// None if the two lines are parallel, modulo the prime.
+std::optional<Fingerprint> Fingerprints::of(const NamedCurve& curve) const {
     if (curve.other.kind == Kind::vertex_vertex) {
         const Point p = placed(curve.other.robot, curve.other.obstacle);
-        return {p.x, p.y};
+        return Fingerprint{p.x, p.y};
     }
     const auto [P, U] = line(curve.on);
     const auto [Q, V] = line(curve.other);
-    const auto product = [](const Point& u, const Point& v) { return minus(times(u.x, v.y), times(u.y, v.x)); };
-    const Word t = times(product({minus(Q.x, P.x), minus(Q.y, P.y)}, V), inverse(product(U, V)));
-    return {plus(P.x, times(t, U.x)), plus(P.y, times(t, U.y))};
+    const auto product = [&](const Point& u, const Point& v) { return in.minus(in.times(u.x, v.y), in.times(u.y, v.x)); };
+    const Word inverse = in.inverse(product(U, V));
+    if (inverse == 0) return {};
+    const Word t = in.times(product({in.minus(Q.x, P.x), in.minus(Q.y, P.y)}, V), inverse);
+    return Fingerprint{in.plus(P.x, in.times(t, U.x)), in.plus(P.y, in.times(t, U.y))};
 }
 
 bool Fingerprints::may_lie_on(const Feature& surface, const Fingerprint& curve) const {
     const auto [P, U] = line(surface);
-    return times(U.x, minus(curve.y, P.y)) == times(U.y, minus(curve.x, P.x));
+    return in.times(U.x, in.minus(curve.y, P.y)) == in.times(U.y, in.minus(curve.x, P.x));
 }
 
 bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "box_tree.hpp"
@@ -38,7 +39,9 @@ struct Ridge {
 class Finder {
 public:
     Finder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t)
-        : scene(s), patches(p), live(l), thin(t), prints(s), tree(boxes()) {
+        : scene(s), patches(p), live(l), thin(t),
+          prints(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }),
+          tree(boxes()) {
         first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
         for (const Index j : p.obstacle) ++first_patch[j + 1];
         std::partial_sum(first_patch.begin(), first_patch.end(), first_patch.begin());
@@ -58,13 +61,12 @@ public:
                 const Index patch = thin.patch[k];
                 const Feature lower = unpacked(thin.lower[k]), upper = unpacked(thin.upper[k]);
                 if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, from, lower, upper);
-                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch});
+                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch}, prints[k]);
             }
         };
         in_parallel(std::min(threads, count / 64 + 1), stop, work);
         for (const auto& found : found_flats) flats.insert(flats.end(), found.begin(), found.end());
-        for (const auto& found : found_ridges) ridges.insert(ridges.end(), found.begin(), found.end());
-        unite_ridges();
+        unite_ridges(found_ridges);
         unite_flats();
         return list();
     }
@@ -154,10 +156,9 @@ private:
 
     // --- along theta ---
 
-    std::vector<Ridge> ridges_of(const Ridge& whole) const {
+    std::vector<Ridge> ridges_of(const Ridge& whole, const Fingerprint& print) const {
         std::vector<Ridge> left{whole}, next;
         const NamedCurve curve{contact(whole.patch), whole.curve};
-        const Fingerprint print = prints.of(curve);
         for_each_near(whole.patch, [&](Index p, Index k) {
             const Feature on = contact(p);
             if (left.empty() || live.chart[k] != whole.from.chart() || live.to_hi[k] < whole.from.lo ||
@@ -208,15 +209,24 @@ private:
 
     // --- each once ---
 
-    void unite_ridges() {
-        std::vector<std::pair<Fingerprint, Ridge>> named;
-        for (const Ridge& r : ridges) named.push_back({prints.of({contact(r.patch), r.curve}), r});
+    void unite_ridges(const std::vector<std::vector<Ridge>>& found) {
+        // by curve: the first thin trapezoid on it; one fingerprint may be of several
+        std::map<Fingerprint, std::vector<std::size_t>> curves;
+        std::vector<std::pair<std::size_t, Ridge>> named;
+        const auto name = [&](std::size_t k) { return NamedCurve{contact(thin.patch[k]), unpacked(thin.lower[k])}; };
+        for (std::size_t k = 0; k < found.size(); ++k) {
+            if (found[k].empty()) continue;
+            auto& firsts = curves[prints[k]];
+            auto first = std::find_if(firsts.begin(), firsts.end(),
+                                      [&](std::size_t x) { return is_same_curve(scene, name(x), name(k)); });
+            if (first == firsts.end()) first = firsts.insert(first, k);
+            for (const Ridge& r : found[k]) named.emplace_back(*first, r);
+        }
         std::stable_sort(named.begin(), named.end(), [&](const auto& x, const auto& y) {
             if (x.first != y.first) return x.first < y.first;
             if (x.second.from.chart() != y.second.from.chart()) return x.second.from.chart() < y.second.from.chart();
             return order(scene, x.second.from, y.second.from) < 0;
         });
-        ridges.clear();
         for (std::size_t k = 0; k < named.size(); ++k) {
             const Ridge& r = named[k].second;
             if (k > 0 && named[k].first == named[k - 1].first && r.from.chart() == ridges.back().from.chart() &&
