@@ -15,14 +15,6 @@ namespace {
 // More than the roundings in any sign below: at most 40 in a row.
 constexpr double sign_error = 128 * u;
 
-double ratio(const Int& n, const Int& d) {
-    if (n.is_zero()) return 0;
-    const Int m = abs(n);
-    const int up = 64 + static_cast<int>(msb(d)) - static_cast<int>(msb(m));
-    const Int q = up >= 0 ? Int((m << static_cast<unsigned>(up)) / d) : Int(m / (d << static_cast<unsigned>(-up)));
-    return n.sign() * std::ldexp(static_cast<double>(q), -up);
-}
-
 // f at tau, or as a polynomial.
 struct Rotation {
     Approx c, s;

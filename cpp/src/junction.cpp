@@ -144,14 +144,13 @@ double Junction::value(const Feature& line, const Spot& p) const {
         return value;
     };
     const Poly n = polynomial(N), d = polynomial(D);
-    const auto ratio = [&](const Dyadic& tau) {
+    const auto quotient = [&](const Dyadic& tau) {
         const Int below = at(d, tau);
-        if (below.is_zero()) return std::numeric_limits<double>::quiet_NaN();
-        return boost::multiprecision::cpp_rational(at(n, tau), below).convert_to<double>();
+        return below.is_zero() ? std::numeric_limits<double>::quiet_NaN() : ratio(at(n, tau), below);
     };
     RealRoot near = here();
     for (int halvings = 64;; halvings *= 2) {
-        const double first = ratio(near.lo), last = ratio(near.hi);
+        const double first = quotient(near.lo), last = quotient(near.hi);
         if (first == last || std::abs(first - last) <= 0x1p-40 * (1 + std::abs(first))) return first;
         if (halvings > (1 << 14)) throw std::logic_error("a place is at infinity");
         for (int k = 0; k < halvings; ++k) near.halve();

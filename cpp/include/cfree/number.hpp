@@ -22,6 +22,15 @@ using Int = boost::multiprecision::number<
                                            boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
 
+// n / d, rounded; d is not zero.
+inline double ratio(const Int& n, const Int& d) {
+    if (n.is_zero()) return 0;
+    const Int p = abs(n), r = abs(d);
+    const int up = 64 + static_cast<int>(msb(r)) - static_cast<int>(msb(p));
+    const Int q = up >= 0 ? Int((p << static_cast<unsigned>(up)) / r) : Int(p / (r << static_cast<unsigned>(-up)));
+    return n.sign() * d.sign() * std::ldexp(static_cast<double>(q), -up);
+}
+
 // Where it is known to be wide enough.
 __extension__ typedef __int128 Wide;
 
