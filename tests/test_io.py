@@ -437,8 +437,8 @@ def test_faults_of_geojson_are_placed(tmp_path: Path) -> None:
 def test_faults_of_wkt_are_placed(tmp_path: Path) -> None:
     text = """lake: POLYGON ((0 0, 1 0, x/3 nan))
 POLYGON ((0 0, 1 0, 0 1)
-POLYGON Z ((0 0 0, 1 0 1, 0 1 1))
-POLYGON EMPTY
+POLYGON Z ((0 0, 1 0, 0 1))
+POLYGON FULL
 LINESTRING (0 0, 1 1)
 POLYGON ((0 0, 4 0, 0 4), (5 5, 6 5, 5 6))
 POLYGON ((0 0, 4 0, 0 4)) foo
@@ -451,8 +451,8 @@ MULTIPOLYGON (((0 0, 1 0, 0 1)), ((0 0, 1 0)))
         "a.wkt:1:27 lake: 'x/3' is no number; write it like '0.1', '-2e3' or '1/3'",
         "a.wkt:1:31 lake: NaN is not finite; give a finite number",
         'a.wkt:2:25 expected "," or ")", got the end of the line',
-        'a.wkt:3:9 expected "(", got Z',
-        'a.wkt:4:9 expected "(", got EMPTY',
+        "a.wkt:3:16 expected 3 numbers a point, got ,",
+        'a.wkt:4:9 expected "(", got FULL',
         f"a.wkt:5:1 LINESTRING: {reason}; give it width",
         "a.wkt:6:27 hole 0: it lies outside the outer ring; move it, or leave it out",
         "a.wkt:7:27 expected the end of the line, got foo",

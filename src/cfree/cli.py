@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 import errno
-import json
 import math
-import os
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cfree.cli_faults import INCOMPLETE, REFUTED, fail, one_line_faults
+from cfree.cli_faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
 from cfree.cli_values import read_angle, read_numbers, read_pixels, read_pose, read_seconds, read_size
+from cfree.terminal import json_text, printable
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -67,7 +67,8 @@ JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for machin
 
 def main() -> None:
     """Run the command ``cfree``."""
-    app(prog_name="cfree")
+    with own_exit_codes():
+        app(prog_name="cfree")
 
 
 def _print_version(wanted: bool) -> None:
@@ -105,7 +106,7 @@ def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
 
 @app.command(
     epilog="Examples: `cfree boundary scene.json --picture scene.png`; "
-    "`cfree boundary scene.json -o out/scene.npz --mesh out/scene.glb --threads 1`"
+    "`cfree boundary scene.json -o scene.npz --mesh scene.glb --threads 1`"
 )
 def boundary(
     scene: SourceArgument,
@@ -420,7 +421,7 @@ def figures(
             for entry in FIGURES:
                 written = [str(file) for file in files if file.stem == entry.stem]
                 if written:
-                    print(f"figure {entry.number}: {entry.caption} {' '.join(written)}")
+                    print(printable(f"figure {entry.number}: {entry.caption} {' '.join(written)}"))
 
 
 # input
@@ -446,7 +447,7 @@ def _exit_code(answer: Motions | Separated) -> int:
 
 
 def _leave_out(files: dict[str, str], name: str, why: str) -> None:
-    print(f"{files.pop(name)} is not written: {why}", file=sys.stderr)
+    print(printable(f"{files.pop(name)} is not written: {why}"), file=sys.stderr)
 
 
 def _boundary_of(
@@ -487,31 +488,29 @@ def _is_archive(path: Path) -> bool:
         return False
 
 
+_CHECKS = {  # of the names of files
+    "boundary": ("storage", "check_boundary_path"),
+    "film": ("film.encode", "check_film_path"),
+    "geojson": ("slice_geojson", "check_slice_path"),
+    "mesh": ("mesh", "check_mesh_path"),
+    "picture": ("plot", "check_picture_path"),
+}
+
+
 def _check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
     """The files to write; what cannot be written is refused before a long computation rather than after it."""
+    from cfree.files import check_place
+
     files = {name: path for name, path in wanted.items() if path is not None}
     for name, path in files.items():
-        if name == "mesh":
-            from cfree.mesh import check_mesh_path
-
-            check_mesh_path(path)
-        if name == "picture":
-            from cfree.plot import check_picture_path
-
-            check_picture_path(path)
-        if name == "film":
-            from cfree.film.encode import check_film_path
-
-            check_film_path(path)
-        if path.is_dir():
-            raise IsADirectoryError(errno.EISDIR, "is a directory; give the name of a file", str(path))
+        check_place(path)
         if path.exists() and source.exists() and path.samefile(source):
             raise FileExistsError(errno.EEXIST, "is the input; give another name", str(path))
-        folder = next(parent for parent in path.absolute().parents if parent.exists())
-        if not folder.is_dir() or not os.access(folder, os.W_OK | os.X_OK):
-            raise PermissionError(errno.EACCES, f"cannot be made in {folder}; give another place", str(path))
+        if name in _CHECKS:
+            module, function = _CHECKS[name]
+            getattr(import_module(f"cfree.{module}"), function)(path)
     return {name: str(path) for name, path in files.items()}
 
 
 def _print_json(facts: dict[str, Any]) -> None:
-    print(json.dumps(facts, indent=2, ensure_ascii=False))
+    print(json_text(facts))

@@ -1,17 +1,46 @@
-"""How the command leaves where something is wrong: a message in one line, and its exit code."""
+"""How the command leaves where something is wrong: a message in one line, and its exit code.
+
+0    done; of `plan`, a path; of `verify`, verified
+1    `plan`: proved impossible; `verify`: refuted; never anything else
+2    bad input, also on the command line, and files that cannot be read or written
+3    a limit of time or memory; of `plan`, no path but perhaps one that touches
+4    a bug in cfree
+130  Ctrl-C; 141 a closed pipe (SIGPIPE); 143 SIGTERM
+"""
 
 from __future__ import annotations
 
 import errno
+import io
+import os
+import signal
 import sys
 import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import NoReturn
 
 import typer
 
+from cfree.terminal import printable
+
 REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
+
+
+@contextmanager
+def own_exit_codes() -> Iterator[None]:
+    """Around all of the command: whatever happens, also outside of `one_line_faults`, it ends with a code above."""
+    if hasattr(signal, "SIGPIPE"):
+        signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")
+    with one_line_faults():
+        try:
+            yield
+        finally:
+            if sys.stdout is not None:
+                sys.stdout.flush()
 
 
 @contextmanager
@@ -21,6 +50,8 @@ def one_line_faults() -> Iterator[None]:
 
     try:
         yield
+    except typer.Exit:
+        raise
     except KeyboardInterrupt:
         fail("interrupted; no file was left half-written", INTERRUPTED)
     except InvariantError as error:
@@ -33,18 +64,31 @@ def one_line_faults() -> Iterator[None]:
         fail(str(error), BUG)
     except (CfreeError, ValueError) as error:
         fail(str(error), BAD_INPUT)
-    except typer.Exit:
-        raise
+    except MemoryError:
+        fail("out of memory", INCOMPLETE)
     except OSError as error:
-        if error.errno == errno.EPIPE:
-            raise
-        name = f"{error.filename}: " if error.filename else ""
-        fail(f"{name}{error.strerror or error}", BAD_INPUT)
-    except Exception:  # no answer: not to be taken for one
-        traceback.print_exc()
+        name = error.filename
+        if error.errno == errno.ENOSPC and name is None:  # other files have their names
+            name = "standard output"
+            _discard_output()
+        fail(f"{name}: {error.strerror}" if name and error.strerror else str(error), BAD_INPUT)
+    except Exception as error:  # no answer: not to be taken for one
+        _say("".join(traceback.format_exception(error)))
         fail("this is a bug in cfree, please report it", BUG)
 
 
 def fail(message: str, code: int) -> NoReturn:
-    print(f"error: {message}", file=sys.stderr)
-    raise typer.Exit(code)
+    """Say it and leave."""
+    _say(f"error: {message}")
+    sys.exit(code)
+
+
+def _say(text: str) -> None:
+    if sys.stderr is not None:
+        with suppress(OSError, ValueError):  # nobody listens
+            print(printable(text), file=sys.stderr)
+
+
+def _discard_output() -> None:
+    """What could not be written is not tried again at the end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

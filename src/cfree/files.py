@@ -1,43 +1,113 @@
-"""Files that are replaced as a whole, or not at all."""
+"""Files that are replaced as a whole, or not at all; their names, seen to before anything is computed."""
 
 from __future__ import annotations
 
+import errno
 import os
-import tempfile
-from collections.abc import Iterator
+import secrets
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+
+from cfree.errors import UnsupportedError
+
+
+def checked_suffix(path: str | os.PathLike[str], what: str, suffixes: Sequence[str]) -> str:
+    """Suffix of a file's name, in small letters, if it is one of those given.
+
+    Raises
+    ------
+    UnsupportedError
+        If it is another.
+
+    Examples
+    --------
+    >>> checked_suffix("parking.GLB", "mesh", [".glb", ".ply"])
+    '.glb'
+    >>> checked_suffix("parking.dae", "mesh", [".glb", ".ply", ".obj"])
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: parking.dae: no mesh format; name the file .glb, .ply or .obj
+    """
+    suffix = Path(path).suffix.lower()
+    if suffix not in suffixes:
+        *others, last = suffixes
+        names = f"{', '.join(others)} or {last}" if others else last
+        raise UnsupportedError(f"{os.fspath(path)}: no {what} format; name the file {names}")
+    return suffix
+
+
+def check_place(path: str | os.PathLike[str]) -> None:
+    """Raise an OSError that says why no file can be written there, if that can be told before."""
+    target = Path(path)
+    if target.is_dir():
+        raise IsADirectoryError(errno.EISDIR, "is a directory; give the name of a file", str(path))
+    folder = target.parent
+    if not folder.exists():
+        raise FileNotFoundError(errno.ENOENT, "there is no such folder; make it, or give another", str(folder))
+    if not folder.is_dir() or not os.access(folder, os.W_OK | os.X_OK):
+        raise PermissionError(errno.EACCES, f"cannot be made in {folder}; give another place", str(path))
 
 
 @contextmanager
 def replacing(path: str | os.PathLike[str]) -> Iterator[Path]:
-    """A new empty file beside `path`, with its suffix, that takes its place once the block ends without an error.
+    """A new empty file that takes the place of `path` once the block ends without an error.
 
-    Folders on the way are made.
+    Where the system can, it has no name before, so that a killed process leaves nothing: its suffix is not that of
+    `path`. What is there and no regular file, such as ``/dev/stdout``, is written to instead.
+
+    Raises
+    ------
+    OSError
+        With the name `path`, if there is no such folder, or the file cannot be written.
 
     Examples
     --------
+    >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     with replacing(f"{folder}/new/note.txt") as unfinished:
+    ...     with replacing(f"{folder}/note.txt") as unfinished:
     ...         _ = unfinished.write_text("all of it")
-    ...     Path(f"{folder}/new/note.txt").read_text()
+    ...     Path(f"{folder}/note.txt").read_text()
     'all of it'
     """
+    check_place(path)
     target = Path(os.path.realpath(path))
-    target.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.stem}.", suffix=target.suffix)
-    os.close(handle)
-    unfinished = Path(name)
+    unfinished = target
     try:
+        if os.path.exists(path) and not os.path.isfile(path):
+            unfinished = Path(path)
+            yield unfinished
+        else:
+            with _beside(target) as unfinished:
+                yield unfinished
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, str(unfinished)):
+            raise
+        raise OSError(error.errno, error.strerror, str(path)) from error
+
+
+@contextmanager
+def _beside(target: Path) -> Iterator[Path]:
+    """A new file in the same folder, renamed to `target` in the end."""
+    spare = target.with_name(f".{target.stem[:50]}.{secrets.token_hex(4)}{target.suffix}")
+    nameless = getattr(os, "O_TMPFILE", None)
+    try:
+        handle = os.open(target.parent, os.O_RDWR | nameless, 0o666) if nameless else -1
+    except OSError:  # not on every file system
+        handle = -1
+    try:
+        if handle < 0:
+            spare.touch(exist_ok=False)
+            unfinished = spare
+        else:
+            unfinished = Path(f"/proc/self/fd/{handle}")
         yield unfinished
-        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
-        unfinished.chmod(mode)
-        unfinished.replace(target)
+        if target.exists():
+            unfinished.chmod(target.stat().st_mode & 0o777)
+        if handle >= 0:
+            os.link(unfinished, spare, src_dir_fd=handle)  # with a folder given the system follows the link
+        spare.replace(target)
     finally:
-        unfinished.unlink(missing_ok=True)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
+        spare.unlink(missing_ok=True)
+        if handle >= 0:
+            os.close(handle)

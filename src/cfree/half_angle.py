@@ -20,7 +20,7 @@ from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number, simplest_between, to_fraction
 
 Floats = NDArray[np.float64]
-# radians; degrees as in "90deg"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}, {"tau": None}
+# radians; degrees as in "90deg" or "90°"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}, {"tau": None}
 Angle = Number | Mapping[str, Number | None]
 
 
@@ -237,8 +237,8 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     if isinstance(theta, Mapping):
         tau = _read_tau(theta)
         return tau, _angle_of(tau), 0.0
-    if isinstance(theta, str) and theta.strip().endswith("deg"):
-        degrees = to_rational("theta", theta.strip().removesuffix("deg"))
+    if (text := number_of_degrees(theta)) is not None:
+        degrees = to_rational("theta", text)
         quarter_turns = round(degrees / 90)
         rest = (degrees - 90 * quarter_turns) / 180 * _pi(128)
         return _rationalize(quarter_turns, rest)
@@ -252,6 +252,18 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     quarter_turns = round(radians / right_angle)
     rest = radians - quarter_turns * right_angle
     return _rationalize(quarter_turns, rest if abs(rest) > ulp else Fraction(0))
+
+
+def number_of_degrees(theta: object) -> str | None:
+    """What is written before "deg" or "°"; None for an angle that is not in degrees.
+
+    Examples
+    --------
+    >>> number_of_degrees("90deg"), number_of_degrees(" 22.5° "), number_of_degrees("1.5")
+    ('90', '22.5', None)
+    """
+    text = theta.strip() if isinstance(theta, str) else ""
+    return next((text.removesuffix(unit) for unit in ("deg", "°") if text.endswith(unit)), None)
 
 
 def _read_tau(theta: Mapping[str, Number | None]) -> Fraction | None:

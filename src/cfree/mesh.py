@@ -12,14 +12,13 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import InvariantError, UnsupportedError
-from cfree.files import replacing
+from cfree.files import checked_suffix, replacing
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -202,12 +201,9 @@ def check_mesh_path(path: str | PathLike[str]) -> str:
     >>> check_mesh_path("parking.dae")
     Traceback (most recent call last):
         ...
-    cfree.errors.UnsupportedError: parking.dae: no mesh format; name the file .glb, .ply, .obj, .stl
+    cfree.errors.UnsupportedError: parking.dae: no mesh format; name the file .glb, .ply, .obj or .stl
     """
-    suffix = Path(path).suffix.lower()
-    if suffix not in MESH_SUFFIXES:
-        raise UnsupportedError(f"{path}: no mesh format; name the file {', '.join(MESH_SUFFIXES)}")
-    return suffix
+    return checked_suffix(path, "mesh", MESH_SUFFIXES)
 
 
 def _normals_at(mesh: Mesh, corners: NDArray[np.integer[Any]]) -> Floats:

@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.exact import angle as angle_of
-from cfree.half_angle import Angle
+from cfree.half_angle import Angle, number_of_degrees
 from cfree.pose import Pose, Poses
 from cfree.slide import Slide
 
@@ -273,8 +273,8 @@ def _without_halves(angle: Number, halves: int) -> Fraction | None:
 
 def _size(angle: Number) -> tuple[bool, float]:
     """Is an angle negative, and its size in radians?"""
-    if isinstance(angle, str) and angle.strip().endswith("deg"):
-        degrees = to_fraction(angle.strip().removesuffix("deg"))
+    if (text := number_of_degrees(angle)) is not None:
+        degrees = to_fraction(text)
         return degrees < 0, math.radians(float(abs(degrees)))
     radians = to_fraction(angle)
     return radians < 0, float(abs(radians))

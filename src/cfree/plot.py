@@ -9,14 +9,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from os import PathLike
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.errors import UnsupportedError
-from cfree.files import replacing
+from cfree.files import checked_suffix, replacing
 from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.mesh import COLOURS, KINDS
 from cfree.outlines import BOUNDS, ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
@@ -194,13 +192,13 @@ def save_figure(figure: Figure | SubFigure, path: str | PathLike[str]) -> None:
     UnsupportedError
         If matplotlib knows no such format.
     """
-    check_picture_path(path)
+    suffix = check_picture_path(path)
     with replacing(path) as unfinished:
-        figure.figure.savefig(unfinished, dpi=160)
+        figure.figure.savefig(unfinished, dpi=160, format=suffix[1:])
 
 
-def check_picture_path(path: str | PathLike[str]) -> None:
-    """Raise an error unless `save_figure` can write a file of this name.
+def check_picture_path(path: str | PathLike[str]) -> str:
+    """Suffix of a file that `save_figure` can write.
 
     Examples
     --------
@@ -209,8 +207,7 @@ def check_picture_path(path: str | PathLike[str]) -> None:
         ...
     cfree.errors.UnsupportedError: parking.docx: no picture format; name the file .png, .svg, .pdf, .jpg or .webp
     """
-    if Path(path).suffix.lower() not in (".png", ".svg", ".pdf", ".jpg", ".webp"):
-        raise UnsupportedError(f"{path}: no picture format; name the file .png, .svg, .pdf, .jpg or .webp")
+    return checked_suffix(path, "picture", (".png", ".svg", ".pdf", ".jpg", ".webp"))
 
 
 # axes

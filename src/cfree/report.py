@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from cfree.features import NAMES
+from cfree.terminal import printable
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -31,11 +32,7 @@ def print_scene(facts: Mapping[str, Any]) -> None:
     for row in ("robot", "obstacles", "workspace"):
         if facts[row]:
             counts.add_row(row, *(f"{facts[row][column]:,}" for column in COUNTS))
-    console = _console()
-    console.print(facts["name"] or facts["file"])
-    console.print(counts)
-    for line in _lines(facts):
-        console.print(line)
+    _print(facts["name"] or facts["file"], counts, *_lines(facts))
 
 
 def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
@@ -142,12 +139,9 @@ def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping
     table.add_column(justify="right")
     for name, value in rows.items():
         text = f"{value:,}" if isinstance(value, int) else f"{value:,.6g}" if isinstance(value, float) else value
-        table.add_row(name, text)
-    console = _console()
-    console.print(title)
-    console.print(table)
-    for name, path in files.items():
-        console.print(f" {name:<8} {path} ({os.stat(path).st_size / 1000:,.1f} kB)")
+        table.add_row(name, printable(text))
+    sizes = ((name, path, os.stat(path).st_size / 1000) for name, path in files.items())
+    _print(title, table, *(f" {name:<8} {path} ({size:,.1f} kB)" for name, path, size in sizes))
 
 
 def print_verification(title: str, result: Verification) -> None:
@@ -158,14 +152,11 @@ def print_verification(title: str, result: Verification) -> None:
     for column in ("check", "", "of what"):
         table.add_column(column)
     for check in result.checks:
-        table.add_row(check.name, check.how, check.extent)
-    console = _console()
-    console.print(title)
-    console.print(table)
-    for finding in result.findings[: verify.SHOWN]:
-        console.print(str(finding))
-    console.print(result.verdict)
+        table.add_row(check.name, check.how, printable(check.extent))
+    _print(title, table, *map(str, result.findings[: verify.SHOWN]), result.verdict)
 
 
-def _console() -> Console:
-    return Console(soft_wrap=True, highlight=False, markup=False)
+def _print(*parts: str | Table) -> None:
+    console = Console(soft_wrap=True, highlight=False, markup=False, emoji=False)
+    for part in parts:
+        console.print(printable(part) if isinstance(part, str) else part)

@@ -16,7 +16,7 @@ import json
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from cfree.files import replacing
+from cfree.files import checked_suffix, replacing
 
 if TYPE_CHECKING:
     from cfree.slice import Slice
@@ -57,8 +57,14 @@ def slice_geojson(cut: Slice) -> dict[str, Any]:
 
 def save_slice(cut: Slice, path: str | PathLike[str]) -> None:
     """Write a slice as GeoJSON, whole or not at all."""
+    check_slice_path(path)
     with replacing(path) as unfinished:
         unfinished.write_text(json.dumps(slice_geojson(cut)) + "\n", encoding="utf-8")
+
+
+def check_slice_path(path: str | PathLike[str]) -> str:
+    """Suffix of a file that `save_slice` can write."""
+    return checked_suffix(path, "slice", (".geojson", ".json"))
 
 
 def _feature(geometry: Any, **properties: Any) -> dict[str, Any]:

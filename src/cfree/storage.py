@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from cfree.errors import FormatError
 from cfree.features import SceneFeatures, scene_features, unpacked
-from cfree.files import replacing
+from cfree.files import checked_suffix, replacing
 from cfree.forbidden import Boundary, Stats
 from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 
@@ -30,6 +30,7 @@ def save_boundary(
     """Write a boundary, with its cells if given; equal boundaries make equal files."""
     from cfree.io import scene_text
 
+    check_boundary_path(path)
     stats = {key: value for key, value in asdict(boundary.stats).items() if key != "seconds"}
     header = {"format": FORMAT, "version": VERSION, "stats": stats}
     texts = {"header": json.dumps(header), "scene": scene_text(boundary.scene)}
@@ -40,6 +41,11 @@ def save_boundary(
     arrays |= cells or {}
     with replacing(path) as unfinished, unfinished.open("wb") as file:
         np.savez_compressed(file, **arrays)
+
+
+def check_boundary_path(path: str | os.PathLike[str]) -> str:
+    """Suffix of a file that `save_boundary` can write."""
+    return checked_suffix(path, "boundary", (".npz",))
 
 
 def load_boundary(path: str | os.PathLike[str]) -> Boundary:

@@ -118,6 +118,7 @@ def draw_all(
             raise UnsupportedError(f"format {suffix!r}: figures are written as {', '.join(FORMATS)}")
     if folder.exists() and not folder.is_dir():
         raise NotADirectoryError(errno.ENOTDIR, "is a file; give a directory", str(folder))
+    folder.mkdir(parents=True, exist_ok=True)
     files = []
     for done, entry in enumerate(entries):
         if progress is not None:

@@ -101,4 +101,5 @@ def write(figure: Figure, path: Path) -> None:
     """Write a figure, whole or not at all, and with the same bytes each time."""
     undated: dict[str, dict[str, Any]] = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": {}}
     with replacing(path) as unfinished:
-        figure.savefig(unfinished, dpi=150 if path.suffix == ".png" else 300, metadata=undated[path.suffix])
+        dpi, form = 150 if path.suffix == ".png" else 300, path.suffix[1:]
+        figure.savefig(unfinished, dpi=dpi, format=form, metadata=undated[path.suffix])

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import UnsupportedError
-from cfree.files import replacing
+from cfree.files import checked_suffix, replacing
 
 Image = NDArray[np.uint8]
 
@@ -36,9 +36,7 @@ def check_film_path(path: str | PathLike[str]) -> str:
         ...
     cfree.errors.UnsupportedError: parking.avi: no film format; name the file .mp4 or .gif
     """
-    suffix = Path(path).suffix.lower()
-    if suffix not in SUFFIXES:
-        raise UnsupportedError(f"{path}: no film format; name the file .mp4 or .gif")
+    suffix = checked_suffix(path, "film", SUFFIXES)
     if suffix == ".mp4":
         try:
             import av  # noqa: F401
@@ -70,7 +68,7 @@ def _save_mp4(frames: Iterator[Image], path: Path, fps: int) -> None:
     import av
 
     first = next(frames)
-    with av.open(str(path), "w", options={"movflags": "faststart"}) as container:
+    with av.open(str(path), "w", format="mp4", options={"movflags": "faststart"}) as container:
         stream = container.add_stream("libx264", rate=Fraction(fps), options={"crf": "17", "preset": "medium"})
         stream.height, stream.width = first.shape[:2]
         stream.pix_fmt = "yuv420p"

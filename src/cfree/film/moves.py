@@ -99,48 +99,60 @@ def corner_contact(patch: Patch, side: int) -> Contact:
     return Contact("v-v", corner(patch.robot), corner(patch.obstacle))
 
 
+@dataclass(frozen=True, slots=True)
 class Ring:
-    """A closed curve of contacts in a slice, by length along it, forbidden on its left.
+    """A closed curve of contacts with obstacles in a slice, by length along it, forbidden on its left.
 
-    Parameters
+    Attributes
     ----------
-    cut : Slice
-    near : (float, float)
-        The ring is the one that passes nearest to this point, at length 0.
+    theta : float, radians
+    trapezoid : (k,) int32
+        Whose segments it consists of.
+    ends : (k,) float64
+        Lengths up to the end of each.
+    offset : float
+        Where it begins on the first.
+    gap : float
+        Distance of that place from the point it was to be near.
     """
 
-    def __init__(self, boundary: Boundary, theta: float, near: Point) -> None:
+    boundary: Boundary
+    theta: float
+    trapezoid: NDArray[np.int32]
+    ends: Floats
+    offset: float
+    gap: float
+
+    @classmethod
+    def near(cls, boundary: Boundary, theta: float, point: Point) -> Ring | None:
+        """The one that passes nearest to a point; None if nothing touches, or what does is no closed curve or bound."""
         cut = boundary.slice(theta)
         start, step = cut.segments[:, 0], cut.segments[:, 1] - cut.segments[:, 0]
-        self.boundary, self.theta = boundary, theta
-        self.gap = math.inf
         if not len(start):
-            return
+            return None
         length = np.hypot(*step.T)
-        share = ((near - start) * step).sum(axis=1) / np.where(length > 0, length, 1) ** 2
+        share = ((point - start) * step).sum(axis=1) / np.where(length > 0, length, 1) ** 2
         share = np.clip(share, 0, 1)
-        gaps = np.hypot(*(start + share[:, None] * step - near).T)
+        gaps = np.hypot(*(start + share[:, None] * step - point).T)
         first = int(gaps.argmin())
         order = [first]
         while (after := _next(cut.segments, order[-1])) not in order:
             order.append(after)
-        self.gap = float(gaps[first])
-        self.is_closed = after == first
-        self.trapezoid = cut.trapezoids[order]
-        self.is_bound = bool((boundary.patch_kind[cut.patches[order]] == 3).any())
-        self._offset = float(share[first] * length[first])
-        self._ends = np.cumsum(length[order])
+        if after != first or (boundary.patch_kind[cut.patches[order]] == 3).any():
+            return None
+        offset = float(share[first] * length[first])
+        return cls(boundary, theta, cut.trapezoids[order], np.cumsum(length[order]), offset, float(gaps[first]))
 
     @property
     def perimeter(self) -> float:
-        return float(self._ends[-1])
+        return float(self.ends[-1])
 
     def at(self, distance: float) -> tuple[int, float]:
         """Trapezoid and t after a distance from the point where the ring begins."""
-        place = (distance + self._offset) % self.perimeter
-        k = min(int(np.searchsorted(self._ends, place, side="right")), len(self._ends) - 1)
-        start = self._ends[k - 1] if k else 0.0
-        share = (place - start) / max(self._ends[k] - start, 1e-300)
+        place = (distance + self.offset) % self.perimeter
+        k = min(int(np.searchsorted(self.ends, place, side="right")), len(self.ends) - 1)
+        start = self.ends[k - 1] if k else 0.0
+        share = (place - start) / max(self.ends[k] - start, 1e-300)
         lower, upper = self.boundary.limits([self.trapezoid[k]], [self.theta])
         return int(self.trapezoid[k]), _between(lower[0], upper[0], share)
 
@@ -180,8 +192,8 @@ def roll(boundary: Boundary, start: Point, angles: Sequence[float], distance: fl
     here, found = start, []
     reach = 3 * robot_radius(boundary.scene) * float(np.abs(np.diff(angles)).max(initial=0)) + 1e-3 * abs(distance)
     for k, theta in enumerate(angles):
-        ring = Ring(boundary, theta, here)
-        if (k and ring.gap > reach) or ring.gap == math.inf or not ring.is_closed or ring.is_bound:
+        ring = Ring.near(boundary, theta, here)
+        if ring is None or (k and ring.gap > reach):
             return None
         moment = ring.moment(distance / len(angles) if k else 0.0)
         found.append(moment)

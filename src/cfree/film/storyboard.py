@@ -163,8 +163,8 @@ class _Director:
         assert column is not None and column.side is not None
         (begin,) = along_helix(self.boundary, column, _inside(column)[:1])
         goal, theta = _xy(begin.pose), begin.pose.theta
-        last = Ring(self.boundary, theta, goal)
-        if last.is_bound or not last.is_closed:
+        last = Ring.near(self.boundary, theta, goal)
+        if last is None:
             return None
         moments = self._two_slices(last, goal, n) or [last.moment(s) for s in _eased(0, last.perimeter, n)]
         return Shot("slices", "Translation: a slice at constant orientation", _FORMULAS["slices"], moments)
@@ -174,14 +174,16 @@ class _Director:
         angle = last.theta - LOWER
         if angle < 0:
             return None
-        first = Ring(self.boundary, angle, goal)
-        if first.is_bound or not first.is_closed:
+        first = Ring.near(self.boundary, angle, goal)
+        if first is None:
             return None
         here = _xy(first.moment(0.0).pose)
         turning = roll(self.boundary, here, _eased(angle, last.theta, max(n, 100)), 0.3 * last.perimeter)
         if turning is None:
             return None
-        again = Ring(self.boundary, last.theta, _xy(turning[-1].pose))
+        again = Ring.near(self.boundary, last.theta, _xy(turning[-1].pose))
+        if again is None:
+            return None
         rest = again.distance_to(goal) + again.perimeter
         turn = n // 5
         before = round((n - turn) * first.perimeter / (first.perimeter + rest))
@@ -240,8 +242,8 @@ class _Director:
         if self.corner is None:
             return None
         start = _xy(along_helix(self.boundary, self.corner, _inside(self.corner)[:1])[0].pose)
-        ring = Ring(self.boundary, 0.0, start)
-        if ring.gap == math.inf or ring.is_bound or not ring.is_closed:
+        ring = Ring.near(self.boundary, 0.0, start)
+        if ring is None:
             return None
         dense = max(4 * n, 400)
         angles = _eased(0, FULL_TURN, dense)
@@ -364,8 +366,7 @@ class _Director:
 
     def _goes_round(self, column: Column) -> bool:
         (begin,) = along_helix(self.boundary, column, _inside(column)[:1])
-        ring = Ring(self.boundary, begin.pose.theta, _xy(begin.pose))
-        return ring.is_closed and not ring.is_bound
+        return Ring.near(self.boundary, begin.pose.theta, _xy(begin.pose)) is not None
 
     def _shares_obstacle(self, column: Column) -> bool:
         obstacle = self.boundary.patches[column.patch].obstacle.polygon

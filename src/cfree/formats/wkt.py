@@ -1,7 +1,8 @@
 """Polygons from well-known text, with the decimals they are written with.
 
 One geometry a line, POLYGON or MULTIPOLYGON. A word and a colon may precede it: ``robot:``, ``obstacle:`` and
-``workspace:`` say what it is for, any other word names an obstacle.
+``workspace:`` say what it is for, any other word names an obstacle. Heights and measures (Z, M) are ignored, as is
+``SRID=4326;``; what is EMPTY is no polygon.
 """
 
 from __future__ import annotations
@@ -20,7 +21,9 @@ from cfree.polygon import Polygon
 from cfree.scene import explained, flat_shape
 
 T = TypeVar("T")
-_LABEL = re.compile(r"\s*(?:([^:()]*):)?\s*")
+_LABEL = re.compile(r"\s*(?:([^:()]*):)?\s*(?:SRID\s*=\s*[0-9]+\s*;\s*)?", re.IGNORECASE)
+_KIND = re.compile(r"(POLYGON|MULTIPOLYGON)(Z|M|ZM)?")
+_LENGTHS = {"": (2, 3, 4), "Z": (3,), "M": (3,), "ZM": (4,)}  # of points
 _TOKEN = re.compile(r"[(),]|[^\s(),]+")
 
 
@@ -54,6 +57,7 @@ class _Line:
         label = _LABEL.match(findings.text, start, end)
         assert label is not None  # it matches the empty text
         self.label = (label[1] or "").strip()
+        self.lengths = _LENGTHS[""]
         self.tokens = self._scan(label.end(), end)
         self.token, self.offset = next(self.tokens)
 
@@ -64,10 +68,15 @@ class _Line:
             self.findings.at(start, self.label, flat_shape(kind))
             return []
         try:
-            if kind not in ("POLYGON", "MULTIPOLYGON"):
+            known = _KIND.fullmatch(kind)
+            if not known:
                 self._refuse("POLYGON (...) or MULTIPOLYGON (...)")
             self._advance()
-            polygons = self._list(self._polygon) if kind == "MULTIPOLYGON" else [self._polygon()]
+            dimensions = known[2] or (self.token.upper() if self.token.upper() in _LENGTHS else "")
+            if dimensions and not known[2]:
+                self._advance()
+            self.lengths = _LENGTHS[dimensions]
+            polygons = self._list(self._polygon) if known[1] == "MULTIPOLYGON" else [self._polygon()]
             if self.token:
                 self._refuse("the end of the line")
         except _SyntaxFault:
@@ -78,9 +87,10 @@ class _Line:
 
     def _polygon(self) -> Polygon | None:
         known_problems, start = len(self.findings), self.offset
-        offsets, rings = zip(*self._list(self._ring), strict=True)
-        if len(self.findings) > known_problems:
+        found = [(offset, ring) for offset, ring in self._list(self._ring) if ring]
+        if len(self.findings) > known_problems or not found:
             return None
+        offsets, rings = zip(*found, strict=True)
         try:
             return Polygon(rings[0], rings[1:])
         except InvalidPolygonError as error:
@@ -92,7 +102,12 @@ class _Line:
         return self.offset, self._list(self._point)
 
     def _point(self) -> ExactPoint:
-        return self._coordinate(), self._coordinate()
+        values = [self._coordinate(), self._coordinate()]
+        while self.token not in ("", "(", ")", ","):
+            values.append(self._coordinate())
+        if len(values) not in self.lengths:
+            self._refuse(f"{' to '.join(map(str, self.lengths[::2]))} numbers a point")
+        return values[0], values[1]
 
     def _coordinate(self) -> Fraction:
         if self.token in ("", "(", ")", ","):
@@ -106,7 +121,10 @@ class _Line:
             self._advance()
 
     def _list(self, item: Callable[[], T]) -> list[T]:
-        """Items between brackets."""
+        """Items between brackets, none if EMPTY."""
+        if self.token.upper() == "EMPTY":
+            self._advance()
+            return []
         items: list[T] = []
         separator = "("
         while self.token == separator:

@@ -1,0 +1,39 @@
+"""Text that a terminal shows, and does not obey: names and notes come from files that anybody may have written."""
+
+from __future__ import annotations
+
+import json
+import unicodedata
+from typing import Any
+
+OBEYED = {"Cc", "Cs", "Zl", "Zp"}  # Unicode's categories: controls, halves of characters, ends of lines
+TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}  # change the direction of what follows
+
+
+def printable(text: str) -> str:
+    """Text with escapes for characters that would do something else than be seen; ends of lines stay.
+
+    Examples
+    --------
+    >>> print(printable("bench\\x1b[2J, Stühle"))
+    bench\\x1b[2J, Stühle
+    """
+    return text if text.isprintable() else "".join(c if _is_seen(c) else repr(c)[1:-1] for c in text)
+
+
+def json_text(facts: dict[str, Any]) -> str:
+    """JSON in which such characters are escaped as well.
+
+    Examples
+    --------
+    >>> json_text({"name": "\\x9b2J, ö"})
+    '{\\n  "name": "\\\\u009b2J, ö"\\n}'
+    """
+    text = json.dumps(facts, indent=2, ensure_ascii=False)
+    return "".join(c if _is_seen(c) else json.dumps(c)[1:-1] for c in text)
+
+
+def _is_seen(c: str) -> bool:
+    if c.isprintable() or c == "\n":
+        return True
+    return unicodedata.category(c) not in OBEYED and unicodedata.bidirectional(c) not in TURNING
