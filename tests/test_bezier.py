@@ -159,7 +159,7 @@ def test_arrays_are_the_net_in_doubles() -> None:
 
 def test_files_hold_exact_numbers(tmp_path: Path) -> None:
     patches = bezier_patches(rational_surface(TRIANGLE, SQUARE, VertexEdge(1, 2)))
-    file = tmp_path / "new" / "patch.json"
+    file = tmp_path / "patch.json"
     save_bezier(patches, file)
     read = json.loads(file.read_text())
     assert [set(entry) for entry in read] == [{"chart", "interval", "degrees", "weights", "points"}] * len(patches)

@@ -378,7 +378,7 @@ def bounded_mesh() -> Mesh:
 
 @pytest.mark.parametrize("suffix", MESH_SUFFIXES)
 def test_files_hold_the_same_triangles(bounded_mesh: Mesh, suffix: str, tmp_path: Path) -> None:
-    file = tmp_path / "new" / f"mesh{suffix}"
+    file = tmp_path / f"mesh{suffix}"
     save_mesh(bounded_mesh, file)
     again = trimesh.load(file, process=False)
     if suffix == ".glb":

@@ -161,7 +161,7 @@ def test_holes_are_seen_through() -> None:
     "name", ["five_convex", "degenerate_no_obstacles", "degenerate_own_hole", "degenerate_workspace"]
 )
 def test_overviews_of_all_sorts_of_scenes_are_drawn(name: str, tmp_path: Path) -> None:
-    file = tmp_path / "new" / f"{name}.png"
+    file = tmp_path / f"{name}.png"
     save_figure(plot_overview(boundary(load_scene(SCENES / f"{name}.json"))), file)
     assert file.read_bytes()[:4] == b"\x89PNG"
     assert [entry.name for entry in file.parent.iterdir()] == [file.name]
