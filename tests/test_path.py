@@ -27,23 +27,28 @@ from test_motion import box, motions, pose_of
 
 poses = st.builds(pose_of, strategies.poses(6))
 paths = st.builds(Path, poses, st.lists(motions, max_size=4))
-WAY = Path(Pose(0, 0), [Translation((2, "1/3")), Rotation((2, 1), "-90deg"), Rotation((0, 0), "180deg")], "m", "map")
+SQUARE = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)])
+MOVES = [Translation((2, "1/3")), Rotation((2, 1), "-90deg"), Rotation((0, 0), "180deg")]
+WAY = Path(Pose(0, 0), MOVES, "m", "map", SQUARE)
 
 
 @settings(max_examples=100, deadline=None)
 @given(paths)
 def test_files_hold_paths_exactly(tmp_path_factory: pytest.TempPathFactory, path: Path) -> None:
     file = tmp_path_factory.mktemp("paths") / "way.json"
-    path.save(file)
+    path.save(file, scene=SQUARE)
     again = load_answer(file)
     assert again == path and again.poses == path.poses
+    text = file.read_text()
+    again.save(file)  # it does not know its scene any more, but whose it is
+    assert again.scene is None and file.read_text() == text.replace('"free"', '"approximate"')
 
 
 def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
     WAY.save(tmp_path / "way.json")
     data = json.loads((tmp_path / "way.json").read_text())
     assert data["answer"] == "path" and data["motions"][0]["vector"] == [2, 1 / 3]
-    del data["exact"]
+    del data["exact"], data["decimals"]
     for motion in data["motions"]:
         del motion["exact"]
     (tmp_path / "way.json").write_text(json.dumps(data))
@@ -60,10 +65,18 @@ def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
         ('"type": "rotation"', '"type": "turn"', r'motions\[1\]: expected a motion with "type"'),
         ('"vector": [2.0', '"vectr": [2.0', r'motions\[0\].vectr: unknown key "vectr"; did you mean "vector"\?'),
         ('"tau": "-1"', '"tau": "x"', r'motions\[1\].exact.tau: expected the tangent of half the angle, .*got "x"'),
-        ('"tau": "-1"', '"tau": "-1/2"', r"motions\[1\]: an angle of -1.57\d* beside the exact -0.92\d*: correct one"),
-        ('"vector": [2.0', '"vector": [2.1', r"motions\[0\]: 2.1 beside the exact 2.0: correct one of them"),
-        ('"pole": [2.0, 1.0]', '"pole": [2.0, 1e308]', r"motions\[1\]: a number beyond 1e300 beside the exact 1.0"),
-        ('"goal": [-1.3333333333333333', '"goal": [-1.3333', r"-1.3333 beside the exact -1.33333"),
+        ('"tau": "-1"', '"tau": "-1/2"', "the motions do not lead to the exact goal"),
+        (
+            '"vector": [2.0',
+            '"vector": [2.1',
+            r"motions\[0\].vector\[0\]: 2.1 beside the exact 2.0 moves the robot by 0.1, .*may by 1e-09",
+        ),
+        (
+            '"pole": [2.0, 1.0]',
+            '"pole": [2.0, 1e308]',
+            r"motions\[1\].pole\[1\]: 1e308 beside the exact 1.0 moves the robot by 1e\+300",
+        ),
+        ('"goal": [-1.3333333333333333', '"goal": [-1.3333', r"goal\[0\]: -1.3333 beside the exact -1.33333"),
         ('"start": [0.0, 0.0', '"start": [1e999, 0.0', r"start: a position beyond 1e150"),
         ('"vector": ["2", "1/3"]', '"vector": ["2", "0.333333333333"]', "the motions do not lead to the exact goal"),
         ('"pole": [2.0, 1.0]', '"pole": [2.0]', r"motions\[1\].pole: expected a point \[x, y\], got \[2.0\]"),
@@ -116,13 +129,17 @@ def test_exports_for_others(tmp_path: FilePath) -> None:
     header, *rows = (tmp_path / "way.csv").read_text().splitlines()
     samples = WAY.sample(0.5)
     assert header == "x,y,theta"
-    assert np.array_equal([[*map(float, row.split(","))] for row in rows], np.c_[samples.xy, samples.theta])
+    read = np.array([[*map(float, row.split(","))] for row in rows])
+    assert np.array_equal(read[:, :2], samples.xy) and np.allclose(read[:, 2] % math.tau, samples.theta)
+    assert (np.abs(np.diff(read[:, 2])) <= math.radians(5) + 1e-12).all() and read[-1, 2] == math.pi / 2
     with pytest.raises(UnsupportedError, match=r"way\.txt: paths are written as"):
         WAY.save(tmp_path / "way.txt")
     with pytest.raises(ValueError, match="no step"):
         WAY.save(tmp_path / "way.csv")
     with pytest.raises(ValueError, match="no scene"):
-        WAY.save(tmp_path / "way.geojson", step=1)
+        Path(Pose(0, 0), MOVES).save(tmp_path / "way.geojson", step=1)
+    with pytest.raises(ValueError, match=r"way\.json: no scene; give the one that it is an answer for"):
+        Path(Pose(0, 0), MOVES).save(tmp_path / "way.json")
 
 
 @settings(max_examples=50, deadline=None)
@@ -242,7 +259,7 @@ def test_the_example_of_the_format_page_is_what_is_written(request: pytest.Fixtu
     page = (request.config.rootpath / "docs" / "answer-format.md").read_text()
     example = page.split("```json\n")[1].split("```")[0]
     file = tmp_path / "way.json"
-    Path(Pose(0, 0), [Translation((2, "1/3")), Rotation((2, 1), "-90deg")], units="m").save(file)
+    Path(Pose(0, 0), MOVES[:2], units="m", scene=SQUARE).save(file)
     assert file.read_text() == example
     fault = page.split("```\nway.json:")[1].split("\n")[0]
     file.write_text(example.replace('"tau": "-1"}}', '"tau": "x"}}'))
@@ -255,8 +272,9 @@ def test_decimals_alone_lead_all_the_way_to_the_goal_they_state(tmp_path: FilePa
     """What is missing is one motion more, and checked as any other."""
     file = tmp_path / "way.json"
     scene = Scene(robot=[(-1, -1), (1, -1), (1, 1), (-1, 1)], obstacles=[[(1, -5), (3, -5), (3, 5), (1, 5)]])
+    move = '{"type": "translation", "vector": [1, 0]}'
     for goal, is_free in (("-1e-7", True), ("1e-7", False)):
-        file.write_text(f'{{"answer": "path", "start": [0, 0, 0], "goal": [{goal}, 0, 0], "motions": []}}')
+        file.write_text(f'{{"answer": "path", "start": [-1, 0, 0], "goal": [{goal}, 0, 0], "motions": [{move}]}}')
         path = load_answer(file)
         assert isinstance(path, Path)
         assert path.goal == Pose(goal, 0)

@@ -110,7 +110,7 @@ def test_many_motions_among_many_obstacles() -> None:
 def test_neither_the_core_nor_the_planner_is_used(tmp_path: FilePath) -> None:
     scene, path = corridor()
     scene.save(tmp_path / "scene.json")
-    path.save(tmp_path / "path.json")
+    path.save(tmp_path / "path.json", scene=scene)
     program = (
         "import sys; sys.modules['cfree._core'] = None\n"
         "import cfree.verify\n"

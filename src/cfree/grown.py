@@ -30,6 +30,12 @@ def grown(scene: Scene, radius: Fraction) -> list[Polygon]:
     return [piece for part in scene.robot for piece in _sums(part, ring)]
 
 
+def grown_by_square(scene: Scene, half: Fraction) -> list[Polygon]:
+    """The robot's Minkowski sum with the square [-half, half]^2, in the same way."""
+    ring = [(-half, -half), (half, -half), (half, half), (-half, half)]
+    return [piece for part in scene.robot for piece in _sums(part, ring)]
+
+
 def _around_a_disc() -> list[ExactPoint]:
     grid, far = 2**30, ROUNDING / math.cos(math.pi / SIDES)
     angles = [2 * math.pi * k / SIDES for k in range(SIDES)]

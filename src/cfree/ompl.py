@@ -177,7 +177,7 @@ def to_path(path: Any, scene: Scene) -> Path:
             half = (low + high) / 2
             middle = Pose(*(a + half * d for a, d in zip(*sweep, strict=True)))
             todo += [(half, high, middle, last), (low, half, first, middle)]
-    return Path(pose_of(states[0]), motions, units=scene.units)
+    return Path(pose_of(states[0]), motions, units=scene.units, scene=scene)
 
 
 def sweep_of(start: Any, goal: Any) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

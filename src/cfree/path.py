@@ -24,6 +24,7 @@ from cfree.motion import Motion, Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.pose import Pose, Poses
 from cfree.slide import Slide
+from cfree.stamp import Stamp, stamp_for
 
 if TYPE_CHECKING:
     from cfree.scene import Scene
@@ -71,6 +72,10 @@ class Path:
         Unit of length; nothing is computed from it.
     frame : str, optional
         Name of the world's frame, for files.
+    scene : Scene, optional
+        In which it is a path; None if it was read from a file.
+    stamp : Stamp, optional
+        What the file said of the scene.
 
     Examples
     --------
@@ -84,9 +89,20 @@ class Path:
     motions: tuple[Motion, ...]
     units: str = field(default="", compare=False)
     frame: str = field(default="world", compare=False)
+    scene: Scene | None = field(default=None, compare=False)
+    stamp: Stamp | None = field(default=None, compare=False)
 
-    def __init__(self, start: Pose, motions: Iterable[Motion], units: str = "", frame: str = "world") -> None:
-        for name, value in (("start", start), ("motions", tuple(motions)), ("units", units), ("frame", frame)):
+    def __init__(
+        self,
+        start: Pose,
+        motions: Iterable[Motion],
+        units: str = "",
+        frame: str = "world",
+        scene: Scene | None = None,
+        stamp: Stamp | None = None,
+    ) -> None:
+        values = (start, tuple(motions), units, frame, scene, stamp)
+        for name, value in zip(("start", "motions", "units", "frame", "scene", "stamp"), values, strict=True):
             object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
@@ -181,6 +197,23 @@ class Path:
             parts.append(motion.sample(pose, shares))
         return Poses(np.concatenate([p.xy for p in parts]), np.concatenate([p.theta for p in parts]))
 
+    def angles(self, step: float, turn: float = math.radians(5)) -> Floats:
+        """Theta of the same poses, counted on from the start's and not wrapped.
+
+        Examples
+        --------
+        >>> path = Path(Pose(0, 0), [Rotation((0, 0), "-90deg"), Rotation((0, 0), "180deg")])
+        >>> np.degrees(path.angles(1, math.pi))
+        array([  0., -90.,  90.])
+        """
+        parts, counted = [np.array([self.start.theta])], self.start.theta
+        for k, (motion, shares) in enumerate(zip(self.motions, self.shares(step, turn), strict=True)):
+            end = self.poses[k + 1].theta
+            end += math.tau * round((counted + motion.turn - end) / math.tau)
+            parts.append(np.append(counted + shares[:-1] * motion.turn, end))
+            counted = end
+        return np.concatenate(parts)
+
     def shares(self, step: float, turn: float = math.radians(5)) -> list[Floats]:
         """For each motion the shares of it, above 0 and up to 1, at which `sample` takes poses."""
         if not (step > 0 and turn > 0):
@@ -263,7 +296,7 @@ class Path:
         step, turn : float
             As in `sample`; step is needed for all but ``.json``.
         scene : Scene, optional
-            Whose robot moves; needed for ``.geojson``.
+            That of the path, if it does not know it; needed for ``.json`` and ``.geojson``.
         form : "json", "csv", "ros" or "geojson", optional
             Instead of what the file's name says.
 
@@ -274,16 +307,20 @@ class Path:
         ValueError
             If step or scene is missing.
         """
-        from cfree.formats.path_format import csv_text, geojson_text, path_text, ros_text
+        from cfree.formats.path_format import path_text
+        from cfree.formats.poses_text import csv_text, geojson_text, ros_text
+        from cfree.leeway import keeps_leeway
 
-        kind = form_of(path, form)
+        kind, scene = form_of(path, form), scene or self.scene
         if kind == "json":
-            text = path_text(self)
+            stamp = stamp_for(path, scene, self.stamp)
+            text = path_text(self, stamp, lambda leeway: scene is not None and keeps_leeway(self, scene, leeway))
         elif step is None:
             raise ValueError(f"{path}: no step; give the longest distance between poses")
-        elif kind != "geojson":
-            poses = self.sample(step, turn)
-            text = csv_text(poses) if kind == "csv" else ros_text(poses, self.frame)
+        elif kind == "csv":
+            text = csv_text(self, step, turn)
+        elif kind == "ros":
+            text = ros_text(self, step, turn)
         elif scene is None:
             raise ValueError(f"{path}: no scene; give the one whose robot moves")
         else:

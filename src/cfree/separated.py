@@ -27,6 +27,7 @@ from cfree.inset import INSETS, inset_space, size_power
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Bounds
+from cfree.stamp import Stamp, stamp_for
 from cfree.trapezoids import CODED, COLUMNS, Ints, Trapezoids
 
 if TYPE_CHECKING:
@@ -145,6 +146,8 @@ class Separated:
         Unit of length, and name of the world's frame, for files.
     scene : Scene, optional
         What it is a proof for; None if it was read from a file.
+    stamp : Stamp, optional
+        What the file said of the scene.
     """
 
     start: Pose
@@ -157,6 +160,7 @@ class Separated:
     units: str = field(default="", compare=False, repr=False)
     frame: str = field(default="world", compare=False, repr=False)
     scene: Scene | None = field(default=None, compare=False, repr=False)
+    stamp: Stamp | None = field(default=None, compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"Separated(of={self.of!r}, cells={self.cells}, {len(self.pieces)} pieces of {self.obstacles})"
@@ -184,13 +188,16 @@ class Separated:
         ------
         UnsupportedError
             If the file's name ends otherwise.
+        ValueError
+            If there is no scene.
         """
         from cfree.formats.separation_format import separation_text
 
         if FilePath(path).suffix.lower() != ".json":
             raise UnsupportedError(f"{path}: separations are written as .json; name the file so")
+        text = separation_text(self, stamp_for(path, self.scene, self.stamp))
         with replacing(path) as unfinished:
-            unfinished.write_text(separation_text(self), encoding="utf-8", newline="\n")
+            unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
 def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:

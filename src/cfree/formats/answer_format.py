@@ -6,10 +6,13 @@ Import this module inside functions.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
+from cfree.formats.answer_rules import completed, effect_faults, leeway_of, path_faults
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path as Place
 from cfree.formats.path_format import PathModel
@@ -19,17 +22,35 @@ from cfree.path import Path
 from cfree.separated import Separated
 
 
-def answer_from_json(findings: Findings, data: object) -> Path | Separated:
-    """Answer of a decoded JSON value; raises every problem there is through `findings`."""
+@dataclass(frozen=True)
+class Read:
+    """What a file says.
+
+    Attributes
+    ----------
+    answer : Path or Separated
+    decimals : "free", "approximate" or None
+        What it claims of the decimals; None if there is nothing else.
+    leeway : Fraction or None
+        How far the path has to keep from everything for them to be free; None if no distance is enough.
+    """
+
+    answer: Path | Separated
+    decimals: str | None = None
+    leeway: Fraction | None = None
+
+
+def answer_from_json(findings: Findings, data: Any) -> Read:
+    """What a decoded JSON value says; raises every problem there is through `findings`."""
     kind = data.get("answer") if isinstance(data, dict) else None
     if kind not in ("path", "separated"):
         named = isinstance(data, dict) and "answer" in data
         fault = 'expected "path" or "separated", got {got}' if named else 'no answer: "answer" is missing'
         findings.under(("answer",) if named else (), f"{fault}; give a file that `save` of a path or a proof wrote")
         findings.fail_if_any()
-    model: type[PathModel | SeparationModel] = SeparationModel if kind == "separated" else PathModel
+    kind_of_model: type[PathModel | SeparationModel] = SeparationModel if kind == "separated" else PathModel
     try:
-        return model.model_validate(data).result
+        model = kind_of_model.model_validate(data)
     except ValidationError as error:
         for item in error.errors(include_url=False, include_input=False):
             path = item["loc"]
@@ -43,9 +64,19 @@ def answer_from_json(findings: Findings, data: object) -> Path | Separated:
             elif item["type"] in ("model_type", "model_attributes_type"):
                 findings.under(path, "expected an object {...}, got {got}")
             else:
-                report(findings, path, item, lambda place: _keys_at(model, place))
+                report(findings, path, item, lambda place: _keys_at(kind_of_model, place))
         findings.fail_if_any()
         raise
+    if isinstance(model, SeparationModel):
+        faults = effect_faults(model, Path(model.ends[0], ()), data)
+    else:
+        faults = path_faults(model, data)
+    for place, message in faults:
+        findings.under(place, message)
+    findings.fail_if_any()
+    if isinstance(model, SeparationModel):
+        return Read(model.result)
+    return Read(completed(model), model.decimals, leeway_of(model, data) if model.decimals == "free" else None)
 
 
 def _keys_at(model: type[BaseModel], place: Place) -> list[str]:

@@ -1,4 +1,4 @@
-"""JSON text to Python values with exact numbers, and what to say when it is not JSON."""
+"""JSON text to Python values with exact numbers and back, and what to say when it is not JSON."""
 
 from __future__ import annotations
 
@@ -54,6 +54,21 @@ def read_json(findings: Findings) -> object:
     if irregular:
         findings.irregular_json()
     return data
+
+
+def json_line(value: object) -> str:
+    """JSON of a value on one line; decimals have the digits that they have.
+
+    Examples
+    --------
+    >>> json_line({"at": [Decimal("0.10000000000000000000001"), 2.0, "x"]})
+    '{"at": [0.10000000000000000000001, 2.0, "x"]}'
+    """
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{json.dumps(key)}: {json_line(part)}' for key, part in value.items())}}}"
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(map(json_line, value))}]"
+    return str(value) if isinstance(value, Decimal) else json.dumps(value)
 
 
 def _syntax_fault(text: str, error: json.JSONDecodeError) -> str:

@@ -56,7 +56,9 @@ def _coordinate(value: object) -> Fraction:
     raise fault('expected a number or "p/q", got {got}')
 
 
-def _list_of(length: int, form: str) -> Callable[[object], object]:
+def list_of(length: int, form: str) -> Callable[[object], object]:
+    """A validator of lists of one length."""
+
     def check(value: object) -> object:
         if isinstance(value, list) and len(value) == length:
             return value
@@ -153,16 +155,16 @@ _ANGLE_SCHEMA = {
     ]
 }
 Coordinate = Annotated[Fraction, PlainValidator(_coordinate), WithJsonSchema(_NUMBER_SCHEMA)]
-Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(_list_of(2, "a point [x, y]"))]
+Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(list_of(2, "a point [x, y]"))]
 Bounds = Annotated[
     tuple[Coordinate, Coordinate, Coordinate, Coordinate],
-    BeforeValidator(_list_of(4, "[xmin, ymin, xmax, ymax]")),
+    BeforeValidator(list_of(4, "[xmin, ymin, xmax, ymax]")),
     AfterValidator(_not_empty),
 ]
 Angle = Annotated[Any, PlainValidator(_angle), WithJsonSchema(_ANGLE_SCHEMA)]
 Configuration = Annotated[
     tuple[Coordinate, Coordinate, Angle],
-    BeforeValidator(_list_of(3, "[x, y, theta]")),
+    BeforeValidator(list_of(3, "[x, y, theta]")),
     AfterValidator(_pose),
 ]
 Version = Annotated[int, PlainValidator(_known_version), WithJsonSchema({"const": VERSION})]

@@ -14,10 +14,14 @@ from pydantic import Field, PlainValidator, model_validator
 
 from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
 from cfree.formats.contact_format import ContactModel
-from cfree.formats.path_format import AnswerModel, configuration, exact_configuration
+from cfree.formats.effect import Effect
+from cfree.formats.json_text import json_line
+from cfree.formats.path_format import AnswerModel, answer_head
 from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict, fault
+from cfree.path import Path
 from cfree.polygon import Polygon
 from cfree.separated import Auxiliary, Pieces, Separated
+from cfree.stamp import Stamp
 from cfree.trapezoids import CODED, COLUMNS, Trapezoids
 
 KINDS = {1: "vertex-edge", 2: "edge-vertex"}
@@ -131,6 +135,7 @@ class SeparationModel(AnswerModel):
             bounds=self.larger_bounds,
             units=self.units,
             frame=self.frame,
+            stamp=self.stamp,
         )
 
 
@@ -148,16 +153,11 @@ def _pieces(models: list[PieceModel], auxiliary: tuple[Auxiliary, ...]) -> Piece
     return Pieces(kind, robot, obstacle, Trapezoids(**columns), auxiliary)
 
 
-def separation_text(proof: Separated) -> str:
+def separation_text(proof: Separated, stamp: Stamp) -> str:
     """JSON of a separation; an equal one is read from it."""
+    decimals = Effect(Path(proof.start, ()), proof.goal, stamp).decimals()
     head: dict[str, Any] = {
-        "version": 1,
-        "units": proof.units,
-        "frame": proof.frame,
-        "answer": "separated",
-        "start": configuration(proof.start),
-        "goal": configuration(proof.goal),
-        "exact": {"start": exact_configuration(proof.start), "goal": exact_configuration(proof.goal)},
+        **answer_head("separated", proof, stamp, decimals),
         "of": proof.of,
         "cells": proof.cells,
         "obstacles": proof.obstacles,
@@ -172,7 +172,7 @@ def separation_text(proof: Separated) -> str:
             for a in proof.pieces.auxiliary
         ]
     lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
-    members = [*(f'"{key}": {json.dumps(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
+    members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
     return "{" + ",\n ".join(members) + "}\n"
 
 

@@ -208,7 +208,7 @@ class Planner:
             If a motion is not free: a fault of cfree.
         """
         motions = [self._slide(a, b) or motion_between(a, b) for a, b in pairwise(poses) if a != b]
-        found = Path(poses[0], motions, self.scene.units)
+        found = Path(poses[0], motions, self.scene.units, scene=self.scene)
         if not found.is_free(self.checker):
             raise InvariantError("a path is not free", state=found)
         return found

@@ -8,20 +8,24 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from cfree.answer import load_answer
+from cfree.answer import read_answer
 from cfree.path import Path
 from cfree.slide import Slide
-from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, end_findings, path_findings
+from cfree.stamp import Stamp, stamp_of
+from cfree.verify.leeway import roomier
+from cfree.verify.motions import CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.world import World
 
 if TYPE_CHECKING:
+    from cfree.formats.answer_format import Read
     from cfree.pose import Pose
     from cfree.scene import Scene
     from cfree.separated import Separated
 
-ASKED, PIECES = "poses asked for", "convex pieces"
+SCENE, ASKED, PIECES = "scene", "poses asked for", "convex pieces"
+NO_ROOM = 'they are said to be "free", and no room is enough for that; say "approximate"'
 
 
 def answer(
@@ -37,7 +41,7 @@ def answer(
     scene : Scene
         If it has a start and a goal, these have to be the answer's.
     answer : Path, Separated or path
-        A file written by `Path.save` or `Separated.save`, or one in memory.
+        A file written by `Path.save` or `Separated.save`, or one in memory: then nobody asks for which scene it was.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
@@ -65,7 +69,12 @@ def answer(
     False
     """
     begin = time.perf_counter()
-    given = load_answer(answer) if isinstance(answer, (str, os.PathLike)) else answer
+    read = read_answer(answer) if isinstance(answer, (str, os.PathLike)) else None
+    given = read.answer if read else answer
+    assert not isinstance(given, (str, os.PathLike))
+    if read and (finding := _other_scene(scene, given)):
+        check = Check(SCENE, REFUTED, "nothing else was checked")
+        return Verification((check,), (finding,), (), time.perf_counter() - begin)
 
     def report(done: float) -> None:
         if progress is not None:
@@ -76,7 +85,11 @@ def answer(
     findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
     findings += end_findings(given, world)
     if isinstance(given, Path):
-        findings += path_findings(given, world, report)
+        roomy = None
+        if read and read.decimals == "free":
+            roomy = None if read.leeway is None else roomier(world, read.leeway)
+            findings += [Finding(DECIMALS, "decimals", NO_ROOM)] * (roomy is None)
+        findings += path_findings(given, world, report, roomy)
     else:
         findings += separation_findings(given, world, report)
     report(1.0)
@@ -85,12 +98,15 @@ def answer(
         PIECES: f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them",
         ENDS: "both are free",
         **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
+        **_of_file(read),
     }
     refuted = {finding.kind for finding in findings}
     how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
+    how |= {DECIMALS: SKIPPED} if read and read.decimals == "approximate" else {}
     how |= dict.fromkeys(refuted, REFUTED)
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
-    return Verification(checks, tuple(findings), (), time.perf_counter() - begin, "" if findings else _sentence(given))
+    proved = "" if findings else _sentence(given, read)
+    return Verification(checks, tuple(findings), (), time.perf_counter() - begin, proved)
 
 
 def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
@@ -100,6 +116,34 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
         for name, (pose, its) in asked.items()
         if pose is not None and pose != its
     ]
+
+
+def _other_scene(scene: Scene, given: Path | Separated) -> Finding | None:
+    """Is an answer for another scene than this one?"""
+    stamp, its = stamp_of(scene), given.stamp
+    if its is None or its == stamp:
+        return None
+    if its.sha256 == stamp.sha256:
+        return Finding(SCENE, "scene.robot", f"it is {_box(its)}, and {_box(stamp)} around the robot; correct it")
+    text = f"the answer is for the one of sha256 {its.sha256[:12]}..., and this is {stamp.sha256[:12]}..."
+    return Finding(SCENE, "another scene", f"{text}; give its own, or plan anew")
+
+
+def _box(stamp: Stamp) -> str:
+    return f"[{', '.join(map(str, stamp.robot))}]"
+
+
+def _of_file(read: Read | None) -> dict[str, str]:
+    """What a file says of the scene and of its decimals."""
+    if read is None or read.answer.stamp is None:
+        return {}
+    found = {SCENE: "the one that the answer is for"}
+    if read.decimals == "approximate":
+        found[DECIMALS] = "approximate: only the exact numbers are free of collisions"
+    elif read.decimals == "free":
+        room = 0 if read.leeway is None else float(read.leeway)
+        found[DECIMALS] = f"as doubles they are free, too: the path keeps {room:.3g}, four times what they are off"
+    return found
 
 
 def _of_path(path: Path) -> dict[str, str]:
@@ -123,11 +167,12 @@ def _of_separation(proof: Separated) -> dict[str, str]:
     }
 
 
-def _sentence(given: Path | Separated) -> str:
+def _sentence(given: Path | Separated, read: Read | None) -> str:
     ends = _text(given.start), _text(given.goal)
     if isinstance(given, Path):
         count = f"{len(given.motions):,} motion{'s' * (len(given.motions) != 1)}"
-        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and is free of collisions."
+        only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
+        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and is free of collisions{only}."
     if given.of == "closed":
         return f"No path leads from {ends[0]} to {ends[1]}, not even one that touches."
     return f"No path that keeps a distance from everything leads from {ends[0]} to {ends[1]}; one that touches may."

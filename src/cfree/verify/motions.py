@@ -29,19 +29,26 @@ from cfree.verify.surfaces import Fault
 from cfree.verify.world import numbers
 
 if TYPE_CHECKING:
+    from cfree.motion import Motion
     from cfree.path import Path
     from cfree.pose import Pose
     from cfree.separated import Separated
     from cfree.verify.world import World
 
 ENDS, CONTINUOUS, FREE, KEPT = "start and goal", "continuous", "free of collisions", "contacts kept"
+DECIMALS, TOO_NEAR = "decimals", 'they are said to be "free", and this is too near to something; say "approximate"'
 STANDING, ZERO = Translation((0, 0)), Fraction(0)
 HALVINGS = 16
 
 
-def path_findings(path: Path, world: World, report: Callable[[float], object]) -> Iterator[Finding]:
-    """All that is wrong with a path in a scene."""
+def path_findings(
+    path: Path, world: World, report: Callable[[float], object], roomy: World | None = None
+) -> Iterator[Finding]:
+    """All that is wrong with a path in a scene; if its decimals are said to be free, also in a roomier one."""
     placed = place_of(path.start, world.scale)
+    if roomy and collision(roomy, _course_in(roomy, placed, STANDING, world)) is not None:
+        yield Finding(DECIMALS, "start", TOO_NEAR)
+        roomy = None
     for k, motion in enumerate(path.motions):
         report(k / len(path.motions))
         course = Course(placed, motion, world.scale)
@@ -51,11 +58,21 @@ def path_findings(path: Path, world: World, report: Callable[[float], object]) -
         for touch in motion.contacts if isinstance(motion, Slide) else ():
             if (why := _not_kept(world, course, touch)) is not None:
                 yield Finding(KEPT, f"motion {k}", f"{touch.kind} {touch.robot}, {touch.obstacle}: {why}")
-        if (u := collision(world, course)) is not None:
+        if roomy and collision(roomy, _course_in(roomy, placed, motion, world)) is not None:
+            yield Finding(DECIMALS, f"motion {k}", TOO_NEAR)
+            roomy = None
+        if not roomy and (u := collision(world, course)) is not None:
             yield Finding(FREE, f"motion {k}", f"it is forbidden at u = {u}, near {float(u):.6g}")
         placed = course.at(Fraction(1))
     if placed != place_of(path.goal, world.scale):
         yield Finding(CONTINUOUS, "goal", "the motions do not lead to it")
+
+
+def _course_in(roomy: World, placed: Placed, motion: Motion, world: World) -> Course:
+    """The same motion in the coordinates of a roomier world."""
+    x, y, c, s = placed
+    factor = roomy.scale // world.scale
+    return Course((factor * x, factor * y, c, s), motion, roomy.scale)
 
 
 def end_findings(given: Path | Separated, world: World) -> Iterator[Finding]:
@@ -120,13 +137,11 @@ def _not_kept(world: World, course: Course, touch: Touch) -> str | None:
 
 def collision(world: World, course: Course) -> Fraction | None:
     """Some u at which a pose is forbidden, if there is one."""
-    if world.scene.bounds:
-        bounds = [int(b * world.scale) for b in world.scene.bounds]
-        for k, b in enumerate(bounds):
-            sign = -1 if k < 2 else 1
-            over = combined((sign, -sign * b), (course.x, course.y)[k % 2], course.d)
-            if (found := positive(over)) is not None:
-                return found
+    for k, b in enumerate(world.bounds):
+        sign = -1 if k < 2 else 1
+        over = combined((sign, -sign * b), (course.x, course.y)[k % 2], course.d)
+        if (found := positive(over)) is not None:
+            return found
     for ring in world.parts:
         found = _collision(world, course, ring, ALL, np.arange(len(world.walls), dtype=np.int32))
         if found is not None:

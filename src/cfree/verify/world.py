@@ -50,6 +50,8 @@ class World:
         What is outside the bounds, for the reference point.
     untiled : list of str
         Shapes whose pieces are not convex, or do not tile them.
+    bounds : list of int
+        xmin, ymin, xmax, ymax; empty if there are none.
     unit : int
         No vertex, and no reference point at a contact, has a larger coordinate.
     """
@@ -60,6 +62,7 @@ class World:
     parts: list[Ring] = field(default_factory=list)
     walls: list[Ring] = field(default_factory=list)
     untiled: list[str] = field(default_factory=list)
+    bounds: list[int] = field(init=False)
 
     def __post_init__(self) -> None:
         scene, features = self.scene, scene_features(self.scene)
@@ -72,7 +75,7 @@ class World:
         for k, polygon in enumerate(scene.obstacles):
             self._add_pieces(self.walls, polygon, f"obstacle {k}")
         workspace = scene.workspace and rings_of(scene.workspace, self.scale)
-        bounds = [int(b * self.scale) for b in scene.bounds or ()]
+        self.bounds = bounds = [int(b * self.scale) for b in scene.bounds or ()]
         points = [p for rings in (*obstacles, workspace or [[]]) for p in rings[0]]
         points += zip(bounds[::2], bounds[1::2], strict=True)
         margin = 1 + 4 * max(abs(c) for ring in robot for p in ring[0] for c in p)

@@ -1,0 +1,210 @@
+"""The rule of effect: how far decimals, applied instead of the exact numbers beside them, put the robot from its path.
+
+docs/answer-format.md, "Decimals", states it. Every decimal has a weight: how far a point of the robot moves at most for
+each unit that it is off. Angles are irrational, and enclosed in intervals.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+from functools import cached_property
+
+from flint import arb, ctx, fmpq
+
+from cfree.formats.json_positions import Path as Place
+from cfree.motion import Motion, Rotation, Translation
+from cfree.path import Path
+from cfree.pose import Pose
+from cfree.slide import Slide
+from cfree.stamp import Stamp
+
+PART = Fraction(1, 10**9)  # of the robot's size: how far decimals may put a point of it
+BITS = 300  # of angles, more than weights need
+
+Decimals = Mapping[Place, Fraction]
+Written = Mapping[Place, Decimal]  # the same as in a file
+
+
+@dataclass(frozen=True, slots=True)
+class Enclosed:
+    """A real number, at most `radius` from `middle`."""
+
+    middle: Fraction
+    radius: Fraction = Fraction(0)
+
+    def __add__(self, other: Enclosed) -> Enclosed:
+        return Enclosed(self.middle + other.middle, self.radius + other.radius)
+
+    def times(self, factor: int) -> Enclosed:
+        return Enclosed(factor * self.middle, abs(factor) * self.radius)
+
+    def off(self, decimal: Fraction) -> Fraction:
+        """At least how far a decimal is from it."""
+        return abs(decimal - self.middle) + self.radius
+
+
+@dataclass(frozen=True, slots=True)
+class Term:
+    """An exact number beside a decimal."""
+
+    place: Place
+    value: Enclosed
+    weight: Fraction
+
+    def effect(self, decimals: Decimals) -> Fraction:
+        return self.weight * self.value.off(decimals[self.place])
+
+
+class Effect:
+    """What decimals do beside the exact numbers of a path.
+
+    Parameters
+    ----------
+    path : Path
+        Without motions, it is the start of a separation.
+    goal : Pose
+    stamp : Stamp
+    """
+
+    def __init__(self, path: Path, goal: Pose, stamp: Stamp) -> None:
+        self.path, self.goal, self.stamp = path, goal, stamp
+        self.limit = PART * stamp.size
+        farthest = max([stamp.reach, *map(_arm, path.poses, path.motions)]) / self.limit
+        self._bits = BITS + math.ceil(farthest * (len(path.motions) + 1)).bit_length()
+
+    def terms(self, decimals: Decimals) -> Iterator[Term]:
+        """Those of the start and of the motions; a pole's weight needs the decimal angle, which comes before it."""
+        start, reach = self.path.start, self.stamp.reach
+        yield from self._pose(("start",), start, self._counted(start, decimals["start", 2]))
+        for k, (pose, motion) in enumerate(zip(self.path.poses, self.path.motions, strict=False)):
+            place: Place = ("motions", k)
+            if isinstance(motion, Rotation):
+                angle = (*place, "angle")
+                yield Term(angle, self._turns[k], _arm(pose, motion) + reach)
+                yield from _point((*place, "pole"), motion.pole, min(Fraction(2), abs(decimals[angle])))
+                continue
+            vector = motion.moved(motion.tau) if isinstance(motion, Slide) else motion.vector
+            yield from _point((*place, "vector"), vector)
+            if isinstance(motion, Slide):
+                yield Term((*place, "angle"), self._turns[k], reach)
+
+    def poses(self, decimals: Decimals) -> Iterator[list[Term]]:
+        """Those of each pose that is led to, and of the goal."""
+        theta = self._counted(self.path.start, decimals["start", 2])
+        for k, (pose, turn) in enumerate(zip(self.path.poses[1:], self._turns, strict=True)):
+            theta += turn
+            yield list(self._pose(("motions", k, "to"), pose, theta))
+        yield list(self._pose(("goal",), self.goal, self._counted(self.goal, decimals["goal", 2])))
+
+    def total(self, decimals: Decimals) -> Fraction:
+        """No point of the robot is anywhere farther from where it should be."""
+        return sum((term.effect(decimals) for term in self.terms(decimals)), Fraction(0))
+
+    def decimals(self) -> Written:
+        """Decimals that keep the rule, most of them with half of what it allows."""
+        count = 3 + sum(2 + isinstance(motion, (Rotation, Slide)) for motion in self.path.motions)
+        found: dict[Place, Decimal] = {}
+        values: dict[Place, Fraction] = {
+            ("start", 2): Fraction(self.path.start.theta),
+            ("goal", 2): Fraction(self.goal.theta),
+        }
+
+        def write(term: Term, share: Fraction) -> None:
+            found[term.place] = decimal_near(term.value, share / term.weight if term.weight else share)
+            values[term.place] = Fraction(found[term.place])
+
+        for term in self.terms(values):
+            write(term, self.limit / (2 * count))
+        for pose in self.poses(values):
+            for term in pose:
+                write(term, self.limit / 6)
+        return found
+
+    def leeway(self, decimals: Written) -> Fraction | None:
+        """How far the exact path has to keep from everything so that the path of the decimals, as doubles, is free.
+
+        None if no distance is enough: of slides decimals do not say where they go.
+        """
+        if any(isinstance(motion, Slide) for motion in self.path.motions):
+            return None
+        try:
+            doubles = {place: Fraction(float(value)) for place, value in decimals.items()}
+        except OverflowError:
+            return None
+        most = 4 * max(self.total({place: Fraction(value) for place, value in decimals.items()}), self.total(doubles))
+        if most == 0:
+            return most
+        power = most.numerator.bit_length() - most.denominator.bit_length()  # most is from half of it to twice
+        return Fraction(2) ** (power if most <= Fraction(2) ** power else power + 1)
+
+    def _counted(self, pose: Pose, decimal: Fraction) -> Enclosed:
+        """The angle of a pose with as many turns as bring it nearest to the decimal one."""
+        angle, turn = self._angle(pose.tau), self._enclosed(lambda: 2 * arb.pi())
+        return angle + turn.times(round((decimal - angle.middle) / turn.middle))
+
+    def _pose(self, place: Place, pose: Pose, theta: Enclosed) -> Iterator[Term]:
+        yield from _point(place, (pose.x, pose.y))
+        yield Term((*place, 2), theta, self.stamp.reach)
+
+    @cached_property
+    def _turns(self) -> list[Enclosed]:
+        """By which angle each motion turns."""
+        return [self._turn(motion) for motion in self.path.motions]
+
+    def _turn(self, motion: Motion) -> Enclosed:
+        if isinstance(motion, Translation):
+            return Enclosed(Fraction(0))
+        is_back = motion.tau is None and motion.clockwise
+        return self._angle(motion.tau).times(-1 if is_back else 1)
+
+    def _angle(self, tau: Fraction | None) -> Enclosed:
+        if tau is None:
+            return self._enclosed(arb.pi)
+        return self._enclosed(lambda: 2 * arb(fmpq(tau.numerator, tau.denominator)).atan())
+
+    def _enclosed(self, value: Callable[[], arb]) -> Enclosed:
+        with ctx.workprec(self._bits):
+            found = value()
+            return Enclosed(_fraction(found.mid()), _fraction(found.rad()))
+
+
+def decimal_near(value: Enclosed, tolerance: Fraction) -> Decimal:
+    """The shortest decimal of a double if it is near enough, else one with as many digits as that takes.
+
+    Examples
+    --------
+    >>> third = Enclosed(Fraction(1, 3))
+    >>> decimal_near(third, Fraction(1, 10**9)), decimal_near(third, Fraction(1, 10**18))
+    (Decimal('0.3333333333333333'), Decimal('0.333333333333333333'))
+    """
+    try:
+        short = Decimal(repr(float(value.middle)))
+    except OverflowError:
+        short = Decimal(0)
+    if value.off(Fraction(short)) <= tolerance:
+        return short
+    places = 0
+    while value.off(Fraction(whole := round(value.middle * 10**places), 10**places)) > tolerance:
+        places += 1
+    return Decimal((int(whole < 0), tuple(map(int, str(abs(whole)))), -places))
+
+
+def _point(place: Place, point: tuple[Fraction, Fraction], weight: Fraction = Fraction(1)) -> Iterator[Term]:
+    for k, value in enumerate(point):
+        yield Term((*place, k), Enclosed(value), weight)
+
+
+def _arm(pose: Pose, motion: Motion) -> Fraction:
+    """No less than the way from the pole to the reference point."""
+    if not isinstance(motion, Rotation):
+        return Fraction(0)
+    return abs(pose.x - motion.pole[0]) + abs(pose.y - motion.pole[1])
+
+
+def _fraction(value: arb) -> Fraction:
+    mantissa, exponent = map(int, value.man_exp())
+    return Fraction(mantissa) * Fraction(2) ** exponent

@@ -1,0 +1,40 @@
+"""Does a path keep its distance from everything, all the way? Exact."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+from cfree.errors import UnsupportedError
+from cfree.grown import grown_by_square
+from cfree.inset import with_robot
+from cfree.motion_check import MotionChecker
+from cfree.path import Path
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
+
+
+def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:
+    """Is a path free for a robot larger by the square [-leeway, leeway]^2, in bounds as much smaller?
+
+    Then no pose is forbidden at which each point of the robot is at most as far from its place on the path.
+
+    Examples
+    --------
+    >>> from cfree import Pose, Scene, Translation
+    >>> scene = Scene([(0, 0), (1, 0), (1, 1), (0, 1)], [[(0, 2), (9, 2), (9, 3)]])
+    >>> [keeps_leeway(Path(Pose(0, 0), [Translation((9, 0))]), scene, Fraction(k, 4)) for k in (4, 5)]
+    [True, False]
+    """
+    bounds = scene.bounds
+    if bounds is not None:
+        x0, y0, x1, y1 = bounds
+        bounds = x0 + leeway, y0 + leeway, x1 - leeway, y1 - leeway
+        if bounds[0] >= bounds[2] or bounds[1] >= bounds[3]:
+            return False
+    try:
+        larger = with_robot(scene, grown_by_square(scene, leeway) if leeway else scene.robot, bounds)
+    except UnsupportedError:  # coordinates beyond what is allowed
+        return False
+    return path.is_free(MotionChecker(larger))
