@@ -9,6 +9,7 @@ import tempfile
 from collections import Counter
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from pathlib import Path as FilePath
@@ -49,8 +50,8 @@ def corridor() -> tuple[Scene, Path]:
     up, round_it = Translation((0, 3)), Rotation((0, 3), {"tau": "-inf"})
     quarter = Rotation((0, 3), {"tau": "1/2"}), Rotation((0, 3), {"tau": "1/3"})
     on = Translation((0, 17)), Rotation((0, 20), {"tau": -1}), Translation((10, 2))
-    path = Path(Pose(0, 0), [up, round_it, *quarter, *on])
     scene = scene_of(PlainScene([ROD], walls, bounds=(0, 0, 10, 22)))
+    path = Path(Pose(0, 0), [up, round_it, *quarter, *on], scene=scene)
     return with_ends(scene, path.start, path.goal), path
 
 
@@ -61,7 +62,8 @@ def tee() -> tuple[Scene, Path]:
     turn = Slide(touches, [0, 0, -2, 2], [0, 2, -2], [1, 0, 1], 1)
     parts = [turn.until("1/3"), turn.between("1/3", 1)]
     path = Path(Pose(-5, 1), [Translation((5, 0)), *parts, Translation((0, 6))])
-    return Scene(box(-1, -1, 1, 1)[0], workspace=walls, start=path.start, goal=path.goal), path
+    scene = Scene(box(-1, -1, 1, 1)[0], workspace=walls, start=path.start, goal=path.goal)
+    return scene, replace(path, scene=scene)
 
 
 @cache
@@ -367,11 +369,11 @@ OF_SEPARATIONS: tuple[Mutation, ...] = (
 # --- trying them ---
 
 
-def repaired(answer: Answer) -> Answer:
+def repaired(scene: Scene, answer: Answer) -> Answer:
     """With the goal to which the motions lead, so that there is something left to verify."""
     x, y, theta = answer["exact"]["start"]
     moves = [moved_by(motion["type"], motion["exact"], motion.get("contacts", ())) for motion in answer["motions"]]
-    return json.loads(text_of(Path(Pose(x, y, theta), moves)))  # type: ignore[no-any-return]
+    return json.loads(text_of(Path(Pose(x, y, theta), moves, scene=scene)))  # type: ignore[no-any-return]
 
 
 def moved_by(kind: str, exact: Answer, contacts: list[Answer]) -> Motion:
@@ -430,7 +432,7 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
         for bad in mutants(rng, good, mutate, count):
             if isinstance(good, Path) and mutate not in UNREPAIRED and verdict(scene, bad) == "bad file":
                 with suppress(InvalidPoseError):  # no slide at all
-                    bad = repaired(bad)
+                    bad = repaired(scene, bad)
             found[verdict(scene, bad)] += 1
             if isinstance(good, Path):
                 found[verdict(with_ends(scene, None, None), bad)] += 1
