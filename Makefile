@@ -8,7 +8,7 @@ INSTALLED := .venv/installed
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: demo test ctest ctest-sanitize sanitize fuzz fuzz-answers lint bench docs dev stub clean
+.PHONY: demo test ctest ctest-sanitize sanitize fuzz fuzz-answers fuzz-files lint bench docs dev stub clean
 
 demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot get out, both verified, into demo/
 	mkdir -p demo
@@ -45,6 +45,9 @@ fuzz: $(INSTALLED)  ## random degenerate scenes against exact slices; SECONDS=60
 
 fuzz-answers: $(INSTALLED)  ## questions whose answers are known, and hard ones, asked both ways and in other words
 	$(BIN)/python tests/fuzz_answers.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
+
+fuzz-files: $(INSTALLED)  ## files of boundaries with flipped bits
+	$(BIN)/python tests/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
 lint: $(INSTALLED)
 	$(BIN)/ruff check src tests benchmarks examples

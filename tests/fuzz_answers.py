@@ -4,27 +4,21 @@
     python tests/fuzz_answers.py SCENE.json
 
 Question k of family f is the same for ever; the first have the number `--seed`, and the last line says where to go on.
-Each kind of fault is shown once a family, as its smallest scene; how often it was seen is in the summary.
+A fault is shown when its kind is new in a family, and made small when it is new at all; the summary counts it.
 """
 
 from __future__ import annotations
 
 import argparse
 import contextlib
-import multiprocessing
 import random
-import signal
 import sys
 import tempfile
 import time
 import traceback
 from collections import Counter, defaultdict
-from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from itertools import count
-from multiprocessing.connection import Connection
 from pathlib import Path as FilePath
-from typing import Any
 
 import cfree.verify
 import fuzz
@@ -34,9 +28,12 @@ from cfree.io import scene_text
 from laws import broken, laws
 from questions import FAMILIES, Question, question
 from replay import CLOSE, deviation
+from shapes import PlainScene
+from workers import Lost, Worker, limited
 
 PATIENCE = 20.0  # seconds of CPU for one answer with all that is checked of it
 SHRINKING = 15.0  # seconds of CPU for making a question small
+EVERY = 300.0  # seconds between two summaries
 LAWS = 2  # other questions for each, beside the way back
 
 Fault = tuple[str, str]  # kind, for counting; what exactly
@@ -62,7 +59,7 @@ def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
     for law in [back, *rng.sample(others, min(most, len(others)))]:
         other = _answered(law.other, outcome)
         if other in ("path", "closed", "interior") and (wrong := broken(law, verdict, other)):
-            outcome.faults.append((wrong, ""))
+            outcome.faults.append((wrong, f"the other: {scene_text(law.other.scene)}"))
         elif other == "forbidden":
             outcome.faults.append((f"{law.name}: {verdict}, then a forbidden pose", ""))
     return outcome
@@ -71,7 +68,7 @@ def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
 def _answered(asked: Question, outcome: Outcome) -> str | None:
     """The verdict, after its evidence was looked at; None if there was a fault instead."""
     try:
-        with _limited(PATIENCE):
+        with limited(PATIENCE):
             scene = asked.scene
             found = plan(scene, improve=0)
             outcome.faults += evidence(scene, found)
@@ -107,24 +104,7 @@ def _kind(error: Exception) -> str:
     """The error, and the innermost place in the package."""
     places = [frame for frame in traceback.extract_tb(error.__traceback__) if "cfree" in frame.filename]
     place = f" in {FilePath(places[-1].filename).stem}.{places[-1].name}" if places else ""
-    if isinstance(error, TimeoutError):
-        return f"not finished after {PATIENCE:g} s"
     return f"{type(error).__name__}{place}: {str(error)[:60]}"
-
-
-@contextlib.contextmanager
-def _limited(seconds: float) -> Iterator[None]:
-    """An error in the middle after so much CPU."""
-
-    def stop(*_: Any) -> None:
-        raise TimeoutError
-
-    signal.signal(signal.SIGPROF, stop)
-    signal.setitimer(signal.ITIMER_PROF, seconds)
-    try:
-        yield
-    finally:
-        signal.setitimer(signal.ITIMER_PROF, 0)
 
 
 # --- making a question small ---
@@ -134,63 +114,30 @@ def reduced(asked: Question, seed: str, kind: str) -> Question:
     """Something smaller with the same fault, found in time."""
     end = time.process_time() + SHRINKING
 
-    def fails(plain: Any) -> bool:
+    def fails(plain: PlainScene) -> bool:
         with contextlib.suppress(InvalidPolygonError):
             faults = examined(replace(asked, plain=plain), seed).faults if time.process_time() < end else []
             return any(fault[0] == kind for fault in faults)
         return False
 
-    return asked if kind.startswith("known") else replace(asked, plain=fuzz.reduced(asked.plain, fails))
+    if kind.startswith(("known", "decimals")):  # nothing smaller is known to be wrong, or is of use
+        return asked
+    return replace(asked, plain=fuzz.reduced(asked.plain, fails))
 
 
 # --- the run ---
 
 
-def work(connection: Connection) -> None:
-    """Names come in, outcomes go out; with a kind of fault, the question made small."""
-    while True:
-        family, number, kind = connection.recv()
-        asked, seed = question(family, number), f"laws {family} {number}"
-        if kind is None:
-            connection.send(asked and examined(asked, seed))
-        else:
-            assert asked
-            connection.send(scene_text(reduced(asked, seed, kind).scene))
-
-
-class Worker:
-    """A process that is replaced when it does not answer."""
-
-    def __init__(self) -> None:
-        self.start()
-
-    def start(self) -> None:
-        context = multiprocessing.get_context("fork")
-        self.connection, theirs = context.Pipe()
-        self.process = context.Process(target=work, args=(theirs,), daemon=True)
-        self.process.start()
-        theirs.close()
-
-    def ask(self, family: str, number: int, kind: str | None = None) -> Any:
-        """What it says; None after too long or a crash, as a fault."""
-        self.connection.send((family, number, kind))
-        try:
-            if self.connection.poll(10 * PATIENCE):
-                return self.connection.recv()
-            fault = "hangs"
-        except EOFError:
-            fault = "crashes"
-        self.process.kill()
-        self.process.join()
-        fault += f" ({self.process.exitcode})"
-        self.start()
-        return Outcome(["error"], [(fault, "")]) if kind is None else scene_text(_asked(family, number).scene)
-
-
-def _asked(family: str, number: int) -> Question:
-    asked = question(family, number)
-    assert asked
-    return asked
+def work(name: tuple[str, int, str | None]) -> tuple[Outcome | None, str]:
+    """What comes of a question and its scene; with a kind of fault, of it made small."""
+    family, number, kind = name
+    asked, seed = question(family, number), f"laws {family} {number}"
+    if asked is None:
+        return None, ""
+    if kind is None:
+        return examined(asked, seed), scene_text(asked.scene)
+    small = reduced(asked, seed, kind)
+    return examined(small, seed), scene_text(small.scene)
 
 
 @dataclass
@@ -217,26 +164,42 @@ def _listed(counts: Counter[str]) -> str:
 
 
 def run(families: list[str], seed: int, seconds: float, most: int) -> int:
-    """Ask until a time is up or so many scenes were; returns 1 if there was a fault."""
-    end, tally, worker, seen = time.monotonic() + seconds, Tally(), Worker(), set()
-    for number in count(seed):
-        for family in families:
-            outcome = worker.ask(family, number)
-            if outcome is None:
-                continue
-            tally.verdicts[family].update(outcome.verdicts)
-            for kind, text in outcome.faults:
-                tally.faults[family][kind] += 1
-                if (family, kind) not in seen:
-                    seen.add((family, kind))
-                    small = worker.ask(family, number, kind)
-                    print(f"--- {family} {number}: {kind}", text, small, sep="\n", flush=True)
-        if (number - seed) % 50 == 49:
+    """Ask until a time is up or so many scenes were; families share the time alike. Returns 1 if there was a fault."""
+    end, tally, worker = time.monotonic() + seconds, Tally(), Worker(work, 10 * PATIENCE)
+    numbers, spent = dict.fromkeys(families, seed), dict.fromkeys(families, 0.0)
+    shown = time.monotonic()
+    while time.monotonic() < end and tally.scenes < most:
+        family = min(families, key=spent.__getitem__)
+        number, begin = numbers[family], time.monotonic()
+        numbers[family] += 1
+        try:
+            outcome, text = worker.ask((family, number, None))
+        except Lost as error:
+            outcome, text = Outcome(["error"], [(str(error), "")]), ""
+        spent[family] += time.monotonic() - begin
+        if outcome:
+            _report(outcome, text, (family, number), tally, worker)
+        if time.monotonic() > shown + EVERY:
+            shown = time.monotonic()
             print(f"{time.strftime('%H:%M')} {tally}", flush=True)
-        if time.monotonic() > end or tally.scenes >= most:
-            print(f"{tally}\ngo on with --seed {number + 1}")
-            return int(bool(seen))
-    raise AssertionError
+    print(f"{tally}\ngo on with --seed {max(numbers.values())}")
+    return int(any(tally.faults.values()))
+
+
+def _report(outcome: Outcome, text: str, name: tuple[str, int], tally: Tally, worker: Worker) -> None:
+    """Count what came of a question; show what is new."""
+    family, seen = name[0], {kind for counts in tally.faults.values() for kind in counts}
+    if "interior" in outcome.verdicts and not tally.verdicts[family]["interior"]:
+        print(f"--- {family} {name[1]}: interior", text, sep="\n", flush=True)
+    tally.verdicts[family].update(outcome.verdicts)
+    for kind, what in outcome.faults:
+        tally.faults[family][kind] += 1
+        if tally.faults[family][kind] == 1:
+            if kind not in seen and text:
+                with contextlib.suppress(Lost):
+                    small, text = worker.ask((*name, kind))
+                    what = next((what for other, what in small.faults if other == kind), what)
+            print(f"--- {family} {name[1]}: {kind}", what, text, sep="\n", flush=True)
 
 
 def main() -> int:

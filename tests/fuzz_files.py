@@ -1,0 +1,142 @@
+"""Files of boundaries and cells with flipped bits and right checksums: refused, or used without a crash or a hang.
+
+    python tests/fuzz_files.py --seconds 600 --seed 7
+
+File k is the same for ever. What is neither an error of cfree nor an answer is shown; the last line counts what came.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+import tempfile
+import time
+import traceback
+from collections import Counter
+from functools import cache
+from itertools import count
+from pathlib import Path as FilePath
+from typing import Any
+
+import numpy as np
+
+import cfree.verify
+import fuzz
+from cfree import FreeSpace, Pose, boundary, free_space, load_boundary
+from cfree.errors import CfreeError
+from cfree.geometry.area import trapezoid_areas
+from compared import scene_of
+from shapes import PlainScene
+from workers import Lost, Worker
+
+PATIENCE = 60.0  # seconds for all that is done with one file
+KINDS = ("boxes", "corridor", "chain", "fit")
+SCENES = 12  # of which there are files
+
+
+@cache
+def saved(number: int) -> dict[str, Any]:
+    """The arrays of a small scene's boundary, with its cells."""
+    scene = scene_of(_plain(number))
+    with tempfile.TemporaryDirectory() as folder:
+        free_space(boundary(scene, threads=1)).save(f"{folder}/cells.npz")
+        with np.load(f"{folder}/cells.npz") as archive:
+            return dict(archive)
+
+
+def _plain(number: int) -> PlainScene:
+    for k in count(1000 * number):
+        plain = fuzz.scene(KINDS[number % len(KINDS)], k)
+        try:
+            scene_of(plain)
+        except ValueError:
+            continue
+        return plain
+    raise AssertionError
+
+
+def damaged(rng: random.Random) -> tuple[str, dict[str, Any]]:
+    """One to three flipped bits in one column, or a column that is cut or too long; its name, and all of them."""
+    arrays = dict(saved(rng.randrange(SCENES)))
+    name = rng.choice([key for key, array in arrays.items() if array.size])
+    array = arrays[name].copy()
+    if rng.random() < 0.05:
+        arrays[name] = array[:-1] if rng.random() < 0.5 else np.concatenate([array, array[-1:]])
+        return name, arrays
+    flat = array.view(np.uint8).reshape(-1)
+    for _ in range(rng.randint(1, 3)):
+        flat[rng.randrange(flat.size)] ^= 1 << rng.randrange(8)
+    if array.dtype == bool:
+        array = (array.view(np.uint8) & 1).astype(bool)
+    arrays[name] = array
+    return name, arrays
+
+
+def used(number: int) -> tuple[str, str, str]:
+    """The column of a damaged file, what came of using it, and what is wrong with that."""
+    rng = random.Random(f"file {number}")
+    column, arrays = damaged(rng)
+    with tempfile.TemporaryDirectory() as folder:
+        file = FilePath(folder) / "damaged.npz"
+        with file.open("wb") as stream:
+            np.savez(stream, **arrays)
+        try:
+            return column, _everything(file, rng), ""
+        except CfreeError as error:
+            return column, type(error).__name__, ""
+        except Exception as error:
+            return column, type(error).__name__, traceback.format_exc()
+
+
+def _everything(file: FilePath, rng: random.Random) -> str:
+    """Questions of all kinds to a file."""
+    given = load_boundary(file)
+    taus = [rng.choice([0, 1, None, "1/3", "-7/5"]) for _ in range(2)]
+    ask = {
+        "slice": lambda: [given.slice({"tau": tau}).forbidden for tau in taus],
+        "cells": lambda: given.complex.euler,
+        "areas": lambda: trapezoid_areas(given),
+        "verify": lambda: cfree.verify.boundary(given, slices=2),
+        "space": lambda: _space(FreeSpace.load(file)),
+        "glued": lambda: _space(free_space(given)),
+    }
+    names = rng.sample(list(ask), 3)
+    for name in names:
+        ask[name]()
+    return "answers"
+
+
+def _space(space: FreeSpace) -> None:
+    poses = [Pose(x, y, {"tau": tau}) for x, y, tau in ((0, 0, 0), (30, 30, 1), (1, 2, None), (3, 1, "1/3"))]
+    cells = space.locate(poses).tolist()
+    free = [pose for pose, cell in zip(poses, cells, strict=True) if cell >= 0]
+    if len(free) > 1:
+        space.plan(free[0], free[1], improve=0)
+    assert all(cell.theta_range for cell in space.cells)
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seconds", type=float, default=600)
+    parser.add_argument("--seed", type=int, default=0)
+    options = parser.parse_args()
+    end, worker, came, wrong = time.monotonic() + options.seconds, Worker(used, PATIENCE), Counter[str](), set()
+    for number in count(options.seed):
+        if time.monotonic() > end:
+            break
+        try:
+            column, what, text = worker.ask(number)
+        except Lost as error:
+            column, what, text = damaged(random.Random(f"file {number}"))[0], str(error), str(error)
+        came[what] += 1
+        place = text.strip().splitlines()[-3:] if text else []
+        if text and (what, *place[:1]) not in wrong:
+            wrong.add((what, *place[:1]))
+            print(f"--- file {number}, {column}: {what}", text, sep="\n", flush=True)
+    print(f"{sum(came.values()):,} files: {dict(came)}\ngo on with --seed {number}")
+    return int(bool(wrong))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
