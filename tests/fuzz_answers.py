@@ -34,7 +34,7 @@ from workers import Lost, Worker, limited
 PATIENCE = 20.0  # seconds of CPU for one answer with all that is checked of it
 SHRINKING = 15.0  # seconds of CPU for making a question small
 EVERY = 300.0  # seconds between two summaries
-LAWS = 2  # other questions for each, beside the way back
+LAWS = 2  # other questions for each, beside the way back, and where it comes from
 
 Fault = tuple[str, str]  # kind, for counting; what exactly
 
@@ -55,8 +55,9 @@ def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
         outcome.faults.append((f"known: {asked.known}, answer: {verdict}", ""))
     if verdict not in ("path", "closed", "interior"):
         return outcome
-    back, *others = laws(rng, asked)
-    for law in [back, *rng.sample(others, min(most, len(others)))]:
+    related = list(laws(rng, asked))
+    first, others = (related[:2], related[2:]) if asked.origin else (related[:1], related[1:])
+    for law in [*first, *rng.sample(others, min(most, len(others)))]:
         other = _answered(law.other, outcome)
         if other in ("path", "closed", "interior") and (wrong := broken(law, verdict, other)):
             outcome.faults.append((wrong, f"the other: {scene_text(law.other.scene)}"))
@@ -116,13 +117,16 @@ def reduced(asked: Question, seed: str, kind: str) -> Question:
 
     def fails(plain: PlainScene) -> bool:
         with contextlib.suppress(InvalidPolygonError):
-            faults = examined(replace(asked, plain=plain), seed).faults if time.process_time() < end else []
+            faults = (
+                examined(replace(asked, plain=plain, origin=None), seed).faults if time.process_time() < end else []
+            )
             return any(fault[0] == kind for fault in faults)
         return False
 
     if kind.startswith(("known", "decimals")):  # nothing smaller is known to be wrong, or is of use
         return asked
-    return replace(asked, plain=fuzz.reduced(asked.plain, fails))
+    small = fuzz.reduced(asked.plain, fails)
+    return asked if small == asked.plain else replace(asked, plain=small, origin=None)
 
 
 # --- the run ---

@@ -29,6 +29,8 @@ class Law(NamedTuple):
 def laws(rng: random.Random, question: Question) -> Iterator[Law]:
     """In the order in which they should be tried; numbers of the same generator are the same laws."""
     yield Law("reversed", question.reversed, "same")
+    if question.origin:
+        yield Law("carried back", question.origin, "same")
     yield Law("mirrored", mirror_image(question), "same")
     for name, world in (("turned", _turn(rng, question)), ("moved", Pose(10**9, Fraction(-(2**40), 3)))):
         yield Law(name, carried(question, world), "same")
@@ -80,7 +82,7 @@ def part_of(rng: random.Random, plain: PlainScene) -> list[Shape]:
 
 
 def _asked(question: Question, plain: PlainScene) -> Question:
-    return replace(question, plain=plain, known=None)
+    return replace(question, plain=plain, known=None, origin=None)
 
 
 def _turn(rng: random.Random, question: Question) -> Pose:

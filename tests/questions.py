@@ -29,12 +29,14 @@ class Question:
     Attributes
     ----------
     known : the right answer, None if nobody knows
+    origin : the question that this one is, carried elsewhere
     """
 
     plain: PlainScene
     start: Pose
     goal: Pose
     known: Verdict | None = None
+    origin: Question | None = None
 
     @property
     def scene(self) -> Scene:
@@ -44,7 +46,7 @@ class Question:
 
     @property
     def reversed(self) -> Question:
-        return replace(self, start=self.goal, goal=self.start)
+        return replace(self, start=self.goal, goal=self.start, origin=None)
 
     @classmethod
     def of(cls, scene: Scene) -> Question:
@@ -85,7 +87,7 @@ def carried(question: Question, world: Pose, size: Fraction = Fraction(1), body:
         bounds,
         plain.workspace and there(plain.workspace),
     )
-    return Question(moved_plain, pose(question.start), pose(question.goal), question.known)
+    return Question(moved_plain, pose(question.start), pose(question.goal), question.known, question)
 
 
 def _at(pose: Pose, x: Fraction | int, y: Fraction | int) -> Point:
