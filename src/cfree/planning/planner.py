@@ -24,6 +24,7 @@ from cfree.mesh import robot_radius
 from cfree.motion import motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
+from cfree.planning.poles import near_poles
 from cfree.planning.search import Searcher, area, simple_ways
 from cfree.pose import Pose
 from cfree.scene import Scene
@@ -200,13 +201,15 @@ class Planner:
         return proof if way is None else way
 
     def path(self, poses: Sequence[Pose]) -> Path:
-        """Through these poses, all of it checked once more.
+        """Through these poses, without far poles where that is free; all of it checked once more.
 
         Raises
         ------
         InvariantError
             If a motion is not free: a fault of cfree.
         """
+        parts = self._without_slides(poses)
+        poses = [q for part in parts for q in near_poles(self.scene, self.checker, part)]
         motions = [self._slide(a, b) or motion_between(a, b) for a, b in pairwise(poses) if a != b]
         found = Path(poses[0], motions, self.scene.units, scene=self.scene)
         if not found.is_free(self.checker):

@@ -1,0 +1,75 @@
+"""Rotations about poles far away, replaced by nearer motions wherever these are proved free.
+
+A small turn on a long way has its pole far beyond the scene. Its decimals need many digits, and few programs have them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cfree.exact import ExactPoint
+from cfree.motion import Rotation, motion_between
+from cfree.motion_check import MotionChecker
+from cfree.pose import Pose
+
+if TYPE_CHECKING:
+    from cfree.scene import Scene
+
+FAR = 1000  # sizes of the scene
+PARTS = (1, 2, 4)  # of a motion, each replaced by a turn and a translation
+
+
+def near_poles(scene: Scene, checker: MotionChecker, poses: Sequence[Pose]) -> list[Pose]:
+    """The same way without far poles, where nearer motions are free: eight at most for each."""
+    far, centres = (FAR * _size(scene, poses)) ** 2, list(dict.fromkeys(_centres(scene)))
+    found = [poses[0]]
+    for a, b in pairwise(poses):
+        motion = motion_between(a, b)
+        way: Sequence[Pose] | None = None
+        if isinstance(motion, Rotation) and (motion.pole[0] - a.x) ** 2 + (motion.pole[1] - a.y) ** 2 > far:
+            way = checker.first_free(_ways(a, motion, centres))
+        found += way[1:] if way else [b]
+    return found
+
+
+def _ways(pose: Pose, motion: Rotation, centres: Sequence[ExactPoint]) -> Iterator[list[Pose]]:
+    """Turns about points of the robot, and translations between them, in few parts first."""
+    for count in PARTS:
+        ends = [motion.at(pose, Fraction(k, count)) for k in range(count + 1)]
+        for centre in centres:
+            for turns_first in (True, False):
+                way = [pose]
+                for a, b in pairwise(ends):
+                    way += [_turned(a, b, centre) if turns_first else _turned(b, a, centre), b]
+                yield way
+
+
+def _turned(a: Pose, b: Pose, centre: ExactPoint) -> Pose:
+    """A pose turned as another, about a point of the robot."""
+    turned = Pose(0, 0, {"tau": b.tau})
+    ((x, y),), ((u, v),) = a.apply_exact([centre]), turned.apply_exact([centre])
+    return Pose(x - u, y - v, {"tau": b.tau})
+
+
+def _centres(scene: Scene) -> Iterator[ExactPoint]:
+    """The middle of the robot; its reference point; its vertices, which may slide on something."""
+    vertices = [point for part in scene.robot for point in part.exact_vertices]
+    (x0, x1), (y0, y1) = ((min(axis), max(axis)) for axis in zip(*vertices, strict=True))
+    yield (x0 + x1) / 2, (y0 + y1) / 2
+    yield Fraction(0), Fraction(0)
+    yield from vertices
+
+
+def _size(scene: Scene, poses: Sequence[Pose]) -> Fraction:
+    """The longer side, about, of the box around all that is in the world and the ends of a way, or around the robot."""
+    corners = [np.array([[float(q.x), float(q.y)] for q in (poses[0], poses[-1])])]
+    corners += [polygon.vertices for polygon in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
+    if scene.bounds is not None:
+        corners.append(np.array(scene.bounds, float).reshape(2, 2))
+    robot = np.concatenate([part.vertices for part in scene.robot])
+    return Fraction(max(float(np.ptp(points, axis=0).max()) for points in (np.concatenate(corners), robot)))
