@@ -19,6 +19,7 @@ import traceback
 from collections import Counter, defaultdict
 from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
+from typing import Any
 
 import cfree.verify
 import fuzz
@@ -27,7 +28,7 @@ from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
 from cfree.io import scene_text
 from laws import broken, laws
 from questions import FAMILIES, Question, question
-from replay import CLOSE, deviation
+from replay import CLOSE, collisions, deviation
 from shapes import PlainScene
 from workers import Lost, Worker, limited
 
@@ -35,6 +36,7 @@ PATIENCE = 20.0  # seconds of CPU for one answer with all that is checked of it
 SHRINKING = 15.0  # seconds of CPU for making a question small
 EVERY = 300.0  # seconds between two summaries
 LAWS = 2  # other questions for each, beside the way back, and where it comes from
+WAYS: tuple[dict[str, Any], ...] = ({"improve": 0}, {"objective": "short"}, {"objective": "clear", "improve": 0})
 
 Fault = tuple[str, str]  # kind, for counting; what exactly
 
@@ -50,7 +52,7 @@ class Outcome:
 def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
     """The question, its way back, and a few of its other relatives."""
     rng, outcome = random.Random(seed), Outcome()
-    verdict = _answered(asked, outcome)
+    verdict = _answered(asked, outcome, **rng.choices(WAYS, [8, 1, 1])[0])
     if asked.known and verdict and verdict not in (asked.known, "refused"):
         outcome.faults.append((f"known: {asked.known}, answer: {verdict}", ""))
     if verdict not in ("path", "closed", "interior"):
@@ -66,12 +68,12 @@ def examined(asked: Question, seed: str, most: int = LAWS) -> Outcome:
     return outcome
 
 
-def _answered(asked: Question, outcome: Outcome) -> str | None:
+def _answered(asked: Question, outcome: Outcome, **way: Any) -> str | None:
     """The verdict, after its evidence was looked at; None if there was a fault instead."""
     try:
         with limited(PATIENCE):
             scene = asked.scene
-            found = plan(scene, improve=0)
+            found = plan(scene, **(way or WAYS[0]))
             outcome.faults += evidence(scene, found)
             verdict = "path" if isinstance(found, Path) else found.of
     except InvalidPoseError:
@@ -98,6 +100,8 @@ def evidence(scene: Scene, found: Path | Separated) -> list[Fault]:
             faults.append((f"not verified: {', '.join(kinds)}", "; ".join(map(str, result.findings[:2]))))
         if isinstance(found, Path) and (astray := deviation(scene, found, file)) > CLOSE:
             faults.append(("decimals lead astray", f"by {astray:.3g} robot sizes"))
+        if isinstance(found, Path) and (count := collisions(scene, file)):
+            faults.append(("decimals collide", f"{count} poses of those that are called free"))
         return faults
 
 

@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from cfree import Path, Pose, Scene
+from cfree.free import Checker
 
 BITS = 900
 CLOSE = 1e-9  # of the robot's size: how far decimals may lead astray
@@ -39,18 +40,61 @@ def deviation(scene: Scene, path: Path, file: FilePath) -> float:
         ctx.prec = old
 
 
+def collisions(scene: Scene, file: FilePath) -> int:
+    """How many of some poses on the way of the decimals, read as doubles, are forbidden, if the file says none is."""
+    old, ctx.prec = ctx.prec, BITS
+    try:
+        read = json.loads(file.read_text())
+        poses = [_pose(*placed) for placed in _along(read)] if read.get("decimals") == "free" else []
+        checker = Checker(scene)
+        return sum(not checker.is_free(pose) for pose in poses)
+    finally:
+        ctx.prec = old
+
+
+def _along(read: dict[str, Any]) -> Iterator[Placed]:
+    """The start, and three poses on each motion, its end the last."""
+    x, y, theta = (_arb(v) for v in read["start"])
+    yield x, y, theta
+    for motion in read["motions"]:
+        for share in (Fraction(1, 3), Fraction(7, 8), Fraction(1)):
+            here = _after(motion, _arb(share), x, y, theta)
+            yield here
+        x, y, theta = here
+
+
+def _after(motion: dict[str, Any], share: arb, x: arb, y: arb, theta: arb) -> Placed:
+    """Where a share of a motion leads; of a slide, of which decimals say no more, all of it."""
+    angle = share * _arb(motion.get("angle", 0))
+    if motion["type"] == "rotation":
+        u, v = (_arb(c) for c in motion["pole"])
+        c, s = angle.cos(), angle.sin()
+        return u + c * (x - u) - s * (y - v), v + s * (x - u) + c * (y - v), theta + angle
+    u, v = (share * _arb(c) for c in motion["vector"])
+    return x + u, y + v, theta + angle
+
+
+def _pose(x: arb, y: arb, theta: arb) -> Pose:
+    half = theta / 2
+    c, s = half.cos(), half.sin()
+    tau = None if float(abs(c)) < 1e-60 else _fraction(s / c)
+    return Pose(_fraction(x), _fraction(y), {"tau": tau})
+
+
+def _fraction(value: arb) -> Fraction:
+    """Nearly the middle: what matters is far larger than 2^-200 of it."""
+    mantissa, exponent = value.mid().man_exp()
+    exact = Fraction(int(mantissa)) * Fraction(2) ** int(exponent)
+    digits = max(0, 200 - exact.numerator.bit_length() + exact.denominator.bit_length())
+    return Fraction(round(exact * 2**digits), 2**digits)
+
+
 def _both(path: Path, read: dict[str, Any]) -> Iterator[tuple[Pose, Placed]]:
     """After each motion: where the robot is, where adding up leads, and where the file says it is."""
     x, y, theta = (_arb(v) for v in read["start"])
     yield path.start, (x, y, theta)
     for motion, pose in zip(read["motions"], path.poses[1:], strict=True):
-        if motion["type"] == "rotation":
-            u, v = (_arb(c) for c in motion["pole"])
-            c, s = _turn(_arb(motion["angle"]))
-            x, y = u + c * (x - u) - s * (y - v), v + s * (x - u) + c * (y - v)
-        else:
-            x, y = x + _arb(motion["vector"][0]), y + _arb(motion["vector"][1])
-        theta = theta + _arb(motion.get("angle", 0))
+        x, y, theta = _after(motion, arb(1), x, y, theta)
         yield pose, (x, y, theta)
         if "to" in motion:
             u, v, w = (_arb(c) for c in motion["to"])
