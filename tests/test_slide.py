@@ -8,7 +8,7 @@ import math
 import random
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -27,7 +27,7 @@ from cfree.errors import InvalidPoseError, UnsupportedError
 from cfree.features import SceneFeatures
 from cfree.path_clearance import narrowest
 from cfree.planning.sheet import contact_line, cross, positions
-from cfree.planning.slides import slides
+from cfree.planning.slides import slide as slide_along
 from cfree.report import answer_facts
 from cfree.verify.course import Course, place_of
 from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, is_nowhere_positive, positive
@@ -76,7 +76,7 @@ def contact_slides(scene: Scene, rng: random.Random, count: int) -> Iterator[tup
         s = cross((Q[0] - P[0], Q[1] - P[1]), V) / across
         pose = Pose(P[0] + s * U[0], P[1] + s * U[1], {"tau": turned})
         tau = F(rng.choice((-1, 1)), rng.choice((1, 2, 8, 64, 1024)))
-        for slide in slides(features, pose, [first, last], tau):
+        if (slide := slide_along(features, pose, first, last, tau)) is not None:
             yield pose, slide
 
 
@@ -195,7 +195,9 @@ def test_slides_along_contacts_in_corridors() -> None:
         lines = [(c, *positions(contact_line(features, *c), pose.tau)) for c in every]
         touching = [c for c, P, U in lines if cross(U, (pose.x - P[0], pose.y - P[1])) == 0]
         for tau in (F(1, 16), F(-1, 16), F(-3, 4)):
-            for slide in slides(features, pose, touching, tau):
+            for first, last in combinations(touching, 2):
+                if (slide := slide_along(features, pose, first, last, tau)) is None:
+                    continue
                 by_core, by_verify = verdicts(TEE, pose, slide)
                 assert by_core == by_verify
                 found.append(by_core)

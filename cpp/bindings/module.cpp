@@ -3,6 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/vector.h>
 
 #include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
@@ -213,6 +214,20 @@ NB_MODULE(_core, m) {
             const auto [lo, hi] = rays.angle(trapezoid, last, bits);
             return nb::make_tuple(integer(lo.n), lo.k, integer(hi.n), hi.k);
         }, "trapezoid"_a, "last"_a, "bits"_a)
+        .def("root", [](const cfree::Rays& rays, std::array<int, 3> contact, int chart, std::uint64_t first, std::uint64_t second,
+                        double lo, double hi, int place) {
+            const auto [kind, robot, obstacle] = contact;
+            const cfree::RealRoot x = rays.root({{static_cast<cfree::Kind>(kind), robot, obstacle}, chart},
+                                                {cfree::unpacked(first), cfree::unpacked(second), lo, hi}, place);
+            nb::list polynomial;
+            for (int k = 0; k < x.p.size(); ++k) polynomial.append(integer(x.p[k]));
+            return nb::make_tuple(polynomial, integer(x.lo.n), x.lo.k, integer(x.hi.n), x.hi.k);
+        }, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
+        .def("nearby", [](const cfree::Rays& rays, std::array<nb::int_, 5> pose, int chart) {
+            const auto at = [&](std::size_t k) { return integer(pose[k]); };
+            auto x = rays.nearby({at(0), at(1), at(2), chart, at(3), at(4)});
+            return nb::make_tuple(x.on, x.end, x.crossed, x.generic);
+        }, "pose"_a, "chart"_a)
         .def("locate_exactly", [](const cfree::Rays& rays, std::array<nb::int_, 5> pose, int chart, Column<int> depth,
                                   Column<int> cell, Column<std::uint8_t> free_inside, int outside) {
             const auto at = [&](std::size_t k) { return integer(pose[k]); };

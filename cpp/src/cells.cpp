@@ -140,12 +140,6 @@ struct Rays::View {
     }
 };
 
-struct Rays::Seen {
-    std::vector<Index> crossed;  // components, as often as they are
-    std::vector<Index> on;       // trapezoids that hold the pose
-    bool generic = true;         // no critical angle is here
-};
-
 struct Rays::Probe {
     ExactPose pose;
     int rise;  // of the segment that it is on: the sign of U_y, of U_x if that is 0
@@ -272,8 +266,8 @@ Range range(Approx p, Approx q) {
 
 }  // namespace
 
-Rays::Seen Rays::look(const View& q, When when, Index own) const {
-    Seen seen;
+Rays::Nearby Rays::look(const View& q, When when, Index own) const {
+    Nearby seen;
     const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
     stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
         if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
@@ -284,10 +278,10 @@ Rays::Seen Rays::look(const View& q, When when, Index own) const {
         if (low > err || high < -err || left > error) return;  // above, below or right of the pose
         const int from = order(false, k, q), to = order(true, k, q);
         if (from > 0 || to < 0) return;
-        if (when == When::at && (from == 0 || to == 0)) seen.generic = false;
+        if (from == 0 || to == 0) seen.generic = false;
         if (k == own) return;
         if (may_be_on(contact, q) && is_on(k, q, to == 0)) {
-            seen.on.push_back(k);
+            seen.on.push_back(k), seen.end.push_back(from == 0 ? -1 : to == 0 ? 1 : 0);
             return;
         }
         if (to == 0) return;  // it ends here
@@ -304,17 +298,18 @@ Rays::Seen Rays::look(const View& q, When when, Index own) const {
             }) > 0;
         };
         const bool begins_above = is_above(trapezoids.lower[k]), ends_above = is_above(trapezoids.upper[k]);
-        if (begins_above != ends_above && side == (ends_above ? -1 : 1)) seen.crossed.push_back(component[k]);
+        if (begins_above != ends_above && side == (ends_above ? -1 : 1)) seen.crossed.push_back(k);
     });
     return seen;
 }
 
 // Trapezoids that hold the pose, and end there.
-void Rays::look_on(const View& q, Seen& seen) const {
+void Rays::look_on(const View& q, Nearby& seen) const {
     const Index part = index.part_of(q.pose->chart, 1);
     stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
         if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) return;
-        if (may_be_on(surface_of(patches, trapezoids, k).contact, q) && is_on(k, q, true)) seen.on.push_back(k);
+        if (may_be_on(surface_of(patches, trapezoids, k).contact, q) && is_on(k, q, true))
+            seen.on.push_back(k), seen.end.push_back(1);
     });
 }
 
@@ -363,11 +358,10 @@ Rays::Nesting Rays::nesting() const {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no ray in general position");
             const auto q = probe(widest[x], attempt);
             if (!q) continue;
-            const Seen seen = look(View(q->pose, shift), When::at, widest[x]);
+            const Nearby seen = look(View(q->pose, shift), When::at, widest[x]);
             if (!seen.generic || !seen.on.empty()) continue;
             // the ray is from just left of the surface, or above it where that is level: forbidden if the surface rises
-            auto crossed = seen.crossed;
-            std::sort(crossed.begin(), crossed.end());
+            const auto crossed = surfaces(seen.crossed);
             bool is_inside = false;
             for (std::size_t i = 0, j; i < crossed.size(); i = j) {
                 for (j = i; j < crossed.size() && crossed[j] == crossed[i];) ++j;
@@ -409,23 +403,35 @@ void Rays::locate(const double* xy, const int* chart, const double* tau, std::si
     });
 }
 
-Index Rays::locate(const ExactPose& pose, const Cells& cells) const {
+// The surfaces of trapezoids, in order.
+std::vector<Index> Rays::surfaces(const std::vector<Index>& crossed) const {
+    std::vector<Index> result;
+    for (const Index k : crossed) result.push_back(component[k]);
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+Rays::Nearby Rays::nearby(const ExactPose& pose) const {
     ExactPose q = pose;
     if (q.p == q.r) q.chart = 1 - q.chart, q.p = -1, q.r = 1;
-    const View view(q, shift);
-    Seen seen = look(view, When::after, -1);
+    Nearby seen = look(View(q, shift), When::after, -1);
     if (q.p == -q.r) {
         const ExactPose before{q.X, q.Y, q.W, 1 - q.chart, 1, 1};
         look_on(View(before, shift), seen);
     }
+    return seen;
+}
+
+Index Rays::locate(const ExactPose& pose, const Cells& cells) const {
+    const Nearby seen = nearby(pose);
     Index found = std::numeric_limits<Index>::max();
     for (const Index k : seen.on) found = std::min(found, cells.cell[component[k]]);
     if (!seen.on.empty()) return found;
-    std::sort(seen.crossed.begin(), seen.crossed.end());
+    const auto crossed = surfaces(seen.crossed);
     Index deepest = -1;
-    for (std::size_t i = 0, j; i < seen.crossed.size(); i = j) {
-        for (j = i; j < seen.crossed.size() && seen.crossed[j] == seen.crossed[i];) ++j;
-        const Index x = seen.crossed[i];
+    for (std::size_t i = 0, j; i < crossed.size(); i = j) {
+        for (j = i; j < crossed.size() && crossed[j] == crossed[i];) ++j;
+        const Index x = crossed[i];
         if ((j - i) % 2 == 1 && (deepest < 0 || cells.depth[x] > cells.depth[deepest])) deepest = x;
     }
     if (deepest < 0) return cells.outside;

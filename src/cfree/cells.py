@@ -16,6 +16,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
+from flint import fmpz_poly
 from numpy.typing import NDArray
 
 from cfree.errors import FormatError, InvalidPoseError, InvariantError
@@ -26,7 +27,7 @@ from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.half_angle import chart_of, tau_in_chart
 from cfree.pose import Pose, Poses
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
-from cfree.trapezoids import COLUMNS, Floats, Ints
+from cfree.trapezoids import COLUMNS, Floats, Ints, Trapezoids
 
 if TYPE_CHECKING:
     from cfree.cell_complex import CellComplex
@@ -89,6 +90,28 @@ class Cell:
         from cfree.roomiest import roomiest
 
         return roomiest(self)
+
+
+@dataclass(frozen=True)
+class Nearby:
+    """What is at a pose.
+
+    Attributes
+    ----------
+    on : list of int
+        The trapezoids that hold it, ends included.
+    end : list of int
+        Of each of them: -1 if it begins at the pose's orientation, 1 if it ends there, else 0.
+    crossed : list of int
+        The trapezoids that the ray from it towards -x crosses just after its orientation.
+    generic : bool
+        Whether none of these begins or ends at its orientation.
+    """
+
+    on: list[int]
+    end: list[int]
+    crossed: list[int]
+    generic: bool
 
 
 class FreeSpace:
@@ -307,11 +330,19 @@ class FreeSpace:
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
+        cell: int = self._rays.locate_exactly(*self._place(pose), *self._nesting)
+        return NO_CELL if cell == FORBIDDEN else cell
+
+    def _place(self, pose: Pose) -> tuple[tuple[int, ...], int]:
+        """A pose as the core takes it, and its chart."""
         chart, tau = pose.chart
         unit, scale = math.lcm(pose.x.denominator, pose.y.denominator), self.boundary.features.scale
         place = int(pose.x * unit) * scale, int(pose.y * unit) * scale, unit, tau.numerator, tau.denominator
-        cell: int = self._rays.locate_exactly(place, chart, *self._nesting)
-        return NO_CELL if cell == FORBIDDEN else cell
+        return place, chart
+
+    def nearby(self, pose: Pose) -> Nearby:
+        """The trapezoids of `walls` that hold a pose, and those that a ray from it crosses; exactly."""
+        return Nearby(*self._rays.nearby(*self._place(pose)))
 
     def common_cell(self, start: Pose, goal: Pose) -> int | None:
         """The cell that both are in."""
@@ -322,6 +353,23 @@ class FreeSpace:
         """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
         low, p, high, q = self._rays.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
+
+    def critical_angle(self, table: Trapezoids, k: int, last: bool, contact: tuple[int, int, int]) -> Fraction | None:
+        """tau of the first or last angle of row k, named on the surface of a contact, if it is rational."""
+        end = "to" if last else "from"
+        first, second, lo, hi, place = (
+            getattr(table, f"{end}_{name}")[k].item() for name in ("first", "second", "lo", "hi", "place")
+        )
+        terms, low, p, high, q = self._rays.root(contact, int(table.chart[k]), first, second, lo, hi, place)
+        from_, to = Fraction(low, 1 << p), Fraction(high, 1 << q)
+        if from_ == to:
+            return from_
+        for factor, _ in fmpz_poly(terms).factor()[1]:
+            if factor.degree() == 1:
+                tau = Fraction(-int(factor[0]), int(factor[1]))
+                if from_ <= tau <= to:
+                    return tau
+        return None
 
     def reachable(self, start: Pose) -> Cell:
         """The cell that a start is in or on the boundary of: what the robot can reach from there.
@@ -418,6 +466,21 @@ def free_space(boundary: Boundary) -> FreeSpace:
     steps = leaves.astype(np.int8) - leaves[cells.twin].astype(np.int8)
     turns, lift = _core.turns(cells.first, cells.face, cells.twin, cells.component, steps, cells.components)
     return FreeSpace(boundary, cells.component, parent, free_inside.astype(bool), turns, lift, rays)
+
+
+def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
+    """Each closed surface as a cell of its own, slits of no width included; None if there are no slits.
+
+    All of a surface is free: so any two poses on one are joined along it.
+    """
+    if walls_of(boundary) is boundary:
+        return None
+    component, surfaces = boundary.complex.component, boundary.complex.components
+    parent, all_free, turns = np.full(surfaces, -1, np.int32), np.ones(surfaces, bool), np.zeros(surfaces, np.int32)
+    rays = _rays(boundary, component)
+    space = FreeSpace(boundary, component, parent, all_free, turns, np.zeros(len(component), np.int32), rays)
+    space.walls = boundary
+    return space
 
 
 def walls_of(boundary: Boundary) -> Boundary:

@@ -25,7 +25,7 @@ from cfree.sweep import EdgesMeet, sweep
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
-INSETS = (-20, -40, -80, -160)  # tried one after the other: powers of two, of the robot's size
+FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 FINER = 12  # bits of an inset that survive the rounding of its polygons
 
 
@@ -33,6 +33,17 @@ def size_power(scene: Scene) -> int:
     """The power of two that is about as large as the robot."""
     x0, y0, x1, y1 = shapely.union_all([part.to_shapely() for part in scene.robot]).bounds
     return math.frexp(max(x1 - x0, y1 - y0))[1]
+
+
+def insets_of(scene: Scene) -> list[int]:
+    """Insets that a proof may need, as powers of two of the robot's size: each is half as many digits as the next.
+
+    The narrowest gap may be as narrow as the scene's coordinates have digits, and some times that.
+    """
+    polygons = [*scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])]
+    scale = math.lcm(*(polygon.denominator for polygon in polygons), *(b.denominator for b in scene.bounds or ()))
+    deepest = ENOUGH + 4 * scale.bit_length()
+    return [-(FIRST << k) for k in range(deepest.bit_length()) if FIRST << k <= deepest]
 
 
 def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:

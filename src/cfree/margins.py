@@ -11,13 +11,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-import shapely
-
 from cfree.cells import FreeSpace, free_space
 from cfree.exact import ExactPoint
 from cfree.forbidden import boundary
 from cfree.grown import FARTHEST_OUT, grown
-from cfree.inset import INSETS, inset, size_power, with_robot
+from cfree.inset import inset, insets_of, size_power, with_robot
 from cfree.pinch import Pinch, pinches
 from cfree.polygon import Polygon
 from cfree.pose import Pose
@@ -25,6 +23,7 @@ from cfree.scene import Scene
 
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried
+BITS_OF_INSET = 48
 FARTHEST = 32  # doublings in one step, after 1, 2, 4, 8, 16
 
 
@@ -105,17 +104,19 @@ def nearest_miss(
         raise ValueError("start and goal are joined: nothing is missing")
     spaces: dict[Fraction, FreeSpace | None] = {}
 
+    def smaller_robot(by: Fraction) -> list[Polygon]:
+        return [smaller for part in scene.robot for smaller in inset(part, by)]
+
     def separated(by: Fraction) -> bool:
-        robot = [smaller for part in scene.robot for smaller in inset(part, by)]
+        robot = smaller_robot(by)
         spaces[by] = _space(with_robot(scene, robot, scene.bounds)) if robot else None
         space = spaces[by]
         return space is None or space.common_cell(start, goal) is None
 
-    deepest = max(shapely.length(shapely.maximum_inscribed_circle(part.to_shapely())) for part in scene.robot)
-    most = _rounded(0.98 * deepest)
-    if separated(most):
+    most = _deepest(smaller_robot, Fraction(2) ** size_power(scene))
+    if not most or separated(most):
         return None
-    insets = [by for k in INSETS if (by := Fraction(2) ** (size_power(scene) + k)) < most]
+    insets = [by for k in insets_of(scene) if (by := Fraction(2) ** (size_power(scene) + k)) < most]
     least = next(filter(separated, insets), None)
     if least is None:
         return NearestMiss(0.0, float(min([*insets, most])), ())
@@ -216,6 +217,15 @@ def max_margin(
 
 
 # --- decisions ---
+
+
+def _deepest(smaller_robot: Callable[[Fraction], list[Polygon]], size: Fraction) -> Fraction:
+    """The largest inset that leaves something of a robot, but for 2**-BITS_OF_INSET of its size; 0 if none does."""
+    lo, hi = Fraction(0), size
+    for _ in range(BITS_OF_INSET):
+        middle = (lo + hi) / 2
+        lo, hi = (middle, hi) if smaller_robot(middle) else (lo, middle)
+    return lo
 
 
 def _check(tolerance: float) -> None:

@@ -6,7 +6,7 @@ without what is used here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -23,7 +23,7 @@ from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact import ExactPoint
 from cfree.features import unpacked
 from cfree.files import replacing
-from cfree.inset import INSETS, inset_space, size_power
+from cfree.inset import inset_space, insets_of, size_power
 from cfree.polygon import Polygon
 from cfree.pose import Pose
 from cfree.scene import Bounds
@@ -181,6 +181,10 @@ class Separated:
             raise ValueError("the scene is not in a file: call cfree.nearest_miss(scene, start, goal)")
         return nearest_miss(self.scene, self.start, self.goal)
 
+    def reversed(self) -> Separated:
+        """The same proof for the way back."""
+        return replace(self, start=self.goal, goal=self.start, cells=self.cells[::-1])
+
     def save(self, path: str | PathLike[str]) -> None:
         """Write the proof to a ``.json`` file, exactly, whole or not at all.
 
@@ -200,7 +204,9 @@ class Separated:
             unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
-def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:
+def separation(
+    space: FreeSpace, start: Pose, goal: Pose, powers: Sequence[int] | None = None
+) -> Separated | None:
     """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
 
     Parameters
@@ -208,6 +214,9 @@ def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:
     space : FreeSpace
     start, goal : Pose
         Free.
+    powers : sequence of int, optional
+        Of two, of the robot's size: the insets to be tried for "closed", one after the other. From -20 on, each time
+        twice as deep, as long as the digits of the scene suggest that a gap may be that narrow, unless given.
 
     Returns
     -------
@@ -241,7 +250,7 @@ def separation(space: FreeSpace, start: Pose, goal: Pose) -> Separated | None:
     scene = space.boundary.scene
     found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
     found = replace(found, units=scene.units, scene=scene)
-    for power in INSETS:
+    for power in insets_of(scene) if powers is None else powers:
         smaller = inset_space(space, size_power(scene) + power)
         if smaller is None:
             continue

@@ -40,15 +40,27 @@ public:
     void locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
                 const Cells& cells, Index* out) const;
 
+    // What is at a pose: the trapezoids that hold it, ends included, with -1 if one begins at its orientation, 1 if one ends
+    // there, else 0; those that the ray from it towards -x crosses just after its orientation, as often as it does; and whether
+    // no critical angle of these is there.
+    struct Nearby {
+        std::vector<Index> on, crossed;
+        std::vector<std::int8_t> end;
+        bool generic = true;
+    };
+    Nearby nearby(const ExactPose& q) const;
+
+    // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
+    RealRoot root(const Surface& on, const Event& angle, int place) const { return CriticalAngle(on, angle, place).exact(scene); }
     // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.
     std::array<Dyadic, 2> angle(Index trapezoid, bool last, unsigned bits) const;
 
 private:
-    struct Seen;
     struct View;
     enum class When { at, after };  // at the orientation, or just after it
-    Seen look(const View& q, When when, Index own) const;
-    void look_on(const View& q, Seen& seen) const;
+    Nearby look(const View& q, When when, Index own) const;
+    void look_on(const View& q, Nearby& seen) const;
+    std::vector<Index> surfaces(const std::vector<Index>& crossed) const;
     bool may_be_on(const Feature& contact, const View& q) const;
     bool is_on(Index k, const View& q, bool is_end) const;
     int order(bool of_end, Index k, const View& q) const;

@@ -9,15 +9,13 @@ from __future__ import annotations
 import heapq
 import math
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from cfree.pose import Pose
-from cfree.trapezoids import Floats, Ints
+from cfree.trapezoids import Floats
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
@@ -26,7 +24,6 @@ UPPER, LAST, LOWER = 1, 2, 3
 
 
 Place = tuple[float, float, float]
-CANDIDATES = 8  # faces that a pose may be on
 FAR = -1  # in place of a face: to the left of everything
 
 
@@ -37,10 +34,15 @@ def place_of(pose: Pose) -> Place:
 
 @dataclass(frozen=True)
 class Landing:
-    """A pose on a face, or `FAR`."""
+    """A free way to a pose on a face, strictly between its first and last orientation, or to `FAR`."""
 
     face: int
-    pose: Pose
+    way: tuple[Pose, ...]
+
+    @property
+    def pose(self) -> Pose:
+        """Where it ends."""
+        return self.way[-1]
 
     @property
     def place(self) -> Place:
@@ -50,10 +52,9 @@ class Landing:
 
 @dataclass(frozen=True)
 class Link:
-    """A free way from one landing to another, straight from pose to pose."""
+    """From one landing to another: the way of the first backwards, and that of the second."""
 
     ends: tuple[Landing, Landing]
-    between: tuple[Pose, ...] = ()
 
 
 class Corridors:
@@ -86,13 +87,6 @@ class Corridors:
         t = np.where(cells.side[on_curve] == LOWER, lower, upper)
         xy[on_curve] = walls.evaluate(table.patch[cells.face[on_curve]], t, theta[on_curve])
         return np.column_stack((xy, theta))
-
-    @cached_property
-    def open(self) -> NDArray[np.bool_]:
-        """(F,) whether doubles know an orientation of a face."""
-        table = self.space.walls.trapezoids
-        known: NDArray[np.bool_] = table.from_hi < table.to_lo
-        return known
 
     def shortest(
         self, start: Place, starts: list[Landing], goal: Place, goals: list[Landing], links: list[Link]
@@ -168,51 +162,6 @@ class Corridors:
         """Length of the way between two places."""
         turn = math.remainder(b[2] - a[2], math.tau)
         return math.hypot(b[0] - a[0], b[1] - a[1]) + self.angle_scale * abs(turn)
-
-    def faces_at(self, chart: int, tau: float) -> Ints:
-        """Faces that an orientation is within, with doubles."""
-        t = self.space.walls.trapezoids
-        return np.flatnonzero((t.chart == chart) & (t.from_hi < tau) & (t.to_lo > tau)).astype(np.int32)
-
-    def may_be_critical(self, chart: int, tau: Fraction) -> bool:
-        """Whether an orientation is in the interval that isolates a critical angle."""
-        t, x = self.space.walls.trapezoids, float(tau)
-        near = ((t.from_lo <= x) & (x <= t.from_hi)) | ((t.to_lo <= x) & (x <= t.to_hi))
-        return bool(np.any(near & (t.chart == chart)))
-
-    def near(self, pose: Pose) -> list[int]:
-        """The faces nearest to a pose at its orientation."""
-        chart, tau = pose.chart
-        faces = self.faces_at(chart, float(tau))
-        away = self.distances(faces, np.full(len(faces), pose.theta), float(pose.x), float(pose.y))
-        nearest: list[int] = faces[np.argsort(away, kind="stable")[:CANDIDATES]].tolist()
-        return nearest
-
-    def distances(self, faces: Ints, theta: Floats, x: float, y: float) -> Floats:
-        """Of a position from faces, each at an orientation of its own."""
-        P, U = self._segments(faces, theta)
-        d = (x, y) - P
-        share = np.clip((U * d).sum(axis=1) / np.maximum((U * U).sum(axis=1), 1e-300), 0, 1)
-        away: Floats = np.hypot(*(d - share[:, None] * U).T)
-        return away
-
-    def crossings(self, pose: Pose) -> Floats:
-        """Where boundaries cross the ray from a pose towards -x, from right to left."""
-        chart, tau = pose.chart
-        faces = self.faces_at(chart, float(tau))
-        P, U = self._segments(faces, np.full(len(faces), pose.theta))
-        above, end = float(pose.y) - P[:, 1], U[:, 1]
-        cut = (above > 0) != (above > end)
-        x = P[cut, 0] + above[cut] / end[cut] * U[cut, 0]
-        return -np.sort(-x[x < float(pose.x)])
-
-    def _segments(self, faces: Ints, theta: Floats) -> tuple[Floats, Floats]:
-        """Starts and vectors of faces at orientations."""
-        walls = self.space.walls
-        patch = walls.trapezoids.patch[faces]
-        lower, upper = walls.limits(faces, theta)
-        P = walls.evaluate(patch, lower, theta)
-        return P, walls.evaluate(patch, upper, theta) - P
 
 
 def _near(theta: Floats, to: Floats) -> Floats:

@@ -19,9 +19,10 @@ from typing import TYPE_CHECKING, Any, Literal
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.extent import LARGEST
 from cfree.forbidden import boundary
+from cfree.inset import insets_of
 from cfree.invalid import require_free
 from cfree.mesh import robot_radius
-from cfree.motion import motion_between
+from cfree.motion import Rotation, motion_between
 from cfree.motion_check import MotionChecker
 from cfree.path import Path
 from cfree.planning.poles import near_poles
@@ -169,25 +170,34 @@ class Planner:
         for pose, name in ((start, "start"), (goal, "goal")):
             if max(abs(pose.x), abs(pose.y)) > LARGEST:
                 raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
-        poses = self.checker.first_free(simple_ways(start, goal)) if start != goal else None
-        if poses is None and start != goal and (self.space is None or self.space.common_cell(start, goal) is not None):
-            poses = self._searched(start, goal)
-        if poses is None:  # a motion that is free has free ends
-            for pose, name in ((start, "start"), (goal, "goal")):
-                if not self.checker.joins([pose, pose]):
-                    require_free(self.scene, pose, name)
-            poses = [start] if start == goal else None
-        if poses is None:
-            with self._lock:
-                answer = self._known(start, goal)
-            if not isinstance(answer, list):
-                return answer
-            poses = answer
-        parts = self._without_slides(poses)
+        way = self._way(start, goal)
+        if not isinstance(way, list):
+            return way
+        parts = self._without_slides(way)
         seconds = improve and improve / len(parts)
         if objective == "clear":
             return self.path([q for part in parts for q in self._cleared(self.shortened(part, None), seconds)])
         return self.path([q for part in parts for q in self.shortened(part, seconds)])
+
+    def _way(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
+        """Poses of a path, or a proof; the way back is the same."""
+        ends = sorted((start, goal), key=lambda q: (q.x, q.y, q.tau is None, q.tau or 0))
+        first, last = ends
+        poses = self.checker.first_free(simple_ways(first, last)) if first != last else None
+        if poses is None and first != last and (self.space is None or self.space.common_cell(first, last) is not None):
+            poses = self._searched(first, last)
+        if poses is None:  # a motion that is free has free ends
+            for pose, name in ((start, "start"), (goal, "goal")):
+                if not self.checker.joins([pose, pose]):
+                    require_free(self.scene, pose, name)
+            if start == goal:
+                return [start]
+            with self._lock:
+                answer = self._known(first, last)
+            if not isinstance(answer, list):
+                return answer if first == start else answer.reversed()
+            poses = answer
+        return list(poses) if first == start else _reversed(poses)
 
     def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """What the free space says: poses of a path, or a proof."""
@@ -195,10 +205,15 @@ class Planner:
 
         if (cell := self.free_space.common_cell(start, goal)) is not None:
             return self.walker.walk(start, goal, cell)
-        proof = separation(self.free_space, start, goal)
+        quick, *others = insets_of(self.scene)
+        proof = separation(self.free_space, start, goal, [quick])
+        if proof is not None and proof.of == "closed":
+            return proof
+        if (way := self._passages.path(start, goal)) is not None:
+            return way
+        proof = separation(self.free_space, start, goal, others)
         assert proof is not None, "not in one cell"
-        way = None if proof.of == "closed" else self._passages.path(start, goal)
-        return proof if way is None else way
+        return proof
 
     def path(self, poses: Sequence[Pose]) -> Path:
         """Through these poses, without far poles where that is free; all of it checked once more.
@@ -293,6 +308,17 @@ class Planner:
 
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
         return Searcher(self.checker, area(self.scene, poses), self.angle_scale)
+
+
+def _reversed(poses: Sequence[Pose]) -> list[Pose]:
+    """The way back, in as many motions; half a turn, which could go on either side, in two."""
+    back = [poses[-1]]
+    for after, pose in pairwise(reversed(poses)):
+        motion = motion_between(pose, after)
+        if isinstance(motion, Rotation) and motion.tau is None:
+            back.append(Rotation(motion.pole, "90deg").apply(pose))
+        back.append(pose)
+    return back
 
 
 def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose, Pose]:

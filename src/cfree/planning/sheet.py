@@ -1,14 +1,17 @@
-"""Trapezoids of a boundary, exactly: poses on them at rational t and tau."""
+"""Trapezoids of a boundary, exactly: poses on them at rational t and tau, rational ends included."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING
+
+from flint import fmpq, fmpq_poly
 
 from cfree.exact import simplest_between
 from cfree.features import SceneFeatures, ShapeFeatures, unpacked
-from cfree.half_angle import half_angle_rotation, tau_in_chart
+from cfree.half_angle import half_angle_rotation, tau_in_chart, theta_in
 from cfree.pose import Pose
 
 if TYPE_CHECKING:
@@ -18,6 +21,9 @@ FINEST = 32  # bits of tau that doubles are trusted with
 AngleOf = Callable[[int, bool, int], tuple[Fraction, Fraction]]
 Vector = tuple[Fraction, Fraction]
 Line = tuple[Vector, Vector, Vector, Vector]  # p, q, a, g of a surface
+Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature
+Curve = tuple[fmpq_poly, fmpq_poly]
+HELIX = 3  # the kind of a curve on which a vertex is on a vertex
 
 
 def between(low: Fraction, high: Fraction) -> Fraction:
@@ -66,62 +72,128 @@ def positions(line: Line, tau: Fraction | None) -> tuple[Vector, Vector]:
     return minus(p, turned(a)), minus(q, turned(g))
 
 
+def as_flint(value: Fraction) -> fmpq:
+    return fmpq(value.numerator, value.denominator)
+
+
+def as_fraction(value: fmpq) -> Fraction:
+    return Fraction(int(value.p), int(value.q))
+
+
+def positions_over(line: Line, cosine: fmpq_poly, sine: fmpq_poly, whole: fmpq_poly) -> tuple[Curve, Curve]:
+    """P and U times a polynomial, with the rotation's cosine and sine times it."""
+    p, q, a, g = line
+
+    def less_turned(fixed: Vector, v: Vector) -> Curve:
+        (X, Y), (x, y) = map(as_flint, fixed), map(as_flint, v)
+        return X * whole - x * cosine + y * sine, Y * whole - x * sine - y * cosine
+
+    return less_turned(p, a), less_turned(q, g)
+
+
+def curve_cross(u: Curve, v: Curve) -> fmpq_poly:
+    return u[0] * v[1] - u[1] * v[0]
+
+
 class Sheet:
-    """A trapezoid.
+    """A trapezoid, or an isolated part.
 
     Attributes
     ----------
+    contact : Contact
+        Whose surface it is on.
+    codes : (int, int)
+        The curves that bound it, packed.
     low, high : Fraction
         All orientations from the first to the second, in its chart, are strictly within; `refine` makes them more.
-
-    Parameters
-    ----------
-    angle : callable, optional
-        `FreeSpace.angle`, to know them better.
-    isolated : bool
-        An isolated part of the boundary and not a trapezoid, of a number in their table.
     """
 
-    def __init__(self, boundary: Boundary, face: int, angle: AngleOf | None = None, isolated: bool = False) -> None:
-        table = boundary.isolated if isolated else boundary.trapezoids
-        self.face = face
-        self._angle = angle
-        self.chart = int(table.chart[face])
-        self.low, self.high = Fraction(float(table.from_hi[face])), Fraction(float(table.to_lo[face]))
-        self.codes = int(table.lower[face]), int(table.upper[face])
-        self._features = boundary.features
-        patch = int(table.patch[face])
-        contact = (int(c[patch]) for c in (boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle))
-        self.line = contact_line(boundary.features, *contact)
+    def __init__(
+        self,
+        features: SceneFeatures,
+        contact: Contact,
+        chart: int,
+        codes: tuple[int, int],
+        ends: tuple[Fraction, Fraction],
+        face: int = -1,
+    ) -> None:
+        self.features, self.contact, self.chart, self.codes, self.face = features, contact, chart, codes, face
+        self.low, self.high = ends
+        self.line = contact_line(features, *contact)
+        self._angle: AngleOf | None = None
+
+    @classmethod
+    def of(cls, boundary: Boundary, face: int, angle: AngleOf | None = None) -> Sheet:
+        """A trapezoid of a boundary.
+
+        Parameters
+        ----------
+        angle : callable, optional
+            `FreeSpace.angle`, to know its ends better.
+        """
+        sheet = cls._row(boundary, boundary.trapezoids, face, face)
+        sheet._angle = angle
         bits = FINEST
-        while angle and self.low >= self.high:
+        while angle and sheet.low >= sheet.high:
             bits *= 2
-            self.refine(bits)
+            sheet.refine(bits)
+        return sheet
+
+    @classmethod
+    def isolated(cls, boundary: Boundary, k: int) -> Sheet:
+        """An isolated part: both its curves are it, or name its ends; see `IsolatedParts`."""
+        return cls._row(boundary, boundary.isolated, k, -1)
+
+    @classmethod
+    def _row(cls, boundary: Boundary, table: object, row: int, face: int) -> Sheet:
+        def value(name: str) -> int:
+            return int(getattr(table, name)[row])
+
+        ends = Fraction(float(table.from_hi[row])), Fraction(float(table.to_lo[row]))  # type: ignore[attr-defined]
+        contact = contact_of(boundary, value("patch"))
+        return cls(boundary.features, contact, value("chart"), (value("lower"), value("upper")), ends, face)
 
     def refine(self, bits: int) -> None:
         """Come as near as 2**-bits to its first and last orientation."""
         if self._angle:
             (_, self.low), (self.high, _) = (self._angle(self.face, last, bits) for last in (False, True))
 
+    @property
+    def theta(self) -> tuple[float, float]:
+        """Its first and last orientation, rounded."""
+        low, high = (float(theta_in(self.chart, float(tau))) for tau in (self.low, self.high))
+        return low, high
+
     def at(self, tau: Fraction) -> tuple[Vector, Vector]:
         """P and U: positions P + t U, at tau in the chart."""
         return positions(self.line, tau_in_chart(self.chart, tau))
 
     def limits(self, tau: Fraction) -> tuple[Fraction, Fraction]:
-        """Of t, at an orientation strictly between the trapezoid's."""
-        P, U = self.at(tau)
-        lower, upper = (self._limit(code, tau, P, U) for code in self.codes)
+        """Of t, at an orientation from the trapezoid's first to its last."""
+        lower, upper = (as_fraction(n(as_flint(tau)) / d(as_flint(tau))) for n, d in self._curves)
         return lower, upper
 
-    def _limit(self, code: int, tau: Fraction, P: Vector, U: Vector) -> Fraction:
+    @cached_property
+    def _curves(self) -> tuple[Curve, Curve]:
+        """t as n / d, in lowest terms: so where a curve ends at a common zero, it has its limit there."""
+        lower, upper = map(self._curve, self.codes)
+        return lower, upper
+
+    def _curve(self, code: int) -> Curve:
         kind, i, j = unpacked(code)
-        if kind == 3:
+        if kind == HELIX:
             p, q, a, g = self.line
-            A, O, scale = self._features.robot, self._features.obstacles, self._features.scale
+            A, O, scale = self.features.robot, self.features.obstacles, self.features.scale
             along, w = (q, minus(vertex(O, j, scale), p)) if any(q) else (g, minus(vertex(A, i, scale), a))
-            return dot(w, along) / dot(along, along)
-        Q, V = positions(contact_line(self._features, kind, i, j), tau_in_chart(self.chart, tau))
-        return cross(minus(Q, P), V) / cross(U, V)
+            return fmpq_poly([as_flint(dot(w, along))]), fmpq_poly([as_flint(dot(along, along))])
+        sign = -1 if self.chart else 1
+        turn = fmpq_poly([sign, 0, -sign]), fmpq_poly([0, 2 * sign]), fmpq_poly([1, 0, 1])
+        (P, U), (Q, V) = (
+            positions_over(line, *turn) for line in (self.line, contact_line(self.features, int(kind), int(i), int(j)))
+        )
+        n, d = curve_cross((Q[0] - P[0], Q[1] - P[1]), V), curve_cross(U, V)
+        common = n.gcd(d)
+        return n // common, d // common
 
     def pose(self, t: Fraction, tau: Fraction) -> Pose:
         """On it."""
@@ -137,24 +209,30 @@ class Sheet:
         _, (x, y) = self.at(tau)
         return y, -x
 
+    def local(self, pose: Pose) -> Fraction:
+        """tau of a pose in the chart: at the end of a chart it has one in both."""
+        chart, tau = pose.chart
+        return tau if chart == self.chart else -tau
+
     def t_of(self, pose: Pose, tau: Fraction) -> Fraction:
         """t of a pose on its line, at this orientation."""
         P, U = self.at(tau)
         return dot(minus((pose.x, pose.y), P), U) / dot(U, U)
 
-    def holds(self, pose: Pose) -> bool:
-        """Is a pose on it, and not at its first or last orientation?"""
-        chart, tau = pose.chart
-        if chart != self.chart or not self.low < tau < self.high:
-            return False
-        P, U = self.at(tau)
-        low, high = self.limits(tau)
-        return cross(U, minus((pose.x, pose.y), P)) == 0 and low <= self.t_of(pose, tau) <= high
-
     def contact_point(self, t: Fraction) -> Vector:
         """In the robot's own coordinates."""
         _, _, a, g = self.line
         return a[0] + t * g[0], a[1] + t * g[1]
+
+    def turned(self, t: Fraction, tau: Fraction, to: Fraction) -> Pose:
+        """The pose at (t, tau) turned about its point of contact."""
+        return rotated(self.pose(t, tau), self.contact_point(t), tau_in_chart(self.chart, to))
+
+
+def contact_of(boundary: Boundary, patch: int) -> Contact:
+    """What touches on a patch."""
+    kind, i, j = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
+    return int(kind[patch]), int(i[patch]), int(j[patch])
 
 
 def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
@@ -162,6 +240,16 @@ def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
     ((X, Y),) = pose.apply_exact([point])
     ((x, y),) = Pose(0, 0, {"tau": tau}).apply_exact([point])
     return Pose(X - x, Y - y, {"tau": tau})
+
+
+def common_tau(*sheets: Sheet) -> Fraction:
+    """An orientation strictly within sheets that share a part of a curve."""
+    bits = FINEST
+    while (low := max(f.low for f in sheets)) >= (high := min(f.high for f in sheets)):
+        bits *= 2
+        for f in sheets:
+            f.refine(bits)
+    return between(low, high)
 
 
 def common_part(f: Sheet, sigma: Fraction, g: Sheet, tau: Fraction) -> tuple[Fraction, Fraction] | None:

@@ -6,9 +6,7 @@ lines are rational, and so is the point where they meet; if they coincide at t =
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import combinations
 from typing import Any
 
 from flint import fmpq, fmpq_poly
@@ -16,30 +14,26 @@ from flint import fmpq, fmpq_poly
 from cfree.errors import InvalidPoseError
 from cfree.features import SceneFeatures, ShapeFeatures
 from cfree.half_angle import half_angle_rotation
-from cfree.planning.sheet import Vector, contact_line
+from cfree.planning.sheet import Contact, Curve, as_flint, contact_line, curve_cross, positions_over
 from cfree.pose import Pose
 from cfree.slide import Slide, Touch, control_points, terms_of
 
-Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature
-Curve = tuple[fmpq_poly, fmpq_poly]
 
+def slide(features: SceneFeatures, pose: Pose, first: Contact, last: Contact, tau: Fraction) -> Slide | None:
+    """Along two contacts that a pose is in, as far as the half-angle tangent; it need not be free.
 
-def slides(features: SceneFeatures, pose: Pose, contacts: Sequence[Contact], tau: Fraction) -> Iterator[Slide]:
-    """Along any two of the contacts that a pose is in, as far as the half-angle tangent; not all need be free.
-
-    Points of contact stay within their edges: certainly, for Bernstein coefficients say so.
+    None if a contact is not one of the scene's own features, the lines become parallel or do not meet at the pose, or
+    Bernstein coefficients do not say that the points of contact stay within their edges: shorter slides may exist.
     """
-    for first, last in combinations(contacts, 2):
-        touches = [touch(features, *contact) for contact in (first, last)]
-        meeting = _meeting(features, pose, first, last)
-        if None in touches or meeting is None or not all(_within_edge(*share, tau) for share in meeting[1]):
-            continue
-        x, y, d = map(terms_of, meeting[0])
-        try:
-            slide = Slide((touches[0], touches[1]), x, y, d, tau)
-        except InvalidPoseError:  # the lines are parallel on the way, or do not meet at the pose
-            continue
-        yield slide
+    touches = [touch(features, *contact) for contact in (first, last)]
+    meeting = _meeting(features, pose, first, last)
+    if None in touches or meeting is None or not all(_within_edge(*share, tau) for share in meeting[1]):
+        return None
+    x, y, d = map(terms_of, meeting[0])
+    try:
+        return Slide((touches[0], touches[1]), x, y, d, tau)
+    except InvalidPoseError:  # the lines are parallel on the way, or do not meet at the pose
+        return None
 
 
 def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
@@ -56,19 +50,21 @@ def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
 
 def _meeting(
     features: SceneFeatures, pose: Pose, first: Contact, last: Contact
-) -> tuple[tuple[fmpq_poly, ...], list[tuple[fmpq_poly, fmpq_poly]]] | None:
+) -> tuple[tuple[fmpq_poly, ...], list[Curve]] | None:
     """x, y, d: where two contact lines meet, from the pose; and the shares of both edges. None if they never do."""
-    P, U = _line(features, pose, first)
-    Q, V = _line(features, pose, last)
-    w, across = fmpq_poly([1, 0, 1]), _cross(U, V)
+    c, s, w = half_angle_rotation(pose.tau)
+    c0, s0 = fmpq(c, w), fmpq(s, w)
+    turn = fmpq_poly([c0, -2 * s0, -c0]), fmpq_poly([s0, 2 * c0, -s0]), fmpq_poly([1, 0, 1])
+    (P, U), (Q, V) = (positions_over(contact_line(features, *contact), *turn) for contact in (first, last))
+    across = curve_cross(U, V)
     if not across:
         return None
     # P + s U = Q + r V, s = (Q - P) x V / U x V and r = (Q - P) x U / U x V; all of them are over w
     between = Q[0] - P[0], Q[1] - P[1]
-    along = _cross(between, V)
-    d = w * across
-    x, y = (P[k] * across + along * U[k] - _exact((pose.x, pose.y)[k]) * d for k in (0, 1))
-    return _reduced(x, y, d), [_reduced(along, across), _reduced(_cross(between, U), across)]
+    along = curve_cross(between, V)
+    d = turn[2] * across
+    x, y = (P[k] * across + along * U[k] - as_flint((pose.x, pose.y)[k]) * d for k in (0, 1))
+    return _reduced(x, y, d), [_reduced(along, across), _reduced(curve_cross(between, U), across)]
 
 
 def _reduced(*parts: fmpq_poly) -> Any:
@@ -85,26 +81,3 @@ def _within_edge(share: fmpq_poly, whole: fmpq_poly, tau: Fraction) -> bool:
         min(control_points(terms_of(part * whole(0)), tau)) for part in (share, whole - share, whole)
     )
     return positive > 0 and low >= 0 and high >= 0
-
-
-def _line(features: SceneFeatures, pose: Pose, contact: Contact) -> tuple[Curve, Curve]:
-    """P and U, times 1 + t^2: the reference point is at P + s U when the robot has turned from a pose by 2 atan(t)."""
-    p, q, a, g = contact_line(features, *contact)
-    c, s, w = half_angle_rotation(pose.tau)
-    c0, s0 = fmpq(c, w), fmpq(s, w)
-    cosine, sine = fmpq_poly([c0, -2 * s0, -c0]), fmpq_poly([s0, 2 * c0, -s0])
-
-    def less_turned(fixed: Vector, v: Vector) -> Curve:
-        x, y = map(_exact, v)
-        X, Y = (_exact(coordinate) * fmpq_poly([1, 0, 1]) for coordinate in fixed)
-        return X - x * cosine + y * sine, Y - x * sine - y * cosine
-
-    return less_turned(p, a), less_turned(q, g)
-
-
-def _cross(u: Curve, v: Curve) -> fmpq_poly:
-    return u[0] * v[1] - u[1] * v[0]
-
-
-def _exact(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)

@@ -7,7 +7,6 @@ off the contact, by half of the room there, are joined by one motion where that 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
@@ -16,23 +15,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.errors import InvariantError, UnsupportedError
+from cfree.cells import surfaces_with_slits
+from cfree.errors import InvariantError
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
 from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
 from cfree.planning.exits import Exits
-from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, rotated
+from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, common_tau, rotated
 from cfree.pose import Pose
 from cfree.slide import Slide
 
 if TYPE_CHECKING:
     from cfree.cells import FreeSpace
 
-FARTHEST = 2.0**40  # from the origin, in extents, that doubles still tell places apart
-MOST_HALVINGS = 200
-MOST_TURNS = 30  # halvings of a radian, where a turn may leave
+MOST_HALVINGS = 4096  # more than any scene needs
+SLID = 48  # halvings after which slides along a trapezoid's curves are tried as well
 REFINED = 8  # steps towards a critical angle before it is known better
-RAYS = 3  # from each closed surface, where one would do if doubles saw all that it crosses
 DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
@@ -61,8 +59,17 @@ class Walker:
         found = self.checker.first_contact(pose, Translation(direction))
         return Fraction(1) if found is None else found.at.p
 
-    def _sheet(self, face: int) -> Sheet:
-        return Sheet(self.space.walls, face, self.space.angle)
+    @cached_property
+    def with_slits(self) -> Walker | None:
+        """On closed surfaces with slits of no width, where bounds leave such."""
+        space = surfaces_with_slits(self.space.boundary)
+        return Walker(space, self.checker, self.corridors.angle_scale, self.slides) if space else None
+
+    def sheet(self, face: int) -> Sheet:
+        return Sheet.of(self.space.walls, face, self.space.angle)
+
+    def cell_at(self, face: int) -> int:
+        return self.space.outside if face == FAR else int(self.space.cell_of[self.space.component[face]])
 
     # --- on one sheet ---
 
@@ -83,10 +90,9 @@ class Walker:
             t, end = sheet.middle(tau), sheet.middle(to)
             p, q = self.off(sheet, t, tau), self.off(sheet, end, to)
             C, D = sheet.pose(t, tau), sheet.pose(end, to)
-            turned = rotated(C, sheet.contact_point(t), D.tau)
-            slid = sheet.pose(end, tau)
-            slid_off = rotated(slid, sheet.contact_point(end), D.tau)
-            way = self.checker.first_free([[p, q], [p, C, turned, D, q], [p, C, slid, slid_off, q]])
+            turned, slid = sheet.turned(t, tau, to), sheet.pose(end, tau)
+            ways = [[p, q], [p, C, turned, D, q], [p, C, slid, sheet.turned(end, tau, to), q]]
+            way = self.checker.first_free(ways) or (self._along_curve(sheet, tau, to) if depth > SLID else None)
             if way is not None:
                 yield from way[1:]
             elif depth == MOST_HALVINGS:
@@ -94,6 +100,15 @@ class Walker:
             else:
                 middle = between(min(tau, to), max(tau, to))
                 stack += [(middle, to, depth + 1), (tau, middle, depth + 1)]
+
+    def _along_curve(self, sheet: Sheet, tau: Fraction, to: Fraction) -> Sequence[Pose] | None:
+        """The same by a slide: always on the trapezoid."""
+        for side, code in enumerate(sheet.codes):
+            on, last = sheet.pose(sheet.limits(tau)[side], tau), sheet.pose(sheet.limits(to)[side], to)
+            if self.exits.slid(on, last, sheet, code):
+                head, tail = ((self.off(sheet, t := sheet.middle(x), x), sheet.pose(t, x)) for x in (tau, to))
+                return [*head, on, last, *tail[::-1]]
+        return None
 
     # --- from sheet to sheet ---
 
@@ -142,101 +157,75 @@ class Walker:
 
         Raises
         ------
-        UnsupportedError
-            If the scene is so far from the origin that doubles do not tell its places apart; or if an end is in
-            contacts that no translation or rotation was found to leave.
         InvariantError
             If none is found, a fault of cfree.
         """
         if len(self.space.component) == 0:
             return [start, _turned(start, goal), goal]
-        if self._farthest > FARTHEST * float(self._extent):
-            raise UnsupportedError("the scene is 2**40 times its size from the origin: move it there")
-        head, landings = self.leave(start, cell)
-        tail, takeoffs = self.leave(goal, cell)
+        landings, takeoffs = self.landings(start, cell), self.landings(goal, cell)
         links = self.links(cell)
-        way = self.corridors.shortest(place_of(head[-1]), landings, place_of(tail[-1]), takeoffs, links)
+        way = self.corridors.shortest(place_of(start), landings, place_of(goal), takeoffs, links)
         if way is None:
             raise InvariantError(f"no way in cell {cell}", state=(start, goal))
         first = next(x for x in landings if x.face == way[0][0])
         last = next(x for x in takeoffs if x.face == way[-1][0])
-        poses = [*head, *self._realized(way, links, first, last), *tail[::-1]]
+        poses = [start, *self._realized(way, links, first, last), goal]
         return [a for k, a in enumerate(poses) if k == 0 or a != poses[k - 1]]
 
     def _realized(self, way: list[tuple[int, int]], links: list[Link], first: Landing, last: Landing) -> Iterator[Pose]:
-        """From a pose on the first face to one on the last."""
+        """From one landing to another, both ways included."""
         base = len(self.space.complex.face)
         ends = [end for link in links for end in link.ends]
         entered: Landing | None = first  # None: over a side, and now off the middle
         tau = Fraction(0)
         for k, (face, h) in enumerate(way):
             left = last if k + 1 == len(way) else ends[h - base] if h >= base else None
+            if entered:
+                yield from entered.way
             if face == FAR:
                 assert entered and left
-                yield from (entered.pose, _turned(entered.pose, left.pose), left.pose)
+                yield _turned(entered.pose, left.pose)
             else:
-                f = self._sheet(face)
+                f = self.sheet(face)
                 if entered:
                     tau = entered.pose.chart[1]
-                    yield from (entered.pose, f.pose(f.middle(tau), tau), self.off(f, f.middle(tau), tau))
+                    yield from (f.pose(f.middle(tau), tau), self.off(f, f.middle(tau), tau))
                 if left:
                     end = left.pose.chart[1]
-                    yield from (*self.along(f, tau, end), f.pose(f.middle(end), end), left.pose)
+                    yield from (*self.along(f, tau, end), f.pose(f.middle(end), end))
                 else:
-                    end, steps, after = self._over(f, self._sheet(way[k + 1][0]), h, tau)
+                    end, steps, after = self._over(f, self.sheet(way[k + 1][0]), h, tau)
                     yield from (*self.along(f, tau, end), *steps)
                     tau = after
-            entered = None
-            if h >= base and k + 1 < len(way):
-                yield from links[(h - base) // 2].between[:: -1 if h - base & 1 else 1]
-                entered = ends[(h - base) ^ 1]
+            if left:
+                yield from left.way[::-1]
+            entered = ends[(h - base) ^ 1] if h >= base and k + 1 < len(way) else None
 
     def _over(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
         """Over a side of f to g: at which orientation, poses up to off the middle of g, and the orientation there."""
         cells = self.space.complex
         if cells.side[h] in (LOWER, UPPER):
-            bits = FINEST
-            while max(f.low, g.low) >= min(f.high, g.high):
-                bits *= 2
-                f.refine(bits)
-                g.refine(bits)
-            end = between(max(f.low, g.low), min(f.high, g.high))
+            end = common_tau(f, g)
             return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
         return self.over_wall(f, g, h, tau)
 
-    def leave(self, pose: Pose, cell: int) -> tuple[Sequence[Pose], list[Landing]]:
-        """From a pose to one in the interior of the cell from which straight ways lead well within faces, and these."""
-        for k in range(3, MOST_TURNS, 2):
-            for by in (Fraction(1, 2**k), -Fraction(1, 2**k)):
-                turned = _turned(pose, pose @ Pose(0, 0, {"tau": by}))
-                is_inside = self.checker.joins([pose, turned]) and self.space.locate(turned) == cell
-                if is_inside and (landings := self.landings(turned, cell)):
-                    return [pose, turned], landings
-        way = self.exits.of(pose).get(cell)
-        if way is None:
-            x, y, theta = place_of(pose)
-            place = f"({x:g}, {y:g}, {math.degrees(theta):g} deg)"
-            raise UnsupportedError(f"no motion was found that leaves {place}; start beside it")
-        return way, self.landings(way[-1], cell)
-
     def landings(self, pose: Pose, cell: int) -> list[Landing]:
-        """Where straight ways from a pose lead to that is on the boundary of a cell."""
-        found = filter(None, (self._landing(pose, x, y) for x, y in DIRECTIONS))
-        return [landing for landing in found if self._cell_at(landing.face) == cell]
+        """Ways from a pose, in a cell or on its boundary, to the boundary."""
+        if here := self.exits.of(pose).get(cell):
+            return here
+        return [landing for x, y in DIRECTIONS for landing in self._landings(pose, x, y, cell)]
 
-    def _cell_at(self, face: int) -> int:
-        return self.space.outside if face == FAR else int(self.space.cell_of[self.space.component[face]])
-
-    def _landing(self, pose: Pose, x: int, y: int) -> Landing | None:
-        """Where a straight way leads to, if it is well within a face or far away; a way far away is one to the left."""
-        direction = x * self._extent, y * self._extent
-        contact = self.checker.first_contact(pose, Translation(direction))
+    def _landings(self, pose: Pose, x: int, y: int, cell: int) -> list[Landing]:
+        """What a straight way leads to; a way far away is one to the left."""
+        far = Pose(self._far, pose.y, {"tau": pose.tau})
+        is_left = x < 0 and y == 0
+        length = max(self._extent, pose.x - far.x) if is_left else self._extent
+        contact = self.checker.first_contact(pose, Translation((x * length, y * length)))
         if contact is None:
-            far = Pose(self._far, pose.y, {"tau": pose.tau})
-            return Landing(FAR, far) if y == 0 and x < 0 and self.checker.joins([pose, far]) else None
-        there = Pose(pose.x + contact.at.p * direction[0], pose.y + contact.at.p * direction[1], {"tau": pose.tau})
-        faces = (face for face in self.corridors.near(there) if self._sheet(face).holds(there))
-        return next((Landing(face, there) for face in faces), None)
+            return [Landing(FAR, (pose, far))] if is_left and self.checker.joins([pose, far]) else []
+        share = contact.at.p * length
+        there = Pose(pose.x + share * x, pose.y + share * y, {"tau": pose.tau})
+        return [Landing(landing.face, (pose, *landing.way)) for landing in self.exits.of(there).get(cell, ())]
 
     @cached_property
     def _extent(self) -> Fraction:
@@ -244,13 +233,9 @@ class Walker:
         return Fraction(float(2 * (np.ptp(xs) + np.ptp(ys)))) + 2 * self.reach
 
     @cached_property
-    def _farthest(self) -> float:
-        """From the origin, of positions on the boundary."""
-        return float(max(np.abs(self.space.complex.x).max(), np.abs(self.space.complex.y).max()))
-
-    @cached_property
     def _far(self) -> Fraction:
-        return Fraction(float(self.space.complex.x.min())) - 2 * self.reach
+        xs = self.space.complex.x
+        return Fraction(float(xs.min())) - 2 * self.reach - Fraction(float(np.abs(xs).max())) / 2**40
 
     def links(self, cell: int) -> list[Link]:
         """Free segments that link all closed surfaces of a cell, and `FAR` if it is unbounded.
@@ -263,26 +248,36 @@ class Walker:
         if cell not in self._links:
             bounded = self.space.cells[cell].bounded
             components = self.space.cells[cell].components[bounded:]
-            self._links[cell] = [link for component in components for link in self._links_of(component)]
+            self._links[cell] = [link for component in components for link in self._links_of(component, cell)]
         return self._links[cell]
 
-    def _links_of(self, component: int) -> Iterator[Link]:
+    def _links_of(self, component: int, cell: int) -> Iterator[Link]:
         table = self.space.walls.trapezoids
-        faces = np.flatnonzero((self.space.component == component) & self.corridors.open)
-        for face in faces[np.argsort(-(table.tau_to - table.tau_from)[faces], kind="stable")[:RAYS]].tolist():
-            f = self._sheet(face)
-            tau = between(f.low, f.high)
-            while self.corridors.may_be_critical(f.chart, tau):
-                tau = (tau + f.high) / 2
+        faces = np.flatnonzero(self.space.component == component)
+        f = self.sheet(int(faces[np.argmax((table.tau_to - table.tau_from)[faces])]))
+        tau = between(f.low, f.high)
+        while True:
             pose = self.off(f, f.middle(tau), tau)
-            if left := self._landing(pose, -1, 0):
-                yield Link((Landing(face, f.pose(f.middle(tau), tau)), left), (pose,))
-            for x, other in pairwise([*self.corridors.crossings(pose).tolist(), float(self._far)]):
-                middle = Pose((x + other) / 2, pose.y, {"tau": pose.tau})
-                if self.checker.joins([middle, middle]):
-                    first, last = self._landing(middle, 1, 0), self._landing(middle, -1, 0)
-                    if first and last:
-                        yield Link((first, last))
+            nearby = self.space.nearby(pose)
+            if nearby.generic and not nearby.on:
+                break
+            tau = between(tau, f.high)
+        crossed = sorted({self._crossing(face, pose) for face in nearby.crossed}, reverse=True)
+        middles = [Pose((x + other) / 2, pose.y, {"tau": pose.tau}) for x, other in pairwise([*crossed, self._far])]
+        landing = Landing(f.face, (pose, f.pose(f.middle(tau), tau)))
+        for found in self._landings(pose, -1, 0, cell)[:1]:
+            yield Link((landing, found))
+        for middle in middles:
+            if self.space.locate(middle) == cell:
+                right, left = (self._landings(middle, x, 0, cell) for x in (1, -1))
+                if right and left:
+                    yield Link((right[0], left[0]))
+
+    def _crossing(self, face: int, pose: Pose) -> Fraction:
+        """Where the line of a trapezoid is at a pose's height and orientation."""
+        f = self.sheet(face)
+        (x, y), (u, v) = f.at(f.local(pose))
+        return x + (pose.y - y) / v * u
 
 
 def _nearer(tau: Fraction, end: Fraction, halvings: int) -> Fraction:

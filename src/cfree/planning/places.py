@@ -1,0 +1,230 @@
+"""Places where parts of the free space meet without width: cells and isolated parts, at rational orientations exactly.
+
+Doubles say where to look; what is there, and what holds it, is computed. Where parts seem to meet at an irrational
+orientation a slide along two contacts may lead from one to another, and through it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import permutations, product
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+
+from cfree.planning.clusters import clusters
+from cfree.planning.sheet import Sheet, between, common_tau, contact_of
+from cfree.planning.thin import ThinPart
+from cfree.pose import Pose
+from cfree.trapezoids import Ints
+
+if TYPE_CHECKING:
+    from cfree.planning.walk import Walker
+
+NEAR = 1e-9  # of the scene's size: what doubles do not tell apart
+HALVINGS = (3, 6, 12, 24, 48, 96)  # of the way to the other end: how near to an irrational orientation a slide begins
+
+
+@dataclass(frozen=True)
+class Part:
+    """An isolated part, as something that holds poses."""
+
+    index: int
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A closed surface with slits of no width, as something that holds poses."""
+
+    index: int
+
+
+Holder = int | Part | Surface  # or a cell
+
+
+@dataclass(frozen=True)
+class Meeting:
+    """Faces and isolated parts that doubles do not tell apart at some vertex."""
+
+    faces: tuple[int, ...]
+    parts: tuple[int, ...]
+    theta: float
+
+
+class Places:
+    """Where cells and isolated parts of a walker's free space meet."""
+
+    def __init__(self, walker: Walker) -> None:
+        self.walker = walker
+        self.space = walker.space
+        self.parts = [ThinPart(walker, k) for k in range(len(self.space.boundary.isolated))]
+        self.slits = walker.with_slits
+
+    def holders(self, pose: Pose) -> list[Holder]:
+        """What holds a free pose: cells on whose boundary it is, or that it is in, and isolated parts."""
+        found: list[Holder] = [*dict.fromkeys(self.walker.cell_at(face) for face in self.space.nearby(pose).on)]
+        if not found and (cell := self.space.locate(pose)) >= 0:
+            return [cell]
+        if self.slits:
+            faces = self.slits.space.nearby(pose).on
+            found += dict.fromkeys(Surface(self.slits.cell_at(face)) for face in faces)
+        return [*found, *(Part(k) for k in self._parts_near(pose) if self.parts[k].holds(pose))]
+
+    def way(self, start: Pose, goal: Pose, holder: Holder) -> list[Pose] | None:
+        """Between two poses that a holder holds; None if none was found along an isolated part."""
+        if isinstance(holder, Part):
+            return self.parts[holder.index].way(start, goal)
+        if isinstance(holder, Surface):
+            assert self.slits
+            return self.slits.walk(start, goal, holder.index)
+        return self.walker.walk(start, goal, holder)
+
+    def _parts_near(self, pose: Pose) -> list[int]:
+        if self._tree is None:
+            return []
+        found: list[int] = self._tree.query(shapely.Point(float(pose.x), float(pose.y))).tolist()
+        return sorted(found)
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree | None:
+        """Boxes around the isolated parts."""
+        boxes = [part.box(NEAR * self.size) for part in self.parts]
+        return shapely.STRtree([shapely.box(*box) for box in boxes]) if boxes else None
+
+    @cached_property
+    def rational(self) -> list[Pose]:
+        """Where two of them or more meet."""
+        found = dict.fromkeys([*self._at_meetings(), *self._at_edges(), *self._at_parts(), *self._on_surfaces()])
+        return [pose for pose in found if len(self.holders(pose)) > 1]
+
+    def _on_surfaces(self) -> Iterator[Pose]:
+        """Of surfaces with slits: a pose well within each face."""
+        for face in range(len(self.slits.space.component)) if self.slits else ():
+            assert self.slits
+            sheet = self.slits.sheet(face)
+            tau = between(sheet.low, sheet.high)
+            yield sheet.pose(sheet.middle(tau), tau)
+
+    # --- at vertices ---
+
+    @cached_property
+    def size(self) -> float:
+        cells, features = self.space.complex, self.space.boundary.features
+        arrays = features.obstacles.xy, features.robot.xy, cells.x, cells.y
+        return float(max(np.abs(array).max(initial=0) for array in arrays)) or 1.0
+
+    @cached_property
+    def _faces_at(self) -> tuple[Ints, Ints]:
+        """Faces by vertex, and where those of each vertex begin."""
+        cells = self.space.complex
+        order = np.argsort(cells.vertex, kind="stable")
+        return cells.face[order], np.searchsorted(cells.vertex[order], np.arange(cells.vertices + 1)).astype(np.int32)
+
+    @cached_property
+    def meetings(self) -> list[Meeting]:
+        """Of vertices that bound several cells, or are near to isolated parts."""
+        cells, (face, first) = self.space.complex, self._faces_at
+        cell = np.array([self.walker.cell_at(int(face[k])) for k in first[:-1]], np.int32)
+        ends = np.array([end for part in self.parts for end in part.rounded], float).reshape(-1, 3)
+        xyt = np.vstack((np.column_stack((cells.x, cells.y, cells.theta)), ends))
+        points = np.column_stack((xyt[:, :2] / self.size, np.cos(xyt[:, 2]), np.sin(xyt[:, 2])))
+        found = []
+        for group in clusters(points, NEAR):
+            vertices, of = group[group < cells.vertices], (group[group >= cells.vertices] - cells.vertices) // 2
+            if len(set(cell[vertices].tolist())) + len(set(of.tolist())) > 1:
+                faces = {int(f) for v in vertices for f in face[first[v] : first[v + 1]]}
+                found.append(Meeting(tuple(sorted(faces)), tuple(sorted(set(of.tolist()))), float(xyt[group[0], 2])))
+        return found
+
+    def _at_meetings(self) -> Iterator[Pose]:
+        for meeting in self.meetings:
+            yield from self._poses_of(meeting.faces)
+
+    def _poses_of(self, faces: tuple[int, ...]) -> Iterator[Pose]:
+        """Corners of faces, at their rational first and last orientations."""
+        for face in faces:
+            sheet = self.walker.sheet(face)
+            for last in (False, True):
+                if (tau := self._critical(face, last)) is not None:
+                    yield from (sheet.pose(t, tau) for t in sheet.limits(tau))
+
+    def _critical(self, face: int, last: bool) -> Fraction | None:
+        walls = self.space.walls
+        contact = contact_of(walls, int(walls.trapezoids.patch[face]))
+        return self.space.critical_angle(walls.trapezoids, face, last, contact)
+
+    # --- along edges ---
+
+    def _at_edges(self) -> Iterator[Pose]:
+        """Within curves along which cells touch."""
+        cells = self.space.complex
+        for edge in cells.pinched.tolist():
+            coedges = cells.at_edge(edge)
+            faces = cells.face[coedges].tolist()
+            side = int(cells.side[coedges[0]])
+            if side in (1, 3) and len({self.walker.cell_at(face) for face in faces}) > 1:
+                f, *others = (self.walker.sheet(face) for face in faces)
+                tau = common_tau(f, *others)
+                yield f.pose(f.limits(tau)[side == 1], tau)
+
+    # --- on isolated parts ---
+
+    def _at_parts(self) -> Iterator[Pose]:
+        """Their ends, where they cross, and corners of faces that are on them."""
+        for part in self.parts:
+            yield from (pose for pose in part.ends if pose is not None)
+            for k in self._tree.query(shapely.box(*part.box(NEAR * self.size))).tolist() if self._tree else ():
+                if k != part.k and (pose := part.crossing(self.parts[k])) is not None:
+                    yield pose
+            yield from self._poses_of(self._faces_near(part))
+
+    def _faces_near(self, part: ThinPart) -> tuple[int, ...]:
+        """Faces with a vertex near a part."""
+        cells, (face, first) = self.space.complex, self._faces_at
+        x0, y0, x1, y1 = part.box(NEAR * self.size)
+        low, high = (theta + by for theta, by in zip(part.theta, (-NEAR, NEAR), strict=True))
+        inside = (cells.x >= x0) & (cells.x <= x1) & (cells.y >= y0) & (cells.y <= y1)
+        vertices = np.flatnonzero(inside & (np.mod(cells.theta - low, math.tau) <= high - low))
+        return tuple(sorted({int(f) for v in vertices for f in face[first[v] : first[v + 1]]}))
+
+    # --- through irrational orientations ---
+
+    def slides(self) -> Iterator[tuple[Pose, Pose]]:
+        """Places joined by free slides through vertices at irrational orientations where several parts seem to meet."""
+        for meeting in self.meetings:
+            curves = [*self._curves(meeting)]
+            for (f, code, here, holder), (g, other, there, its) in permutations(curves, 2):
+                if holder != its and f.chart == g.chart:
+                    yield from self._slid(f, code, here, g, other, there)
+
+    def _curves(self, meeting: Meeting) -> Iterator[tuple[Sheet, int, bool, Holder]]:
+        """Sheets, which of their curves, whether they end at a meeting, and what they belong to."""
+        thin = (self.parts[k] for k in meeting.parts)
+        parts: list[tuple[Sheet, Holder]] = [(part.sheet, Part(part.k)) for part in thin if part.is_curve]
+        parts += [(self.walker.sheet(face), self.walker.cell_at(face)) for face in meeting.faces]
+        for sheet, holder in parts:
+            apart = [math.remainder(theta - meeting.theta, math.tau) for theta in sheet.theta]
+            for last, side in product((False, True), (0, 1)):
+                if abs(apart[last]) <= NEAR and not (isinstance(holder, Part) and side):
+                    yield sheet, side, last, holder
+
+    def _slid(
+        self, f: Sheet, side: int, last: bool, g: Sheet, other: int, its_last: bool
+    ) -> Iterator[tuple[Pose, Pose]]:
+        for halvings in HALVINGS:
+            (sigma, tau) = (_beside(sheet, end, halvings) for sheet, end in ((f, last), (g, its_last)))
+            a, b = f.pose(f.limits(sigma)[side], sigma), g.pose(g.limits(tau)[other], tau)
+            if self.walker.exits.slid(a, b, f, f.codes[side]):
+                yield a, b
+                return
+
+
+def _beside(sheet: Sheet, last: bool, halvings: int) -> Fraction:
+    """An orientation within a sheet, near its first or last."""
+    share = (sheet.high - sheet.low) / 2**halvings
+    return between(sheet.high - share, sheet.high) if last else between(sheet.low, sheet.low + share)

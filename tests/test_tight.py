@@ -1,0 +1,155 @@
+"""Paths and proofs where little is to spare, or nothing: gaps of 2^-k, exact fits turned by long rationals, both directions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import cfree.verify
+from cfree import MotionChecker, Path, Planner, Pose, Scene, Slide, boundary, free_space, nearest_miss, plan
+from cfree.planning.places import Part
+
+F = Fraction
+Ring = Sequence[tuple[Any, Any]]
+LONG = F(1234567890123456789, 9876543210987654361)
+TURNS = [F(0), F(10007, 30011), F(30011, 90017), LONG]
+SQUARE = [(F(-1, 2), F(-1, 2)), (F(1, 2), F(-1, 2)), (F(1, 2), F(1, 2)), (F(-1, 2), F(1, 2))]
+
+
+def placed(rings: Sequence[Ring], tau: Fraction, offset: int) -> list[Ring]:
+    at = Pose(offset, -offset, {"tau": tau})
+    return [at.apply_exact(ring) for ring in rings]
+
+
+def posed(x: Any, y: Any, theta: Any, tau: Fraction, offset: int) -> Pose:
+    return Pose(offset, -offset, {"tau": tau}) @ Pose(x, y, theta)
+
+
+def answered(scene: Scene, start: Pose, goal: Pose) -> str:
+    """The verdict, the same both ways, verified."""
+    verdicts = set()
+    for first, last in ((start, goal), (goal, start)):
+        found = plan(scene, first, last, improve=0)
+        assert (found.start, found.goal) == (first, last)
+        result = cfree.verify.answer(scene, found)
+        assert result.verified, result.findings
+        verdicts.add("path" if isinstance(found, Path) else found.of)
+    (verdict,) = verdicts
+    return verdict
+
+
+def walked(scene: Scene, start: Pose, goal: Pose) -> Path:
+    """Without a search."""
+    space = free_space(boundary(scene))
+    cell = space.common_cell(start, goal)
+    assert cell is not None
+    return space.planner.path(space.planner.walker.walk(start, goal, cell))
+
+
+def slot(gap: Fraction | int, tau: Fraction, offset: int, reference: int = 0) -> Scene:
+    """For a unit square, as long as two of it, in a room; the square's reference point is to the left of it."""
+    half = F(gap) / 2
+    lower = [(1, -9), (3, -9), (3, -half), (1, -half)]
+    upper = [(1, half), (3, half), (3, 9), (1, 9)]
+    *walls, room = placed([lower, upper, [(-9, -9), (9, -9), (9, 9), (-9, 9)]], tau, offset)
+    return Scene([(x + reference, y) for x, y in SQUARE], walls, workspace=room)
+
+
+# --- in one cell ---
+
+
+@pytest.mark.parametrize("k, offset, tau", [(1, 0, F(0)), (42, 10**9, LONG), (100, 0, F(0)), (300, 0, F(1, 3))])
+def test_a_rectangle_turns_in_a_room_hardly_wider_than_its_diagonal(k: int, offset: int, tau: Fraction) -> None:
+    side = 5 * (1 + F(1, 2**k))
+    (room,) = placed([[(0, 0), (side, 0), (side, side), (0, side)]], tau, offset)
+    scene = Scene([(0, 0), (4, 0), (4, 3), (0, 3)], [], workspace=room)
+    ends = posed(0, 0, 0, tau, offset), posed(side, 0, "90deg", tau, offset)
+    assert len(walked(scene, *ends).motions) < 1000
+    assert answered(scene, *ends) == "path"
+
+
+@pytest.mark.parametrize("k", [30, 42, 100, 300])
+def test_a_slot_hardly_wider_than_a_rod_can_be_left(k: int) -> None:
+    half = (1 + F(1, 2**k)) / 2
+    walls = [[(half, -9), (9, -9), (9, 9), (half, 9)], [(-9, -9), (-half, -9), (-half, 9), (-9, 9)]]
+    scene = Scene([("-1/2", -2), ("1/2", -2), ("1/2", 2), ("-1/2", 2)], walls, bounds=(-20, -30, 20, 30))
+    for start in (Pose(0, 0), Pose(F(1, 2 ** (k + 1)), 0), Pose(0, 0, {"tau": F(1, 2 ** (k + 3))})):
+        path = walked(scene, start, Pose(0, 20, "90deg"))
+        assert path.is_free(MotionChecker(scene))
+
+
+# --- exact fits ---
+
+
+@pytest.mark.parametrize("offset", [0, 10**9])
+@pytest.mark.parametrize("tau", TURNS)
+def test_a_square_goes_through_a_slot_as_wide_as_it_however_both_are_turned(tau: Fraction, offset: int) -> None:
+    scene = slot(1, tau, offset)
+    ends = posed(-4, "1/3", {"tau": "1/3"}, tau, offset), posed(6, "-1/7", {"tau": "-1/5"}, tau, offset)
+    assert answered(scene, *ends) == "path"
+    assert answered(scene, posed("3/2", 0, 0, tau, offset), ends[1]) == "path"
+
+
+@pytest.mark.parametrize("reference", [1, 80, 1000])
+def test_the_reference_point_does_not_matter(reference: int) -> None:
+    scene = slot(1, LONG, 0, reference)
+    ends = (posed(x, y, theta, LONG, 0) @ Pose(-reference, 0) for x, y, theta in ((-4, 1, "9deg"), (6, 1, "-7deg")))
+    assert answered(scene, *ends) == "path"
+
+
+@pytest.mark.parametrize("k", [30, 170, 300])
+def test_a_slot_narrower_by_however_little_is_closed(k: int) -> None:
+    scene = slot(1 - F(1, 2**k), F(1, 3), 0)
+    ends = posed(-4, "1/3", {"tau": "1/3"}, F(1, 3), 0), posed(6, "-1/7", {"tau": "-1/5"}, F(1, 3), 0)
+    assert answered(scene, *ends) == "closed"
+
+
+def test_places_are_held_by_what_meets_there() -> None:
+    """The slot is an isolated segment; its ends are on the boundary of the rooms before and behind it."""
+    planner = Planner(slot(1, LONG, 0))
+    assert isinstance(planner.plan(posed(-4, 1, 0, LONG, 0), posed(6, 1, 0, LONG, 0), improve=0), Path)
+    places = planner._passages.places
+    held = [places.holders(pose) for pose in places.rational]
+    assert any(any(isinstance(x, Part) for x in of) and any(isinstance(x, int) for x in of) for of in held)
+
+
+# --- both directions ---
+
+
+def test_the_way_back_has_the_same_verdict_in_slits_along_bounds() -> None:
+    scene = Scene([(0, -4), (5, -4), (5, 0), (0, 0)], [[(3, 4), (3, 5), (2, 5)]], bounds=(2, -1, 6, 5))
+    assert answered(scene, Pose(2, 5, "90deg"), Pose(2, "31/7", "270deg")) == "path"
+
+
+def test_slides_on_bounds_are_kept_by_the_reference_point() -> None:
+    scene = Scene([(0, -1), (2, -1), (0, 1)], [[(5, 2), (4, 3), (0, 6)], [(0, 0), (2, 5), (1, 5)]], bounds=(0, 0, 9, 6))
+    ends = Pose(6, "7/2", {"tau": "1/3"}), Pose("1/7", "32/7", {"tau": "-3"})
+    assert answered(scene, *ends) == "path"
+    for motion in plan(scene, *ends).motions:  # type: ignore[union-attr]
+        for touch in motion.contacts if isinstance(motion, Slide) else ():
+            assert (touch.robot[0] == -1) == (touch.obstacle[0] == -1)
+
+
+# --- how much is missing ---
+
+
+@pytest.mark.parametrize("half", [F(1, 40), F(1, 60), F(1, 1000)])
+def test_the_nearest_miss_of_a_narrow_slot(half: Fraction) -> None:
+    walls = [[(-9, -1), (-half, -1), (-half, 1), (-9, 1)], [(half, -1), (9, -1), (9, 1), (half, 1)]]
+    scene = Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
+    miss = nearest_miss(scene, Pose(0, 5), Pose(0, -5))
+    assert miss is not None and miss.lo <= 1 - half <= miss.hi
+
+
+def test_the_nearest_miss_of_a_sofa_whose_inset_vanishes_before_its_largest_disc() -> None:
+    """The legs are 0.8 wide and the disc in the corner has a radius of 0.46."""
+    w = F(4, 5)
+    sofa = [(0, 0), (3, 0), (3, w), (w, w), (w, 3), (0, 3)]
+    walls = [[(-9, "-1/4"), ("-1/4", "-1/4"), ("-1/4", "1/4"), (-9, "1/4")]]
+    walls += [[("1/4", "-1/4"), (9, "-1/4"), (9, "1/4"), ("1/4", "1/4")]]
+    scene = Scene(sofa, walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
+    miss = nearest_miss(scene, Pose(0, 3), Pose(0, -7))
+    assert miss is not None and 0.3 < miss.lo < miss.hi < 0.4
