@@ -181,6 +181,38 @@ def change_start_and_goal(rng: random.Random, answer: Answer) -> bool:
     return True
 
 
+def change_a_decimal(rng: random.Random, answer: Answer) -> bool:
+    """By more than the rule of effect allows, and so little that no picture shows it."""
+    record = rng.choice([answer, answer, *answer["motions"]])
+    name = rng.choice([key for key in ("start", "goal", "vector", "pole", "angle", "to") if key in record])
+    by = rng.choice([-1, 1]) * rng.choice([3e-7, 1e-3, 1])
+    if name == "angle":
+        record[name] += by
+    else:
+        record[name][rng.randrange(len(record[name]))] += by
+    return True
+
+
+def claim_that_decimals_are_free(rng: random.Random, answer: Answer) -> bool:
+    """Those of a path that touches."""
+    answer["decimals"] = "free"
+    return True
+
+
+def change_the_hash_of_the_scene(rng: random.Random, answer: Answer) -> bool:
+    digits = list(answer["scene"]["sha256"])
+    digits[rng.randrange(64)] = rng.choice("0123456789abcdef")
+    answer["scene"]["sha256"] = "".join(digits)
+    return True
+
+
+def change_the_box_of_the_robot(rng: random.Random, answer: Answer) -> bool:
+    """It says how far decimals may be off."""
+    k = rng.randrange(4)
+    answer["scene"]["robot"][k] = moved(rng, answer["scene"]["robot"][k])
+    return True
+
+
 # --- slides ---
 
 
@@ -352,13 +384,14 @@ def move_an_end(rng: random.Random, answer: Answer) -> bool:
 
 OF_PATHS: tuple[Mutation, ...] = (
     change_a_vector, change_two_vectors, change_a_pole, change_an_angle, turn_the_other_way, drop_a_motion,
-    repeat_a_motion, swap_two_motions, change_an_end, change_start_and_goal,
+    repeat_a_motion, swap_two_motions, change_an_end, change_start_and_goal, change_a_decimal,
+    claim_that_decimals_are_free, change_the_hash_of_the_scene, change_the_box_of_the_robot,
 )  # fmt: skip
 OF_SLIDES: tuple[Mutation, ...] = (
     change_a_coefficient, change_the_angle_of_a_slide, exchange_x_and_y, change_a_kept_contact,
     change_the_kind_of_a_kept_contact, change_the_decimals_of_a_slide,
 )  # fmt: skip
-UNREPAIRED = change_an_end, change_the_decimals_of_a_slide
+UNREPAIRED = change_an_end, change_a_decimal, change_the_decimals_of_a_slide
 OF_SEPARATIONS: tuple[Mutation, ...] = (
     drop_a_piece, repeat_a_piece, drop_all_pieces, change_a_contact, change_the_kind_of_a_contact, change_a_chart,
     take_an_angle_of_another, move_an_interval, change_the_name_of_an_angle, swap_from_and_to, swap_lower_and_upper,
