@@ -27,7 +27,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.io import scene_text
 from compared import plain_of, scene_of
 from compared_exactly import Undecided, differences, rational_angles
-from shapes import PlainScene, Point, Shape, box, mapped, moved, quarter_turned, random_lattice_shape, scaled
+from shapes import PlainScene, Point, Shape, box, l_shape, mapped, moved, quarter_turned, random_lattice_shape, scaled
 from strategies import convex_ring
 
 PRIME = 1_000_003  # no critical angle of a small scene has this denominator
@@ -225,8 +225,79 @@ def pythagorean(rng: random.Random) -> PlainScene:
     return plain._replace(obstacles=[turned(shape, rng.choice(TURNS)) for shape in plain.obstacles])
 
 
+def parts(rng: random.Random) -> PlainScene:
+    """Robots of several parts and with holes, an obstacle inside one perhaps."""
+    robot = [placed(rng, _holed(rng, 4), 2)]
+    if rng.random() < 0.6:
+        robot.append(placed(rng, lattice(rng, 2), 3))
+    small = [placed(rng, scaled(lattice(rng, 3), Fraction(1, 4)), 2) for _ in range(rng.randint(1, 3))]
+    return PlainScene(robot, small)
+
+
+def tiny(rng: random.Random) -> PlainScene:
+    """Some obstacles 2^-k of the others' size, at a vertex or on an edge of one, or just beside it."""
+    plain, e = lattices(rng), Fraction(1, 2 ** rng.randint(5, 200))
+    small = []
+    for _ in range(rng.randint(1, 3)):
+        ring = rng.choice(plain.obstacles)[0]
+        k = rng.randrange(len(ring))
+        (x0, y0), (x1, y1) = ring[k], ring[(k + 1) % len(ring)]
+        share = rng.choice([Fraction(0), Fraction(1, 2), Fraction(1, 3), e])
+        x, y = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
+        part = scaled(lattice(rng, 3), e)
+        small.append(moved(part, x + e * rng.randint(-3, 3), y + e * rng.randint(-3, 3)))
+    if rng.random() < 0.2:
+        plain = plain._replace(robot=[*plain.robot, scaled(lattice(rng, 3), e)])
+    return plain._replace(obstacles=[*plain.obstacles, *small])
+
+
+def rims(rng: random.Random) -> PlainScene:
+    """Bounds through vertices and along edges of obstacles."""
+    plain = lattices(rng)
+    xs = sorted({x for shape in plain.obstacles for x, _ in shape[0]} | {rng.randint(-6, 6)})
+    ys = sorted({y for shape in plain.obstacles for _, y in shape[0]} | {rng.randint(-6, 6)})
+    (x0, x1), (y0, y1) = sorted(rng.sample(xs, 2)), sorted(rng.sample(ys, 2))
+    return plain._replace(bounds=(x0, y0, x1, y1))
+
+
+def mazes(rng: random.Random) -> PlainScene:
+    """Boxes that leave corridors as wide as the robot is, or nearly, in a room."""
+    size, walls = 3, []
+    for x in range(size):
+        for y in range(size):
+            if rng.random() < 0.45:
+                walls.append(box(2 * x, 2 * y, 2 * x + rng.choice([1, 2]), 2 * y + rng.choice([1, 2])))
+    robot = rng.choice([box(0, 0, 1, 1), box(0, 0, 1, 2), l_shape(2, 1), box(0, 0, 1, Fraction(1, 2))])
+    outer = box(0, 0, 2 * size, 2 * size)
+    return PlainScene([quarter_turned(robot, rng.randint(0, 3))], walls, None, outer)
+
+
+def crowds(rng: random.Random) -> PlainScene:
+    """A room full of lattice shapes, the robot about as large as they are, and gaps as wide as it."""
+    walls = [moved(lattice(rng, 3), rng.randint(-1, 6), rng.randint(-1, 6)) for _ in range(rng.randint(2, 5))]
+    robot = [placed(rng, lattice(rng, 2), 1) for _ in range(rng.choice([1, 1, 2]))]
+    return PlainScene(robot, walls, None, box(0, 0, rng.randint(5, 7), rng.randint(5, 7)))
+
+
+def far(rng: random.Random) -> PlainScene:
+    """Turned by a long rational, at an offset of 1e9, the reference point 100 or a million away: all, or some of it."""
+    plain = rng.choice([boxes, lattices, corridor, fit, parts])(rng)
+    tau, tilt = (rng.choice([Fraction(0), rational(rng, rng.randint(2, 20))]) for _ in range(2))
+    x, y = rng.choice([(0, 0), (10**9, -(10**9)), (2**40, Fraction(1, 3))])
+    dx, dy = rng.choice([(0, 0), (rng.randint(-100, 100), 60), (10**6, 1)])
+    turn, back = (((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)) for t in (tau, tilt))
+    obstacles = [moved(turned(shape, turn), x, y) for shape in plain.obstacles]
+    return plain._replace(robot=[turned(moved(shape, dx, dy), back) for shape in plain.robot], obstacles=obstacles)
+
+
 def _some(rng: random.Random, make: Callable[[random.Random, int], Shape]) -> list[Shape]:
     return [placed(rng, make(rng, 3)) for _ in range(rng.choice([0, 0, 1, 2]))]
+
+
+def rational(rng: random.Random, digits: int) -> Fraction:
+    """p / q of so many digits, of either sign."""
+    p, q = (rng.randrange(10 ** (digits - 1), 10**digits) for _ in range(2))
+    return Fraction(rng.choice([-1, 1]) * p, q)
 
 
 def turned(shape: Shape, turn: Point) -> Shape:
@@ -259,7 +330,8 @@ def walled(rng: random.Random, plain: PlainScene) -> PlainScene:
 
 KINDS: dict[str, Callable[[random.Random], PlainScene]] = {
     f.__name__: f
-    for f in (boxes, lattices, congruent, fit, corridor, cut, chain, sliver, words, feet, pythagorean)
+    for f in (boxes, lattices, congruent, fit, corridor, cut, chain, sliver, words, feet, pythagorean,
+              parts, tiny, rims, mazes, crowds, far)
 }  # fmt: skip
 
 

@@ -208,6 +208,27 @@ def near_walls(rng: random.Random) -> Rings:
     return Rings([ring()], [ring(), ring()])
 
 
+def turned_far(rng: random.Random) -> Rings:
+    """A degenerate scene turned by a rational of 5 to 40 digits, far from the origin; the reference point far, too."""
+    p, q = (rng.randrange(10 ** rng.randint(4, 40)) + 1 for _ in range(2))
+    c, s, w = q * q - p * p, 2 * p * q, p * p + q * q
+    x0, y0 = rng.choice([(0, 0), (10**9, -(10**9)), (2**40, Fraction(1, 3))])
+    dx, dy = rng.choice([(0, 0), (100, -60), (10**6, 1)])
+    with_robot = rng.random() < 0.5
+
+    def turned(x: Fraction, y: Fraction) -> tuple[Fraction, Fraction]:
+        return (c * x - s * y) / w, (s * x + c * y) / w
+
+    def world(x: Fraction, y: Fraction) -> Any:
+        u, v = turned(x, y)
+        return u + x0, v + y0
+
+    def body(x: Fraction, y: Fraction) -> Any:
+        return turned(x + dx, y + dy) if with_robot else (x + dx, y + dy)
+
+    return rng.choice(DEGENERATE)(rng).mapped(body, world)
+
+
 def distinct(rings: Rings) -> Rings:
     """Vertices that fell together are dropped; a ring of fewer than three becomes a triangle."""
 
@@ -231,5 +252,6 @@ FAMILIES: dict[str, Callable[[random.Random], Rings]] = {
         huge_integers,
         fractions,
         near_walls,
+        turned_far,
     )
 }

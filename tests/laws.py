@@ -12,7 +12,7 @@ import fuzz
 from cfree import Polygon, Pose, is_free
 from cfree.decompose import convex_pieces
 from compared import scene_of
-from questions import Question, Verdict, carried, rational
+from questions import Question, Verdict, carried
 from shapes import PlainScene, Shape, mirrored
 
 Relation = Literal["same", "no harder", "no easier"]
@@ -34,9 +34,9 @@ def laws(rng: random.Random, question: Question) -> Iterator[Law]:
     yield Law("mirrored", mirror_image(question), "same")
     for name, world in (("turned", _turn(rng, question)), ("moved", Pose(10**9, Fraction(-(2**40), 3)))):
         yield Law(name, carried(question, world), "same")
-    for factor in (Fraction(2) ** rng.randint(-100, 100), abs(rational(rng, 3))):
+    for factor in (Fraction(2) ** rng.randint(-100, 100), abs(fuzz.rational(rng, 3))):
         yield Law("scaled", carried(question, Pose(0, 0), factor), "same")
-    frame = Pose(0, 0, {"tau": rational(rng, rng.randint(1, 12))})
+    frame = Pose(0, 0, {"tau": fuzz.rational(rng, rng.randint(1, 12))})
     yield Law("robot's frame turned", carried(question, Pose(0, 0), body=frame), "same")
     if question.plain.bounds is None:
         away = Pose(rng.randint(-100, 100), rng.randint(-100, 100))
@@ -88,4 +88,4 @@ def _asked(question: Question, plain: PlainScene) -> Question:
 def _turn(rng: random.Random, question: Question) -> Pose:
     if question.plain.bounds:
         return Pose(0, 0, {"tau": rng.choice([Fraction(1), None, Fraction(-1)])})
-    return Pose(0, 0, {"tau": rational(rng, rng.randint(1, 15))})
+    return Pose(0, 0, {"tau": fuzz.rational(rng, rng.randint(1, 15))})

@@ -16,8 +16,7 @@ from cfree import MotionChecker, Polygon, Pose, Scene
 from cfree.errors import InvalidPolygonError
 from cfree.planning.search import simple_ways
 from compared import plain_of, scene_of
-from shapes import PlainScene, Point, Shape, box, comb, l_shape, mapped, moved, quarter_turned, random_lattice_shape
-from shapes import scaled as scaled_shape
+from shapes import PlainScene, Point, Shape, box, comb, l_shape, mapped, moved, random_lattice_shape
 
 Verdict = Literal["path", "closed", "interior", "forbidden"]
 
@@ -94,21 +93,16 @@ def _at(pose: Pose, x: Fraction | int, y: Fraction | int) -> Point:
     return pose.apply_exact([(Fraction(x), Fraction(y))])[0]
 
 
-def rational(rng: random.Random, digits: int) -> Fraction:
-    """p / q of so many digits, of either sign."""
-    p, q = (rng.randrange(10 ** (digits - 1), 10**digits) for _ in range(2))
-    return Fraction(rng.choice([-1, 1]) * p, q)
-
-
 def elsewhere(rng: random.Random, question: Question) -> Question:
     """Turned by a long rational, far from the origin, in another size, its reference point somewhere else: or not."""
-    tau: Fraction | None = rng.choice([Fraction(0), Fraction(1), None, rational(rng, rng.randint(1, 8))])
+    tau: Fraction | None = rng.choice([Fraction(0), Fraction(1), None, fuzz.rational(rng, rng.randint(1, 8))])
     if rng.random() < 0.2:
-        tau = rational(rng, rng.randint(5, 40))
+        tau = fuzz.rational(rng, rng.randint(5, 40))
     x, y = rng.choice([(0, 0), (0, 0), (rng.randint(-9, 9), Fraction(1, 3)), (10**9, -(10**9)), (2**30, 7)])
-    size = rng.choice([Fraction(1)] * 3 + [Fraction(2) ** rng.randint(-60, 60), rational(rng, 3) ** 2])
-    body = Pose(*rng.choice([(0, 0), (0, 0), (rng.randint(-100, 100), rng.randint(-100, 100)), (10**6, 1)]),
-                {"tau": rng.choice([Fraction(0), Fraction(0), rational(rng, 2), rational(rng, 12)])})  # fmt: skip
+    size = rng.choice([Fraction(1)] * 3 + [Fraction(2) ** rng.randint(-60, 60), fuzz.rational(rng, 3) ** 2])
+    tilt = rng.choice([Fraction(0), Fraction(0), fuzz.rational(rng, 2), fuzz.rational(rng, 12)])
+    away = rng.choice([(0, 0), (0, 0), (rng.randint(-100, 100), rng.randint(-100, 100)), (10**6, 1)])
+    body = Pose(*away, {"tau": tilt})
     if question.plain.bounds:
         tau = rng.choice([Fraction(0), Fraction(1), None, Fraction(-1)])
         body = Pose(0, 0, {"tau": body.tau})
@@ -303,70 +297,10 @@ def _pose(rng: random.Random, plain: PlainScene) -> Pose:
     return Pose(b[0] + step * rng.randint(-9, 9), b[1] + step * rng.randint(-9, 9), {"tau": tau})
 
 
-def _lattice(rng: random.Random) -> PlainScene:
-    robot = [fuzz.placed(rng, fuzz.lattice(rng, 3), 2) for _ in range(rng.choice([1, 1, 2]))]
-    return PlainScene(robot, [fuzz.placed(rng, fuzz.lattice(rng, 4)) for _ in range(rng.randint(1, 3))])
-
-
-def parts(rng: random.Random) -> PlainScene:
-    """Robots of several parts and with holes, an obstacle inside one perhaps."""
-    robot = [fuzz.placed(rng, fuzz._holed(rng, 4), 2)]
-    if rng.random() < 0.6:
-        robot.append(fuzz.placed(rng, fuzz.lattice(rng, 2), 3))
-    small = [fuzz.placed(rng, scaled_shape(fuzz.lattice(rng, 3), Fraction(1, 4)), 2) for _ in range(rng.randint(1, 3))]
-    return PlainScene(robot, small)
-
-
-def tiny(rng: random.Random) -> PlainScene:
-    """Some obstacles 2^-k of the others' size, at a vertex or on an edge of one, or just beside it."""
-    plain, e = _lattice(rng), Fraction(1, 2 ** rng.randint(5, 200))
-    small = []
-    for _ in range(rng.randint(1, 3)):
-        ring = rng.choice(plain.obstacles)[0]
-        k = rng.randrange(len(ring))
-        (x0, y0), (x1, y1) = ring[k], ring[(k + 1) % len(ring)]
-        share = rng.choice([Fraction(0), Fraction(1, 2), Fraction(1, 3), e])
-        x, y = x0 + share * (x1 - x0), y0 + share * (y1 - y0)
-        part = scaled_shape(fuzz.lattice(rng, 3), e)
-        small.append(moved(part, x + e * rng.randint(-3, 3), y + e * rng.randint(-3, 3)))
-    if rng.random() < 0.2:
-        plain = plain._replace(robot=[*plain.robot, scaled_shape(fuzz.lattice(rng, 3), e)])
-    return plain._replace(obstacles=[*plain.obstacles, *small])
-
-
-def rims(rng: random.Random) -> PlainScene:
-    """Bounds through vertices and along edges of obstacles."""
-    plain = _lattice(rng)
-    xs = sorted({x for shape in plain.obstacles for x, _ in shape[0]} | {rng.randint(-6, 6)})
-    ys = sorted({y for shape in plain.obstacles for _, y in shape[0]} | {rng.randint(-6, 6)})
-    (x0, x1), (y0, y1) = sorted(rng.sample(xs, 2)), sorted(rng.sample(ys, 2))
-    return plain._replace(bounds=(x0, y0, x1, y1))
-
-
-def mazes(rng: random.Random) -> PlainScene:
-    """Boxes that leave corridors as wide as the robot is, or nearly, in a room."""
-    size, walls = 3, []
-    for x in range(size):
-        for y in range(size):
-            if rng.random() < 0.45:
-                walls.append(box(2 * x, 2 * y, 2 * x + rng.choice([1, 2]), 2 * y + rng.choice([1, 2])))
-    robot = rng.choice([box(0, 0, 1, 1), box(0, 0, 1, 2), l_shape(2, 1), box(0, 0, 1, Fraction(1, 2))])
-    outer = box(0, 0, 2 * size, 2 * size)
-    return PlainScene([quarter_turned(robot, rng.randint(0, 3))], walls, None, outer)
-
-
-def crowds(rng: random.Random) -> PlainScene:
-    """A room full of lattice shapes, the robot about as large as they are, and gaps as wide as it."""
-    walls = [moved(fuzz.lattice(rng, 3), rng.randint(-1, 6), rng.randint(-1, 6)) for _ in range(rng.randint(2, 5))]
-    robot = [fuzz.placed(rng, fuzz.lattice(rng, 2), 1) for _ in range(rng.choice([1, 1, 2]))]
-    return PlainScene(robot, walls, None, box(0, 0, rng.randint(5, 7), rng.randint(5, 7)))
-
-
 KNOWN: dict[str, Callable[[random.Random], Question]] = {
     f.__name__: f for f in (slot, room, channel, peg, key, corner, gap)
 }
-SCENES: dict[str, Callable[[random.Random], PlainScene]] = {f.__name__: f for f in (parts, tiny, rims, mazes, crowds)}
-FAMILIES = (*KNOWN, *SCENES, *fuzz.KINDS)
+FAMILIES = (*KNOWN, *fuzz.KINDS)
 
 
 def question(family: str, number: int) -> Question | None:
@@ -375,5 +309,5 @@ def question(family: str, number: int) -> Question | None:
     if family in KNOWN:
         asked: Question | None = KNOWN[family](rng)
     else:
-        asked = random_question(rng, SCENES[family](rng) if family in SCENES else fuzz.scene(family, number))
+        asked = random_question(rng, fuzz.scene(family, number))
     return asked and (elsewhere(rng, asked) if rng.random() < 0.6 else asked)
