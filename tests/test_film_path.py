@@ -17,7 +17,7 @@ from cfree.forbidden import Boundary, boundary
 from cfree.io import load_scene
 from cfree.motion import Rotation, Translation, rotations
 from cfree.path import Path
-from cfree.plot_path import Track
+from cfree.plot_way import Track
 from cfree.pose import Pose
 from cfree.scene import Scene
 

@@ -25,7 +25,7 @@ from cfree.path import Path
 from cfree.plot import save_figure
 from cfree.plot3d import CURVE, ON_TOP, OVER, WALL, Painting, patches_of
 from cfree.plot_answer import picture, plot_path_space, surface_of
-from cfree.plot_path import GHOSTS, LIMIT, Track, plot_path, quantity
+from cfree.plot_way import GHOSTS, LIMIT, Track, plot_path, quantity
 from cfree.pose import Pose
 from cfree.scene import Scene
 from cfree.strips import strips

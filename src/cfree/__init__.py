@@ -85,7 +85,7 @@ if TYPE_CHECKING:
     from cfree.plot import plot_workspace as plot_workspace
     from cfree.plot_answer import picture as picture
     from cfree.plot_answer import plot_path_space as plot_path_space
-    from cfree.plot_path import plot_path as plot_path
+    from cfree.plot_way import plot_path as plot_path
     from cfree.polygon import Polygon as Polygon
     from cfree.pose import Pose as Pose
     from cfree.pose import Poses as Poses
@@ -164,7 +164,7 @@ _HOMES = {
     "planning.planner": "Planner plan plan_many",
     "plot": "plot_boundary plot_overview plot_slice plot_workspace",
     "plot_answer": "picture plot_path_space",
-    "plot_path": "plot_path",
+    "plot_way": "plot_path",
     "polygon": "Polygon",
     "pose": "Pose Poses",
     "rational.bezier": "BezierPatch bezier_patch bezier_patches save_bezier",
@@ -198,4 +198,4 @@ def __getattr__(name: str) -> Any:
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), *_MODULE})
+    return sorted([*__all__, *_PACKAGES])

@@ -7,10 +7,10 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
 from cfree.path import Path
+from cfree.separated import Separated
 
 if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
-    from cfree.separated import Separated
 
 
 def load_answer(path: str | PathLike[str]) -> Path | Separated:

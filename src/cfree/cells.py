@@ -13,27 +13,23 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 from flint import fmpz_poly
 from numpy.typing import NDArray
 
+import cfree
 from cfree.errors import FormatError, InvalidPoseError, InvariantError
 from cfree.features import BOUNDS, WORKSPACE
 from cfree.forbidden import Boundary
 from cfree.free import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.half_angle import chart_of, tau_in_chart
+from cfree.path import Objective, Path
 from cfree.pose import Pose, Poses
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
 from cfree.trapezoids import COLUMNS, Floats, Ints, Trapezoids
-
-if TYPE_CHECKING:
-    from cfree.cell_complex import CellComplex
-    from cfree.path import Path
-    from cfree.planning.planner import Objective, Planner
-    from cfree.separated import Separated
 
 FORBIDDEN, NO_CELL = -1, -2
 BLOCK = 1 << 16  # poses between two looks at Ctrl-C
@@ -170,7 +166,7 @@ class FreeSpace:
         return f"FreeSpace({n} cell{'s' * (n != 1)}, {caged} caged, {len(self.parent)} closed surfaces)"
 
     @property
-    def complex(self) -> CellComplex:
+    def complex(self) -> cfree.CellComplex:
         """The closed surfaces, of `walls`."""
         return self.walls.complex
 
@@ -311,7 +307,7 @@ class FreeSpace:
 
     def plan(
         self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
-    ) -> Path | Separated:
+    ) -> Path | cfree.Separated:
         """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
 
         Notes
@@ -321,7 +317,7 @@ class FreeSpace:
         return self.planner.plan(start, goal, improve=improve, objective=objective)
 
     @cached_property
-    def planner(self) -> Planner:
+    def planner(self) -> cfree.Planner:
         """What has been prepared for `plan`."""
         from cfree.planning.planner import Planner
 

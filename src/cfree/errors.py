@@ -13,10 +13,7 @@ Messages give the place, the value and the remedy.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from cfree.pose import Pose
+import cfree  # annotations name what would be imported in a circle so: it is found when somebody asks for them
 
 
 class CfreeError(Exception):
@@ -53,7 +50,7 @@ class InvalidPoseError(CfreeError, ValueError):
     `free` is then a free pose near by, if one was found.
     """
 
-    def __init__(self, message: str, *, free: Pose | None = None) -> None:
+    def __init__(self, message: str, *, free: cfree.Pose | None = None) -> None:
         super().__init__(message)
         self.free = free
 

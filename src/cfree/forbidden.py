@@ -12,11 +12,12 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import cfree
 from cfree.collector import collection_paused
 from cfree.errors import IncompleteError, InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
@@ -24,12 +25,6 @@ from cfree.half_angle import Angle, tau_in
 from cfree.patch import IsolatedPart, Patches, Trapezoid
 from cfree.scene import Scene
 from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
-
-if TYPE_CHECKING:
-    from cfree.cell_complex import CellComplex
-    from cfree.free import Checker
-    from cfree.mesh import Mesh
-    from cfree.slice import Slice
 
 VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
 
@@ -266,7 +261,7 @@ class Boundary:
         return np.searchsorted(self.trapezoids.patch, np.arange(len(self.contact_kind) + 1))
 
     @cached_property
-    def complex(self) -> CellComplex:
+    def complex(self) -> cfree.CellComplex:
         """The trapezoids glued into closed surfaces; computed when first asked for."""
         from cfree.cell_complex import glue
 
@@ -274,7 +269,7 @@ class Boundary:
         return glue(self)
 
     @cached_property
-    def checker(self) -> Checker:
+    def checker(self) -> cfree.Checker:
         """The scene prepared for `cfree.is_free`; when first asked for."""
         from cfree.free import Checker
 
@@ -366,7 +361,7 @@ class Boundary:
         self.slicer.limits(chosen, chart.astype(np.int32), tau, lower, upper)
         return lower, upper
 
-    def slice(self, theta: Angle) -> Slice:
+    def slice(self, theta: Angle) -> cfree.Slice:
         """The contact segments at one orientation.
 
         Parameters
@@ -387,7 +382,7 @@ class Boundary:
         self.require_complete()
         return Slice(self, theta)
 
-    def mesh(self, error: float, *, angle_scale: float | None = None) -> Mesh:
+    def mesh(self, error: float, *, angle_scale: float | None = None) -> cfree.Mesh:
         """Closed triangle meshes within a stated distance of the boundary.
 
         Parameters

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from cfree.contact import EdgeVertex, VertexEdge
 from cfree.errors import UnsupportedError
@@ -19,10 +19,8 @@ from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures
 from cfree.motion import Motion, Rotation, Translation, motion_between
 from cfree.pose import Pose
 from cfree.rational.surd import Surd
+from cfree.scene import Scene
 from cfree.slide import Slide
-
-if TYPE_CHECKING:
-    from cfree.scene import Scene
 
 
 @dataclass(frozen=True)

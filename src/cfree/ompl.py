@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 try:
     from ompl import base as ob
@@ -30,9 +30,7 @@ from cfree.motion_check import MotionChecker
 from cfree.path import Path
 from cfree.planning.search import area
 from cfree.pose import Pose
-
-if TYPE_CHECKING:
-    from cfree.scene import Scene
+from cfree.scene import Scene
 
 MOST_HALVINGS = 30
 

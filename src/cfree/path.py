@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from os import PathLike
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,12 +23,11 @@ from cfree.files import replacing
 from cfree.motion import Motion, Rotation, Translation
 from cfree.motion_check import MotionChecker
 from cfree.pose import Pose, Poses
+from cfree.scene import Scene
 from cfree.slide import Slide
 from cfree.stamp import Stamp, stamp_for
 
-if TYPE_CHECKING:
-    from cfree.scene import Scene
-
+Objective = Literal["short", "clear"]
 Floats = NDArray[np.float64]
 FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files
 

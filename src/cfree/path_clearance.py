@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,9 +14,7 @@ from cfree.nearest import Floats, Ints, Walls
 from cfree.pace import Pace, reach
 from cfree.path import Clearance, Path
 from cfree.pose import Poses
-
-if TYPE_CHECKING:
-    from cfree.scene import Scene
+from cfree.scene import Scene
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
 MOST = 1 << 12  # parts of motions looked at together: where more would be needed, what is known is the bound

@@ -9,26 +9,23 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure, SubFigure
+from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from cfree.files import checked_suffix, replacing
+from cfree.forbidden import Boundary
 from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.mesh import COLOURS, KINDS
 from cfree.outlines import BOUNDS, ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
+from cfree.pose import Pose
+from cfree.scene import Scene
+from cfree.slice import Slice
 from cfree.strips import THIN, strips
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure, SubFigure
-    from mpl_toolkits.mplot3d.axes3d import Axes3D
-
-    from cfree.forbidden import Boundary
-    from cfree.pose import Pose
-    from cfree.scene import Scene
-    from cfree.slice import Slice
 
 FORBIDDEN = "#e4e4e9"
 

@@ -4,29 +4,26 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
+from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from cfree.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
+from cfree.forbidden import Boundary
 from cfree.mesh import robot_radius
 from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.path import Path
 from cfree.plot import around, new_figure, new_space, set_window, with_unit
 from cfree.plot3d import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
-from cfree.plot_path import LIMIT, Track, draw_track, statement
+from cfree.plot_way import LIMIT, Track, draw_track, statement
 from cfree.scene import Scene
+from cfree.separated import Separated
 from cfree.slab import Range, chosen, distances, slab
 from cfree.strips import strips
 from cfree.trapezoids import ISOLATED_COLUMNS, IsolatedParts
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-    from mpl_toolkits.mplot3d.axes3d import Axes3D
-
-    from cfree.forbidden import Boundary
-    from cfree.path import Path
-    from cfree.separated import Separated
 
 Floats = NDArray[np.float64]
 

@@ -13,18 +13,16 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, TypeVar
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import Polygon as ShapelyPolygon
 
 from cfree.errors import InvalidPolygonError
 from cfree.exact import ExactPoint, IntPoint, angle
 from cfree.predicates import Orientation, orient
 from cfree.rings import Points, Removed, doubled_area, read_rings
-
-if TYPE_CHECKING:
-    from shapely import Polygon as ShapelyPolygon
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

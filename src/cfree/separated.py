@@ -18,23 +18,22 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+import cfree
 from cfree.cells import FORBIDDEN, FreeSpace
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact import ExactPoint
 from cfree.features import unpacked
 from cfree.files import replacing
+from cfree.forbidden import Boundary
 from cfree.inset import inset_space, insets_of, size_power
 from cfree.polygon import Polygon
 from cfree.pose import Pose
-from cfree.scene import Bounds
+from cfree.scene import Bounds, Scene
 from cfree.stamp import Stamp, stamp_for
 from cfree.trapezoids import CODED, COLUMNS, Ints, Trapezoids
 
 if TYPE_CHECKING:
     from cfree.features import SceneFeatures
-    from cfree.forbidden import Boundary
-    from cfree.margins import NearestMiss
-    from cfree.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -170,7 +169,7 @@ class Separated:
         return tuple(np.unique(self.pieces.obstacle[:, 0]).tolist())
 
     @cached_property
-    def nearest_miss(self) -> NearestMiss | None:
+    def nearest_miss(self) -> cfree.NearestMiss | None:
         """The smallest inset of the robot that would join start and goal, and where: `cfree.nearest_miss`.
 
         Computed when first asked for; None if there is none. Needs `scene`.

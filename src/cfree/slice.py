@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
 
+from cfree.forbidden import Boundary
 from cfree.half_angle import Angle, place_of
-
-if TYPE_CHECKING:
-    from shapely.geometry.base import BaseGeometry
-
-    from cfree.forbidden import Boundary
 
 
 class Slice:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.path import Path
-    from cfree.scene import Scene
+from cfree.forbidden import Boundary
+from cfree.path import Path
+from cfree.scene import Scene
 
 MOST = 60.0  # seconds of motion
 
@@ -126,7 +124,7 @@ def film_path(
     from cfree.film.encode import check_film_path, write
     from cfree.film.reel import check_frames
     from cfree.film.way import path_frames
-    from cfree.plot_path import Track
+    from cfree.plot_way import Track
 
     suffix = check_film_path(file)
     if size is None:

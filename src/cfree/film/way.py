@@ -22,7 +22,7 @@ from cfree.mesh import robot_radius
 from cfree.nearest import Walls
 from cfree.outlines import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.plot import extent, set_window, with_unit
-from cfree.plot_path import LIMIT, Track, placed, poses_of, quantity, statement
+from cfree.plot_way import LIMIT, Track, placed, poses_of, quantity, statement
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary

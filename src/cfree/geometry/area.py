@@ -8,19 +8,15 @@ The area element is v dt dphi (section 4). Along the ruling it is integrated exa
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.exact import finite
+from cfree.forbidden import Boundary
 from cfree.geometry.development import distance_across
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
-
-if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.trapezoids import Ints
+from cfree.trapezoids import Ints
 
 
 def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, angle_scale: float = 1.0) -> Floats:

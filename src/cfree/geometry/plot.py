@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from cfree.contact import VertexEdge, angle_range
 from cfree.geometry.development import develop
 from cfree.mesh import COLOURS
 from cfree.polygon import Polygon
 from cfree.surface import contact_surface
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 HELICES, RULINGS, POINTS = 9, 13, 241  # lines drawn, and points of a curve
 

@@ -14,8 +14,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
+from cfree.cells import FreeSpace
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.extent import LARGEST
 from cfree.forbidden import boundary
@@ -24,20 +25,18 @@ from cfree.invalid import require_free
 from cfree.mesh import robot_radius
 from cfree.motion import Rotation, motion_between
 from cfree.motion_check import MotionChecker
-from cfree.path import Path
+from cfree.path import Objective, Path
 from cfree.planning.poles import near_poles
 from cfree.planning.search import Searcher, area, simple_ways
+from cfree.planning.walk import Walker
 from cfree.pose import Pose
 from cfree.scene import Scene
+from cfree.separated import Separated
 from cfree.slide import Slide
 
 if TYPE_CHECKING:
-    from cfree.cells import FreeSpace
     from cfree.planning.passages import Passages
-    from cfree.planning.walk import Walker
-    from cfree.separated import Separated
 
-Objective = Literal["short", "clear"]
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
 OTHERS = 30  # other ways looked for

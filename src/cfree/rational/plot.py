@@ -7,10 +7,11 @@ angle is there. In the rational model all is exact, but equal angles take ever m
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from matplotlib.colors import to_rgba_array
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cfree.contact import EdgeVertex, VertexEdge
@@ -18,9 +19,6 @@ from cfree.mesh import COLOURS
 from cfree.polygon import Polygon
 from cfree.predicates import Location
 from cfree.rational.model import RationalSurface, rational_surface, to_rational
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 

@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from cfree.answer import read_answer
 from cfree.path import Path
+from cfree.scene import Scene
+from cfree.separated import Separated
 from cfree.slide import Slide
 from cfree.stamp import Stamp, stamp_of
 from cfree.verify.leeway import roomier
@@ -21,8 +23,6 @@ from cfree.verify.world import World
 if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
     from cfree.pose import Pose
-    from cfree.scene import Scene
-    from cfree.separated import Separated
 
 SCENE, ASKED, PIECES = "scene", "poses asked for", "convex pieces"
 NO_ROOM = 'they are said to be "free", and no room is enough for that; say "approximate"'

@@ -8,8 +8,9 @@ import time
 from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
+from cfree.forbidden import Boundary
+from cfree.scene import Scene
 from cfree.storage import load_boundary
 from cfree.trapezoids import CURVE
 from cfree.verify.angles import orientation
@@ -19,10 +20,6 @@ from cfree.verify.missing import compared
 from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader, Side
-
-if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.scene import Scene
 
 BLOCK = 100  # trapezoids between two reports
 

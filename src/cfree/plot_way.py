@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from numpy.typing import NDArray
 
 from cfree.mesh import robot_radius
@@ -14,17 +16,12 @@ from cfree.motion import Translation
 from cfree.nearest import Walls
 from cfree.outlines import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.pace import Pace
+from cfree.path import Clearance, Path
 from cfree.path_clearance import least_clearance, walls_beside
 from cfree.plot import around, new_axes, set_window, with_unit
+from cfree.polygon import Polygon
 from cfree.pose import Pose, Poses
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.cm import ScalarMappable
-
-    from cfree.path import Clearance, Path
-    from cfree.polygon import Polygon
-    from cfree.scene import Scene
+from cfree.scene import Scene
 
 Floats = NDArray[np.float64]
 
