@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from cfree.errors import InvariantError
 from cfree.trapezoids import COLUMNS, Floats, Ints
+from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
 SIDES = ("from", "upper", "to", "lower")
 
 
-@dataclass(frozen=True)
-class CellComplex:
+@dataclass(frozen=True, eq=False, repr=False)
+class CellComplex(Value):
     """Vertices, edges and faces of the boundary, with their incidence.
 
     Attributes

@@ -30,13 +30,14 @@ from cfree.path import Objective, Path
 from cfree.pose import Pose, Poses
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
 from cfree.trapezoids import COLUMNS, Floats, Ints, Trapezoids
+from cfree.value import Value
 
 FORBIDDEN, NO_CELL = -1, -2
 BLOCK = 1 << 16  # poses between two looks at Ctrl-C
 
 
 @dataclass(frozen=True, eq=False)
-class Cell:
+class Cell(Value):
     """A component of the interior of C_free.
 
     Attributes
@@ -110,7 +111,7 @@ class Nearby:
     generic: bool
 
 
-class FreeSpace:
+class FreeSpace(Value):
     """Cells of the free space of a boundary; see `free_space`.
 
     Attributes
@@ -157,6 +158,10 @@ class FreeSpace:
         for array in (component, parent, free_inside, turns, lift, self.cell_of):
             array.flags.writeable = False
         self._rays = rays or _rays(self.walls, component)
+
+    @property
+    def _content(self) -> tuple[Any, ...]:
+        return self.boundary, self.component, self.parent, self.free_inside, self.turns, self.lift
 
     def __len__(self) -> int:
         return len(self.cells)

@@ -79,6 +79,9 @@ class InvariantError(CfreeError, RuntimeError):
     """A broken promise of our own; `state` is the smallest one seen. Please report it."""
 
     def __init__(self, message: str, *, state: object = None) -> None:
-        super().__init__(f"{message}; this is a bug in cfree, please report it")
+        super().__init__(message)
         self.what = message
         self.state = state
+
+    def __str__(self) -> str:
+        return f"{self.what}; this is a bug in cfree, please report it"

@@ -10,7 +10,7 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -25,6 +25,7 @@ from cfree.half_angle import Angle, tau_in
 from cfree.patch import IsolatedPart, Patches, Trapezoid
 from cfree.scene import Scene
 from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.value import Value
 
 VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
 
@@ -56,7 +57,7 @@ class Stats:
     decided_by_filter: int
     decided_by_intervals: int
     decided_exactly: int
-    seconds: dict[str, float]
+    seconds: dict[str, float] = field(compare=False)
 
 
 def boundary(
@@ -167,6 +168,19 @@ def _computed(
     return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, job.trimmed())
 
 
+def _restored(
+    scene: Scene,
+    kind: Any,
+    robot: Any,
+    obstacle: Any,
+    trapezoids: Trapezoids,
+    isolated: Any,
+    trimmed: Any,
+    stats: Stats,
+) -> Boundary:
+    return Boundary(scene, scene_features(scene), kind, robot, obstacle, trapezoids, isolated, stats, trimmed)
+
+
 def memory_used() -> int:
     """The most memory this process has used so far, in bytes."""
     import resource
@@ -182,7 +196,7 @@ def _has_ended(job: Any, scene: Scene) -> bool:
         raise InvariantError(str(error), state=scene) from error
 
 
-class Boundary:
+class Boundary(Value):
     """Boundary of the forbidden space of a scene; see `boundary` and `load_boundary`.
 
     Attributes
@@ -227,6 +241,15 @@ class Boundary:
         columns += [getattr(isolated, name) for name in ISOLATED_COLUMNS]
         for array in (kind, robot, obstacle, self.trimmed, *columns):
             array.flags.writeable = False
+
+    @property
+    def _content(self) -> tuple[Any, ...]:
+        """Without what it took to compute it."""
+        patches = self.contact_kind, self.contact_robot, self.contact_obstacle
+        return self.scene, *patches, self.trapezoids, self.isolated, self.trimmed
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (*self._content, self.stats)
 
     def __repr__(self) -> str:
         s = self.stats

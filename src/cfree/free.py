@@ -20,6 +20,7 @@ from cfree.features import SceneFeatures, scene_features
 from cfree.forbidden import Boundary
 from cfree.pose import Floats, Pose, Poses
 from cfree.scene import Scene
+from cfree.value import Value
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two looks at Ctrl-C
@@ -77,7 +78,7 @@ def is_free(
     return checker.is_free(poses, threads=threads)
 
 
-class Checker:
+class Checker(Value):
     """A scene prepared for many calls of `is_free`.
 
     Parameters
@@ -105,6 +106,10 @@ class Checker:
             self._core = _core.Checker(
                 robot.core_shape(), obstacles.core_shape(), features.scale, robot.xy, obstacles.xy, limits
             )
+
+    @property
+    def _content(self) -> tuple[Scene]:
+        return (self.scene,)
 
     @overload
     def is_free(self, poses: Pose, *, threads: int | None = None) -> bool: ...

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.files import checked_suffix, replacing
+from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -39,7 +40,7 @@ ROUNDING = 1e-10
 
 
 @dataclass(frozen=True, eq=False)
-class Mesh:
+class Mesh(Value):
     """Closed surfaces of triangles, counter-clockwise as seen from the free side; see `Boundary.mesh`.
 
     Attributes
@@ -72,6 +73,10 @@ class Mesh:
     error: float
     angle_scale: float
     least: float
+
+    def __repr__(self) -> str:
+        n = len(self.triangles)
+        return f"Mesh({len(self.vertices):,} vertices, {n:,} triangles, error {self.error:g})"
 
     @property
     def ratio(self) -> float:

@@ -21,6 +21,7 @@ from cfree.pose import Pose
 from cfree.rational.surd import Surd
 from cfree.scene import Scene
 from cfree.slide import Slide
+from cfree.value import Value
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ class FirstContact:
     contact: VertexEdge | EdgeVertex | None
 
 
-class MotionChecker:
+class MotionChecker(Value):
     """Exact checks of many motions in one scene.
 
     Parameters
@@ -81,6 +82,10 @@ class MotionChecker:
         robot, obstacles = self.features.robot, self.features.obstacles
         self.core = _core.MotionChecker(robot.core_shape(), obstacles.core_shape(), robot.shift)
         self._rim = None if scene.workspace is None else _extent(obstacles)
+
+    @property
+    def _content(self) -> tuple[Scene]:
+        return (self._scene,)
 
     @property
     def units(self) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from cfree.errors import InvariantError
 from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.half_angle import theta_in
 from cfree.surface import evaluate
+from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.forbidden import Boundary
@@ -244,11 +245,15 @@ class Patch:
         return evaluate(self._ruled, t, phi)
 
 
-class Patches(Sequence[Patch]):
+class Patches(Value, Sequence[Patch]):
     """Patches of a boundary, made when asked for."""
 
     def __init__(self, boundary: Boundary) -> None:
         self._boundary = boundary
+
+    @property
+    def _content(self) -> tuple[Boundary]:
+        return (self._boundary,)
 
     def __len__(self) -> int:
         return len(self._boundary.contact_kind)

@@ -25,6 +25,7 @@ from cfree.half_angle import (
     to_rational,
 )
 from cfree.predicates import Vector
+from cfree.value import Value
 
 Floats = NDArray[np.float64]
 
@@ -161,8 +162,8 @@ class Pose:
         return _pose(x, y, tau, self.theta_error)
 
 
-@dataclass(frozen=True, eq=False)
-class Poses:
+@dataclass(frozen=True, eq=False, repr=False)
+class Poses(Value):
     """Many poses in double precision; indexing gives an exact `Pose`.
 
     Parameters

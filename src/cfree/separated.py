@@ -10,10 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain
 from os import PathLike
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +30,7 @@ from cfree.pose import Pose
 from cfree.scene import Bounds, Scene
 from cfree.stamp import Stamp, stamp_for
 from cfree.trapezoids import CODED, COLUMNS, Ints, Trapezoids
+from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.features import SceneFeatures
@@ -55,8 +55,8 @@ class Auxiliary:
     points: tuple[ExactPoint, ...]
 
 
-@dataclass(frozen=True, eq=False)
-class Pieces:
+@dataclass(frozen=True, eq=False, repr=False)
+class Pieces(Value):
     """A closed surface made of pieces of contact surfaces, as columns of equal length N.
 
     Attributes
@@ -80,16 +80,6 @@ class Pieces:
 
     def __len__(self) -> int:
         return len(self.kind)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, Pieces):
-            return NotImplemented
-        same = all(np.array_equal(mine, theirs) for mine, theirs in zip(self._columns, other._columns, strict=True))
-        return same and self.auxiliary == other.auxiliary
-
-    @property
-    def _columns(self) -> Iterator[NDArray[Any]]:
-        return chain((self.kind, self.robot, self.obstacle), (getattr(self.table, name) for name in COLUMNS))
 
     @classmethod
     def of(cls, boundary: Boundary, faces: Ints) -> Pieces:

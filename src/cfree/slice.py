@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +12,10 @@ from shapely.geometry.base import BaseGeometry
 
 from cfree.forbidden import Boundary
 from cfree.half_angle import Angle, place_of
+from cfree.value import Value
 
 
-class Slice:
+class Slice(Value):
     """Contact segments at one orientation.
 
     Attributes
@@ -28,11 +30,18 @@ class Slice:
 
     def __init__(self, boundary: Boundary, theta: Angle) -> None:
         self.theta, chart, tau = place_of(theta)
-        self.boundary = boundary
+        self.boundary, self._asked = boundary, theta
         self._place = chart, tau
         self.segments: NDArray[np.float64]
         self.trapezoids: NDArray[np.int32]
         self.segments, self.trapezoids = boundary.slicer.segments(chart, tau)
+
+    @property
+    def _content(self) -> tuple[Any, ...]:
+        return self.boundary, self.theta, *self._place
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Slice, (self.boundary, self._asked)
 
     @property
     def patches(self) -> NDArray[np.int32]:

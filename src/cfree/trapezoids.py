@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.half_angle import theta_in
+from cfree.value import Value
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -15,8 +16,8 @@ Codes = NDArray[np.uint64]
 CURVE, SEGMENT, POINT = 1, 2, 3
 
 
-@dataclass(frozen=True, slots=True)
-class Trapezoids:
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Trapezoids(Value):
     """What is left of the patches, as columns of equal length T.
 
     In its patch's domain (t, theta) a trapezoid lies between two critical angles and two curves. Curves and angles are
@@ -80,7 +81,7 @@ class Trapezoids:
         return (self.upper >> np.uint64(61)).astype(np.uint8)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class IsolatedParts(Trapezoids):
     """Free poses around which no others are free but on a curve, or none: where the robot fits exactly.
 

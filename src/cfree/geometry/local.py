@@ -27,10 +27,11 @@ from numpy.typing import ArrayLike
 
 from cfree.exact import finite
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
+from cfree.value import Value
 
 
-@dataclass(frozen=True, eq=False)
-class LocalGeometry:
+@dataclass(frozen=True, eq=False, repr=False)
+class LocalGeometry(Value):
     """First and second fundamental forms at points of contact surfaces, and what follows from them.
 
     Every array has the common shape (...) of the input that made it; see `local_geometry`.

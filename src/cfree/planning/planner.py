@@ -33,6 +33,7 @@ from cfree.pose import Pose
 from cfree.scene import Scene
 from cfree.separated import Separated
 from cfree.slide import Slide
+from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.planning.passages import Passages
@@ -102,7 +103,7 @@ def plan(
 
 
 @dataclass(eq=False)
-class Planner:
+class Planner(Value):
     """Answers many questions about one scene; what they need is computed once.
 
     Parameters
@@ -121,6 +122,14 @@ class Planner:
     stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
     _slides: dict[tuple[Pose, Pose], Slide] = field(default_factory=dict, repr=False)  # by the poses that they join
     _lock: threading.RLock = field(default_factory=threading.RLock, repr=False)  # of all that is kept for later
+
+    @property
+    def _content(self) -> tuple[Scene, float | None]:
+        """Not whether something has been computed."""
+        return self.scene, self.max_seconds
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Planner, (self.scene, self.space, self.max_seconds)
 
     @cached_property
     def checker(self) -> MotionChecker:

@@ -35,6 +35,9 @@ class Root:
         self.poly, self.lo, self.hi = poly, lo, hi
         self.key = poly, index
 
+    def __reduce__(self) -> tuple[Any, ...]:  # the libraries' numbers do not pickle
+        return Root, (*self.key, self.lo, self.hi)
+
     @classmethod
     def of(cls, x: Fraction) -> Root:
         return cls((-x.numerator, x.denominator), 0, x, x)

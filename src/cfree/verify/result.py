@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 PROVED, SAMPLED, SKIPPED, REFUTED = "PROVED", "SAMPLED", "SKIPPED", "REFUTED"
 SHOWN = 20  # findings in a report
@@ -58,7 +58,7 @@ class Verification:
     checks: tuple[Check, ...]
     findings: tuple[Finding, ...]
     euler: tuple[int, ...]
-    seconds: float
+    seconds: float = field(compare=False)
     proved: str = ""
 
     @property

@@ -1,0 +1,197 @@
+"""Every public class: equal by content, copied and pickled, whatever has been asked before; its text is one line."""
+
+import copy
+import inspect
+import pickle
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cfree
+import cfree.verify
+from cfree import EdgeEdge, EdgeVertex, Pose, Rotation, Surd, Translation, VertexEdge, VertexVertex
+from cfree.rational.bezier import bezier_patches
+
+TRIANGLE, SQUARE = cfree.Polygon([(0, 0), (2, 0), (1, 1)]), cfree.Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+ROOM = [(0, 0), (9, 0), (9, 9), (0, 9)]
+ROBOT = [(0, 0), (2, 0), (0, 1)]
+
+
+def scene_of(x: int) -> cfree.Scene:
+    """Two halves of a room, the wall between them at x."""
+    wall = [(x, 0), (x + 1, 0), (x + 1, 9), (x, 9)]
+    return cfree.Scene(ROBOT, [wall], workspace=ROOM, start=(1, 1, 0), goal=(6, 1, 0), name="a room", check={"of": [1]})
+
+
+def samples(x: int) -> dict[str, Any]:
+    """One of each class, for a wall at x: never equal to that of another x."""
+    scene, step = scene_of(x), Fraction(1, x)
+    boundary = cfree.boundary(scene, threads=x % 2 + 1)
+    space = cfree.free_space(boundary)
+    separated = cfree.plan(scene)
+    path = cfree.Path(Pose(1, 1), [Translation((step, 0))])
+    rod = cfree.Scene([(-5, -1), (5, -1), (5, 1), (-5, 1)], [[(-20, x), (20, x), (20, 9), (-20, 9)]])
+    interval = cfree.turn_in_place(rod, Pose(0, 0))[0]
+    surface = cfree.rational_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (x, 2), (0, 2)]), VertexEdge(1, 2))
+    ruled = boundary.ruled[:1] * x
+    return {
+        "AlgebraicAngle": interval.start,
+        "AngleInterval": interval,
+        "AngleRange": cfree.AngleRange(float(step), 1.0, (1, 0), (0, x)),
+        "BezierPatch": bezier_patches(surface, bits=8)[0],
+        "Boundary": boundary,
+        "Cell": space.cells[0],
+        "CellComplex": boundary.complex,
+        "Checker": cfree.Checker(scene),
+        "Clearance": path.clearance(scene),
+        "EdgeEdge": EdgeEdge(0, x),
+        "EdgeEdgeSegment": cfree.contact_segment(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), EdgeEdge(0, 0)),
+        "EdgeVertex": EdgeVertex(0, x),
+        "ExactAngle": cfree.ExactAngle(1, x),
+        "FirstContact": cfree.first_contact(scene, Pose(1, 1), Translation((9, 0))),
+        "Fit": cfree.fits(ROBOT, [*ROOM[:2], (x, 9)])[0],
+        "FreeSpace": space,
+        "Helix": cfree.contact_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), VertexVertex(0, 1)),
+        "Interval": cfree.Interval(0.0, float(x)),
+        "LocalGeometry": cfree.local_geometry(ruled, [0.5], [0.1]),
+        "Mesh": boundary.mesh(1.0),
+        "MotionChecker": cfree.MotionChecker(scene),
+        "NearestMiss": cfree.NearestMiss(0.0, float(x), (cfree.Pinch(None, (0, x)),)),
+        "Path": path,
+        "Pieces": separated.pieces,
+        "Pinch": cfree.Pinch(Pose(x, 0), (0, 1)),
+        "Planner": cfree.Planner(scene),
+        "Polygon": cfree.Polygon([(0, 0), (x, 0), (x + 1, 0), (0, 9)]),
+        "Pose": Pose(x, 0, 1.5),
+        "Poses": cfree.Poses([[x, 0], [0, 1]], [0.1, 3]),
+        "RationalHelix": cfree.rational_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexVertex(0, 1)),
+        "RationalRange": surface.Phi if x == 4 else cfree.rational_range(TRIANGLE, SQUARE, EdgeVertex(0, 2)),
+        "RationalSegment": cfree.rational_segment(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), EdgeEdge(0, 0)),
+        "RationalSurface": surface,
+        "Rotation": Rotation((x, 0), "30deg"),
+        "Scene": scene,
+        "Separated": separated,
+        "Slice": boundary.slice({"tau": step}),
+        "Slide": cfree.Slide((TOUCH, TOUCH), [0, 0, x], [0, 2], [1, 0, 1], 1),
+        "Surd": Surd(1, step, 2),
+        "Surface": cfree.contact_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexEdge(0, 0)),
+        "Touch": cfree.Touch("vertex-edge", (0, 0), (0, x)),
+        "Translation": Translation((x, 0)),
+        "VertexEdge": VertexEdge(0, x),
+        "VertexVertex": VertexVertex(0, x),
+        # not named in `cfree`, but what its values hold
+        "IsolatedParts": cfree.boundary(cfree.Scene(ROBOT, [], bounds=(0, 0, 1, 1), name=str(x))).isolated
+        if x == 4
+        else boundary.isolated.rows(slice(0)),
+        "Patches": boundary.patches,
+        "Trapezoids": boundary.trapezoids,
+        "Verification": cfree.verify.answer(scene, separated),
+    }
+
+
+TOUCH = cfree.Touch("vertex-edge", (0, 0), (0, 2))
+
+
+@pytest.fixture(scope="module")
+def values() -> dict[str, Any]:
+    return samples(4)
+
+
+@pytest.fixture(scope="module")
+def again() -> dict[str, Any]:
+    """The same, made anew, and asked for everything."""
+    made = samples(4)
+    for value in made.values():
+        ask(value)
+    return made
+
+
+@pytest.fixture(scope="module")
+def others() -> dict[str, Any]:
+    return samples(5)
+
+
+def ask(value: Any) -> None:
+    """Everything that a value computes when asked."""
+    for name, member in inspect.getmembers_static(type(value)):
+        if isinstance(member, (property, cached_property)) and not name.startswith("_"):
+            getattr(value, name)
+    if isinstance(value, cfree.Boundary):
+        value.slice(0.3).forbidden  # noqa: B018
+        value.is_free = value.checker.is_free(Pose(1, 1))  # type: ignore[attr-defined]
+
+
+CLASSES = [
+    name
+    for name in cfree.__all__
+    if inspect.isclass(kind := getattr(cfree, name)) and not issubclass(kind, cfree.CfreeError)
+]
+
+
+def test_all_public_classes_are_here(values: dict[str, Any]) -> None:
+    assert {name: type(values.get(name)).__name__ for name in CLASSES} == {name: name for name in CLASSES}
+
+
+MORE = ["Patches", "Trapezoids", "IsolatedParts"]
+
+
+@pytest.mark.parametrize("name", CLASSES + MORE)
+def test_values_compare_by_content(
+    name: str, values: dict[str, Any], again: dict[str, Any], others: dict[str, Any]
+) -> None:
+    value, same, other = values[name], again[name], others[name]
+    assert (value == same, value != same) == (True, False)
+    assert (value == "a text", value != "a text") == (False, True)
+    if name not in ("IsolatedParts", "RationalRange", "Trapezoids"):  # these are alike
+        assert (value == other, value != other) == (False, True)
+    assert hash(value) == hash(same)
+
+
+@pytest.mark.parametrize("name", [*CLASSES, *MORE, "Verification"])
+def test_values_are_copied_and_pickled_whatever_was_asked_before(
+    name: str, values: dict[str, Any], again: dict[str, Any]
+) -> None:
+    for value in (values[name], again[name]):
+        for copied in (pickle.loads(pickle.dumps(value)), copy.copy(value), copy.deepcopy(value)):
+            assert type(copied) is type(value) and copied == value == values[name]
+            assert repr(copied) == repr(value)
+
+
+def test_what_was_pickled_answers_as_before(values: dict[str, Any]) -> None:
+    for name in ("Boundary", "FreeSpace", "Planner", "Checker", "MotionChecker"):
+        copied = pickle.loads(pickle.dumps(values[name]))
+        ask(copied)
+    boundary, space = (pickle.loads(pickle.dumps(values[name])) for name in ("Boundary", "FreeSpace"))
+    assert np.array_equal(boundary.slice(0.5).segments, values["Boundary"].slice(0.5).segments)
+    asked = [Pose(1, 1), Pose(6, 1)]
+    assert space.locate(asked).tolist() == values["FreeSpace"].locate(asked).tolist()
+    assert pickle.loads(pickle.dumps(values["Planner"])).plan(Pose(1, 1), Pose(6, 1)) == values["Separated"]
+    with pytest.raises(ValueError, match="read-only"):
+        boundary.trapezoids.patch[0] = 1
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_value_is_shown_in_one_line(name: str, values: dict[str, Any]) -> None:
+    text = repr(values[name])
+    assert "\n" not in text and " at 0x" not in text and len(text) < 1000
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        cfree.CfreeError("a"),
+        cfree.InvalidPolygonError("a", ring=1, edges=(2, 3)),
+        cfree.InvalidPoseError("a", free=Pose(1, 2)),
+        cfree.FormatError("a", path="b", line=3, column=4),
+        cfree.UnsupportedError("a"),
+        cfree.IncompleteError("a"),
+        cfree.InvariantError("a", state=Pose(1, 2)),
+    ],
+    ids=lambda error: type(error).__name__,
+)
+def test_errors_are_pickled_with_all_that_they_carry(error: cfree.CfreeError) -> None:
+    copied = pickle.loads(pickle.dumps(error))
+    assert (type(copied), str(copied), vars(copied)) == (type(error), str(error), vars(error))
