@@ -56,7 +56,7 @@ def test_a_throat_that_is_too_narrow(gap: Fraction | int) -> None:
     assert proved(room(gap), INSIDE, OUTSIDE).of == "closed"
 
 
-@pytest.mark.parametrize("gap, of", [(1, "interior"), *((1 - Fraction(1, 2**k), "closed") for k in (30, 170, 200, 300))])
+@pytest.mark.parametrize("gap, of", [(1, "interior"), *((1 - Fraction(1, 2**k), "closed") for k in (30, 170, 300))])
 def test_a_throat_narrower_by_however_little_is_closed(gap: Fraction | int, of: str) -> None:
     assert proved(room(gap), INSIDE, OUTSIDE).of == of
 

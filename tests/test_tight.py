@@ -1,4 +1,4 @@
-"""Paths and proofs where little is to spare, or nothing: gaps of 2^-k, exact fits turned by long rationals, both directions."""
+"""Paths and proofs where little or nothing is to spare: gaps of 2^-k, exact fits turned by long rationals."""
 
 from __future__ import annotations
 
