@@ -153,12 +153,15 @@ def test_yaml_is_the_message_of_ros(tmp_path_factory: pytest.TempPathFactory, pa
     samples = path.sample(0.5, 0.5)
     assert message.keys() == {"header", "poses"} and message["header"] == header
     assert len(message["poses"]) == len(samples)
+    before = None
     for stamped, (x, y), theta in zip(message["poses"], samples.xy, samples.theta, strict=True):
         assert stamped.keys() == {"header", "pose"} and stamped["header"] == header
         assert stamped["pose"].keys() == {"position", "orientation"}
         position, turned = stamped["pose"]["position"], stamped["pose"]["orientation"]
         assert position == {"x": x, "y": y, "z": 0} and turned.keys() == {"x", "y", "z", "w"}
         assert all(type(value) is float for value in (*position.values(), *turned.values()))
+        assert before is None or before["z"] * turned["z"] + before["w"] * turned["w"] > 0  # no change of sign
+        before = turned
         assert turned["x"] == turned["y"] == 0 and math.hypot(turned["z"], turned["w"]) == pytest.approx(1)
         assert math.remainder(2 * math.atan2(turned["z"], turned["w"]) - theta, math.tau) == pytest.approx(0, abs=1e-9)
 
@@ -190,6 +193,7 @@ def test_geojson_has_the_way_and_the_outlines(
     assert way.geom_type == "LineString" and len(way.coords) == len(outlines) == count
     assert [f["properties"]["role"] for f in outlines] == ["start", *["pose"] * (count - 2), "goal"]
     area = sum(part.area for part in scene.robot)
+    assert (np.abs(np.diff([f["properties"]["theta"] for f in outlines])) <= 0.5 + 1e-9).all()
     for feature, place in zip(outlines, way.coords, strict=True):
         shape, at = shapely.geometry.shape(feature["geometry"]), feature["properties"]
         assert shape.is_valid and shape.area == pytest.approx(area) and (at["x"], at["y"]) == place

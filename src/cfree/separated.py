@@ -193,9 +193,7 @@ class Separated:
             unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
-def separation(
-    space: FreeSpace, start: Pose, goal: Pose, powers: Sequence[int] | None = None
-) -> Separated | None:
+def separation(space: FreeSpace, start: Pose, goal: Pose, powers: Sequence[int] | None = None) -> Separated | None:
     """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
 
     Parameters

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any
@@ -122,5 +123,6 @@ def _shown(pose: Pose, theta: float) -> str:
 def completed(model: PathModel) -> Path:
     """The path: what is left to the goal as it is written is one motion more."""
     path, goal = model.moved, model.ends[1]
-    last = [] if path.goal == goal else [motion_between(path.goal, goal)]
-    return Path(path.start, [*path.motions, *last], path.units, path.frame, stamp=path.stamp)
+    if path.goal == goal:
+        return path
+    return replace(path, motions=(*path.motions, motion_between(path.goal, goal)))

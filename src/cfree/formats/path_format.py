@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import asdict
 from decimal import Decimal
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, PrivateAttr, model_validator
@@ -195,7 +196,7 @@ class PathModel(AnswerModel):
     decimals: Literal["free", "approximate"] | None = None
     motions: list[Annotated[TranslationModel | RotationModel | SlideModel, Field(discriminator="type")]]
 
-    @property
+    @cached_property
     def moved(self) -> Path:
         """Where the motions lead."""
         motions = (m for model in self.motions for m in model.motions)

@@ -74,9 +74,7 @@ class ThinPart:
             return None
         if self.is_curve:
             return self.at(tau)
-        patch, code = (
-            int(getattr(self.table, ("lower", "upper")[last] + name)[self.k]) for name in ("_patch", "")
-        )
+        patch, code = (int(getattr(self.table, ("lower", "upper")[last] + name)[self.k]) for name in ("_patch", ""))
         sheet = Sheet(
             self.boundary.features, contact_of(self.boundary, patch), self.sheet.chart, (code, code), (tau, tau)
         )

@@ -94,11 +94,12 @@ def answer(
         findings += separation_findings(given, world, report)
     report(1.0)
     extents = {
+        **_of_scene(given if read else None),
         ASKED: "start and goal, where the scene has them",
         PIECES: f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them",
         ENDS: "both are free",
         **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
-        **_of_file(read),
+        **_of_decimals(read),
     }
     refuted = {finding.kind for finding in findings}
     how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
@@ -133,17 +134,19 @@ def _box(stamp: Stamp) -> str:
     return f"[{', '.join(map(str, stamp.robot))}]"
 
 
-def _of_file(read: Read | None) -> dict[str, str]:
-    """What a file says of the scene and of its decimals."""
-    if read is None or read.answer.stamp is None:
+def _of_scene(given: Path | Separated | None) -> dict[str, str]:
+    """If a file says which one it is for."""
+    return {SCENE: "the one that the answer is for"} if given and given.stamp else {}
+
+
+def _of_decimals(read: Read | None) -> dict[str, str]:
+    """If a file has others beside them."""
+    if read is None or read.decimals is None:
         return {}
-    found = {SCENE: "the one that the answer is for"}
     if read.decimals == "approximate":
-        found[DECIMALS] = "approximate: only the exact numbers are free of collisions"
-    elif read.decimals == "free":
-        room = 0 if read.leeway is None else float(read.leeway)
-        found[DECIMALS] = f"as doubles they are free, too: the path keeps {room:.3g}, four times what they are off"
-    return found
+        return {DECIMALS: "approximate: only the exact numbers are free of collisions"}
+    room = 0 if read.leeway is None else float(read.leeway)
+    return {DECIMALS: f"as doubles they are free, too: the path keeps {room:.3g}, four times what they are off"}
 
 
 def _of_path(path: Path) -> dict[str, str]:
