@@ -64,6 +64,7 @@ class Places:
         self.space = walker.space
         self.parts = [ThinPart(walker, k) for k in range(len(self.space.boundary.isolated))]
         self.slits = walker.with_slits
+        self._known: dict[int, tuple[Pose, ...]] = {}  # corners by face
 
     def holders(self, pose: Pose) -> list[Holder]:
         """What holds a free pose: cells on whose boundary it is, or that it is in, and isolated parts."""
@@ -143,15 +144,15 @@ class Places:
 
     def _at_meetings(self) -> Iterator[Pose]:
         for meeting in self.meetings:
-            yield from self._poses_of(meeting.faces)
+            yield from (pose for face in meeting.faces for pose in self._corners(face))
 
-    def _poses_of(self, faces: tuple[int, ...]) -> Iterator[Pose]:
-        """Corners of faces, at their rational first and last orientations."""
-        for face in faces:
+    def _corners(self, face: int) -> tuple[Pose, ...]:
+        """Of a face, at its first and last orientations as far as they are rational."""
+        if face not in self._known:
             sheet = self.walker.sheet(face)
-            for last in (False, True):
-                if (tau := self._critical(face, last)) is not None:
-                    yield from (sheet.pose(t, tau) for t in sheet.limits(tau))
+            taus = (tau for last in (False, True) if (tau := self._critical(face, last)) is not None)
+            self._known[face] = tuple(dict.fromkeys(sheet.pose(t, tau) for tau in taus for t in sheet.limits(tau)))
+        return self._known[face]
 
     def _critical(self, face: int, last: bool) -> Fraction | None:
         walls = self.space.walls
@@ -181,7 +182,7 @@ class Places:
             for k in self._tree.query(shapely.box(*part.box(NEAR * self.size))).tolist() if self._tree else ():
                 if k != part.k and (pose := part.crossing(self.parts[k])) is not None:
                     yield pose
-            yield from self._poses_of(self._faces_near(part))
+            yield from (pose for face in self._faces_near(part) for pose in self._corners(face))
 
     def _faces_near(self, part: ThinPart) -> tuple[int, ...]:
         """Faces with a vertex near a part."""
