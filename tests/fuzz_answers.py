@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import random
+import re
 import sys
 import tempfile
 import time
@@ -109,7 +110,7 @@ def _kind(error: Exception) -> str:
     """The error, and the innermost place in the package."""
     places = [frame for frame in traceback.extract_tb(error.__traceback__) if "cfree" in frame.filename]
     place = f" in {FilePath(places[-1].filename).stem}.{places[-1].name}" if places else ""
-    return f"{type(error).__name__}{place}: {str(error)[:60]}"
+    return f"{type(error).__name__}{place}: {re.sub(r'[0-9]+|[^ ]*/[^ ]*', '.', str(error))[:60]}"
 
 
 # --- making a question small ---
