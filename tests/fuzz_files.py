@@ -8,6 +8,7 @@ File k is the same for ever. What is neither an error of cfree nor an answer is 
 from __future__ import annotations
 
 import argparse
+import json
 import random
 import sys
 import tempfile
@@ -26,6 +27,7 @@ import fuzz
 from cfree import FreeSpace, Pose, boundary, free_space, load_boundary
 from cfree.errors import CfreeError
 from cfree.geometry.area import trapezoid_areas
+from cfree.storage import signed
 from compared import scene_of
 from shapes import PlainScene
 from workers import Lost, Worker
@@ -73,6 +75,16 @@ def damaged(rng: random.Random) -> tuple[str, dict[str, Any]]:
     return name, arrays
 
 
+def sealed(arrays: dict[str, Any]) -> dict[str, Any]:
+    """With the digest that fits, if the header can be read."""
+    try:
+        header = json.loads(arrays["header"].tobytes())
+        header = signed(header, {name: array for name, array in arrays.items() if name != "header"})
+    except (ValueError, AttributeError):
+        return arrays
+    return arrays | {"header": np.frombuffer(json.dumps(header).encode(), np.uint8)}
+
+
 def used(number: int) -> tuple[str, str, str]:
     """The column of a damaged file, what came of using it, and what is wrong with that."""
     rng = random.Random(f"file {number}")
@@ -80,7 +92,7 @@ def used(number: int) -> tuple[str, str, str]:
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder) / "damaged.npz"
         with file.open("wb") as stream:
-            np.savez(stream, **arrays)
+            np.savez(stream, **sealed(arrays))
         try:
             return column, _everything(file, rng), ""
         except CfreeError as error:

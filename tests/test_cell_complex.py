@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+import signal
+import time
 from itertools import pairwise
 from pathlib import Path
 
@@ -11,7 +14,7 @@ import pytest
 
 import fuzz
 from cfree import Boundary, InvariantError, Scene, boundary, load_scene
-from cfree.cell_complex import CellComplex
+from cfree.cell_complex import CellComplex, _glued
 from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
 
@@ -102,6 +105,28 @@ def test_pinched_edges_pair_the_sides_of_free_sectors() -> None:
         around = cells.at_edge(int(edge))
         assert len(around) > 2 and len(around) % 2 == 0
         assert set(cells.twin[around].tolist()) == set(around.tolist())
+
+
+@pytest.mark.parametrize(("work", "name"), [("complex", "nest_swim"), ("mesh", "benchmr_parking1")])
+def test_a_signal_ends_long_work(work: str, name: str) -> None:
+    def stop(*_: object) -> None:
+        raise TimeoutError
+
+    def run(result: Boundary) -> float:
+        start = time.process_time()
+        with contextlib.suppress(TimeoutError):
+            _glued(result) if work == "complex" else result.mesh(0.003)
+        return time.process_time() - start
+
+    result = boundary(load_scene(ROOT / f"examples/scenes/{name}.json"))
+    assert work == "complex" or result.complex
+    whole, before = run(result), signal.signal(signal.SIGPROF, stop)
+    try:
+        signal.setitimer(signal.ITIMER_PROF, 0.02)
+        assert run(result) < 0.6 * whole
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
 
 
 def test_numbers_that_vanish_modulo_the_primes_of_fingerprints_change_nothing() -> None:

@@ -5,16 +5,21 @@ import json
 import pickle
 import time
 import zipfile
+from collections import Counter
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from cfree import Boundary, FormatError, boundary, load_boundary
+import fuzz_files
+from cfree import Boundary, FormatError, InvariantError, boundary, load_answer, load_boundary, load_scene
+from cfree.formats import findings
 from cfree.trapezoids import COLUMNS
 from compared import scene_of
+from fuzz_files import sealed
 from shapes import KINDS, random_scene
+from workers import Worker
 
 
 @pytest.fixture(scope="module")
@@ -124,8 +129,9 @@ def changed(saved: Path, path: Path, **arrays: object) -> Path:
     with np.load(saved) as archive:
         kept = {name: archive[name] for name in archive.files}
     kept |= arrays
+    kept = sealed({name: array for name, array in kept.items() if array is not None})
     with path.open("wb") as file:
-        np.savez(file, **{name: array for name, array in kept.items() if array is not None})
+        np.savez(file, **kept)
     return path
 
 
@@ -184,6 +190,72 @@ def test_features_out_of_range_are_an_error(saved: Path, tmp_path: Path) -> None
             array = archive[name].copy()
             array[0] = np.iinfo(array.dtype).max // 2
             refused(changed(saved, tmp_path / "wrong.npz", **{name: array}))
+
+
+def columns(saved: Path) -> dict[str, np.ndarray]:
+    with np.load(saved) as archive:
+        return dict(archive)
+
+
+def test_one_flipped_bit_in_any_column_is_refused(saved: Path, tmp_path: Path) -> None:
+    arrays = columns(saved)
+    for name in (name for name in arrays if arrays[name].size and name != "header"):
+        flipped = arrays[name].copy()
+        flipped.view(np.uint8)[flipped.nbytes // 2] ^= 1
+        with (tmp_path / "flipped.npz").open("wb") as file:
+            np.savez(file, **(arrays | {name: flipped}))
+        assert "not what was written" in refused(tmp_path / "flipped.npz")
+
+
+@pytest.mark.parametrize("name", ["from_place", "to_place", "chart"])
+def test_angles_that_are_none_are_refused(saved: Path, tmp_path: Path, name: str) -> None:
+    # gluing would look for them for ever
+    array, bit = columns(saved)[name], 1 if name == "chart" else 2
+    accepted = 0
+    for k in range(0, len(array), len(array) // 9):
+        wrong = array.copy()
+        wrong[k] ^= bit
+        try:
+            assert load_boundary(changed(saved, tmp_path / "wrong.npz", **{name: wrong})).complex
+            accepted += 1
+        except FormatError as error:
+            assert f"trapezoid {k} does not fit" in str(error)
+        except InvariantError:  # one that can be, but is not of this boundary
+            assert name == "chart"
+    assert accepted == 0
+
+
+def test_curves_in_the_wrong_order_are_refused(saved: Path, tmp_path: Path) -> None:
+    arrays = columns(saved)
+    lower, upper = arrays["lower"].copy(), arrays["upper"].copy()
+    lower[5], upper[5] = upper[5], lower[5]
+    assert "trapezoid 5 does not fit" in refused(changed(saved, tmp_path / "wrong.npz", lower=lower, upper=upper))
+
+
+def test_files_with_flipped_bits_and_right_digests_end(tmp_path: Path) -> None:
+    worker = Worker(fuzz_files.used, 60.0)
+    came = Counter(worker.ask(number)[1] for number in range(60))
+    assert sum(came[name] for name in ("FormatError", "InvalidFileError")) > 30
+    assert set(came) <= {"FormatError", "InvalidFileError", "IncompleteError", "InvariantError", "answers"}
+
+
+@pytest.mark.parametrize("shape", ["(200000000000,)", "(-1,)", "(3, 70000000000)"])
+def test_headers_that_claim_more_than_there_is_are_refused(saved: Path, tmp_path: Path, shape: str) -> None:
+    head = f"{{'descr': '<f8', 'fortran_order': False, 'shape': {shape}, }}".ljust(117) + "\n"
+    with zipfile.ZipFile(saved) as archive, zipfile.ZipFile(tmp_path / "claims.npz", "w") as other:
+        for name in archive.namelist():
+            data = archive.read(name)
+            other.writestr(name, b"\x93NUMPY\x01\x00v\x00" + head.encode() + bytes(80) if name == "to_lo.npy" else data)
+    refused(tmp_path / "claims.npz")
+
+
+@pytest.mark.skipif(not Path("/dev/zero").exists(), reason="no file without end")
+def test_a_file_without_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(findings, "LARGEST", 1 << 20)
+    refused(Path("/dev/zero"))
+    for load in (load_scene, load_answer):
+        with pytest.raises(FormatError, match="/dev/zero:1:1 more than 1 MiB"):
+            load("/dev/zero")
 
 
 def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@
 
 #include "cfree/free.hpp"
 #include "integers.hpp"
+#include "watched.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -24,8 +25,12 @@ void bind_free(nb::module_& m) {
         .def("check", [](const cfree::Checker& c, In2 poses, int threads, Out out) {
             if (poses.shape(1) != 3 || out.shape(0) != poses.shape(0))
                 throw std::invalid_argument("poses must have three columns and as many rows as out");
+            const auto check = [&] {
+                c.check(poses.data(), poses.shape(0), threads, reinterpret_cast<cfree::Verdict*>(out.data()));
+            };
+            if (poses.shape(0) > 10'000) return watched(check);
             nb::gil_scoped_release release;
-            c.check(poses.data(), poses.shape(0), threads, reinterpret_cast<cfree::Verdict*>(out.data()));
+            check();
         }, "poses"_a, "threads"_a, "out"_a)
         .def("sweep_is_free", &cfree::Checker::sweep_is_free, "start"_a, "by"_a)
         .def("is_free", [](const cfree::Checker& c, std::array<double, 4> placement, const nb::int_& cos, const nb::int_& sin,

@@ -3,15 +3,18 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "cfree/boundary.hpp"
 #include "cfree/cell_complex.hpp"
 #include "cfree/cells.hpp"
+#include "cfree/consistency.hpp"
 #include "cfree/mesh.hpp"
 #include "cfree/slice.hpp"
 #include "cfree/surface.hpp"
 #include "integers.hpp"
+#include "watched.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -55,6 +58,24 @@ static nb::tuple columns_of(cfree::Trapezoids&& t) {
                           array_of(std::move(t.from_lo)), array_of(std::move(t.from_hi)), array_of(std::move(t.from_place)),
                           array_of(std::move(t.to_first)), array_of(std::move(t.to_second)), array_of(std::move(t.to_lo)),
                           array_of(std::move(t.to_hi)), array_of(std::move(t.to_place)));
+}
+
+template <class T>
+static std::vector<T> vector_at(const nb::list& columns, std::size_t k) {
+    return vector_of(nb::cast<Column<T>>(columns[k]));
+}
+
+// In the order of columns_of.
+static cfree::Trapezoids trapezoids_of(const nb::list& c) {
+    using Code = std::uint64_t;
+    return {vector_at<int>(c, 0),     vector_at<std::uint8_t>(c, 1), vector_at<Code>(c, 2),    vector_at<Code>(c, 3),
+            vector_at<Code>(c, 4),    vector_at<Code>(c, 5),         vector_at<Code>(c, 9),    vector_at<Code>(c, 10),
+            vector_at<double>(c, 6),  vector_at<double>(c, 7),       vector_at<double>(c, 11), vector_at<double>(c, 12),
+            vector_at<std::uint8_t>(c, 8), vector_at<std::uint8_t>(c, 13)};
+}
+static cfree::IsolatedParts isolated_of(const nb::list& c) {
+    return {trapezoids_of(c),      vector_at<int>(c, 14),    vector_at<int>(c, 15),   vector_at<int>(c, 16),
+            vector_at<int>(c, 17), vector_at<double>(c, 18), vector_at<double>(c, 19)};
 }
 
 // Two's complement, least limb first.
@@ -149,15 +170,25 @@ NB_MODULE(_core, m) {
                                   vector_of(from_first), vector_of(from_second), vector_of(to_first), vector_of(to_second),
                                   vector_of(from_lo), vector_of(from_hi), vector_of(to_lo), vector_of(to_hi),
                                   vector_of(from_place), vector_of(to_place)};
-        cfree::CellComplex x;
-        {
-            nb::gil_scoped_release release;
-            x = cfree::glue(scene, patches, t);
-        }
+        auto x = watched([&] { return cfree::glue(scene, patches, t); });
         return nb::make_tuple(array_of(std::move(x.first)), array_of(std::move(x.face)), array_of(std::move(x.side)),
                               array_of(std::move(x.twin)), array_of(std::move(x.edge)), array_of(std::move(x.vertex)),
                               array_of(std::move(x.component)), array_of(std::move(x.x)), array_of(std::move(x.y)),
                               array_of(std::move(x.theta)), x.edges, x.vertices, x.components);
+    });
+    // "" or what cannot be right, of columns whose indices are in their ranges
+    m.def("misfit", [](const cfree::Shape& robot, const cfree::Shape& obstacles, Column<std::uint8_t> kind, Column<int> patch_robot,
+                       Column<int> patch_obstacle, const nb::list& columns, const nb::list& isolated, int threads) {
+        const cfree::Scene scene{robot, obstacles};
+        const cfree::Patches patches{vector_of(kind), vector_of(patch_robot), vector_of(patch_obstacle)};
+        const cfree::Trapezoids t = trapezoids_of(columns);
+        const cfree::IsolatedParts parts = isolated_of(isolated);
+        return watched([&]() -> std::string {
+            if (!cfree::are_patches_of(scene, patches)) return "contact";
+            if (const auto k = cfree::first_impossible(scene, patches, t, threads)) return "trapezoid " + std::to_string(*k);
+            if (const auto k = cfree::first_impossible(scene, patches, parts)) return "isolated part " + std::to_string(*k);
+            return {};
+        });
     });
     m.def("mesh", [](const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy, In1 obstacle_xy,
                      Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle, Column<int> patch,
@@ -171,13 +202,10 @@ NB_MODULE(_core, m) {
                                      lower.data(), upper.data(), count(patch), count(face), edges, count(x), first.data(),
                                      face.data(), twin.data(), edge.data(), vertex.data(), side.data(), x.data(), y.data(),
                                      theta.data(), error, angle_scale};
-        cfree::MeshEstimate estimate;
-        cfree::MeshArrays found;
-        {
-            nb::gil_scoped_release release;
-            estimate = cfree::estimate_mesh(input);
-            if (estimate.triangles <= most) found = cfree::mesh(input);
-        }
+        auto [estimate, found] = watched([&] {
+            const auto expected = cfree::estimate_mesh(input);
+            return std::pair(expected, expected.triangles <= most ? cfree::mesh(input) : cfree::MeshArrays());
+        });
         return nb::make_tuple(array_of(std::move(found.xyz)), array_of(std::move(found.corners)), array_of(std::move(found.face)),
                               array_of(std::move(found.seam)), found.least, estimate.coarsest, estimate.triangles);
     });
@@ -203,11 +231,7 @@ NB_MODULE(_core, m) {
                 vector_of(component));
         })
         .def("nesting", [](const cfree::Rays& rays) {
-            cfree::Rays::Nesting x;
-            {
-                nb::gil_scoped_release release;
-                x = rays.nesting();
-            }
+            auto x = watched([&] { return rays.nesting(); });
             return nb::make_tuple(array_of(std::move(x.start)), array_of(std::move(x.around)), array_of(std::move(x.free_inside)));
         })
         .def("angle", [](const cfree::Rays& rays, int trapezoid, bool last, unsigned bits) {
@@ -241,11 +265,10 @@ NB_MODULE(_core, m) {
                 throw std::invalid_argument("xy, chart and tau differ in length");
             std::vector<int> found(n);
             const cfree::Int unit = integer(scale);
-            {
-                nb::gil_scoped_release release;
+            watched([&] {
                 rays.locate(xy.data(), chart.data(), tau.data(), n, unit, threads,
                             {span_of(depth), span_of(cell), span_of(free_inside), outside}, found.data());
-            }
+            });
             return array_of(std::move(found));
         }, "xy"_a, "chart"_a, "tau"_a, "scale"_a, "depth"_a, "cell"_a, "free_inside"_a, "outside"_a, "threads"_a);
     nb::class_<cfree::Slicer>(m, "Slicer")
@@ -269,7 +292,7 @@ NB_MODULE(_core, m) {
                                   array_of(std::move(r.trapezoid)));
         }, "chart"_a, "tau"_a)
         .def("rings", [](const cfree::Slicer& s, int chart, double tau) {
-            auto r = s.rings(chart, tau);
+            auto r = watched([&] { return s.rings(chart, tau); });
             return nb::make_tuple(array_of(std::move(r.xy)), array_of(std::move(r.start)), array_of(std::move(r.shell)));
         }, "chart"_a, "tau"_a)
         .def("limits", [](const cfree::Slicer& s, Column<int> trapezoid, Column<int> chart, In1 tau, Out1 lower, Out1 upper) {

@@ -1,9 +1,12 @@
 #include "cfree/algebraic.hpp"
 
+#include "cfree/stop.hpp"
+
 namespace cfree {
 
 void RealRoot::halve() {
     if (is_dyadic()) return;
+    heed_stop();
     const Dyadic mid = Dyadic::middle(lo, hi);
     const int s = cfree::sign_at(p, mid);
     if (s == 0) lo = hi = mid;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cfree/stop.hpp"
+
 namespace cfree {
 
 AngleTable::AngleTable(const Scene& s, const Patches& p, const Trapezoids& t) : scene(s), patches(p), trapezoids(t) {
@@ -44,6 +46,7 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, int chart) 
     };
     std::vector<Class> classes;  // in order
     const auto add = [&](std::size_t first, std::size_t next) {
+        heed_stop();
         const CriticalAngle x = critical(*named[first].second);
         std::size_t low = 0, high = classes.size();
         bool found = false;

@@ -76,6 +76,7 @@ void Job::run(int threads) {
     auto start = Clock::now();
     const auto lap = [&] { return std::chrono::duration<double>(Clock::now() - std::exchange(start, Clock::now())).count(); };
     try {
+        stop_flag = &stop;
         in_parallel(threads, stop, [this] { trim_patches(); });
         tally.trim_seconds = lap();
         Trapezoids thin;
@@ -99,7 +100,10 @@ void Job::trim_patches() {
     for (Index j = next++; j < count && !stop; j = next++) {
         if (first_patch[j] == first_patch[j + 1]) continue;
         plan->neighbours.near(j, near);
-        for (Index id = first_patch[j]; id < first_patch[j + 1] && !stop; ++id, ++done) trim_patch(id, near, mine);
+        try {
+            for (Index id = first_patch[j]; id < first_patch[j + 1] && !stop; ++id, ++done) trim_patch(id, near, mine);
+        } catch (const Stopped&) {  // in the midst of a patch
+        }
     }
     const std::lock_guard lock(mutex);
     tally.pairs += mine.pairs, tally.live_patches += mine.live_patches, tally.decisions += mine.decisions;

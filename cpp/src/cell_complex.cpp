@@ -9,6 +9,7 @@
 
 #include "cfree/fingerprint.hpp"
 #include "cfree/junction.hpp"
+#include "cfree/stop.hpp"
 
 namespace cfree {
 
@@ -108,6 +109,7 @@ void Gluer::glue_curves() {
         return x.from < y.from || (x.from == y.from && x.trapezoid < y.trapezoid);
     });
     for (std::size_t begin = 0, end; begin < sides.size(); begin = end) {
+        heed_stop();
         Index reach = sides[begin].to;  // runs that overlap in theta
         for (end = begin + 1; end < sides.size() && sides[end].curve == sides[begin].curve && sides[end].from < reach; ++end)
             reach = std::max(reach, sides[end].to);
@@ -129,6 +131,7 @@ void Gluer::glue_curve(CurveSide* begin, CurveSide* end) {
     ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
     std::vector<Index> live;
     for (std::size_t r = 0; r + 1 < ranks.size(); ++r) {
+        heed_stop();
         live.clear();
         for (const CurveSide* s = begin; s != end; ++s)
             if (s->from <= ranks[r] && ranks[r + 1] <= s->to)
@@ -193,6 +196,7 @@ void Gluer::glue_walls() {
         member[place[round(angles.from[k])]++] = 2 * k, member[place[round(angles.to[k])]++] = 2 * k + 1;
     std::vector<Wall> walls;
     for (Index rank = 0; rank < ranks; ++rank) {
+        heed_stop();
         if (start[rank] == start[rank + 1]) continue;
         Junction at = junction(rank, rank > angles.middle ? 1 : 0);
         walls.clear();
@@ -239,7 +243,7 @@ void Gluer::glue_line(std::vector<Wall*>& line, Junction& at) {
     for (Wall* w : line) w->along *= along;
     std::vector<const Spot*> places;
     for (const Wall* w : line) places.push_back(&w->low), places.push_back(&w->high);
-    std::sort(places.begin(), places.end(), [&](const Spot* p, const Spot* q) { return at.order(ref, *p, *q) < 0; });
+    std::stable_sort(places.begin(), places.end(), [&](const Spot* p, const Spot* q) { return at.order(ref, *p, *q) < 0; });
     places.erase(std::unique(places.begin(), places.end(),
                              [&](const Spot* p, const Spot* q) { return at.order(ref, *p, *q) == 0; }),
                  places.end());
@@ -255,6 +259,7 @@ void Gluer::glue_line(std::vector<Wall*>& line, Junction& at) {
     }
     std::vector<std::pair<const Wall*, Index>> live;
     for (Index k = 0; k + 1 < static_cast<Index>(places.size()); ++k) {
+        heed_stop();
         live.clear();
         for (const Wall* w : line) {
             if (w->first > k || k + 1 > w->last) continue;
@@ -278,7 +283,8 @@ void Gluer::pair_around_line(const std::vector<std::pair<const Wall*, Index>>& l
         const int s = at.across(contact(x->trapezoid), contact(y->trapezoid), p, q, x->is_above) * y->along;
         return s != 0 ? s > 0 : x->along > y->along;  // one slit: what is left of its left sheet is forbidden
     };
-    std::sort(around.begin(), around.end(), [&](const auto& x, const auto& y) {
+    // stable: a merge stays within its arrays whatever sheets from outside say of their order
+    std::stable_sort(around.begin(), around.end(), [&](const auto& x, const auto& y) {
         if (x.second == y.second) return false;
         if (x.first->is_above != y.first->is_above) return x.first->is_above;
         return x.first->is_above ? is_left(x.first, y.first) : is_left(y.first, x.first);
@@ -352,6 +358,7 @@ CellComplex Gluer::build() {
     result.vertex.assign(count, -1);
     for (Index h = 0; h < count; ++h) {
         if (result.vertex[h] >= 0) continue;
+        heed_stop();
         Index best = h;  // walls know their ends
         for (Index x = h; result.vertex[x] < 0; x = result.twin[before(x)]) {
             result.vertex[x] = result.vertices;

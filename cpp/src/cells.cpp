@@ -270,6 +270,7 @@ Rays::Nearby Rays::look(const View& q, When when, Index own) const {
     Nearby seen;
     const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
     stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+        heed_stop();
         if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
         const Feature contact = surface_of(patches, trapezoids, k).contact;
         const auto here = q.line<Approx>(scene, contact);
@@ -399,7 +400,7 @@ void Rays::locate(const double* xy, const int* chart, const double* tau, std::si
     in_parallel(threads, stop, [&] {
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;)
             for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k)
-                out[k] = locate(ExactPose::from(xy[2 * k], xy[2 * k + 1], chart[k], tau[k], scale), cells);
+                heed_stop(), out[k] = locate(ExactPose::from(xy[2 * k], xy[2 * k + 1], chart[k], tau[k], scale), cells);
     });
 }
 

@@ -3,6 +3,8 @@
 #include <boost/multiprecision/miller_rabin.hpp>
 #include <stdexcept>
 
+#include "cfree/stop.hpp"
+
 namespace cfree {
 
 Residues::Residues(Word prime) : p(prime), inverse_of_p(prime) {
@@ -41,6 +43,7 @@ Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::functi
     for (unsigned attempt = 0; prints.size() < count; ++attempt) {
         choose(attempt);
         for (prints.clear(); prints.size() < count;) {
+            heed_stop();
             const NamedCurve next = curve(prints.size());
             const auto print = of(next);
             if (!print && are_parallel(scene, next.on, next.other)) throw std::logic_error("a curve of two parallel surfaces");

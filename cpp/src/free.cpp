@@ -357,6 +357,7 @@ void Checker::check(const double* poses, std::size_t count, int threads, Verdict
         Placed placed(robot);
         std::vector<std::size_t> slots(chunk), open(chunk);
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
+            heed_stop();
             const std::size_t end = std::min(count, begin + chunk);
             for (std::size_t k = begin; k < end; ++k) {
                 const double* q = poses + 3 * k;

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "cfree/sheet.hpp"
+#include "cfree/stop.hpp"
 #include "cfree/triangulation.hpp"
 
 namespace cfree {
@@ -250,6 +251,7 @@ void Mesher::add_lattice(const Sheet& sheet) {
     const auto rows = static_cast<Index>(std::ceil(wide * golden + high / golden)) + 2;
     std::vector<std::array<double, 2>> found;
     for (Index j = -rows; j <= rows; ++j) {
+        heed_stop();
         const auto from = static_cast<Index>(std::floor((-high + j) / golden));
         const auto to = static_cast<Index>(std::ceil((high + j) / golden));
         for (Index i = from; i <= to; ++i) {
@@ -272,6 +274,7 @@ void Mesher::improve(Index f, std::size_t most) {
     open.resize(net.triangles.size());
     std::iota(open.rbegin(), open.rend(), 0);
     while (!open.empty()) {
+        heed_stop();
         const Index t = open.back();
         open.pop_back();
         if (excess(sheet, t) <= 1 || flip_to_better(sheet, t)) continue;
@@ -411,6 +414,7 @@ std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
     std::vector<std::array<Index, 3>> plain;
     for (Index e = 0; e < in.edges; ++e) {
         const Index first = order[start[e]];
+        heed_stop();
         samples[e] = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_wall(e);
         for (Index k = start[e]; samples[e].empty() && k < start[e + 1]; ++k) {
             const auto [p, q] = std::minmax(in.vertex[order[k]], in.vertex[after(order[k])]);

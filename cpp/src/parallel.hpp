@@ -6,6 +6,8 @@
 #include <thread>
 #include <vector>
 
+#include "cfree/stop.hpp"
+
 namespace cfree {
 
 // Every thread runs `work`, which takes items until none is left or `stop` is set. The first exception stops all, and is
@@ -14,7 +16,9 @@ template <class Work>
 void in_parallel(int threads, std::atomic<bool>& stop, Work&& work) {
     std::mutex mutex;
     std::exception_ptr error;
+    const auto* flag = stop_flag;
     const auto guarded = [&] {
+        stop_flag = flag;
         try {
             work();
         } catch (...) {

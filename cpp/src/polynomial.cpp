@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cfree/stop.hpp"
+
 namespace cfree {
 
 namespace {
@@ -173,7 +175,10 @@ int Sturm::variations(const Dyadic& tau) const {
     return count;
 }
 
-int Sturm::roots_in(const Dyadic& lo, const Dyadic& hi) const { return variations(lo) - variations(hi); }
+int Sturm::roots_in(const Dyadic& lo, const Dyadic& hi) const {
+    heed_stop();
+    return variations(lo) - variations(hi);
+}
 
 std::vector<std::array<Dyadic, 2>> isolate(const Sturm& sturm, const Dyadic& lo, const Dyadic& hi, unsigned bits) {
     std::vector<std::array<Dyadic, 2>> found;

@@ -214,6 +214,22 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     return result;
 }
 
+bool Predicates::isolates(const Event& x, int place) const {
+    if (place == 0 && x.lo < x.hi) {
+        const Form f = form(x);
+        int sign[5];
+        f.signs(x.lo, x.hi, sign);
+        if (roots_inside(sign, f.degree) == Found::one) return true;
+    }
+    const Poly p = polynomial(x.first, x.second);
+    if (p.size() < 2) return false;
+    const Sturm sturm(squarefree(p));
+    const Dyadic lo = Dyadic::from(x.lo), hi = Dyadic::from(x.hi);
+    const auto is_root = [&](const Dyadic& t) { return cfree::sign_at(sturm.polynomial(), t) == 0; };
+    if (place > 0) return sturm.roots_in(lo, hi) >= place;
+    return x.lo == x.hi ? is_root(lo) : !is_root(lo) && !is_root(hi) && sturm.roots_in(lo, hi) == 1;
+}
+
 Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Feature& second, double lo, double hi) {
     Candidates result;
     const Poly p = polynomial(first, second);
@@ -349,6 +365,29 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
         }
     }
     return result;
+}
+
+bool Predicates::are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to) {
+    const Sample middle = between(from, to);
+    const auto limit = [&](const Feature& f) -> std::optional<Curve> {  // with D > 0
+        Curve result = curve(f);
+        const Feature& on = surface.contact;
+        if (f.kind != Kind::vertex_vertex && f.kind != on.kind) {
+            const bool on_edge = on.kind == Kind::vertex_edge;
+            if (parallel_roots(on_edge ? f.robot : on.robot, on_edge ? on.obstacle : f.obstacle, from, to).count > 0) return {};
+        }
+        const int sign = cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), middle.exact());
+        if (sign < 0) result.N = -result.N, result.D = -result.D, result.flipped = true;
+        return sign == 0 ? std::nullopt : std::optional(result);
+    };
+    const auto ordered = [&](const std::optional<Curve>& p, const std::optional<Curve>& q) {
+        if (!p || !q) return false;
+        const Order found = compare(*p, *q, from, to);
+        return std::all_of(found.sign, found.sign + found.count + 1, [](int s) { return s <= 0; });
+    };
+    const auto low = limit(lower), high = limit(upper);
+    return ordered(limit(end_helix(scene, surface.contact, 0)), low) && ordered(low, high) &&
+           ordered(high, limit(end_helix(scene, surface.contact, 1)));
 }
 
 }  // namespace cfree

@@ -5,6 +5,8 @@
 #include <limits>
 #include <unordered_map>
 
+#include "cfree/stop.hpp"
+
 namespace cfree {
 
 Slicer::Slicer(std::shared_ptr<const Scene> s, std::vector<double> robot_xy, std::vector<double> obstacle_xy, Patches p,
@@ -161,6 +163,7 @@ Slicer::Rings Slicer::rings(int c, double tau) const {
         }
     }
     for (const Index k : loose) {  // several curves through one point carry several names: the nearest tail left
+        heed_stop();
         auto best = tails.end();
         for (auto it = tails.begin(); it != tails.end(); ++it)
             if (best == tails.end() || gap(k, it->second) < gap(k, best->second)) best = it;

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import math
 import os
 import zipfile
 import zlib
@@ -21,7 +23,14 @@ from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoid
 
 CELL_COLUMNS = ("component", "parent", "free_inside", "turns", "lift")
 PATCH_COLUMNS = ("contact_kind", "contact_robot", "contact_obstacle", "trimmed")
-FORMAT, VERSION = "cfree-boundary", 2
+FORMAT, VERSION = "cfree-boundary", 3
+FAULTS = (
+    ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError, MemoryError,
+    zipfile.BadZipFile, zlib.error,
+)  # fmt: skip
+"""What reading a damaged archive raises."""
+MOST_DEFLATED = 1032
+"""No deflated byte stands for more."""
 
 
 def save_boundary(
@@ -31,21 +40,31 @@ def save_boundary(
     from cfree.io import scene_text
 
     check_boundary_path(path)
-    stats = {key: value for key, value in asdict(boundary.stats).items() if key != "seconds"}
-    header = {"format": FORMAT, "version": VERSION, "stats": stats}
-    texts = {"header": json.dumps(header), "scene": scene_text(boundary.scene)}
-    arrays: dict[str, Any] = {key: np.frombuffer(text.encode(), np.uint8) for key, text in texts.items()}
+    arrays: dict[str, Any] = {"scene": np.frombuffer(scene_text(boundary.scene).encode(), np.uint8)}
     arrays |= {key: getattr(boundary, key) for key in PATCH_COLUMNS}
     arrays |= {name: getattr(boundary.trapezoids, name) for name in COLUMNS}
     arrays |= {f"isolated_{name}": getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS}
     arrays |= cells or {}
+    stats = {key: value for key, value in asdict(boundary.stats).items() if key != "seconds"}
+    header = signed({"format": FORMAT, "version": VERSION, "stats": stats}, arrays)
     with replacing(path) as unfinished, unfinished.open("wb") as file:
-        np.savez_compressed(file, **arrays)
+        np.savez_compressed(file, header=np.frombuffer(json.dumps(header).encode(), np.uint8), **arrays)
 
 
 def check_boundary_path(path: str | os.PathLike[str]) -> str:
     """Suffix of a file that `save_boundary` can write."""
     return checked_suffix(path, "boundary", (".npz",))
+
+
+def signed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> dict[str, Any]:
+    """The header with a digest of all else that is in it, and of the arrays."""
+    rest = {key: value for key, value in header.items() if key != "digest"}
+    digest = hashlib.sha256(json.dumps(rest).encode())
+    for name in sorted(arrays):
+        array = np.ascontiguousarray(arrays[name])
+        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
+        digest.update(array.data)
+    return rest | {"digest": digest.hexdigest()}
 
 
 def load_boundary(path: str | os.PathLike[str]) -> Boundary:
@@ -54,32 +73,48 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
     Raises
     ------
     FormatError
-        If the file is missing, truncated, or not of this format and version.
+        If the file is missing, truncated, damaged, or not of this format and version.
     """
-    name = os.fspath(path)
+    return _load(os.fspath(path))[0]
 
+
+def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArray[Any]]]:
+    """Read a boundary and the columns of its cells, written by `FreeSpace.save`; errors as of `load_boundary`."""
+    name = os.fspath(path)
+    boundary, arrays = _load(name)
+    columns = {column: arrays[f"cells_{column}"] for column in CELL_COLUMNS if f"cells_{column}" in arrays}
+    wrong = "no cells are in it" if len(columns) < len(CELL_COLUMNS) else _cells_misfit(**columns)
+    if wrong:
+        raise FormatError(f"{name}: {wrong}; make it again with `FreeSpace.save`", path=name)
+    return boundary, columns
+
+
+def _load(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
     def fault(what: str) -> FormatError:
-        return FormatError(f"{name}: {what}", path=str(name))
+        return FormatError(f"{name}: {what}", path=name)
 
     try:
         with open(name, "rb") as file, np.load(file, allow_pickle=False) as archive:
             if "header" not in archive:
                 raise fault("a NumPy archive, but not a boundary; make one with `cfree boundary SCENE -o FILE`")
-            header = json.loads(archive["header"].tobytes())
+            header = json.loads(_member(archive, "header").tobytes())
             if header["format"] != FORMAT:
                 raise fault(f'format {header["format"]!r}; expected "{FORMAT}"')
             if header["version"] != VERSION:
                 raise fault(f"version {header['version']}; this cfree reads version {VERSION}: compute it again")
-            stats = Stats(**header["stats"], seconds={})
-            text = archive["scene"].tobytes().decode()
-            kind, robot, obstacle, trimmed = (archive[k] for k in PATCH_COLUMNS)
-            trapezoids = Trapezoids(*(archive[column] for column in COLUMNS))
-            isolated = IsolatedParts(*(archive[f"isolated_{column}"] for column in ISOLATED_COLUMNS))
+            arrays = {key: _member(archive, key) for key in archive.files if key != "header"}
+        if signed(header, arrays) != header:
+            raise fault("damaged: it is not what was written; make it again with `cfree boundary`")
+        stats = Stats(**header["stats"], seconds={})
+        text = arrays["scene"].tobytes().decode()
+        kind, robot, obstacle, trimmed = (arrays[k] for k in PATCH_COLUMNS)
+        trapezoids = Trapezoids(*(arrays[column] for column in COLUMNS))
+        isolated = IsolatedParts(*(arrays[f"isolated_{column}"] for column in ISOLATED_COLUMNS))
     except OSError as error:
         raise fault(f"{error.strerror or 'not a boundary file'}; give a file that `cfree boundary` wrote") from None
     except FormatError:
         raise
-    except (ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error):
+    except FAULTS:
         raise fault("truncated, damaged, or not a boundary file; make it again with `cfree boundary`") from None
     from cfree.io import scene_from_text
 
@@ -90,19 +125,21 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
         wrong = "trimmed"
     if wrong:
         raise fault(f"{wrong} does not fit the rest; make it again with `cfree boundary`")
-    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, trimmed)
+    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, trimmed), arrays
 
 
-def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArray[Any]]]:
-    """Read a boundary and the columns of its cells, written by `FreeSpace.save`; errors as of `load_boundary`."""
-    boundary = load_boundary(path)
-    with np.load(path, allow_pickle=False) as archive:
-        columns = {name: archive[f"cells_{name}"] for name in CELL_COLUMNS if f"cells_{name}" in archive}
-    wrong = "no cells are in it" if len(columns) < len(CELL_COLUMNS) else _cells_misfit(**columns)
-    if wrong:
-        name = os.fspath(path)
-        raise FormatError(f"{name}: {wrong}; make it again with `FreeSpace.save`", path=str(name))
-    return boundary, columns
+def _member(archive: Any, name: str) -> NDArray[Any]:
+    """An array as long as the archive says, and as what is in it can be."""
+    info = archive.zip.getinfo(f"{name}.npy")
+    with archive.zip.open(info) as member:
+        if np.lib.format.read_magic(member) != (1, 0):
+            raise ValueError
+        shape, _, dtype = np.lib.format.read_array_header_1_0(member)
+        size = member.tell() + math.prod(shape) * dtype.itemsize
+    if size != info.file_size or size > MOST_DEFLATED * info.compress_size:
+        raise ValueError
+    array: NDArray[Any] = archive[name]
+    return array
 
 
 def _cells_misfit(component: Any, parent: Any, free_inside: Any, turns: Any, lift: Any) -> str:
@@ -115,11 +152,11 @@ def _cells_misfit(component: Any, parent: Any, free_inside: Any, turns: Any, lif
             return f"cells_{name} does not fit the rest"
     if not np.array_equal(np.unique(component), np.arange(count)):
         return "cells_component does not number closed surfaces"
-    above = parent
-    for _ in range(count):
-        if np.any((above < -1) | (above >= count)) or np.all(above == -1):
-            break
-        above = np.where(above >= 0, parent[above], -1)
+    if np.any((parent < -1) | (parent >= count)):
+        return "cells_parent does not fit the rest"
+    above = np.append(parent, -1)  # the last stands for what nothing is around
+    for _ in range(count.bit_length()):
+        above = above[above]
     return "" if np.all(above == -1) else "cells_parent is no nesting"
 
 
@@ -163,4 +200,9 @@ def misfit(
     for name in ISOLATED_COLUMNS:
         if not column_fits(name, getattr(isolated, name), np.size(isolated.patch)):
             return f"isolated_{name}"
-    return ""
+    from cfree import _core
+
+    shapes = features.robot.core_shape(), features.obstacles.core_shape()
+    live = [getattr(trapezoids, name) for name in COLUMNS]
+    thin = [getattr(isolated, name) for name in ISOLATED_COLUMNS]
+    return _core.misfit(*shapes, kind, robot, obstacle, live, thin, os.cpu_count() or 1)

@@ -142,6 +142,10 @@ public:
     Event restored(const Event& x, int place);
     // Whether the polynomial of an angle has certain, opposite signs at lo and hi.
     bool changes_sign(const Event& x, double lo, double hi) const;
+    // Whether an angle of that place is the only root of its polynomial there.
+    bool isolates(const Event& x, int place) const;
+    // Whether 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
+    bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
     // The angle as an exact number.
     RealRoot root_of(const Event& x) const;
 

@@ -17,6 +17,8 @@ from cfree.formats.json_positions import Path, Place, dotted, places, shortened
 
 SHOWN = 50
 """Problems written out in the message; `InvalidFileError.problems` has them all."""
+LARGEST = 1 << 29
+"""Bytes of a text that are read; files that have no end have more."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -116,11 +118,15 @@ def read_text(file: FilePath) -> str:
         If there is no such file, or it is not text.
     """
     try:
-        raw = file.read_bytes()
+        with file.open("rb") as stream:
+            raw = stream.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         fault = f"{reason}; give the path of a file that can be read"
         raise InvalidFileError(str(file), [Problem(1, 1, "", fault)]) from None
+    if len(raw) > LARGEST:
+        fault = f"more than {LARGEST >> 20} MiB; give a file of a scene or an answer"
+        raise InvalidFileError(str(file), [Problem(1, 1, "", fault)])
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
