@@ -44,14 +44,20 @@ class Exits:
     def slid(self, pose: Pose, goal: Pose, sheet: Sheet, code: int) -> bool:
         """Is there a free slide to another pose along a curve of a sheet? It is noted then."""
         turn = (Pose(0, 0, {"tau": goal.tau}) @ Pose(0, 0, {"tau": pose.tau}).inverse()).tau
-        kind, i, j = map(int, unpacked(code))
-        if not turn or kind == HELIX:
+        if not turn:
             return False
+        kind, i, j = map(int, unpacked(code))
         found = slide(sheet.features, pose, sheet.contact, (kind, i, j), turn)
         if found is None or found.apply(pose) != goal or not self.walker.checker.is_free(pose, found):
             return False
         self.walker.slides[pose, goal] = found
         return True
+
+    def along_curve(self, pose: Pose, goal: Pose, sheet: Sheet, code: int) -> bool:
+        """Is there one free motion to another pose on the same curve of a sheet?"""
+        if int(unpacked(code)[0]) == HELIX:
+            return self.walker.checker.joins([pose, goal])
+        return self.slid(pose, goal, sheet, code)
 
     def _inwards(self, sheet: Sheet, pose: Pose, end: int) -> tuple[Pose, ...]:
         """From a pose on a trapezoid, which begins (-1) or ends (1) at its orientation or does not, to one within."""
@@ -66,8 +72,7 @@ class Exits:
         head = (pose,) if begin == pose else (pose, begin)
         if lower < upper:
             return (*head, self._shortened(tau, far, lambda to: self._turned(sheet, t, tau, to)))
-        curves = sorted(set(sheet.codes), key=lambda code: int(unpacked(code)[0]) != HELIX)
-        return (*head, self._shortened(tau, far, lambda to: self._along(sheet, curves, begin, t, tau, to)))
+        return (*head, self._shortened(tau, far, lambda to: self._along(sheet, begin, to)))
 
     def _shortened(self, tau: Fraction, far: Fraction, way: Callable[[Fraction], Pose | None]) -> Pose:
         """Where a way leads, to an orientation within: nearer and nearer to where it begins."""
@@ -83,16 +88,10 @@ class Exits:
         begin, end = sheet.pose(t, tau), sheet.turned(t, tau, to)
         return end if lower <= t <= upper and self.walker.checker.joins([begin, end]) else None
 
-    def _along(
-        self, sheet: Sheet, curves: list[int], begin: Pose, t: Fraction, tau: Fraction, to: Fraction
-    ) -> Pose | None:
+    def _along(self, sheet: Sheet, begin: Pose, to: Fraction) -> Pose | None:
         """Along one of its curves."""
-        for code in curves:
-            if int(unpacked(code)[0]) == HELIX:
-                if (end := self._turned(sheet, t, tau, to)) is not None:
-                    return end
-            else:
-                end = sheet.pose(sheet.limits(to)[sheet.codes.index(code)], to)
-                if self.slid(begin, end, sheet, code):
-                    return end
+        for code, t in zip(sheet.codes, sheet.limits(to), strict=True):
+            end = sheet.pose(t, to)
+            if self.along_curve(begin, end, sheet, code):
+                return end
         return None

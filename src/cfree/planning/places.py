@@ -198,13 +198,14 @@ class Places:
     def slides(self) -> Iterator[tuple[Pose, Pose]]:
         """Places joined by free slides through vertices at irrational orientations where several parts seem to meet."""
         for meeting in self.meetings:
-            curves = [*self._curves(meeting)]
-            for (f, code, here, holder), (g, other, there, its) in permutations(curves, 2):
-                if holder != its and f.chart == g.chart:
-                    yield from self._slid(f, code, here, g, other, there)
+            for one, other in permutations(self._curves(meeting), 2):
+                if one.holder != other.holder and one.name == other.name:
+                    yield from self._slid(one, other)
 
-    def _curves(self, meeting: Meeting) -> Iterator[tuple[Sheet, int, bool, Holder]]:
-        """Sheets, which of their curves, whether they end at a meeting, and what they belong to."""
+    def _curves(self, meeting: Meeting) -> Iterator[Tail]:
+        """What begins or ends at a meeting, if its orientation is irrational."""
+        if any(abs(math.remainder(pose.theta - meeting.theta, math.tau)) <= NEAR for pose in self._near(meeting)):
+            return
         thin = (self.parts[k] for k in meeting.parts)
         parts: list[tuple[Sheet, Holder]] = [(part.sheet, Part(part.k)) for part in thin if part.is_curve]
         parts += [(self.walker.sheet(face), self.walker.cell_at(face)) for face in meeting.faces]
@@ -212,20 +213,38 @@ class Places:
             apart = [math.remainder(theta - meeting.theta, math.tau) for theta in sheet.theta]
             for last, side in product((False, True), (0, 1)):
                 if abs(apart[last]) <= NEAR and not (isinstance(holder, Part) and side):
-                    yield sheet, side, last, holder
+                    yield Tail(sheet, side, last, holder)
 
-    def _slid(
-        self, f: Sheet, side: int, last: bool, g: Sheet, other: int, its_last: bool
-    ) -> Iterator[tuple[Pose, Pose]]:
+    def _near(self, meeting: Meeting) -> Iterator[Pose]:
+        """Rational poses of what meets."""
+        yield from (pose for face in meeting.faces for pose in self._corners(face))
+        yield from (pose for k in meeting.parts for pose in self.parts[k].ends if pose is not None)
+
+    def _slid(self, one: Tail, other: Tail) -> Iterator[tuple[Pose, Pose]]:
         for halvings in HALVINGS:
-            (sigma, tau) = (_beside(sheet, end, halvings) for sheet, end in ((f, last), (g, its_last)))
-            a, b = f.pose(f.limits(sigma)[side], sigma), g.pose(g.limits(tau)[other], tau)
-            if self.walker.exits.slid(a, b, f, f.codes[side]):
+            a, b = one.pose(halvings), other.pose(halvings)
+            if self.walker.exits.along_curve(a, b, one.sheet, one.sheet.codes[one.side]):
                 yield a, b
                 return
 
 
-def _beside(sheet: Sheet, last: bool, halvings: int) -> Fraction:
-    """An orientation within a sheet, near its first or last."""
-    share = (sheet.high - sheet.low) / 2**halvings
-    return between(sheet.high - share, sheet.high) if last else between(sheet.low, sheet.low + share)
+@dataclass(frozen=True)
+class Tail:
+    """One of the curves of a sheet, 0 or 1, near its first or last orientation, and what holds it."""
+
+    sheet: Sheet
+    side: int
+    is_last: bool
+    holder: Holder
+
+    @property
+    def name(self) -> tuple[int, tuple[str, ...]]:
+        """The same for the same curve."""
+        return self.sheet.chart, self.sheet.trace(self.side)
+
+    def pose(self, halvings: int) -> Pose:
+        """On it, nearer and nearer to its end."""
+        low, high = self.sheet.low, self.sheet.high
+        share = (high - low) / 2**halvings
+        tau = between(high - share, high) if self.is_last else between(low, low + share)
+        return self.sheet.pose(self.sheet.limits(tau)[self.side], tau)

@@ -186,14 +186,26 @@ class Sheet:
             A, O, scale = self.features.robot, self.features.obstacles, self.features.scale
             along, w = (q, minus(vertex(O, j, scale), p)) if any(q) else (g, minus(vertex(A, i, scale), a))
             return fmpq_poly([as_flint(dot(w, along))]), fmpq_poly([as_flint(dot(along, along))])
-        sign = -1 if self.chart else 1
-        turn = fmpq_poly([sign, 0, -sign]), fmpq_poly([0, 2 * sign]), fmpq_poly([1, 0, 1])
-        (P, U), (Q, V) = (
-            positions_over(line, *turn) for line in (self.line, contact_line(self.features, int(kind), int(i), int(j)))
-        )
+        P, U = self._positions(self.line)
+        Q, V = self._positions(contact_line(self.features, int(kind), int(i), int(j)))
         n, d = curve_cross((Q[0] - P[0], Q[1] - P[1]), V), curve_cross(U, V)
         common = n.gcd(d)
         return n // common, d // common
+
+    def _positions(self, line: Line) -> tuple[Curve, Curve]:
+        """P and U of a contact line times 1 + tau^2, tau in the chart."""
+        sign = -1 if self.chart else 1
+        return positions_over(line, fmpq_poly([sign, 0, -sign]), fmpq_poly([0, 2 * sign]), fmpq_poly([1, 0, 1]))
+
+    def trace(self, side: int) -> tuple[str, ...]:
+        """A name of one of its curves in its chart: the same for the same positions."""
+        (P, U), (n, d) = self._positions(self.line), self._curves[side]
+        parts = [P[0] * d + n * U[0], P[1] * d + n * U[1], d * fmpq_poly([1, 0, 1])]
+        common = parts[2] * (1 / parts[2].leading_coefficient())
+        for part in parts[:2]:
+            common = common.gcd(part)
+        common *= parts[2].leading_coefficient()
+        return tuple(str(part // common) for part in parts)
 
     def pose(self, t: Fraction, tau: Fraction) -> Pose:
         """On it."""

@@ -6,8 +6,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from cfree.features import unpacked
-from cfree.planning.sheet import HELIX, Sheet, Vector, between, contact_of, cross, dot, minus
+from cfree.planning.sheet import Sheet, Vector, between, contact_of, cross, dot, minus
 from cfree.pose import Pose
 from cfree.trapezoids import CURVE
 
@@ -137,14 +136,14 @@ class ThinPart:
     def way(self, start: Pose, goal: Pose) -> list[Pose] | None:
         """Along it, from one pose on it to another."""
         code = self.sheet.codes[0]
-        if not self.is_curve or int(unpacked(code)[0]) == HELIX:
+        if not self.is_curve:
             return [start, goal] if self.walker.checker.joins([start, goal]) else None
         first, last = self.local(start), self.local(goal)
         assert first is not None and last is not None
         way, stack = [start], [last]
         while stack and len(stack) + len(way) < MOST_PARTS:
             end = goal if stack[-1] == last else self.at(stack[-1])
-            if self.walker.exits.slid(way[-1], end, self.sheet, code):
+            if self.walker.exits.along_curve(way[-1], end, self.sheet, code):
                 way.append(end)
                 stack.pop()
             else:

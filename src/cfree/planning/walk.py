@@ -103,11 +103,12 @@ class Walker:
 
     def _along_curve(self, sheet: Sheet, tau: Fraction, to: Fraction) -> Sequence[Pose] | None:
         """The same by a slide: always on the trapezoid."""
-        for side, code in enumerate(sheet.codes):
-            on, last = sheet.pose(sheet.limits(tau)[side], tau), sheet.pose(sheet.limits(to)[side], to)
-            if self.exits.slid(on, last, sheet, code):
-                head, tail = ((self.off(sheet, t := sheet.middle(x), x), sheet.pose(t, x)) for x in (tau, to))
-                return [*head, on, last, *tail[::-1]]
+        for code, t, end in zip(sheet.codes, sheet.limits(tau), sheet.limits(to), strict=True):
+            on, last = sheet.pose(t, tau), sheet.pose(end, to)
+            if self.exits.along_curve(on, last, sheet, code):
+                p, q = sheet.middle(tau), sheet.middle(to)
+                head, tail = (self.off(sheet, p, tau), sheet.pose(p, tau)), (sheet.pose(q, to), self.off(sheet, q, to))
+                return [*head, on, last, *tail]
         return None
 
     # --- from sheet to sheet ---
