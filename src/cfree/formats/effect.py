@@ -179,7 +179,7 @@ def decimal_near(value: Enclosed, tolerance: Fraction) -> Decimal:
     --------
     >>> third = Enclosed(Fraction(1, 3))
     >>> decimal_near(third, Fraction(1, 10**9)), decimal_near(third, Fraction(1, 10**18))
-    (Decimal('0.3333333333333333'), Decimal('0.333333333333333333'))
+    (Decimal('0.3333333333333333'), Decimal('0.3333333333333333333'))
     """
     try:
         short = Decimal(repr(float(value.middle)))
@@ -187,9 +187,10 @@ def decimal_near(value: Enclosed, tolerance: Fraction) -> Decimal:
         short = Decimal(0)
     if value.off(Fraction(short)) <= tolerance:
         return short
-    places = 0
-    while value.off(Fraction(whole := round(value.middle * 10**places), 10**places)) > tolerance:
-        places += 1
+    room = tolerance - value.radius  # more than 2^-bits, and so than 10^-places
+    bits = room.denominator.bit_length() - room.numerator.bit_length() + 1
+    places = max(0, math.ceil(bits * math.log10(2)))
+    whole = round(value.middle * 10**places)
     return Decimal((int(whole < 0), tuple(map(int, str(abs(whole)))), -places))
 
 
