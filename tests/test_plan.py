@@ -399,3 +399,19 @@ def test_every_example_has_an_answer_that_verifies(path: FilePath) -> None:
     if scene.start is not None and scene.goal is not None:
         found = checked(scene, scene.start, scene.goal)
         assert isinstance(found, Path) == (path.stem not in ("nest_swim", "street_Berlin"))
+
+
+def test_numbers_of_clear_paths_are_short() -> None:
+    """Places on motions to places on motions to places had ever more digits: 2,800 here, and files hold 4,000."""
+
+    def thirds(*rings: list[tuple[int, int]]) -> Polygon:
+        outer, hole = ([(Fraction(x, 3), Fraction(y, 3)) for x, y in ring] for ring in rings)
+        return Polygon(outer, [hole])
+
+    robot = thirds([(1, -4), (1, 0), (-3, 0), (-3, -4)], [(0, -3), (-1, -3), (-2, -2), (-1, -1), (0, -1)])
+    one = thirds([(4, 1), (0, 1), (0, -3), (4, -3)], [(1, -2), (1, -1), (2, 0), (3, -1), (3, -2)])
+    other = thirds([(-3, -2), (1, -2), (1, 2), (-3, 2)], [(0, 1), (0, 0), (-1, -1), (-2, 0), (-2, 1)])
+    ends = Pose(-2, -7, "180deg"), Pose("-8/7", "5/3", "90deg")
+    path = plan(Scene([robot], [one, other]), *ends, objective="clear", improve=0)
+    assert isinstance(path, Path)
+    assert max(c.denominator.bit_length() for q in path.poses for c in (q.x, q.y, q.tau or q.x)) < 200

@@ -16,7 +16,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, PrivateAttr, model_validator
 
-from cfree.errors import InvalidPoseError
+from cfree.errors import InvalidPoseError, UnsupportedError
+from cfree.exact import MAX_DIGITS
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.effect import Effect, Written
 from cfree.formats.json_positions import Path as Place
@@ -231,7 +232,7 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "units": answer.units,
         "frame": answer.frame,
         "answer": kind,
-        "scene": {"sha256": stamp.sha256, "robot": [*map(str, stamp.robot)]},
+        "scene": {"sha256": stamp.sha256, "robot": [*map(_exactly, stamp.robot)]},
         "start": _numbers(decimals, ("start",), 3),
         "goal": _numbers(decimals, ("goal",), 3),
         "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
@@ -243,7 +244,7 @@ def _record(k: int, motion: Motion, decimals: Written) -> dict[str, Any]:
     to = {"to": _numbers(decimals, (*place, "to"), 3)}
     if isinstance(motion, Translation):
         vector = _numbers(decimals, (*place, "vector"))
-        return {"type": "translation", "vector": vector, **to, "exact": {"vector": [*map(str, motion.vector)]}}
+        return {"type": "translation", "vector": vector, **to, "exact": {"vector": [*map(_exactly, motion.vector)]}}
     angle = decimals[(*place, "angle")]
     if isinstance(motion, Slide):
         terms = {"x": motion.x, "y": motion.y, "d": motion.d}
@@ -253,10 +254,10 @@ def _record(k: int, motion: Motion, decimals: Written) -> dict[str, Any]:
             "vector": _numbers(decimals, (*place, "vector")),
             "angle": angle,
             **to,
-            "exact": {name: [*map(str, c)] for name, c in terms.items()} | {"tau": str(motion.tau)},
+            "exact": {name: [*map(_exactly, c)] for name, c in terms.items()} | {"tau": _exactly(motion.tau)},
         }
-    tau = ("-inf" if motion.clockwise else "inf") if motion.tau is None else str(motion.tau)
-    exact = {"pole": [*map(str, motion.pole)], "tau": tau}
+    tau = ("-inf" if motion.clockwise else "inf") if motion.tau is None else _exactly(motion.tau)
+    exact = {"pole": [*map(_exactly, motion.pole)], "tau": tau}
     return {"type": "rotation", "pole": _numbers(decimals, (*place, "pole")), "angle": angle, **to, "exact": exact}
 
 
@@ -265,4 +266,12 @@ def _numbers(decimals: Written, place: Place, count: int = 2) -> list[Decimal]:
 
 
 def _exact(pose: Pose) -> list[Any]:
-    return [str(pose.x), str(pose.y), {"tau": "inf" if pose.tau is None else str(pose.tau)}]
+    return [_exactly(pose.x), _exactly(pose.y), {"tau": "inf" if pose.tau is None else _exactly(pose.tau)}]
+
+
+def _exactly(value: Fraction) -> str:
+    bits = value.numerator.bit_length() + value.denominator.bit_length()
+    if bits > 3 * MAX_DIGITS:  # a digit has 3.3 bits
+        digits = f"about {bits * 0.301:.0f} digits, and files hold {MAX_DIGITS}"
+        raise UnsupportedError(f"a number of the path has {digits}; give start and goal in fewer")
+    return str(value)

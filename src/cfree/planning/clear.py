@@ -6,6 +6,7 @@ proved, that it is the largest is not.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache
@@ -18,20 +19,24 @@ from cfree.free import Checker
 from cfree.grown import grown
 from cfree.inset import with_robot
 from cfree.motion import motion_between
+from cfree.motion_check import MotionChecker
 from cfree.pose import Pose, Poses
 from cfree.scene import Scene
 
 WayOf = Callable[[Scene, Pose, Pose], Sequence[Pose] | None]
 HALVINGS = 10  # of the margin, from the robot's radius on
+GRID_BITS = 40  # of these places, and of their tangents: short numbers
 PLACES = 16  # of a motion, at which the grown robot may begin and end
 
 
-def clear(scene: Scene, poses: Sequence[Pose], radius: float, way_of: WayOf) -> Sequence[Pose]:
+def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: float, way_of: WayOf) -> Sequence[Pose]:
     """A path with margins: the largest in the midst of it, what is left at its ends with smaller ones.
 
     Parameters
     ----------
     scene : Scene
+    checker : MotionChecker
+        Of the scene.
     poses : sequence of Pose
         Of a free path.
     radius : float
@@ -39,6 +44,7 @@ def clear(scene: Scene, poses: Sequence[Pose], radius: float, way_of: WayOf) -> 
     way_of : callable
         Poses of a path from one pose to another in a scene, or None if it finds none.
     """
+    grid = Fraction(2) ** (GRID_BITS - math.frexp(radius)[1])
 
     @cache
     def larger(level: int) -> tuple[Scene, Checker] | None:
@@ -57,11 +63,21 @@ def clear(scene: Scene, poses: Sequence[Pose], radius: float, way_of: WayOf) -> 
             free = np.flatnonzero(found[1].is_free(Poses.from_poses([pose for _, pose in places])))
             if len(free) > 1:
                 (i, first), (j, last) = places[free[0]], places[free[-1]]
+                if first not in poses:
+                    first = short(first, poses[i])
+                if last not in poses:
+                    last = short(last, poses[j + 1])
                 if all(found[1].is_free(pose) for pose in (first, last)):  # the table's were rounded
                     way = way_of(found[0], first, last)
         if way is None:
             return cleared(poses, level + 1)
         return [*cleared([*poses[: i + 1], first], level + 1), *way, *cleared([last, *poses[j + 1 :]], level + 1)]
+
+    def short(place: Pose, end: Pose) -> Pose:
+        """A place on a motion, in few digits if it is free from there to an end: else they would double each time."""
+        x, y = (round(c * grid) / grid for c in (place.x, place.y))
+        rounded = Pose(x, y, {"tau": place.tau and place.tau.limit_denominator(2**GRID_BITS)})
+        return rounded if checker.joins([end, rounded]) else place
 
     return cleared(poses, 0)
 

@@ -290,7 +290,7 @@ class Planner(Value):
                 return None
             return larger.shortened(found, seconds and max(0.0, end - time.perf_counter()) / 3)
 
-        return clear(self.scene, poses, self.angle_scale, way_of)
+        return clear(self.scene, self.checker, poses, self.angle_scale, way_of)
 
     @property
     def _checks(self) -> int:
