@@ -290,8 +290,9 @@ class Path:
         Parameters
         ----------
         path : path
-            ``.json`` holds the motions, exactly. ``.csv`` holds poses x, y, theta, and ``.yaml`` the same as a ROS
-            nav_msgs/Path. ``.geojson`` holds the way of the reference point, and the robot's outlines at these poses.
+            ``.json`` holds the motions, exactly. ``.csv`` holds poses x, y, theta, which is not wrapped, and ``.yaml``
+            the same as a ROS nav_msgs/Path. ``.geojson`` holds the way of the reference point, and the robot's outlines
+            at these poses.
         step, turn : float
             As in `sample`; step is needed for all but ``.json``.
         scene : Scene, optional
