@@ -9,7 +9,9 @@ struct RealRoot {
     Poly p;
     Dyadic lo, hi;
     bool is_dyadic() const { return cfree::compare(lo, hi) == 0; }
+    unsigned digits() const;  // d if the interval is narrower than 2^-d, or 0
     void halve();
+    void narrow();  // by ever more, once the polynomial is nearly straight in the interval
 };
 
 // Sign of q at the root; narrows its interval.

@@ -66,7 +66,9 @@ private:
 Poly product(const Poly& p, const Poly& q);
 Poly difference(const Poly& p, const Poly& q);
 Poly derivative(const Poly& p);
+Int value_at(const Poly& p, const Dyadic& tau);  // times 2^(k d), d the degree
 int sign_at(const Poly& p, const Dyadic& tau);
+int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // on the whole closed interval, 0 if not certain
 Poly greatest_common_divisor(Poly p, Poly q);
 Poly squarefree(const Poly& p);
 
