@@ -37,10 +37,13 @@ class Passages:
         self.places = Places(walker)
         self._broken: set[tuple[Pose, Node, Pose]] = set()  # isolated parts along which no motions were found
 
-    def path(self, start: Pose, goal: Pose) -> Way | None:
-        """Poses from start to goal, or None if no way was found: the fewest places first."""
-        poses = [start, goal, *self.places.rational]
-        return self._path(start, goal, poses, {}) or self._path(start, goal, [*poses, *self._slides], self._slides)
+    def path(self, start: Pose, goal: Pose, irrational: bool = False) -> Way | None:
+        """Poses from start to goal, or None if no way was found: the fewest places first.
+
+        Places at irrational orientations, which slides lead through, are left out unless asked for: they take long.
+        """
+        slides = self._slides if irrational else {}
+        return self._path(start, goal, [start, goal, *self.places.rational, *slides], slides)
 
     def _path(self, start: Pose, goal: Pose, poses: list[Pose], slides: dict[Pose, Way]) -> Way | None:
         holders = {pose: self.places.holders(pose) for pose in dict.fromkeys(poses)}

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from cfree.planning.walk import Walker
 
 NEAR = 1e-9  # of the scene's size: what doubles do not tell apart
-HALVINGS = (3, 6, 12, 24, 48, 96)  # of the way to the other end: how near to an irrational orientation a slide begins
+HALVINGS = (4, 16, 64)  # of the way to the other end: how near to an irrational orientation a slide begins
 
 
 @dataclass(frozen=True)

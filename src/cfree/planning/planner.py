@@ -221,7 +221,9 @@ class Planner(Value):
             return way
         proof = separation(self.free_space, start, goal, others)
         assert proof is not None, "not in one cell"
-        return proof
+        if proof.of == "closed":
+            return proof
+        return self._passages.path(start, goal, irrational=True) or proof
 
     def path(self, poses: Sequence[Pose]) -> Path:
         """Through these poses, without far poles where that is free; all of it checked once more.
