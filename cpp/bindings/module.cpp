@@ -275,14 +275,14 @@ NB_MODULE(_core, m) {
         .def("__init__", [](cfree::Slicer* s, const cfree::Shape& robot, const cfree::Shape& obstacles, In1 robot_xy,
                             In1 obstacle_xy, Column<std::uint8_t> kind, Column<int> patch_robot, Column<int> patch_obstacle,
                             Column<int> patch, Column<std::uint8_t> chart, Column<std::uint64_t> lower,
-                            Column<std::uint64_t> upper, In1 tau_from, In1 tau_to) {
+                            Column<std::uint64_t> upper, In1 tau_from, In1 tau_to, std::array<double, 4> shift) {
             new (s) cfree::Slicer(std::make_shared<cfree::Scene>(cfree::Scene{robot, obstacles}), vector_of(robot_xy),
                                   vector_of(obstacle_xy),
                                   cfree::Patches{vector_of(kind), vector_of(patch_robot), vector_of(patch_obstacle)},
                                   vector_of(patch), vector_of(chart), vector_of(lower), vector_of(upper),
-                                  vector_of(tau_from), vector_of(tau_to));
+                                  vector_of(tau_from), vector_of(tau_to), shift);
         }, "robot"_a, "obstacles"_a, "robot_xy"_a, "obstacle_xy"_a, "patch_kind"_a, "patch_robot"_a, "patch_obstacle"_a,
-           "patch"_a, "chart"_a, "lower"_a, "upper"_a, "tau_from"_a, "tau_to"_a)
+           "patch"_a, "chart"_a, "lower"_a, "upper"_a, "tau_from"_a, "tau_to"_a, "shift"_a)
         .def("segments", [](const cfree::Slicer& s, int chart, double tau) {
             auto r = s.segments(chart, tau);
             const std::size_t n = r.trapezoid.size();

@@ -11,10 +11,11 @@ namespace cfree {
 
 Slicer::Slicer(std::shared_ptr<const Scene> s, std::vector<double> robot_xy, std::vector<double> obstacle_xy, Patches p,
                std::vector<Index> patch_, std::vector<std::uint8_t> chart_, std::vector<std::uint64_t> lower_,
-               std::vector<std::uint64_t> upper_, std::vector<double> tau_from_, std::vector<double> tau_to_)
+               std::vector<std::uint64_t> upper_, std::vector<double> tau_from_, std::vector<double> tau_to_,
+               std::array<double, 4> shift_)
     : scene(std::move(s)), a(std::move(robot_xy)), b(std::move(obstacle_xy)), patches(std::move(p)),
       patch(std::move(patch_)), chart(std::move(chart_)), lower(std::move(lower_)), upper(std::move(upper_)),
-      tau_from(std::move(tau_from_)), tau_to(std::move(tau_to_)), index(chart, tau_from, tau_to, 8) {}
+      tau_from(std::move(tau_from_)), tau_to(std::move(tau_to_)), index(chart, tau_from, tau_to, 8), shift(shift_) {}
 
 Slicer::Turn Slicer::turn(int c, double tau) {
     const double w = (c ? -1 : 1) / (1 + tau * tau);
@@ -97,7 +98,18 @@ void Slicer::step_off_events(int& c, double& tau) const {
     }
 }
 
+void Slicer::move(std::vector<double>& xy, Turn r) const {
+    const double x = shift[0] - (r.c * shift[2] - r.s * shift[3]), y = shift[1] - (r.s * shift[2] + r.c * shift[3]);
+    for (std::size_t k = 0; k < xy.size(); k += 2) xy[k] += x, xy[k + 1] += y;
+}
+
 Slicer::Segments Slicer::segments(int c, double tau) const {
+    Segments result = near(c, tau);
+    move(result.xy, turn(c, tau));
+    return result;
+}
+
+Slicer::Segments Slicer::near(int c, double tau) const {
     const Turn asked = turn(c, tau);
     const double was = tau;
     step_off_events(c, tau);
@@ -123,7 +135,7 @@ Slicer::Segments Slicer::segments(int c, double tau) const {
 std::uint64_t Slicer::name(std::uint64_t feature) const { return code(*scene, unpacked(feature)); }
 
 Slicer::Rings Slicer::rings(int c, double tau) const {
-    const Segments s = segments(c, tau);
+    const Segments s = near(c, tau);
     const auto n = static_cast<Index>(s.trapezoid.size());
     // A point of the outline has a name: the helix, or the two surfaces, that meet there. Heads find tails by name.
     struct Name {
@@ -230,6 +242,7 @@ Slicer::Rings Slicer::rings(int c, double tau) const {
         }
         result.shell.push_back(shell);
     }
+    move(result.xy, turn(c, tau));
     return result;
 }
 

@@ -48,6 +48,8 @@ class CellComplex(Value):
         The closed surface a face belongs to.
     x, y, theta : (V,) float64
         Where the vertices are, rounded; theta in [-pi/2, 3 pi/2].
+    near : (V, 2) float64
+        x and y from the frame of the boundary's features, in scenes that are far away with more digits.
     vertices, edges, components : int
         How many there are; H / 2 pairs of twins.
     """
@@ -62,6 +64,7 @@ class CellComplex(Value):
     x: Floats
     y: Floats
     theta: Floats
+    near: Floats
     edges: int
     vertices: int
     components: int
@@ -157,15 +160,17 @@ def glue(boundary: Boundary) -> CellComplex:
 def _glued(boundary: Boundary) -> CellComplex:
     from cfree import _core
 
-    shapes = boundary.features.robot.core_shape(), boundary.features.obstacles.core_shape()
+    features = boundary.features
+    shapes = features.robot.near_shape(), features.obstacles.near_shape()
     columns: list[Any] = [boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle]
     columns += [getattr(boundary.trapezoids, name) for name in COLUMNS]
     try:
         first, face, side, twin, edge, vertex, component, x, y, theta, *counts = _core.glue(*shapes, *columns)
     except RuntimeError as error:
         raise InvariantError(f"the boundary is not closed: {error}") from error
-    unit = 2**boundary.features.robot.shift / boundary.features.scale
-    arrays = (first, face, side, twin, edge, vertex, component, x * unit, y * unit, theta)
+    near = np.column_stack((x, y)) * (2**features.robot.near_shift / features.scale)
+    x, y = (near + features.moved(theta)).T.copy()
+    arrays = (first, face, side, twin, edge, vertex, component, x, y, theta, near)
     for array in arrays:
         array.flags.writeable = False
     cells = CellComplex(*arrays, *counts)

@@ -232,12 +232,12 @@ class FreeSpace(Value):
     def _signed_volumes(self) -> Floats:
         """(F,) parts of the volume inside each closed surface, negative where that is free."""
         walls, table = self.walls, self.walls.trapezoids
-        middle = walls.evaluate(table.patch, np.full(len(table), 0.5), (table.theta_from + table.theta_to) / 2)
+        middle = walls.evaluate_near(table.patch, np.full(len(table), 0.5), (table.theta_from + table.theta_to) / 2)
         sums = [np.bincount(self.component, values, len(self.parent)) for values in (*middle.T, np.ones(len(table)))]
         o = np.column_stack(sums[:2])[self.component] / sums[2][self.component, None]  # near by: little cancels
 
         def along_t(which: Ints, lower: Floats, upper: Floats, theta: Floats) -> Floats:
-            P, Q = (walls.evaluate(table.patch[which], t, theta) - o[which] for t in (lower, upper))
+            P, Q = (walls.evaluate_near(table.patch[which], t, theta) - o[which] for t in (lower, upper))
             area: Floats = (P[:, 0] * Q[:, 1] - P[:, 1] * Q[:, 0]) / 2
             return area
 

@@ -20,7 +20,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import UnsupportedError
 from cfree.polygon import Polygon
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 Point = tuple[int, int]
 Box = tuple[int, int, int, int]
 BODY, REFERENCE = 0, 1  # layers
+FAR = 2**10  # sizes: farther away shapes are measured from a place near them
 LARGEST_BITS = 100  # of the core's doubles, so that products of four of their products stay finite
 MOST_ROBOT_FEATURES, MOST_OBSTACLE_FEATURES = 2**30, 2**31  # a packed pair has 30 and 31 bits for them
 MOST_PATCHES = 2**31  # numbered by int32
@@ -62,7 +63,8 @@ class ShapeFeatures:
 
     def __init__(self, scale: int) -> None:
         self.scale = scale
-        self.shift = 0
+        self.shift = self.near_shift = 0
+        self.origin: Point = (0, 0)
         self.vertices: list[Point] = []
         self.edges: list[tuple[int, int]] = []
         self.pieces: list[list[int]] = []  # of vertices
@@ -111,6 +113,22 @@ class ShapeFeatures:
         return np.array([(x / self.scale, y / self.scale) for x, y in self.vertices]).reshape(-1, 2)
 
     @cached_property
+    def near(self) -> NDArray[np.float64]:
+        """`xy` from the origin: all digits, however far away that is."""
+        x0, y0 = self.origin
+        return np.array([((x - x0) / self.scale, (y - y0) / self.scale) for x, y in self.vertices]).reshape(-1, 2)
+
+    def near_shape(self) -> Any:
+        """The same for the core, which asks for differences and places only."""
+        from cfree import _core
+
+        if self.origin == (0, 0):
+            return self.core_shape()
+        x0, y0 = self.origin
+        moved = [(x - x0, y - y0) for x, y in self.vertices]
+        return _core.Shape(**self.core | {"coordinates": limbs(moved), "shift": self.near_shift})
+
+    @cached_property
     def core(self) -> dict[str, Any]:
         """Arguments of ``_core.Shape``: the arrays, with an identity for every feature."""
         return core_arrays(self)
@@ -142,7 +160,7 @@ class ShapeFeatures:
 
     @cached_property
     def turning(self) -> NDArray[np.float64]:
-        edges = self.xy[self.w] - self.xy[self.v]
+        edges = self.near[self.w] - self.near[self.v]
         before, after = edges[self.previous], edges[: len(self.previous)]
         cross = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
         turning: NDArray[np.float64] = np.arctan2(cross, (before * after).sum(axis=1))
@@ -172,6 +190,18 @@ class SceneFeatures:
     obstacles: ShapeFeatures
     scale: int
     rim: tuple[float, float, float, float] | None
+
+    @cached_property
+    def frame(self) -> tuple[float, float, float, float]:
+        """The origins of the obstacles and of the robot: what is near by has doubles from these."""
+        (x, y), (a, b) = self.obstacles.origin, self.robot.origin
+        return x / self.scale, y / self.scale, a / self.scale, b / self.scale
+
+    def moved(self, theta: ArrayLike, frame: ArrayLike | None = None) -> NDArray[np.float64]:
+        """How far poses are from those of the frame, by their orientations, (..., 2)."""
+        x, y, a, b = self.frame if frame is None else np.asarray(frame, float)
+        c, s = np.cos(theta), np.sin(theta)
+        return np.stack([x - (c * a - s * b), y - (s * a + c * b)], axis=-1)
 
     @property
     def patches(self) -> int:
@@ -242,6 +272,11 @@ def scene_features(scene: Scene) -> SceneFeatures:
             add_bounds(robot, obstacles, bounds, outer)
     widest = max((abs(c) for p in robot.vertices + obstacles.vertices for c in p), default=0)
     robot.shift = obstacles.shift = max(0, widest.bit_length() - LARGEST_BITS)
+    shapes = robot, obstacles
+    for shape in shapes:
+        shape.origin = place_near(shape.vertices, scale)
+    widest = max((abs(c - o) for s in shapes for p in s.vertices for c, o in zip(p, s.origin, strict=True)), default=0)
+    robot.near_shift = obstacles.near_shift = max(0, widest.bit_length() - LARGEST_BITS)
     refuse_too_many(robot, obstacles)
     return SceneFeatures(robot, obstacles, scale, rim)
 
@@ -278,6 +313,18 @@ def complement(rings: Sequence[Iterable[Point]], robot: Box, around: Box, scale:
 def box(points: Sequence[Point]) -> Box:
     xs, ys = zip(*points, strict=True)
     return min(xs), min(ys), max(xs), max(ys)
+
+
+def place_near(points: Sequence[Point], scale: int) -> Point:
+    """The middle of points that are far away, in whole units of the user where these are small; else 0."""
+    if not points:
+        return 0, 0
+    x0, y0, x1, y1 = around = box(points)
+    size = max(x1 - x0, y1 - y0)
+    if max(map(abs, around)) <= FAR * size:
+        return 0, 0
+    unit = scale if size > scale else 1
+    return (x0 + x1) // (2 * unit) * unit, (y0 + y1) // (2 * unit) * unit
 
 
 def rectangle(x0: int, y0: int, x1: int, y1: int) -> list[Point]:

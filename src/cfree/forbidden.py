@@ -135,7 +135,7 @@ def _computed(
     start = time.perf_counter()
     with collection_paused():
         features = scene_features(scene)
-        shapes = features.robot.core_shape(), features.obstacles.core_shape()
+        shapes = features.robot.near_shape(), features.obstacles.near_shape()
     prepared = time.perf_counter()
     job = _core.Job(*shapes, threads=threads, regularized=regularized)
     try:
@@ -317,14 +317,21 @@ class Boundary(Value):
 
     @cached_property
     def ruled(self) -> Floats:
+        ruled = self._ruled_near.copy()
+        ruled[:, 0:2] = self.features.obstacles.xy[self.contact_obstacle]
+        ruled[:, 4:6] = self.features.robot.xy[self.contact_robot]
+        ruled.flags.writeable = False
+        return ruled
+
+    @cached_property
+    def _ruled_near(self) -> Floats:
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == VERTEX_EDGE
         i, j = self.contact_robot, self.contact_obstacle
         ruled = np.zeros((len(i), 8))
-        ruled[:, 0:2], ruled[:, 4:6] = b.xy[j], a.xy[i]
-        ruled[on_edge, 2:4] = (b.xy[b.w] - b.xy[b.v])[j[on_edge]]
-        ruled[~on_edge, 6:8] = (a.xy[a.w] - a.xy[a.v])[i[~on_edge]]
-        ruled.flags.writeable = False
+        ruled[:, 0:2], ruled[:, 4:6] = b.near[j], a.near[i]
+        ruled[on_edge, 2:4] = (b.near[b.w] - b.near[b.v])[j[on_edge]]
+        ruled[~on_edge, 6:8] = (a.near[a.w] - a.near[a.v])[i[~on_edge]]
         return ruled
 
     @cached_property
@@ -333,7 +340,7 @@ class Boundary(Value):
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == VERTEX_EDGE
         f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
-        g, f = (a.xy[a.w] - a.xy[a.v])[self.contact_robot], (b.xy[b.w] - b.xy[b.v])[f]
+        g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
         cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
         angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
         return np.where(self.patch_kind == 3, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
@@ -359,7 +366,11 @@ class Boundary(Value):
         -------
         (k, 2) float64
         """
-        s, t, theta = self.ruled[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
+        return self.evaluate_near(patch, t, theta) + self.features.moved(theta)
+
+    def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
+        """The same from the features' frame, which keeps areas and has all digits in scenes that are far away."""
+        s, t, theta = self._ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
         ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
         c, n = np.cos(theta), np.sin(theta)
         x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
@@ -451,9 +462,9 @@ class Boundary(Value):
 
         a, b, t = self.features.robot, self.features.obstacles, self.trapezoids
         return _core.Slicer(
-            a.core_shape(), b.core_shape(), a.xy.ravel(), b.xy.ravel(),
+            a.near_shape(), b.near_shape(), a.near.ravel(), b.near.ravel(),
             self.contact_kind, self.contact_robot, self.contact_obstacle,
-            t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to,
+            t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to, self.features.frame,
         )  # fmt: skip
 
     def save(self, path: str | os.PathLike[str]) -> None:

@@ -62,9 +62,10 @@ def _on_curve(boundary: Boundary, k: int, theta: Floats) -> Floats:
     a, b, p = boundary.features.robot, boundary.features.obstacles, boundary.isolated
     one = slice(k, k + 1)
     at = _core.Slicer(
-        a.core_shape(), b.core_shape(), a.xy.ravel(), b.xy.ravel(),
+        a.near_shape(), b.near_shape(), a.near.ravel(), b.near.ravel(),
         boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
         p.lower_patch[one], p.chart[one], p.lower[one], p.lower[one], p.tau_from[one], p.tau_to[one],
+        boundary.features.frame,
     )  # fmt: skip
     n = len(theta)
     chart = np.full(n, p.chart[k])

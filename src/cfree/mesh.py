@@ -36,7 +36,9 @@ MESH_SUFFIXES = (".glb", ".ply", ".obj", ".stl")
 MOST_TRIANGLES = 10_000_000
 """Larger meshes are refused: they would take some gigabytes."""
 ROUNDING = 1e-10
-"""Errors must be above this part of the largest coordinate: places are computed in doubles."""
+"""Errors must be above this part of the largest coordinate near the obstacles: places are computed in doubles."""
+FINEST = 1e-15
+"""And above this part of all coordinates, to which they are rounded in the end."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,15 +114,16 @@ def triangulated(boundary: Boundary, error: float, angle_scale: float | None) ->
     if not 0 < scale < math.inf:
         raise ValueError(f"angle_scale: {scale}; give a length per radian above 0")
     f, t, c = boundary.features, boundary.trapezoids, boundary.complex
-    size = max(float(np.abs(xy).max(initial=0.0)) for xy in (c.x, c.y))
-    if error < ROUNDING * size:
-        raise UnsupportedError(f"mesh error {error:g}: doubles of {size:g} allow for no less than {ROUNDING * size:g}")
+    x, y = np.ascontiguousarray((c.near + f.moved(c.theta, [0, 0, *f.frame[2:]])).T)  # from the origin of the obstacles
+    size, away = (float(max(np.abs(xy).max(initial=0.0) for xy in pair)) for pair in ((x, y), (c.x, c.y)))
+    if error < (finest := max(ROUNDING * size, FINEST * away)):
+        raise UnsupportedError(f"mesh error {error:g}: doubles of {away:g} allow for no less than {finest:g}")
     try:
         found = _core.mesh(
-            f.robot.core_shape(), f.obstacles.core_shape(), f.robot.xy.ravel(), f.obstacles.xy.ravel(),
+            f.robot.near_shape(), f.obstacles.near_shape(), f.robot.xy.ravel(), f.obstacles.near.ravel(),
             boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
             t.patch, t.chart, t.lower, t.upper,
-            c.first, c.face, c.side, c.twin, c.edge, c.vertex, c.x, c.y, c.theta, c.edges,
+            c.first, c.face, c.side, c.twin, c.edge, c.vertex, x, y, c.theta, c.edges,
             error, scale, MOST_TRIANGLES,
         )  # fmt: skip
     except RuntimeError as fault:
@@ -130,6 +133,7 @@ def triangulated(boundary: Boundary, error: float, angle_scale: float | None) ->
         raise UnsupportedError(_too_many(error, coarsest, expected))
     vertices = xyz.reshape(-1, 3)
     vertices[:, 2] *= scale
+    vertices[:, :2] += f.frame[:2]
     patch = t.patch[trapezoid]
     kind = boundary.patch_kind[patch]
     return Mesh(vertices, corners.reshape(-1, 3), trapezoid, patch, kind, seam.reshape(-1, 2), error, scale, least)

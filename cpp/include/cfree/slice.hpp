@@ -1,6 +1,7 @@
 // A built boundary at one orientation: a look-up, then the contact segments; chained, the outline of the forbidden region.
 // Doubles throughout: what is where was decided before. At a critical angle the slice is that of the orientations just after.
 #pragma once
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -11,10 +12,12 @@ namespace cfree {
 
 class Slicer {
 public:
-    // Coordinates in the user's units; tau limits are the middles of the isolating intervals.
+    // Coordinates in the user's units, from places near by: what comes out is moved by shift[0..1] - R shift[2..3]. Limits of tau
+    // are the middles of the isolating intervals.
     Slicer(std::shared_ptr<const Scene> scene, std::vector<double> robot_xy, std::vector<double> obstacle_xy,
            Patches patches, std::vector<Index> patch, std::vector<std::uint8_t> chart, std::vector<std::uint64_t> lower,
-           std::vector<std::uint64_t> upper, std::vector<double> tau_from, std::vector<double> tau_to);
+           std::vector<std::uint64_t> upper, std::vector<double> tau_from, std::vector<double> tau_to,
+           std::array<double, 4> shift);
 
     struct Segments {
         std::vector<double> xy;         // x0, y0, x1, y1: forbidden on the left
@@ -42,6 +45,8 @@ private:
         double px, py, ux, uy;
     };
     static Turn turn(int chart, double tau);
+    Segments near(int chart, double tau) const;
+    void move(std::vector<double>& xy, Turn r) const;
     Line line(Index patch, Turn r) const;
     struct Meeting {
         double t, sine;  // of the angle between the two lines, at least in size
@@ -57,6 +62,7 @@ private:
     std::vector<std::uint64_t> lower, upper;
     std::vector<double> tau_from, tau_to;
     TauIndex index;
+    std::array<double, 4> shift;
     void step_off_events(int& chart, double& tau) const;
 };
 
