@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from cfree.arguments import checked
 from cfree.half_angle import Angle, normalize_angles, tau_in_chart, theta_in
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 from cfree.verify.algebra import Root
 
 FINE = Fraction(1, 1 << 60)
@@ -30,8 +31,10 @@ class AlgebraicAngle:
         self.chart, self.polynomial, self._root = chart, root.poly, root
 
     @classmethod
-    def of(cls, pose: Pose) -> AlgebraicAngle:
+    @checked
+    def of(cls, pose: PoseLike) -> AlgebraicAngle:
         """The orientation of a pose."""
+        pose = to_pose(pose, "pose")
         chart, local = pose.chart
         return cls(chart, Root.of(local))
 
@@ -56,6 +59,7 @@ class AlgebraicAngle:
         low, high = self._within(FINE)
         return float(normalize_angles(theta_in(self.chart, float((low + high) / 2))))
 
+    @checked
     def neighbours(self, bits: int) -> tuple[Fraction | None, Fraction | None]:
         """Half-angle tangents of rational orientations next to it, clockwise and counter-clockwise.
 
@@ -110,6 +114,7 @@ class AngleInterval:
         """Whether it is one orientation: an exact fit."""
         return self.start is not None and self.start == self.stop
 
+    @checked
     def contains(self, theta: Angle) -> bool:
         """Is an orientation in it? Exact, for the one that `Pose` takes it for."""
         if self.start is None or self.stop is None:

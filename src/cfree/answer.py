@@ -6,6 +6,7 @@ from os import PathLike
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
+from cfree.arguments import checked
 from cfree.path import Path
 from cfree.separated import Separated
 
@@ -13,6 +14,7 @@ if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
 
 
+@checked
 def load_answer(path: str | PathLike[str]) -> Path | Separated:
     """Read a path or a separation from a JSON file.
 

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.errors import InvariantError
 from cfree.trapezoids import COLUMNS, Floats, Ints
 from cfree.value import Value
@@ -92,15 +93,18 @@ class CellComplex(Value):
         """Edges at which more than two faces meet."""
         return np.flatnonzero(np.bincount(self.edge, minlength=self.edges) > 2).astype(np.int32)
 
+    @checked
     def loop(self, face: int) -> range:
         """Coedges around a face, counter-clockwise from the lower end of its first wall."""
         return range(int(self.first[face]), int(self.first[face + 1]))
 
+    @checked
     def before(self, coedge: int) -> int:
         """The coedge before one in its loop."""
         loop = self.loop(int(self.face[coedge]))
         return coedge - 1 if coedge > loop.start else loop.stop - 1
 
+    @checked
     def around_vertex(self, coedge: int) -> Iterator[int]:
         """Coedges that start where this one does, counter-clockwise, seen from the free side.
 
@@ -120,11 +124,13 @@ class CellComplex(Value):
             if h == coedge:
                 return
 
+    @checked
     def at_edge(self, edge: int) -> Ints:
         """Coedges along a geometric edge."""
         order, start = self._by_edge
         return order[start[edge] : start[edge + 1]]
 
+    @checked
     def neighbours(self, face: int) -> Ints:
         """Faces across the coedges of a face, in the order of its loop."""
         loop = self.loop(face)

@@ -20,6 +20,7 @@ from flint import fmpz_poly
 from numpy.typing import NDArray
 
 import cfree
+from cfree.arguments import checked
 from cfree.errors import FormatError, InvalidPoseError, InvariantError
 from cfree.features import BOUNDS, WORKSPACE
 from cfree.forbidden import Boundary
@@ -27,7 +28,7 @@ from cfree.free import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.half_angle import chart_of, tau_in_chart
 from cfree.path import Objective, Path
-from cfree.pose import Pose, Poses
+from cfree.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
 from cfree.trapezoids import COLUMNS, Floats, Ints, Trapezoids
 from cfree.value import Value
@@ -209,6 +210,7 @@ class FreeSpace(Value):
         start = np.mod(low, math.tau)
         return list(zip(start.tolist(), (start + (high - low)).tolist(), strict=True))
 
+    @checked
     def faces(self, cell: int) -> Ints:
         """Trapezoids of `walls` that bound a cell."""
         return np.flatnonzero(self.cell_of[self.component] == range(len(self))[cell]).astype(np.int32)
@@ -243,11 +245,13 @@ class FreeSpace(Value):
 
         return trapezoid_integrals(walls, along_t)
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write scene, boundary and nesting to one file, all of it or nothing; `load` reads it, `load_boundary` too."""
         save_boundary(self.boundary, path, {f"cells_{name}": getattr(self, name) for name in CELL_COLUMNS})
 
     @classmethod
+    @checked
     def load(cls, path: str | os.PathLike[str]) -> FreeSpace:
         """Read what `save` has written.
 
@@ -264,15 +268,16 @@ class FreeSpace(Value):
         return space
 
     @overload
-    def locate(self, poses: Pose, *, threads: int | None = None) -> int: ...
+    def locate(self, poses: OnePose, *, threads: int | None = None) -> int: ...
     @overload
-    def locate(self, poses: Poses | Iterable[Pose], *, threads: int | None = None) -> Ints: ...
-    def locate(self, poses: Pose | Poses | Iterable[Pose], *, threads: int | None = None) -> int | Ints:
+    def locate(self, poses: Poses | Iterable[PoseLike], *, threads: int | None = None) -> Ints: ...
+    @checked
+    def locate(self, poses: OnePose | Poses | Iterable[PoseLike], *, threads: int | None = None) -> int | Ints:
         """Cell of each pose, exactly.
 
         Parameters
         ----------
-        poses : Pose, Poses or sequence of Pose
+        poses : Pose or (x, y, theta), Poses, or sequence of the former
             The doubles of `Poses` are taken as they are: the orientation is that of the rounded tangent of its half.
         threads : int, optional
             All cores by default. The result does not depend on it.
@@ -290,10 +295,11 @@ class FreeSpace(Value):
         """
         if threads is not None and threads < 1:
             raise ValueError(f"threads: {threads}; give at least 1")
-        if isinstance(poses, Pose):
-            return self._locate(poses)
+        if (pose := one_pose(poses, "poses")) is not None:
+            return self._locate(pose)
         if not isinstance(poses, Poses):
-            return np.array([self._locate(pose) for pose in poses], np.int32)
+            many = [to_pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)]  # type: ignore[arg-type]
+            return np.array([self._locate(pose) for pose in many], np.int32)
         found = np.full(len(poses), FORBIDDEN, np.int32)
         for k in range(0, len(poses), BLOCK):
             xy, theta = poses.xy[k : k + BLOCK], poses.theta[k : k + BLOCK]
@@ -310,8 +316,9 @@ class FreeSpace(Value):
             found[k + asked] = cell
         return found
 
+    @checked
     def plan(
-        self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
+        self, start: PoseLike, goal: PoseLike, *, improve: float | None = None, objective: Objective = "short"
     ) -> Path | cfree.Separated:
         """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
 
@@ -319,6 +326,8 @@ class FreeSpace(Value):
         -----
         Which of the two it is takes two calls of `locate`, unless exact fits join cells.
         """
+        start = to_pose(start, "start")
+        goal = to_pose(goal, "goal")
         return self.planner.plan(start, goal, improve=improve, objective=objective)
 
     @cached_property
@@ -341,20 +350,27 @@ class FreeSpace(Value):
         place = int(pose.x * unit) * scale, int(pose.y * unit) * scale, unit, tau.numerator, tau.denominator
         return place, chart
 
-    def nearby(self, pose: Pose) -> Nearby:
+    @checked
+    def nearby(self, pose: PoseLike) -> Nearby:
         """The trapezoids of `walls` that hold a pose, and those that a ray from it crosses; exactly."""
+        pose = to_pose(pose, "pose")
         return Nearby(*self._rays.nearby(*self._place(pose)))
 
-    def common_cell(self, start: Pose, goal: Pose) -> int | None:
+    @checked
+    def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
         """The cell that both are in."""
+        start = to_pose(start, "start")
+        goal = to_pose(goal, "goal")
         first, second = self._locate(start), self._locate(goal)
         return first if first == second >= 0 else None
 
+    @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
         """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
         low, p, high, q = self._rays.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
 
+    @checked
     def critical_angle(self, table: Trapezoids, k: int, last: bool, contact: tuple[int, int, int]) -> Fraction | None:
         """tau of the first or last angle of row k, named on the surface of a contact, if it is rational."""
         end = "to" if last else "from"
@@ -372,7 +388,8 @@ class FreeSpace(Value):
                     return tau
         return None
 
-    def reachable(self, start: Pose) -> Cell:
+    @checked
+    def reachable(self, start: PoseLike) -> Cell:
         """The cell that a start is in or on the boundary of: what the robot can reach from there.
 
         Every pose of a cell can be reached from every other without touching anything on the way. By sliding through a
@@ -393,6 +410,7 @@ class FreeSpace(Value):
         >>> space.reachable(Pose(1, 1)).index == space.reachable(Pose(1, 5)).index != space.reachable(Pose(6, 1)).index
         True
         """
+        start = to_pose(start, "start")
         from cfree.invalid import require_free
 
         require_free(self.boundary, start, "start")
@@ -422,6 +440,7 @@ class FreeSpace(Value):
         return {}
 
 
+@checked
 def free_space(boundary: Boundary) -> FreeSpace:
     """Cells of the free space of a boundary.
 

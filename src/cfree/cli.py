@@ -212,8 +212,8 @@ def plan(
         from cfree.errors import IncompleteError
         from cfree.path import Path as Motions
         from cfree.path import form_of
-        from cfree.planning.planner import required
         from cfree.report import answer_facts, answer_rows, print_rows
+        from cfree.scene import required
 
         written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
         kind = form_of(output, form) if output else "json"

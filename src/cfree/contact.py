@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from cfree.arguments import checked
 from cfree.exact import IntPoint, angle
 from cfree.half_angle import normalize_angles
 from cfree.polygon import Polygon
@@ -33,6 +34,7 @@ from cfree.predicates import (
 )
 
 
+@checked
 @dataclass(frozen=True, slots=True, order=True)
 class VertexEdge:
     """Vertex a_i of the robot on edge E_j of the obstacle."""
@@ -41,6 +43,7 @@ class VertexEdge:
     j: int
 
 
+@checked
 @dataclass(frozen=True, slots=True, order=True)
 class EdgeVertex:
     """Edge E_i of the robot on vertex b_j of the obstacle."""
@@ -49,6 +52,7 @@ class EdgeVertex:
     j: int
 
 
+@checked
 @dataclass(frozen=True, slots=True, order=True)
 class VertexVertex:
     """Vertex a_i of the robot at vertex b_j of the obstacle."""
@@ -57,6 +61,7 @@ class VertexVertex:
     j: int
 
 
+@checked
 @dataclass(frozen=True, slots=True, order=True)
 class EdgeEdge:
     """Edge E_i of the robot along edge E_j of the obstacle."""
@@ -105,6 +110,7 @@ class AngleRange:
             return ((self.phi_min, self.phi_max),)
         return ((self.phi_min, 2 * math.pi), (0.0, self.phi_max - 2 * math.pi))
 
+    @checked
     def locate(self, direction: Vector) -> Location:
         """Is the angle of (cos phi, sin phi), exact up to length, inside the range, at an end or outside?"""
         if self.phi_range == 0:
@@ -113,6 +119,7 @@ class AngleRange:
         return locate_in_sector(direction, self.start, self.end)
 
 
+@checked
 def contacts(robot: Polygon, obstacle: Polygon) -> tuple[VertexEdge | EdgeVertex, ...]:
     """All v-e and e-v pairs that have a contact patch: those at convex vertices.
 
@@ -129,6 +136,7 @@ def contacts(robot: Polygon, obstacle: Polygon) -> tuple[VertexEdge | EdgeVertex
     )
 
 
+@checked
 def contact_curves(robot: Polygon, obstacle: Polygon) -> tuple[VertexVertex | EdgeEdge, ...]:
     """All v-v pairs that have a helix and all e-e pairs that have a segment.
 
@@ -145,6 +153,7 @@ def contact_curves(robot: Polygon, obstacle: Polygon) -> tuple[VertexVertex | Ed
     )
 
 
+@checked
 def angle_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> AngleRange:
     """Orientations at which a contact type is a contact.
 
@@ -198,6 +207,7 @@ def end_directions(robot: Polygon, obstacle: Polygon, contact: Contact) -> tuple
     return _ends(robot, obstacle, contact)
 
 
+@checked
 def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[float, float] | None:
     """Closed range of t on the segment C(t) of an e-e contact, None if it is empty.
 

@@ -18,7 +18,7 @@ from cfree.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.forbidden import Boundary, boundary
 from cfree.half_angle import normalize_angles, tau_in_chart
 from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.scene import Scene, polygons_of
 from cfree.trapezoids import Trapezoids
 from cfree.verify.algebra import Root, between
 from cfree.verify.algebra import part as set_apart
@@ -84,7 +84,8 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     >>> fits(wider, square)
     ()
     """
-    return Orientations(boundary(Scene(part, workspace=hole))).fits()
+    scene = Scene(polygons_of(part, "part"), workspace=polygons_of(hole, "hole"))
+    return Orientations(boundary(scene)).fits()
 
 
 @dataclass(frozen=True, eq=False)

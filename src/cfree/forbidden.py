@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 import cfree
+from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import IncompleteError, InvariantError
 from cfree.features import BOUNDS, SceneFeatures, scene_features
@@ -60,6 +61,7 @@ class Stats:
     seconds: dict[str, float] = field(compare=False)
 
 
+@checked
 def boundary(
     scene: Scene,
     *,
@@ -307,10 +309,12 @@ class Boundary(Value):
         self.require_complete()
         return _computed(self.scene, True, os.cpu_count() or 1)
 
+    @checked
     def isolated_part(self, k: int) -> IsolatedPart:
         """Isolated part k with its curves and angles named."""
         return IsolatedPart.of(self, range(len(self.isolated))[k])
 
+    @checked
     def trapezoid(self, k: int) -> Trapezoid:
         """Trapezoid k with its curves and angles named."""
         return Trapezoid.of(self, range(len(self.trapezoids))[k])
@@ -353,6 +357,7 @@ class Boundary(Value):
         turning = np.where(self.contact_kind == VERTEX_EDGE, at_robot, at_obstacle)
         return np.where(self.patch_kind == 3, 2 * np.pi, turning)
 
+    @checked
     def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
         """Reference point S(t, theta) on patches, eqs. (5) and (8).
 
@@ -376,6 +381,7 @@ class Boundary(Value):
         x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
         return np.stack([x, y], axis=-1)
 
+    @checked
     def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:
         """Limits of t of trapezoids at orientations within them.
 
@@ -395,6 +401,7 @@ class Boundary(Value):
         self.slicer.limits(chosen, chart.astype(np.int32), tau, lower, upper)
         return lower, upper
 
+    @checked
     def slice(self, theta: Angle) -> cfree.Slice:
         """The contact segments at one orientation.
 
@@ -416,6 +423,7 @@ class Boundary(Value):
         self.require_complete()
         return Slice(self, theta)
 
+    @checked
     def mesh(self, error: float, *, angle_scale: float | None = None) -> cfree.Mesh:
         """Closed triangle meshes within a stated distance of the boundary.
 
@@ -467,6 +475,7 @@ class Boundary(Value):
             t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to, self.features.frame,
         )  # fmt: skip
 
+    @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write scene and boundary to one file, all of it or nothing; `load_boundary` reads it."""
         from cfree.storage import save_boundary

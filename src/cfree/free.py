@@ -8,17 +8,19 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import InvalidPoseError
 from cfree.features import SceneFeatures, scene_features
 from cfree.forbidden import Boundary
-from cfree.pose import Floats, Pose, Poses
+from cfree.pose import Floats, OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.scene import Scene
 from cfree.value import Value
 
@@ -30,11 +32,14 @@ Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | 
 
 
 @overload
-def is_free(scene: Scene | Boundary, poses: Pose, *, threads: int | None = None) -> bool: ...
+def is_free(scene: Scene | Boundary, poses: OnePose, *, threads: int | None = None) -> bool: ...
 @overload
-def is_free(scene: Scene | Boundary, poses: Poses | ArrayLike, *, threads: int | None = None) -> NDArray[np.bool_]: ...
 def is_free(
-    scene: Scene | Boundary, poses: Pose | Poses | ArrayLike, *, threads: int | None = None
+    scene: Scene | Boundary, poses: Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+) -> NDArray[np.bool_]: ...
+@checked
+def is_free(
+    scene: Scene | Boundary, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
 ) -> bool | NDArray[np.bool_]:
     """Are poses free? Exact; touching is free, because the forbidden space is open.
 
@@ -42,7 +47,7 @@ def is_free(
     ----------
     scene : Scene or Boundary
         A boundary is asked for its scene only; what has been prepared is kept with it. `Checker` keeps it for a scene.
-    poses : Pose, Poses, or (n, 3) float64
+    poses : Pose or (x, y, theta), Poses, sequence of the former, or (n, 3) float64
         Columns x, y, theta in radians. Row k means the exact pose ``Poses(...)[k]``: x and y are the numbers that the
         doubles are, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
     threads : int, optional
@@ -78,6 +83,7 @@ def is_free(
     return checker.is_free(poses, threads=threads)
 
 
+@checked
 class Checker(Value):
     """A scene prepared for many calls of `is_free`.
 
@@ -112,15 +118,22 @@ class Checker(Value):
         return (self.scene,)
 
     @overload
-    def is_free(self, poses: Pose, *, threads: int | None = None) -> bool: ...
+    def is_free(self, poses: OnePose, *, threads: int | None = None) -> bool: ...
     @overload
-    def is_free(self, poses: Poses | ArrayLike, *, threads: int | None = None) -> NDArray[np.bool_]: ...
-    def is_free(self, poses: Pose | Poses | ArrayLike, *, threads: int | None = None) -> bool | NDArray[np.bool_]:
+    def is_free(
+        self, poses: Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+    ) -> NDArray[np.bool_]: ...
+    @checked
+    def is_free(
+        self, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+    ) -> bool | NDArray[np.bool_]:
         """See `cfree.is_free`."""
         if threads is not None and threads < 1:
             raise ValueError(f"threads: {threads}; give at least 1")
-        if isinstance(poses, Pose):
-            return self._is_free_exactly(poses)
+        if (pose := one_pose(poses, "poses")) is not None:
+            return self._is_free_exactly(pose)
+        if isinstance(poses, list | tuple) and not _is_table(poses):
+            return np.array([self._is_free_exactly(to_pose(pose, f"poses[{k}]")) for k, pose in enumerate(poses)], bool)
         table = _table(poses)
         verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
@@ -128,6 +141,7 @@ class Checker(Value):
         free: NDArray[np.bool_] = verdicts == FREE
         return free
 
+    @checked
     def verdicts(self, table: Floats, threads: int | None = None) -> NDArray[np.uint8]:
         """FORBIDDEN or FREE where doubles say so with certainty, else UNCERTAIN; rows x, y and theta in [0, 2 pi)."""
         verdicts = np.empty(len(table), np.uint8)
@@ -136,6 +150,7 @@ class Checker(Value):
             self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
         return verdicts
 
+    @checked
     def sweep_is_free(self, start: ArrayLike, by: ArrayLike) -> bool:
         """Are all poses free while x, y and theta change evenly? Certainly if True; False may mean too close to tell.
 
@@ -172,7 +187,12 @@ class Checker(Value):
         return free
 
 
-def _table(poses: Poses | ArrayLike) -> Floats:
+def _is_table(rows: Sequence[Any]) -> bool:
+    """Are these rows of plain numbers, which are poses in double precision?"""
+    return all(isinstance(row, Sequence | np.ndarray) and all(isinstance(c, int | float) for c in row) for row in rows)
+
+
+def _table(poses: Any) -> Floats:
     """Rows x, y, theta of finite numbers, theta in [0, 2 pi)."""
     if isinstance(poses, Poses):
         return np.column_stack([poses.xy, poses.theta])

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.features import BOUNDS, WORKSPACE
 from cfree.forbidden import Boundary
 from cfree.free import Checker
 from cfree.motion import Translation
 from cfree.motion_check import MotionChecker
-from cfree.pose import Pose, Poses
+from cfree.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene import Scene
 
 if TYPE_CHECKING:
@@ -24,13 +25,14 @@ NEAREST, FARTHEST = 1e-6, 10.0  # these radii, in lengths of the robot
 TURNS = (0.0, 1.0, -1.0, 5.0, -5.0, 15.0, -15.0, 45.0, -45.0, 90.0, -90.0, 180.0)  # degrees
 
 
-def require_free(scene: Scene | Boundary | Checker, pose: Pose, name: str = "pose") -> None:
+@checked
+def require_free(scene: Scene | Boundary | Checker, pose: PoseLike, name: str = "pose") -> None:
     """See that a pose is free, exactly.
 
     Parameters
     ----------
     scene : Scene, Boundary or Checker
-    pose : Pose
+    pose : Pose or (x, y, theta)
     name : str, optional
         What the message calls it.
 
@@ -50,6 +52,7 @@ def require_free(scene: Scene | Boundary | Checker, pose: Pose, name: str = "pos
     cfree.errors.InvalidPoseError: start (1.25, 2, 0 deg) is forbidden: robot part 0 overlaps obstacle 0; \
 (0.96, 2, 0 deg) is free and near by
     """
+    pose = to_pose(pose, "pose")
     checker = scene if isinstance(scene, Checker) else scene.checker if isinstance(scene, Boundary) else Checker(scene)
     if checker.is_free(pose):
         return
@@ -59,7 +62,8 @@ def require_free(scene: Scene | Boundary | Checker, pose: Pose, name: str = "pos
     raise InvalidPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
 
 
-def free_nearby(scene: Scene | Checker, pose: Pose) -> Pose | None:
+@checked
+def free_nearby(scene: Scene | Checker, pose: PoseLike) -> Pose | None:
     """A free pose that is near another one, of few digits; not the nearest.
 
     Returns
@@ -75,6 +79,7 @@ def free_nearby(scene: Scene | Checker, pose: Pose) -> Pose | None:
     >>> float(found.x), float(found.y), found.tau
     (0.96, 2.0, Fraction(0, 1))
     """
+    pose = to_pose(pose, "pose")
     checker = scene if isinstance(scene, Checker) else Checker(scene)
     length = max(float(np.ptp(part.vertices, axis=0).max()) for part in checker.scene.robot)
     offsets = [_circle(NEAREST * length * GROWTH**k, length) for k in range(_circles())]

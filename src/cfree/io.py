@@ -15,6 +15,7 @@ from fractions import Fraction
 from os import PathLike
 from pathlib import Path
 
+from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import UnsupportedError
 from cfree.exact import MAX_DIGITS
@@ -29,6 +30,7 @@ from cfree.scene import Scene, default_name
 _TEXTS = ("name", "note", "units", "source")
 
 
+@checked
 def load_scene(path: str | PathLike[str]) -> Scene:
     """Read a scene from a JSON scene, a GeoJSON or a WKT file.
 
@@ -85,6 +87,7 @@ def scene_from_text(name: str, text: str) -> Scene:
     return scene_from_json(findings, read_json(findings))
 
 
+@checked
 def load_polygons(path: str | PathLike[str]) -> tuple[Polygon, ...]:
     """Read the polygons of a GeoJSON or a WKT file, whatever their roles, in the order of the file.
 

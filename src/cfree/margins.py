@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from cfree.arguments import checked
 from cfree.cells import FreeSpace, free_space
 from cfree.exact import ExactPoint
 from cfree.forbidden import boundary
@@ -18,8 +19,8 @@ from cfree.grown import FARTHEST_OUT, grown
 from cfree.inset import inset, insets_of, size_power, with_robot
 from cfree.pinch import Pinch, pinches
 from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.pose import PoseLike
+from cfree.scene import Scene, required
 
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried
@@ -61,15 +62,21 @@ class NearestMiss:
         return f"{size}: about {2 * self.hi:.2g} too wide {places}"
 
 
+@checked
 def nearest_miss(
-    scene: Scene, start: Pose, goal: Pose, tolerance: float = 0.01, progress: Progress | None = None
+    scene: Scene,
+    start: PoseLike | None = None,
+    goal: PoseLike | None = None,
+    tolerance: float = 0.01,
+    progress: Progress | None = None,
 ) -> NearestMiss | None:
     """How far the robot is from getting through: the smallest inset that joins two separated poses, and where.
 
     Parameters
     ----------
     scene : Scene
-    start, goal : Pose
+    start, goal : Pose or (x, y, theta), optional
+        Those of the scene unless given.
     tolerance : float
         How far apart the ends of the interval may be, relative to them.
     progress : callable, optional
@@ -99,6 +106,7 @@ def nearest_miss(
     >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.pinches[0].obstacles)
     (True, [0, 1])
     """
+    start, goal = required(scene, start, goal)
     _check(tolerance)
     if _space(scene).common_cell(start, goal) is not None:
         raise ValueError("start and goal are joined: nothing is missing")
@@ -127,8 +135,13 @@ def nearest_miss(
     return NearestMiss(float(lo), float(hi), pinches(one, other, start, goal))
 
 
+@checked
 def max_scale(
-    scene: Scene, start: Pose, goal: Pose, tolerance: float = 0.01, progress: Progress | None = None
+    scene: Scene,
+    start: PoseLike | None = None,
+    goal: PoseLike | None = None,
+    tolerance: float = 0.01,
+    progress: Progress | None = None,
 ) -> Interval:
     """How large the robot may be: the factor about its reference point up to which a motion exists.
 
@@ -157,6 +170,7 @@ def max_scale(
     >>> found.lo <= 1 <= found.hi <= 1.01 * found.lo
     True
     """
+    start, goal = required(scene, start, goal)
     _check(tolerance)
 
     def is_joined(scale: Fraction) -> bool:
@@ -169,8 +183,13 @@ def max_scale(
     return Interval(float(lo), float(hi) if hi else math.inf)
 
 
+@checked
 def max_margin(
-    scene: Scene, start: Pose, goal: Pose, tolerance: float = 0.01, progress: Progress | None = None
+    scene: Scene,
+    start: PoseLike | None = None,
+    goal: PoseLike | None = None,
+    tolerance: float = 0.01,
+    progress: Progress | None = None,
 ) -> Interval:
     """How far from everything a motion can stay: the largest uniform clearance to obstacles and workspace.
 
@@ -203,6 +222,7 @@ def max_margin(
     >>> found.lo < 1 - 2**0.5 / 8 < found.hi < 1.08 * found.lo      # the triangle's height is 2**0.5 / 4
     True
     """
+    start, goal = required(scene, start, goal)
     _check(tolerance)
     if _space(scene).common_cell(start, goal) is None:
         raise ValueError("start and goal are not joined without touching; see cfree.nearest_miss")

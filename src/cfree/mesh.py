@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.files import checked_suffix, replacing
 from cfree.value import Value
@@ -160,6 +161,7 @@ def robot_radius(scene: Scene) -> float:
     return max(math.hypot(x, y) for part in scene.robot for x, y in part.vertices.tolist())
 
 
+@checked
 def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     """Write a mesh to a file, whole or not at all.
 

@@ -18,11 +18,12 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.exact import angle as angle_of
 from cfree.half_angle import Angle, number_of_degrees
-from cfree.pose import Pose, Poses
+from cfree.pose import Pose, PoseLike, Poses, to_pose
 from cfree.slide import Slide
 
 Floats = NDArray[np.float64]
@@ -70,18 +71,24 @@ class Translation:
         """The whole motion as an element of SE(2)."""
         return Pose(*self.vector)
 
-    def apply(self, pose: Pose) -> Pose:
+    @checked
+    def apply(self, pose: PoseLike) -> Pose:
         """Where a pose ends, exactly."""
+        pose = to_pose(pose, "pose")
         return self.displacement @ pose
 
-    def at(self, pose: Pose, u: Number) -> Pose:
+    @checked
+    def at(self, pose: PoseLike, u: Number) -> Pose:
         """Where a pose is at the parameter u in [0, 1], exactly."""
+        pose = to_pose(pose, "pose")
         return self.until(u).apply(pose)
 
+    @checked
     def until(self, u: Number) -> Translation:
         """The motion as far as u."""
         return self.between(0, u)
 
+    @checked
     def between(self, u: Number, v: Number) -> Translation:
         """The part of the motion from u to v."""
         share = to_fraction(v) - to_fraction(u)
@@ -91,8 +98,10 @@ class Translation:
         """The way back."""
         return Translation((-self.vector[0], -self.vector[1]))
 
-    def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
+    @checked
+    def sample(self, pose: PoseLike, shares: ArrayLike) -> Poses:
         """Poses at shares of the length, (n,), in double precision."""
+        pose = to_pose(pose, "pose")
         s = np.asarray(shares, dtype=np.float64)
         start, vector = np.array([float(pose.x), float(pose.y)]), np.array([float(v) for v in self.vector])
         return Poses(start + s[:, None] * vector, np.full(len(s), pose.theta))
@@ -136,7 +145,10 @@ class Rotation:
     angle_error: float = field(compare=False)
 
     def __init__(self, pole: tuple[Number, Number], angle: Angle) -> None:
-        turned = Pose(0, 0, angle)
+        try:
+            turned = Pose(0, 0, angle)
+        except InvalidPoseError as error:
+            raise InvalidPoseError(str(error).replace("theta", "angle", 1).replace("tau", "angle: tau", 1)) from None
         if isinstance(angle, Mapping):
             clockwise = angle["tau"] in ("-inf", -math.inf) if turned.tau is None else turned.tau < 0
         else:
@@ -148,9 +160,14 @@ class Rotation:
             object.__setattr__(self, name, value)
 
     @property
-    def turn(self) -> float:
+    def angle(self) -> float:
         """Signed angle in radians, in [-pi, pi]."""
         return 2 * angle_of(*self.half)
+
+    @property
+    def turn(self) -> float:
+        """The same, as of every motion."""
+        return self.angle
 
     @property
     def half(self) -> tuple[int, int]:
@@ -166,14 +183,19 @@ class Rotation:
         ((x, y),) = turned.apply_exact([self.pole])
         return Pose(self.pole[0] - x, self.pole[1] - y, {"tau": self.tau})
 
-    def apply(self, pose: Pose) -> Pose:
+    @checked
+    def apply(self, pose: PoseLike) -> Pose:
         """Where a pose ends, exactly."""
+        pose = to_pose(pose, "pose")
         return self.displacement @ pose
 
-    def at(self, pose: Pose, u: Number) -> Pose:
+    @checked
+    def at(self, pose: PoseLike, u: Number) -> Pose:
         """Where a pose is at the parameter u in [0, 1], exactly."""
+        pose = to_pose(pose, "pose")
         return self.until(u).apply(pose)
 
+    @checked
     def until(self, u: Number) -> Rotation:
         """The motion as far as u."""
         share, (q, p) = to_fraction(u), self.half
@@ -182,6 +204,7 @@ class Rotation:
             return Rotation(self.pole, {"tau": sine / cosine})
         return Rotation(self.pole, {"tau": "-inf" if sine < 0 else "inf"})
 
+    @checked
     def between(self, u: Number, v: Number) -> Rotation:
         """The part of the motion from u to v."""
         (q0, p0), (q1, p1) = self.until(u).half, self.until(v).half
@@ -200,8 +223,10 @@ class Rotation:
             return Rotation(self.pole, {"tau": "inf" if self.clockwise else "-inf"})
         return Rotation(self.pole, {"tau": -self.tau})
 
-    def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
+    @checked
+    def sample(self, pose: PoseLike, shares: ArrayLike) -> Poses:
         """Poses at shares of the angle, (n,), in double precision, as precise near a pole as far away from it."""
+        pose = to_pose(pose, "pose")
         s, half = np.asarray(shares, dtype=np.float64), 0.5 * self.turn
         end = self.apply(pose)
         x, y = float(end.x - pose.x), float(end.y - pose.y)
@@ -215,7 +240,8 @@ class Rotation:
 Motion = Translation | Rotation | Slide
 
 
-def motion_between(a: Pose, b: Pose) -> Translation | Rotation:
+@checked
+def motion_between(a: PoseLike, b: PoseLike) -> Translation | Rotation:
     """The translation from one pose to another, or the rotation by at most half a turn: Chasles.
 
     Examples
@@ -223,6 +249,8 @@ def motion_between(a: Pose, b: Pose) -> Translation | Rotation:
     >>> motion_between(Pose(1, 0), Pose(0, 1, "90deg"))
     Rotation(pole=(Fraction(0, 1), Fraction(0, 1)), tau=Fraction(1, 1), clockwise=False, angle_error=0.0)
     """
+    a = to_pose(a, "a")
+    b = to_pose(b, "b")
     dx, dy = b.x - a.x, b.y - a.y
     if a.tau == b.tau:
         return Translation((dx, dy))
@@ -233,6 +261,7 @@ def motion_between(a: Pose, b: Pose) -> Translation | Rotation:
     return Rotation(pole, {"tau": Fraction(sine, cosine) if cosine else None})
 
 
+@checked
 def rotations(pole: tuple[Number, Number], angle: Number) -> tuple[Rotation, ...]:
     """A turn of any size about a pole, as rotations of at most half a turn each, all of one direction.
 

@@ -12,12 +12,13 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Any
 
+from cfree.arguments import checked
 from cfree.contact import EdgeVertex, VertexEdge
 from cfree.errors import UnsupportedError
 from cfree.exact import common_denominator
 from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
 from cfree.motion import Motion, Rotation, Translation, motion_between
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 from cfree.rational.surd import Surd
 from cfree.scene import Scene
 from cfree.slide import Slide
@@ -48,6 +49,7 @@ class FirstContact:
     contact: VertexEdge | EdgeVertex | None
 
 
+@checked
 class MotionChecker(Value):
     """Exact checks of many motions in one scene.
 
@@ -92,7 +94,8 @@ class MotionChecker(Value):
         """The core's integers are coordinates times the first, its doubles those halved as often as the second says."""
         return self.features.scale, self.features.robot.shift
 
-    def is_free(self, pose: Pose, motion: Motion) -> bool:
+    @checked
+    def is_free(self, pose: PoseLike, motion: Motion) -> bool:
         """Is every pose of a motion free? Exact; touching is free, also all the way.
 
         Examples
@@ -106,21 +109,25 @@ class MotionChecker(Value):
         >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
         False
         """
+        pose = to_pose(pose, "pose")
         if self._outside(pose) is not None:
             return False
         if isinstance(motion, Slide):
             return bool(self.core.is_slide_free(self._slide_integers(pose, motion)))
         return bool(self.core.is_free(*self._integers(pose, motion)))
 
+    @checked
     def joins(self, poses: Sequence[Pose]) -> bool:
         """Are the motions from each of these poses to the next free, as of `motion_between`?"""
         return all(self.is_free(a, motion_between(a, b)) for a, b in pairwise(poses))
 
+    @checked
     def first_free(self, ways: Iterable[Sequence[Pose]]) -> Sequence[Pose] | None:
         """The first of some ways, each given by poses, that is free."""
         return next(filter(self.joins, ways), None)
 
-    def first_contact(self, pose: Pose, motion: Translation | Rotation) -> FirstContact | None:
+    @checked
+    def first_contact(self, pose: PoseLike, motion: Translation | Rotation) -> FirstContact | None:
         """Where a motion becomes forbidden for the first time; None if it is free.
 
         Raises
@@ -128,6 +135,7 @@ class MotionChecker(Value):
         UnsupportedError
             For slides: where they end is known by `is_free` of parts of them only.
         """
+        pose = to_pose(pose, "pose")
         if isinstance(motion, Slide):
             raise UnsupportedError("a slide has no first contact; ask is_free for parts of it, as of Slide.between")
         if (outside := self._outside(pose)) is not None:
@@ -184,7 +192,8 @@ class MotionChecker(Value):
         return turns, (*pose.rotation, x, y, unit, along, across, *half)
 
 
-def is_free_motion(scene: Scene, pose: Pose, motion: Motion) -> bool:
+@checked
+def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
     """Is every pose of a motion free? Exact; for many motions in one scene use a `MotionChecker`.
 
     Examples
@@ -198,10 +207,12 @@ def is_free_motion(scene: Scene, pose: Pose, motion: Motion) -> bool:
     >>> is_free_motion(scene, Pose("0.6", 0), Rotation(("0.6", 0), "90deg"))
     False
     """
+    pose = to_pose(pose, "pose")
     return MotionChecker(scene).is_free(pose, motion)
 
 
-def first_contact(scene: Scene, pose: Pose, motion: Translation | Rotation) -> FirstContact | None:
+@checked
+def first_contact(scene: Scene, pose: PoseLike, motion: Translation | Rotation) -> FirstContact | None:
     """Where a motion becomes forbidden for the first time; None if it is free.
 
     Examples
@@ -214,6 +225,7 @@ def first_contact(scene: Scene, pose: Pose, motion: Translation | Rotation) -> F
     >>> print(found.at, found.contact)
     1/3 VertexEdge(i=2, j=0)
     """
+    pose = to_pose(pose, "pose")
     return MotionChecker(scene).first_contact(pose, motion)
 
 

@@ -17,12 +17,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.errors import UnsupportedError
 from cfree.exact import Number, to_fraction
 from cfree.files import replacing
 from cfree.motion import Motion, Rotation, Translation
 from cfree.motion_check import MotionChecker
-from cfree.pose import Pose, Poses
+from cfree.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene import Scene
 from cfree.slide import Slide
 from cfree.stamp import Stamp, stamp_for
@@ -58,13 +59,14 @@ class Clearance:
     obstacle: tuple[int, int]
 
 
+@checked
 @dataclass(frozen=True, repr=False)
 class Path:
     """A start and motions.
 
     Parameters
     ----------
-    start : Pose
+    start : Pose or (x, y, theta)
     motions : sequence of Translation, Rotation or Slide
         In world coordinates, applied one after the other.
     units : str, optional
@@ -93,14 +95,14 @@ class Path:
 
     def __init__(
         self,
-        start: Pose,
+        start: PoseLike,
         motions: Iterable[Motion],
         units: str = "",
         frame: str = "world",
         scene: Scene | None = None,
         stamp: Stamp | None = None,
     ) -> None:
-        values = (start, tuple(motions), units, frame, scene, stamp)
+        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp)
         for name, value in zip(("start", "motions", "units", "frame", "scene", "stamp"), values, strict=True):
             object.__setattr__(self, name, value)
 
@@ -131,6 +133,7 @@ class Path:
         """All angles turned, without signs, in radians."""
         return math.fsum(abs(motion.turn) for motion in self.motions)
 
+    @checked
     def at(self, position: Number) -> Pose:
         """Exact pose at a position: k + u is the parameter u of motion k, whole numbers the poses between motions.
 
@@ -146,6 +149,7 @@ class Path:
         k = min(math.floor(exact), max(len(self.motions) - 1, 0))
         return self.motions[k].at(self.poses[k], exact - k) if self.motions else self.start
 
+    @checked
     def after(self, distance: float, angle_scale: float = 1.0) -> Pose:
         """A pose after a distance along the path: travel of the reference point, and turning times `angle_scale`.
 
@@ -172,6 +176,7 @@ class Path:
         share = (distance - float(until[k])) / lengths[k]
         return self.motions[k].at(self.poses[k], _parameter(self.motions[k], share))
 
+    @checked
     def sample(self, step: float, turn: float = math.radians(5)) -> Poses:
         """Poses along the path, the ends of all motions among them.
 
@@ -196,6 +201,7 @@ class Path:
             parts.append(motion.sample(pose, shares))
         return Poses(np.concatenate([p.xy for p in parts]), np.concatenate([p.theta for p in parts]))
 
+    @checked
     def angles(self, step: float, turn: float = math.radians(5)) -> Floats:
         """Theta of the same poses, counted on from the start's and not wrapped.
 
@@ -213,6 +219,7 @@ class Path:
             counted = end
         return np.concatenate(parts)
 
+    @checked
     def shares(self, step: float, turn: float = math.radians(5)) -> list[Floats]:
         """For each motion the shares of it, above 0 and up to 1, at which `sample` takes poses."""
         if not (step > 0 and turn > 0):
@@ -223,6 +230,7 @@ class Path:
             found.append(np.arange(1, count + 1) / count)
         return found
 
+    @checked
     def is_free(self, checker: MotionChecker) -> bool:
         """Is every pose on the path free? Exact.
 
@@ -237,6 +245,7 @@ class Path:
         motions = self.motions or (Translation((0, 0)),)
         return all(checker.is_free(pose, motion) for pose, motion in zip(self.poses, motions, strict=False))
 
+    @checked
     def clearance(self, scene: Scene, tolerance: float | None = None) -> Clearance | None:
         """The least distance to obstacles and workspace, with a certified lower bound.
 
@@ -276,6 +285,7 @@ class Path:
 
         return least_clearance(self, walls_beside(self, scene), tolerance)
 
+    @checked
     def save(
         self,
         path: str | PathLike[str],

@@ -8,6 +8,7 @@ from fractions import Fraction
 
 import numpy as np
 
+from cfree.arguments import checked
 from cfree.motion import Motion, Translation
 from cfree.motion_check import MotionChecker
 from cfree.nearest import Floats, Ints, Walls
@@ -77,6 +78,7 @@ def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Cleara
     return Clearance(max(0.0, least - ROUNDING * size), value, at, share, walls.robot_names[i], walls.names[j])
 
 
+@checked
 def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]:
     """The narrowest places of a path: where its distance from obstacles is less than before and after.
 

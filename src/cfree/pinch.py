@@ -35,7 +35,7 @@ class Pinch:
 
     Attributes
     ----------
-    pose : Pose
+    pose : Pose or (x, y, theta)
         Near the middle of it.
     obstacles : (int, int)
         What it is between; -1 is the bounds, -2 the workspace.

@@ -17,6 +17,7 @@ from matplotlib.figure import Figure, SubFigure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.files import checked_suffix, replacing
 from cfree.forbidden import Boundary
 from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
@@ -30,6 +31,7 @@ from cfree.strips import THIN, strips
 FORBIDDEN = "#e4e4e9"
 
 
+@checked
 def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     """Obstacles, bounds, workspace, and the robot at start and goal, its reference point marked.
 
@@ -58,6 +60,7 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@checked
 def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     """Where the reference point may not be at one orientation, and what it touches there.
 
@@ -96,6 +99,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     return ax
 
 
+@checked
 def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     """Contact patches in (x, y, theta), in the paper's colours; see `cfree.plot3d` for how they are drawn.
 
@@ -148,6 +152,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     return space
 
 
+@checked
 def plot_overview(boundary: Boundary) -> Figure:
     """One figure of everything: the workspace, two slices, and the boundary.
 

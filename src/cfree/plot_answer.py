@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
 from cfree.forbidden import Boundary
 from cfree.mesh import robot_radius
@@ -37,6 +38,7 @@ DASH = 8  # steps of the path
 STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
+@checked
 def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     """A path in the configuration space, coloured by clearance, among the patches of the boundary near it.
 
@@ -76,6 +78,7 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
     return ax
 
 
+@checked
 def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = None) -> Figure:
     """An answer in the workspace, and beside it in the configuration space.
 

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.mesh import robot_radius
 from cfree.motion import Translation
 from cfree.nearest import Walls
@@ -105,6 +106,7 @@ class Track:
         return np.rint(np.linspace(0, TRACE - 1, count + 1)[1:-1]).astype(np.int64)
 
 
+@checked
 def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
     """A path in the workspace, coloured by clearance.
 

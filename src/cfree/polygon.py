@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely import Polygon as ShapelyPolygon
 
+from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
 from cfree.exact import ExactPoint, IntPoint, angle
 from cfree.predicates import Orientation, orient
@@ -148,11 +149,13 @@ class Polygon:
         """Edge vectors E_i = a_{i+1} - a_i, rounded once, (n, 2)."""
         return _read_only(_rounded(self.edge_numerators, self.denominator))
 
+    @checked
     def edge(self, i: int) -> Floats:
         """Edge vector E_i."""
         vector: Floats = self.edges[i]
         return vector
 
+    @checked
     def exact_edge(self, i: int) -> ExactPoint:
         """Edge vector E_i as it is."""
         x, y = self.edge_numerators[i]
@@ -225,6 +228,7 @@ class Polygon:
         return shapely.Polygon(outer, holes)
 
     @classmethod
+    @checked
     def from_shapely(cls, geometry: ShapelyPolygon) -> Polygon:
         """Polygon of a shapely polygon, whose coordinates are the doubles they are; heights are ignored.
 

@@ -6,13 +6,16 @@ tau = tan(theta / 2) in the rational model (eq. 2).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+import reprlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number
 from cfree.half_angle import (
@@ -112,6 +115,7 @@ class Pose:
         """
         return to_chart(self.tau)
 
+    @checked
     def apply(self, points: ArrayLike) -> Floats:
         """Points of the robot, (..., 2) floats, where this pose puts them.
 
@@ -126,6 +130,7 @@ class Pose:
         x, y = c * a[..., 0] - s * a[..., 1], s * a[..., 0] + c * a[..., 1]
         return np.stack((float(self.x) + x, float(self.y) + y), axis=-1)
 
+    @checked
     def apply_exact(self, points: Iterable[Vector]) -> tuple[ExactPoint, ...]:
         """Exact points of the robot where this pose puts them: eq. (3) in the rational model."""
         c, s, w = self.rotation
@@ -162,6 +167,59 @@ class Pose:
         return _pose(x, y, tau, self.theta_error)
 
 
+PoseLike = Pose | Sequence[Any]  # or (x, y, theta), as `Pose` takes them
+
+
+OnePose = Pose | tuple[Number, Number, Angle]  # the same, for what takes many as well
+
+
+def one_pose(value: object, name: str) -> Pose | None:
+    """The pose, if that is what is given and not many.
+
+    Examples
+    --------
+    >>> one_pose((1, 2, 0), "poses") == Pose(1, 2), one_pose([(1, 2, 0)], "poses")
+    (True, None)
+    """
+    if isinstance(value, Pose):
+        return value
+    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str) or len(value) != 3:
+        return None
+    is_one = all(np.ndim(part) == 0 and not isinstance(part, Pose) for part in value)
+    return to_pose(value, name) if is_one else None  # type: ignore[arg-type]
+
+
+def to_pose(value: PoseLike, name: str = "pose") -> Pose:
+    """A pose, or x, y and theta as `Pose` takes them.
+
+    Raises
+    ------
+    InvalidPoseError, TypeError
+        If it is neither, with the name.
+
+    Examples
+    --------
+    >>> to_pose((1, "1/2", "90°"), "start") == Pose(1, "1/2", "90deg")
+    True
+    >>> to_pose((1, 2), "start")
+    Traceback (most recent call last):
+        ...
+    cfree.errors.InvalidPoseError: start: (1, 2) is no pose; give a Pose, or x, y and theta
+    """
+    if isinstance(value, Pose):
+        return value
+    if isinstance(value, str | bytes | Mapping | set) or not isinstance(value, Iterable):
+        raise TypeError(f"{name}: {reprlib.repr(value)} is no pose; give a Pose, or x, y and theta")
+    numbers = tuple(value)
+    if len(numbers) != 3:
+        raise InvalidPoseError(f"{name}: {reprlib.repr(value)} is no pose; give a Pose, or x, y and theta")
+    try:
+        return Pose(*numbers)
+    except InvalidPoseError as error:
+        raise InvalidPoseError(f"{name}: {error}") from None
+
+
+@checked
 @dataclass(frozen=True, eq=False, repr=False)
 class Poses(Value):
     """Many poses in double precision; indexing gives an exact `Pose`.
@@ -197,6 +255,7 @@ class Poses(Value):
         object.__setattr__(self, "theta", _read_only(normalize_angles(angles)))
 
     @classmethod
+    @checked
     def from_poses(cls, poses: Iterable[Pose]) -> Poses:
         """Poses rounded to doubles."""
         rows = [(float(q.x), float(q.y), q.theta) for q in poses]
@@ -212,6 +271,7 @@ class Poses(Value):
     def __iter__(self) -> Iterator[Pose]:
         return (self[k] for k in range(len(self)))
 
+    @checked
     def apply(self, points: ArrayLike) -> Floats:
         """Points (k, 2) of the robot under every pose: (n, k, 2)."""
         a = np.asarray(points, dtype=np.float64)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import reprlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import accumulate
@@ -71,6 +71,8 @@ def read_rings(outer: Points, holes: Sequence[Points]) -> Rings:
     >>> read_rings([(0, 0), (0, "1/2"), (1, 0)], []).numerators
     ((0, 0), (2, 0), (0, 1))
     """
+    if isinstance(holes, str | bytes | Mapping) or not isinstance(holes, Iterable):
+        raise InvalidPolygonError(f"holes: {type(holes).__name__} is no list of rings; give one, or nothing")
     read = [_read_points(r, points) for r, points in enumerate((outer, *holes))]
     denominator = math.lcm(*{d for ring in read for x, y in ring for d in (x[1], y[1])})
     if denominator.bit_length() > 4 * MAX_DIGITS:

@@ -6,6 +6,7 @@ stands in the world. Shapes are closures of their interiors: a segment or a poin
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -14,15 +15,17 @@ from typing import Any
 
 import numpy as np
 
-from cfree.errors import InvalidPolygonError, UnsupportedError
+from cfree.arguments import checked
+from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
 from cfree.exact import Number, to_fraction
 from cfree.extent import range_fault
 from cfree.polygon import Polygon
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 
 
+@checked
 @dataclass(frozen=True, slots=True, init=False, repr=False)
 class Scene:
     """A robot among obstacles.
@@ -93,8 +96,8 @@ class Scene:
         obstacle_names: Sequence[str | None] | None = None,
         bounds: Sequence[Number] | None = None,
         workspace: Any = None,
-        start: Pose | Sequence[Any] | None = None,
-        goal: Pose | Sequence[Any] | None = None,
+        start: PoseLike | None = None,
+        goal: PoseLike | None = None,
         units: str = "",
         name: str = "",
         note: str = "",
@@ -102,10 +105,12 @@ class Scene:
         check: Mapping[str, object] | None = None,
         version: int = 1,
     ) -> None:
-        robot_parts = [polygon for k, item in enumerate(_items(robot)) for polygon in _polygons(item, f"robot[{k}]")]
+        robot_parts = [
+            polygon for k, item in enumerate(_items(robot, "robot")) for polygon in _polygons(item, f"robot[{k}]")
+        ]
         if not robot_parts:
             raise InvalidPolygonError("the robot is empty; give at least one polygon")
-        items = _items(obstacles)
+        items = _items(obstacles, "obstacles")
         names: Sequence[str | None] = [None] * len(items) if obstacle_names is None else obstacle_names
         if len(names) != len(items):
             raise ValueError(f"{len(names)} names for {len(items)} obstacles; give one for each, or None")
@@ -120,8 +125,8 @@ class Scene:
             "obstacle_names": tuple(name or default_name(k) for k, (name, _) in enumerate(shapes)),
             "bounds": None if bounds is None else _rectangle(bounds),
             "workspace": None if workspace is None else _one(workspace),
-            "start": _pose(start),
-            "goal": _pose(goal),
+            "start": None if start is None else to_pose(start, "start"),
+            "goal": None if goal is None else to_pose(goal, "goal"),
             "units": units,
             "name": name,
             "note": note,
@@ -144,6 +149,7 @@ class Scene:
         obstacles = f"{count} obstacle{'' if count == 1 else 's'}{f': {m} vertices' if count else ''}"
         return f"Scene({title}robot: {robot}{n} vertices; {obstacles})"
 
+    @checked
     def save(self, path: str | PathLike[str]) -> None:
         """Write the scene to a JSON file: all of it or nothing, and exactly.
 
@@ -172,13 +178,13 @@ def default_name(index: int) -> str:
     return f"obstacle {index}"
 
 
-def _items(value: Any) -> list[Any]:
+def _items(value: Any, name: str) -> list[Any]:
     """The shapes in an argument that is one shape or many."""
     if isinstance(value, Polygon) or hasattr(value, "geom_type") or _is_ring(value):
         return [value]
     if not isinstance(value, Iterable) or isinstance(value, (str, bytes, Mapping)):
         kind = type(value).__name__
-        raise InvalidPolygonError(f"{kind} is no shape; give points, a Polygon, or a shapely geometry")
+        raise InvalidPolygonError(f"{name}: {kind} is no shape; give points, a Polygon, or a shapely geometry")
     return list(value)
 
 
@@ -238,22 +244,43 @@ def explained(error: InvalidPolygonError) -> str:
     return f"{message}: {NO_INTERIOR}" if error.ring == 0 and (few or "on one line" in message) else message
 
 
+def polygons_of(value: Any, name: str) -> list[Polygon]:
+    """The polygons of one shape, or of several."""
+    return [polygon for item in _items(value, name) for polygon in _polygons(item, name)]
+
+
 def _one(value: Any) -> Polygon:
-    polygons = [polygon for item in _items(value) for polygon in _polygons(item, "workspace")]
+    polygons = polygons_of(value, "workspace")
     if len(polygons) != 1:
         raise InvalidPolygonError(f"workspace: {len(polygons)} polygons; give one, whose holes are forbidden")
     return polygons[0]
 
 
 def _rectangle(bounds: Sequence[Number]) -> Bounds:
-    xmin, ymin, xmax, ymax = (to_fraction(value) for value in bounds)
+    values = tuple(bounds)
+    if len(values) != 4:
+        raise ValueError(f"bounds: {reprlib.repr(bounds)} has {len(values)} numbers; give xmin, ymin, xmax, ymax")
+    try:
+        xmin, ymin, xmax, ymax = map(to_fraction, values)
+    except ValueError as error:
+        raise ValueError(f"bounds: {error}") from None
     if xmin >= xmax or ymin >= ymax:
         raise ValueError(f"bounds {tuple(bounds)} are empty; give xmin < xmax and ymin < ymax")
     return xmin, ymin, xmax, ymax
 
 
-def _pose(value: Pose | Sequence[Any] | None) -> Pose | None:
-    if value is None or isinstance(value, Pose):
-        return value
-    x, y, theta = value
-    return Pose(x, y, theta)
+def required(scene: Scene, start: PoseLike | None, goal: PoseLike | None) -> tuple[Pose, Pose]:
+    """Start and goal, the scene's where none is given.
+
+    Raises
+    ------
+    InvalidPoseError
+        If there is none.
+    """
+    found = []
+    for name, given in (("start", start), ("goal", goal)):
+        pose = getattr(scene, name) if given is None else given
+        if pose is None:
+            raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give x, y and theta")
+        found.append(to_pose(pose, name))
+    return found[0], found[1]

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import cfree
+from cfree.arguments import checked
 from cfree.cells import FORBIDDEN, FreeSpace
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact import ExactPoint
@@ -26,7 +27,7 @@ from cfree.files import replacing
 from cfree.forbidden import Boundary
 from cfree.inset import inset_space, insets_of, size_power
 from cfree.polygon import Polygon
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 from cfree.scene import Bounds, Scene
 from cfree.stamp import Stamp, stamp_for
 from cfree.trapezoids import CODED, COLUMNS, Ints, Trapezoids
@@ -82,6 +83,7 @@ class Pieces(Value):
         return len(self.kind)
 
     @classmethod
+    @checked
     def of(cls, boundary: Boundary, faces: Ints) -> Pieces:
         """Some trapezoids of a boundary."""
         patch = boundary.trapezoids.patch[faces]
@@ -117,7 +119,7 @@ class Separated:
 
     Attributes
     ----------
-    start, goal : Pose
+    start, goal : Pose or (x, y, theta)
     of : "closed" or "interior"
         "closed": no path at all joins them, not even one that touches obstacles all the way. "interior": no path that
         keeps a distance from obstacles, bounds and workspace.
@@ -174,6 +176,7 @@ class Separated:
         """The same proof for the way back."""
         return replace(self, start=self.goal, goal=self.start, cells=self.cells[::-1])
 
+    @checked
     def save(self, path: str | PathLike[str]) -> None:
         """Write the proof to a ``.json`` file, exactly, whole or not at all.
 
@@ -193,13 +196,16 @@ class Separated:
             unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
-def separation(space: FreeSpace, start: Pose, goal: Pose, powers: Sequence[int] | None = None) -> Separated | None:
+@checked
+def separation(
+    space: FreeSpace, start: PoseLike, goal: PoseLike, powers: Sequence[int] | None = None
+) -> Separated | None:
     """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
 
     Parameters
     ----------
     space : FreeSpace
-    start, goal : Pose
+    start, goal : Pose or (x, y, theta)
         Free.
     powers : sequence of int, optional
         Of two, of the robot's size: the insets to be tried for "closed", one after the other. From -20 on, each time
@@ -228,6 +234,8 @@ def separation(space: FreeSpace, start: Pose, goal: Pose, powers: Sequence[int] 
     >>> proof.of, proof.cells, proof.obstacles
     ('closed', (1, 0), (0,))
     """
+    start = to_pose(start, "start")
+    goal = to_pose(goal, "goal")
     cells = space.locate([start, goal]).tolist()
     for name, pose, cell in zip(("start", "goal"), (start, goal), cells, strict=True):
         if cell == FORBIDDEN:

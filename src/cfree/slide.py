@@ -17,9 +17,11 @@ from flint import fmpq, fmpq_poly
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact import ExactPoint, Number, angle, to_fraction
-from cfree.pose import Pose, Poses
+from cfree.half_angle import to_rational
+from cfree.pose import Pose, PoseLike, Poses, to_pose
 
 DEGREE = 4
 PARTS = 16  # for which speeds are bounded
@@ -28,6 +30,7 @@ Terms = tuple[Fraction, ...]  # of a polynomial, the constant first
 Feature = tuple[int, int]  # polygon, and vertex; an edge by the vertex where it begins
 
 
+@checked
 @dataclass(frozen=True)
 class Touch:
     """Which features touch.
@@ -45,6 +48,7 @@ class Touch:
     obstacle: Feature
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Slide:
     """Turn by less than half a turn, the reference point on a rational curve: two contacts are kept.
@@ -86,7 +90,7 @@ class Slide:
     ) -> None:
         first, last = contacts
         given = {name: _terms(name, values) for name, values in (("x", x), ("y", y), ("d", d))}
-        end = to_fraction(tau)
+        end = to_rational("tau", tau)
         if given["x"][0] or given["y"][0]:
             raise InvalidPoseError(f"x begins with {given['x'][0]}, y with {given['y'][0]}; both have to begin with 0")
         begin = given["d"][0] or Fraction(1)
@@ -103,25 +107,32 @@ class Slide:
         """Signed angle in radians."""
         return 2 * angle(self.tau.denominator, self.tau.numerator)
 
-    def apply(self, pose: Pose) -> Pose:
+    @checked
+    def apply(self, pose: PoseLike) -> Pose:
         """Where a pose ends, exactly."""
+        pose = to_pose(pose, "pose")
         return self.at(pose, 1)
 
-    def at(self, pose: Pose, u: Number) -> Pose:
+    @checked
+    def at(self, pose: PoseLike, u: Number) -> Pose:
         """Where a pose is at the parameter u in [0, 1], exactly."""
+        pose = to_pose(pose, "pose")
         t = to_fraction(u) * self.tau
         dx, dy = self.moved(t)
         return Pose(pose.x + dx, pose.y + dy, {"tau": (Pose(0, 0, {"tau": t}) @ pose).tau})
 
+    @checked
     def moved(self, t: Fraction) -> ExactPoint:
         """How far the reference point is from where it was."""
         x, y, d = (_value(terms, t) for terms in (self.x, self.y, self.d))
         return x / d, y / d
 
+    @checked
     def until(self, u: Number) -> Slide:
         """The motion as far as u."""
         return Slide(self.contacts, self.x, self.y, self.d, to_fraction(u) * self.tau)
 
+    @checked
     def between(self, u: Number, v: Number) -> Slide:
         """The part of the motion from u to v, backwards if v is less."""
         first, last = to_fraction(u) * self.tau, to_fraction(v) * self.tau
@@ -134,8 +145,10 @@ class Slide:
         """The way back."""
         return self.between(1, 0)
 
-    def sample(self, pose: Pose, shares: ArrayLike) -> Poses:
+    @checked
+    def sample(self, pose: PoseLike, shares: ArrayLike) -> Poses:
         """Poses at shares of the angle, (n,), in double precision."""
+        pose = to_pose(pose, "pose")
         s = np.asarray(shares, dtype=np.float64)
         x, y, d = _values(self, np.tan(0.5 * self.turn * s))
         return Poses(np.stack((float(pose.x) + x / d, float(pose.y) + y / d), axis=1), pose.theta + s * self.turn)
@@ -150,6 +163,7 @@ class Slide:
         speed = np.hypot(dx * d - x * dd, dy * d - y * dd) / d**2 * (1 + t * t)
         return float(abs(half) / 2 * (weights * speed).sum())
 
+    @checked
     def reach(self, radius: float) -> float:
         """Bound, but for rounding: no point of the robot so near the reference point moves further in a share of 1."""
         parts = [self.between(Fraction(k, PARTS), Fraction(k + 1, PARTS)) for k in range(PARTS)]

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.errors import FormatError
 from cfree.features import SceneFeatures, scene_features, unpacked
 from cfree.files import checked_suffix, replacing
@@ -67,6 +68,7 @@ def signed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> dic
     return rest | {"digest": digest.hexdigest()}
 
 
+@checked
 def load_boundary(path: str | os.PathLike[str]) -> Boundary:
     """Read a boundary written by `Boundary.save`.
 

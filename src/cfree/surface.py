@@ -20,11 +20,12 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.arguments import checked
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
 from cfree.exact import ExactPoint, Number, finite, to_fraction
 from cfree.half_angle import Angle
 from cfree.polygon import Polygon
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 
 Floats = NDArray[np.float64]
 
@@ -80,6 +81,7 @@ class Surface:
         """
         return evaluate(self.ruled, t, phi, beyond=beyond)
 
+    @checked
     def grid(self, t: ArrayLike, phi: ArrayLike) -> Floats:
         """Positions at all pairs of t in [0, 1] and phi: (len(phi), len(t), 2). Faster than a call: a row is a line.
 
@@ -97,6 +99,7 @@ class Surface:
         _core.evaluate_grid(self.ruled, t, phi, xy)
         return xy
 
+    @checked
     def helix(self, t: Number, *, beyond: bool = False) -> Helix:
         """The curve phi -> S(t, phi), along which a point of the robot is fixed; t as in a call."""
         s = to_fraction(t)
@@ -105,6 +108,7 @@ class Surface:
         (px, py), (qx, qy), (ax, ay), (gx, gy) = self.p, self.q, self.a, self.g
         return Helix((px + s * qx, py + s * qy), (ax + s * gx, ay + s * gy))
 
+    @checked
     def pose(self, t: Number, theta: Angle, *, beyond: bool = False) -> Pose:
         """The exact pose at t and theta, as in a call."""
         return self.helix(t, beyond=beyond).pose(theta)
@@ -162,6 +166,7 @@ class Helix:
         c, s = np.cos(phi), np.sin(phi)
         return np.stack((px - (c * ax - s * ay), py - (s * ax + c * ay), phi), axis=-1)
 
+    @checked
     def pose(self, theta: Angle) -> Pose:
         """The exact pose at theta."""
         turn = Pose(0, 0, theta)
@@ -193,6 +198,7 @@ class EdgeEdgeSegment:
         return self.surface(t, self.phi, beyond=True)
 
 
+@checked
 def contact_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> Surface:
     """Contact surface of a v-e contact, eq. (5), or of an e-v contact, eq. (8)."""
     i, j, zero = contact.i, contact.j, (Fraction(0), Fraction(0))
@@ -202,6 +208,7 @@ def contact_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | Edg
     return Surface(contact, p, zero, a, robot.exact_edge(i))
 
 
+@checked
 def contact_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> Helix:
     """Helix of a v-v contact, section 3.3.1: a_i stays at b_j.
 
@@ -214,6 +221,7 @@ def contact_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> H
     return Helix(obstacle.exact_vertices[contact.j], robot.exact_vertices[contact.i])
 
 
+@checked
 def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> EdgeEdgeSegment:
     """Segment of an e-e contact.
 
@@ -237,13 +245,15 @@ def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> Edg
     return EdgeEdgeSegment(contact, contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j)), phi, t_range)
 
 
+@checked
 def rotation_about(centre: Sequence[Number], fixed: Sequence[Number]) -> Helix:
     """All rotations that keep a point of the robot, given in its own coordinates, at a centre: Lemma 1."""
     (px, py), (ax, ay) = centre, fixed
     return Helix((to_fraction(px), to_fraction(py)), (to_fraction(ax), to_fraction(ay)))
 
 
-def helix_through(pose: Pose, fixed: Sequence[Number]) -> Helix:
+@checked
+def helix_through(pose: PoseLike, fixed: Sequence[Number]) -> Helix:
     """The helix through a pose that keeps a point of the robot, given in its own coordinates, where it is: Remark 2.
 
     Notes
@@ -258,12 +268,14 @@ def helix_through(pose: Pose, fixed: Sequence[Number]) -> Helix:
     >>> helix.centre, helix.pose("90deg") == q
     ((Fraction(1, 1), Fraction(5, 1)), True)
     """
+    pose = to_pose(pose, "pose")
     x, y = fixed
     a = to_fraction(x), to_fraction(y)
     (P,) = pose.apply_exact([a])
     return Helix(P, a)
 
 
+@checked
 def rotation_of_combination(
     centre: Sequence[Number], points: Iterable[Sequence[Number]], weights: Iterable[Number]
 ) -> Helix:

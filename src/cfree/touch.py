@@ -11,16 +11,18 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
+from cfree.arguments import checked
 from cfree.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
 from cfree.exact import IntPoint
 from cfree.polygon import Polygon
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 from cfree.predicates import Location, Meeting, is_inside_segment, is_opposed, locate, meet
 
 Edge = tuple[IntPoint, IntPoint]
 
 
-def contact_features(robot: Polygon, obstacle: Polygon, pose: Pose) -> tuple[Contact, ...]:
+@checked
+def contact_features(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> tuple[Contact, ...]:
     """All contact types that hold in a pose, be it a contact or a pseudo contact.
 
     Notes
@@ -33,6 +35,7 @@ def contact_features(robot: Polygon, obstacle: Polygon, pose: Pose) -> tuple[Con
     >>> contact_features(square, square, Pose(1, 1, 0))
     (VertexVertex(i=0, j=2),)
     """
+    pose = to_pose(pose, "pose")
     placed = _Placed.of(robot, obstacle, pose)
     found: set[Contact] = set()
     for i, j, met in placed.meetings():
@@ -49,7 +52,8 @@ def contact_features(robot: Polygon, obstacle: Polygon, pose: Pose) -> tuple[Con
     return tuple(sorted(found, key=lambda contact: (kinds.index(type(contact)), contact.i, contact.j)))
 
 
-def is_pseudo_contact(robot: Polygon, obstacle: Polygon, pose: Pose) -> bool:
+@checked
+def is_pseudo_contact(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
     """Do the boundaries meet?
 
     Examples
@@ -58,15 +62,19 @@ def is_pseudo_contact(robot: Polygon, obstacle: Polygon, pose: Pose) -> bool:
     >>> is_pseudo_contact(square, square, Pose("1/2", "1/2", 0)), is_contact(square, square, Pose("1/2", "1/2", 0))
     (True, False)
     """
+    pose = to_pose(pose, "pose")
     return any(True for _ in _Placed.of(robot, obstacle, pose).meetings())
 
 
-def is_contact(robot: Polygon, obstacle: Polygon, pose: Pose) -> bool:
+@checked
+def is_contact(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
     """Do the boundaries meet, but not the interiors?"""
+    pose = to_pose(pose, "pose")
     return is_pseudo_contact(robot, obstacle, pose) and not is_forbidden(robot, obstacle, pose)
 
 
-def is_forbidden(robot: Polygon, obstacle: Polygon, pose: Pose) -> bool:
+@checked
+def is_forbidden(robot: Polygon, obstacle: Polygon, pose: PoseLike) -> bool:
     """Do the interiors meet?
 
     Notes
@@ -81,6 +89,7 @@ def is_forbidden(robot: Polygon, obstacle: Polygon, pose: Pose) -> bool:
     >>> is_forbidden(square, square, Pose(0, 0, 0)), is_forbidden(square, square, Pose(0, 1, 0))
     (True, False)
     """
+    pose = to_pose(pose, "pose")
     placed = _Placed.of(robot, obstacle, pose)
     cuts: dict[Edge, set[IntPoint]] = {}
     for i, j, met in placed.meetings():

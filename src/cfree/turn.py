@@ -14,23 +14,25 @@ from itertools import pairwise
 
 from cfree.angle_interval import AngleInterval
 from cfree.arcs import Arcs, Form, union_of_intersections, where_not_positive
+from cfree.arguments import checked
 from cfree.exact import Number, common_denominator, to_fraction
 from cfree.features import BODY, Point, ShapeFeatures, box, scene_features
 from cfree.forbidden import Boundary
 from cfree.free import limits_of
-from cfree.pose import Pose
+from cfree.pose import Pose, PoseLike, to_pose
 from cfree.scene import Scene
 
 
+@checked
 def turn_in_place(
-    scene: Scene | Boundary, pose: Pose, pole: tuple[Number, Number] | None = None
+    scene: Scene | Boundary, pose: PoseLike, pole: tuple[Number, Number] | None = None
 ) -> tuple[AngleInterval, ...]:
     """All free orientations of the robot turned about a point that stays in place.
 
     Parameters
     ----------
     scene : Scene or Boundary
-    pose : Pose
+    pose : Pose or (x, y, theta)
         Its orientation does not matter if the pole is its reference point, and it need not be free.
     pole : pair of numbers, optional
         The point that stays in place, in the world; the reference point unless given.
@@ -60,6 +62,7 @@ def turn_in_place(
     >>> [(interval.theta, interval.is_single) for interval in turn_in_place(scene, Pose(0, 3))]
     [((0.0, 0.0), True), ((3.141592653589793, 3.141592653589793), True)]
     """
+    pose = to_pose(pose, "pose")
     features = scene.features if isinstance(scene, Boundary) else scene_features(scene)
     limits = limits_of(scene.scene if isinstance(scene, Boundary) else scene)
     P = (pose.x, pose.y) if pole is None else (to_fraction(pole[0]), to_fraction(pole[1]))

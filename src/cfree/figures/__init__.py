@@ -14,6 +14,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from cfree.arguments import checked
 from cfree.errors import UnsupportedError
 from cfree.figures.style import FORMATS, PAPER, SAFE, styled, write
 
@@ -52,6 +53,7 @@ FIGURES = (
 )
 
 
+@checked
 def draw(number: int, *, safe: bool = False) -> Figure:
     """One figure, to be shown or written within `styled`.
 
@@ -66,6 +68,7 @@ def draw(number: int, *, safe: bool = False) -> Figure:
     return figure
 
 
+@checked
 def draw_all(
     directory: str | PathLike[str], *, only: Iterable[int] | None = None, formats: Iterable[str] = FORMATS,
     safe: bool = False, progress: Callable[[float], object] | None = None,

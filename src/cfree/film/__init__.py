@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from os import PathLike
 
+from cfree.arguments import checked
 from cfree.forbidden import Boundary
 from cfree.path import Path
 from cfree.scene import Scene
@@ -12,6 +13,7 @@ from cfree.scene import Scene
 MOST = 60.0  # seconds of motion
 
 
+@checked
 def save_film(
     boundaries: Sequence[Boundary],
     path: str | PathLike[str],
@@ -69,6 +71,7 @@ def save_film(
     write(pictures(boundaries, seconds, fps, size, storyboard, progress), path, fps)
 
 
+@checked
 def film_path(
     path: Path,
     scene: Scene,

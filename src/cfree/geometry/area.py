@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cfree.arguments import checked
 from cfree.exact import finite
 from cfree.forbidden import Boundary
 from cfree.geometry.development import distance_across
@@ -19,6 +20,7 @@ from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 from cfree.trapezoids import Ints
 
 
+@checked
 def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
     """Areas of whole patches, t in [0, 1], in closed form.
 
@@ -66,6 +68,7 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     return np.where(rows.is_edge_vertex, swept, unrolled)
 
 
+@checked
 def trapezoid_areas(boundary: Boundary, *, angle_scale: float = 1.0) -> Floats:
     """Areas of the trapezoids of a boundary, (T,), in length^2; they add up to that of the boundary.
 

@@ -23,6 +23,7 @@ from collections.abc import Callable, Iterable
 from fractions import Fraction
 from typing import TypeVar
 
+from cfree.arguments import checked
 from cfree.contact import EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
 from cfree.exact import ExactPoint
 from cfree.polygon import Polygon
@@ -31,6 +32,7 @@ Key = tuple[object, ...]
 C = TypeVar("C", VertexEdge | EdgeVertex, VertexVertex)
 
 
+@checked
 def surface_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexEdge | EdgeVertex, ...], ...]:
     """Classes of congruent contact surfaces, t in [0, 1] and all orientations; reflex vertices too.
 
@@ -60,6 +62,7 @@ def surface_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexEdge
     return _classes(every, lambda contact: _surface_key(robot, obstacle, contact))
 
 
+@checked
 def patch_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexEdge | EdgeVertex, ...], ...]:
     """Classes of congruent contact patches, of the contacts that have one; see `surface_classes`.
 
@@ -72,6 +75,7 @@ def patch_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexEdge |
     return _classes(contacts(robot, obstacle), lambda contact: _patch_key(robot, obstacle, contact))
 
 
+@checked
 def helix_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexVertex, ...], ...]:
     """Classes of congruent v-v helices, all orientations, of all pairs of vertices; see `surface_classes`.
 
@@ -90,6 +94,7 @@ def helix_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexVertex
     return _classes(every, lambda contact: (_square(robot.exact_vertices[contact.i]),))
 
 
+@checked
 def arc_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexVertex, ...], ...]:
     """Classes of congruent arcs of v-v helices on which there is contact; see `surface_classes`.
 

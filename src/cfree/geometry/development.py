@@ -10,11 +10,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cfree.arguments import checked
 from cfree.exact import finite
 from cfree.geometry.elliptic import second_kind
 from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 
 
+@checked
 def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
     """Where points of v-e surfaces are when the surface is unrolled into the plane: an isometry.
 

@@ -25,6 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cfree.arguments import checked
 from cfree.exact import finite
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
 from cfree.value import Value
@@ -78,6 +79,7 @@ class LocalGeometry(Value):
         H: Floats = ((self.g / v) * (self.E / v) - 2 * (self.f / v) * (self.F / v)) / 2
         return H
 
+    @checked
     def normal_curvature(self, xi: ArrayLike) -> Floats:
         """Normal curvature in a direction, eq. (10), in 1 / length.
 
@@ -119,12 +121,14 @@ class LocalGeometry(Value):
         small = -np.divide(root_of_minus_K**2, large, out=np.zeros_like(large), where=large != 0)
         return np.stack([np.minimum(large, small), np.maximum(large, small)], axis=-1)
 
+    @checked
     def tangent(self, xi: ArrayLike) -> Floats:
         """Unit tangent in the direction xi (radians, from the ruling), (..., 3), in x, y, angle_scale * theta."""
         xi = finite("xi", xi)[..., None]
         return np.cos(xi) * self.frame[..., 0, :] + np.sin(xi) * self.frame[..., 1, :]
 
 
+@checked
 def local_geometry(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: float = 1.0) -> LocalGeometry:
     """Fundamental forms, normal, curvatures and directions at points of contact surfaces.
 

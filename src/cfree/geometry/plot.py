@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 
+from cfree.arguments import checked
 from cfree.contact import VertexEdge, angle_range
 from cfree.geometry.development import develop
 from cfree.mesh import COLOURS
@@ -16,6 +17,7 @@ from cfree.surface import contact_surface
 HELICES, RULINGS, POINTS = 9, 13, 241  # lines drawn, and points of a curve
 
 
+@checked
 def plot_development(
     robot: Polygon, obstacle: Polygon, contact: VertexEdge, *, angle_scale: float = 1.0, ax: Axes | None = None
 ) -> Axes:

@@ -13,10 +13,12 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike
 
+from cfree.arguments import checked
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
 from cfree.surface import Helix, Surface
 
 
+@checked
 def is_developable(surface: Surface) -> bool:
     """Is the Gaussian curvature 0 everywhere? On v-e surfaces, which are cylinders; never on e-v surfaces.
 
@@ -30,6 +32,7 @@ def is_developable(surface: Surface) -> bool:
     return not any(surface.g)
 
 
+@checked
 def is_helicoid(surface: Surface) -> bool:
     """Is it an e-v surface whose robot edge lies on a line through the reference point? Exact.
 
@@ -41,6 +44,7 @@ def is_helicoid(surface: Surface) -> bool:
     return not is_developable(surface) and is_minimal(surface)
 
 
+@checked
 def is_minimal(surface: Surface) -> bool:
     """Is the mean curvature 0 everywhere? Exact.
 
@@ -63,6 +67,7 @@ def is_minimal(surface: Surface) -> bool:
     return ax * gy == ay * gx if any(surface.g) else not any(surface.a)
 
 
+@checked
 def striction_parameter(surface: Surface) -> Fraction | None:
     """t_* of the striction curve of an e-v surface, exact; None on a v-e surface, whose rulings are parallel.
 
@@ -83,12 +88,14 @@ def striction_parameter(surface: Surface) -> Fraction | None:
     return -(ax * gx + ay * gy) / (gx * gx + gy * gy)
 
 
+@checked
 def striction_curve(surface: Surface) -> Helix | None:
     """The curve phi -> S(t_*, phi) of an e-v surface: the helix of the foot of the perpendicular, or its axis."""
     t = striction_parameter(surface)
     return None if t is None else surface.helix(t, beyond=True)
 
 
+@checked
 def striction_is_on_patch(surface: Surface) -> bool:
     """Does the striction curve run within t in [0, 1], ends included? Exact; False on v-e surfaces.
 
@@ -98,6 +105,7 @@ def striction_is_on_patch(surface: Surface) -> bool:
     return t is not None and 0 <= t <= 1
 
 
+@checked
 def striction_parameters(ruled: ArrayLike) -> Floats:
     """t_* of many surfaces in double precision, (...,); NaN for v-e surfaces.
 
@@ -115,6 +123,7 @@ def striction_parameters(ruled: ArrayLike) -> Floats:
         return -(a[..., 0] * ux + a[..., 1] * uy) / L
 
 
+@checked
 def distribution_parameters(ruled: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
     """det(c', r, r') / r'.r' of unit rulings r over the directrix c, in length, (...,); NaN for v-e surfaces.
 

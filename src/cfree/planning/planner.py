@@ -16,6 +16,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+from cfree.arguments import checked
 from cfree.cells import FreeSpace
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.extent import LARGEST
@@ -29,8 +30,8 @@ from cfree.path import Objective, Path
 from cfree.planning.poles import near_poles
 from cfree.planning.search import Searcher, area, simple_ways
 from cfree.planning.walk import Walker
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.pose import Pose, PoseLike, to_pose
+from cfree.scene import Scene, required
 from cfree.separated import Separated
 from cfree.slide import Slide
 from cfree.value import Value
@@ -45,10 +46,11 @@ COMPLETE = 30_000  # contact patches at most of a grown robot whose free space i
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 
 
+@checked
 def plan(
     scene: Scene,
-    start: Pose | None = None,
-    goal: Pose | None = None,
+    start: PoseLike | None = None,
+    goal: PoseLike | None = None,
     *,
     improve: float | None = None,
     objective: Objective = "short",
@@ -60,7 +62,7 @@ def plan(
     Parameters
     ----------
     scene : Scene
-    start, goal : Pose, optional
+    start, goal : Pose or (x, y, theta), optional
         Those of the scene unless given.
     improve : float, seconds, optional
         How long to improve a path, 0 for the first one found. A fixed number of attempts unless given. Ctrl-C ends it
@@ -102,6 +104,7 @@ def plan(
     return planner.plan(*required(scene, start, goal), improve=improve, objective=objective)
 
 
+@checked
 @dataclass(eq=False)
 class Planner(Value):
     """Answers many questions about one scene; what they need is computed once.
@@ -167,10 +170,13 @@ class Planner(Value):
             self.space = free_space(found)
         return self.space
 
+    @checked
     def plan(
-        self, start: Pose, goal: Pose, *, improve: float | None = None, objective: Objective = "short"
+        self, start: PoseLike, goal: PoseLike, *, improve: float | None = None, objective: Objective = "short"
     ) -> Path | Separated:
         """See `cfree.plan`."""
+        start = to_pose(start, "start")
+        goal = to_pose(goal, "goal")
         if objective not in ("short", "clear"):
             raise ValueError(f'objective {objective!r}; give "short" or "clear"')
         if improve is not None and not 0 <= improve < math.inf:
@@ -225,6 +231,7 @@ class Planner(Value):
             return proof
         return self._passages.path(start, goal, irrational=True) or proof
 
+    @checked
     def path(self, poses: Sequence[Pose]) -> Path:
         """Through these poses, without far poles where that is free; all of it checked once more.
 
@@ -253,6 +260,7 @@ class Planner(Value):
         after = [k for k in range(1, len(poses)) if self._slide(poses[k - 1], poses[k])]
         return [poses[i:j] for i, j in pairwise([0, *after, len(poses)])]
 
+    @checked
     def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         """A shorter path, after a number of attempts; or of ways found in half of some time the best, in the rest."""
         if seconds == 0 or len(poses) < 3:
@@ -331,27 +339,10 @@ def _reversed(poses: Sequence[Pose]) -> list[Pose]:
     return back
 
 
-def required(scene: Scene, start: Pose | None, goal: Pose | None) -> tuple[Pose, Pose]:
-    """Start and goal, the scene's where none is given.
-
-    Raises
-    ------
-    InvalidPoseError
-        If there is none.
-    """
-    start, goal = start or scene.start, goal or scene.goal
-    for pose, name in ((start, "start"), (goal, "goal")):
-        if pose is None:
-            raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give x, y and theta")
-        if not isinstance(pose, Pose):
-            raise InvalidPoseError(f"{name} {pose!r}: give a Pose(x, y, theta)")
-    assert start and goal
-    return start, goal
-
-
+@checked
 def plan_many(
     scene: Scene | FreeSpace,
-    queries: Iterable[tuple[Pose, Pose]],
+    queries: Iterable[tuple[PoseLike, PoseLike]],
     *,
     improve: float | None = None,
     objective: Objective = "short",
@@ -363,7 +354,7 @@ def plan_many(
     Parameters
     ----------
     scene : Scene or FreeSpace
-    queries : pairs (start, goal) of Pose
+    queries : pairs (start, goal) of Pose or (x, y, theta)
     improve : float, seconds, optional
         As in `plan`, for each of them.
     objective : "short" or "clear"

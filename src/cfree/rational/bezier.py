@@ -30,6 +30,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.exact import ExactPoint, Number, to_fraction
 from cfree.files import replacing
 from cfree.half_angle import chart_intervals, seen_in_chart
@@ -111,6 +112,7 @@ class BezierPatch:
         }
 
 
+@checked
 def bezier_patch(
     surface: Surface, start: Number, stop: Number, *, chart: int = 0, dimension: Literal[2, 3] = 3
 ) -> BezierPatch:
@@ -168,6 +170,7 @@ def bezier_patch(
     return BezierPatch(chart, (u, v), weights, (row(0), row(1)))
 
 
+@checked
 def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch, ...]:
     """A whole contact patch in (x, y, tau), but for slivers at its ends where these are not rational.
 
@@ -201,6 +204,7 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
     return tuple(bezier_patch(patch.surface, low, high, chart=chart) for chart, low, high in parts)
 
 
+@checked
 def save_bezier(patches: Iterable[BezierPatch], path: str | PathLike[str]) -> None:
     """Write Bezier patches as a JSON list of `BezierPatch.as_json`, whole or not at all."""
     with replacing(path) as unfinished:

@@ -25,6 +25,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.arguments import checked
 from cfree.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, end_directions
 from cfree.exact import Number, to_fraction
 from cfree.half_angle import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
@@ -72,11 +73,13 @@ class RationalRange:
             return ((tau_min, tau_max),)
         return (tau_min, None), (None, tau_max)
 
+    @checked
     def locate(self, tau: Number | None) -> Location:
         """Is an orientation inside Phi, at an end, or outside? Decided by signs of integers."""
         c, s, _ = half_angle_rotation(half_tangent(tau))
         return self._locate((c, s))
 
+    @checked
     def inside(self, bits: int) -> tuple[HalfTangent, HalfTangent]:
         """The widest part of Phi with ends of a stated precision.
 
@@ -107,6 +110,7 @@ class RationalRange:
             raise ValueError(f"no part of the range has ends that are multiples of 2^-{bits}; give more bits")
         return first, last
 
+    @checked
     def outside(self, bits: int) -> tuple[HalfTangent, HalfTangent]:
         """The narrowest range with ends of a stated precision that contains Phi; see `inside`.
 
@@ -156,6 +160,7 @@ class RationalSurface:
         (px, py), (qx, qy), (ax, ay), (gx, gy) = (tuple(map(float, v)) for v in (S.p, S.q, S.a, S.g))
         return _placed((px + t * qx, py + t * qy), tau, (ax + t * gx, ay + t * gy))
 
+    @checked
     def point(self, t: Number, tau: Number | None) -> RationalPoint:
         """The exact point (x, y, tau)."""
         s = to_fraction(t)
@@ -163,6 +168,7 @@ class RationalSurface:
             raise _beyond(s, "0", "1")
         return _exactly_placed(self.surface.helix(s), tau)
 
+    @checked
     def locate(self, t: Number, tau: Number | None) -> Location:
         """Is S(t, tau) inside the patch, on its rim, or outside of it? Exact."""
         s, at = to_fraction(t), self.Phi.locate(tau)
@@ -198,10 +204,12 @@ class RationalHelix:
         (px, py), (ax, ay) = (tuple(map(float, v)) for v in (self.helix.centre, self.helix.fixed))
         return _placed((px, py), np.asarray(tau, dtype=np.float64), (ax, ay))
 
+    @checked
     def point(self, tau: Number | None) -> RationalPoint:
         """The exact point (x, y, tau)."""
         return _exactly_placed(self.helix, tau)
 
+    @checked
     def locate(self, tau: Number | None) -> Location:
         """Is C(tau) inside the arc of contacts, at an end, or outside? Exact."""
         return self.Phi.locate(tau)
@@ -245,6 +253,7 @@ class RationalSegment:
         angle = np.full(s.shape, np.inf if tau is None else float(tau))
         return _placed((px + s * qx, py + s * qy), angle, (ax, ay))
 
+    @checked
     def point(self, t: Number) -> tuple[Surd, Surd, Surd | None]:
         """The exact point (x, y, tau)."""
         s, (low, high) = to_fraction(t), self.t_range
@@ -254,6 +263,7 @@ class RationalSegment:
         cos, sin, n = self.angle.c, self.angle.s, self.angle.n
         return Surd(x, (sin * ay - cos * ax) / n, n), Surd(y, -(sin * ax + cos * ay) / n, n), self.angle.tau
 
+    @checked
     def locate(self, t: Number) -> Location:
         """Is C(t) inside the segment of contacts, at an end, or outside? Exact."""
         after_low, before_high = self.t_range[0].compare(t), self.t_range[1].compare(t)
@@ -262,6 +272,7 @@ class RationalSegment:
         return Location.BOUNDARY if Order.SAME in (after_low, before_high) else Location.INSIDE
 
 
+@checked
 def rational_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> RationalRange:
     """Phi of a contact, exactly.
 
@@ -288,17 +299,20 @@ def rational_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> Ratio
     return RationalRange(ExactAngle(*start), ExactAngle(*end))
 
 
+@checked
 def rational_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> RationalSurface:
     """Surface and patch of a v-e or e-v contact; a ValueError at a reflex vertex, which has no patch."""
     Phi = rational_range(robot, obstacle, contact)
     return RationalSurface(contact_surface(robot, obstacle, contact), Phi)
 
 
+@checked
 def rational_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> RationalHelix:
     """Helix of a v-v contact; a ValueError if reflex vertices leave it no angle."""
     return RationalHelix(contact_helix(robot, obstacle, contact), rational_range(robot, obstacle, contact))
 
 
+@checked
 def rational_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> RationalSegment:
     """Segment of an e-e contact; a ValueError if reflex vertices keep the edges apart."""
     angle = rational_range(robot, obstacle, contact).start
@@ -306,6 +320,7 @@ def rational_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> Ra
     return RationalSegment(S, angle, _t_range(robot, obstacle, contact))
 
 
+@checked
 def to_rational(points: ArrayLike) -> Floats:
     """Points (x, y, theta) of the geometrical model as (x, y, tau), in doubles.
 
@@ -344,6 +359,7 @@ def to_rational(points: ArrayLike) -> Floats:
     return np.concatenate((table[..., :2], tau_of(table[..., 2])[..., None]), axis=-1)
 
 
+@checked
 def to_geometrical(points: ArrayLike) -> Floats:
     """Points (x, y, tau) of the rational model as (x, y, theta), theta in [0, 2 pi), in doubles.
 
@@ -417,5 +433,5 @@ def _beyond(t: float | Fraction, low: str, high: str) -> ValueError:
 def _triples(points: ArrayLike) -> Floats:
     table = np.asarray(points, dtype=np.float64)
     if table.ndim == 0 or table.shape[-1] != 3:
-        raise ValueError(f"shape {table.shape}; give (..., 3)")
+        raise ValueError(f"points: shape {table.shape}; give (..., 3)")
     return table

@@ -14,6 +14,7 @@ from matplotlib.colors import to_rgba_array
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from cfree.arguments import checked
 from cfree.contact import EdgeVertex, VertexEdge
 from cfree.mesh import COLOURS
 from cfree.polygon import Polygon
@@ -29,6 +30,7 @@ PSEUDO, GRID = "#ccd1d9", "#30343b"
 LIGHT = np.array([0.35, -0.75, 0.55])
 
 
+@checked
 def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> Figure:
     """A contact surface in the geometrical and in the rational model; its patch in colour, the rest grey.
 

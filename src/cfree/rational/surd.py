@@ -13,11 +13,13 @@ import math
 from dataclasses import dataclass
 from fractions import Fraction
 
+from cfree.arguments import checked
 from cfree.exact import Number, angle, to_fraction
 from cfree.half_angle import chart_of_direction, tau_in_chart
 from cfree.predicates import Order, compare_with_surd
 
 
+@checked
 @dataclass(frozen=True, slots=True, init=False, eq=False)
 class Surd:
     """The number p + q sqrt(n).
@@ -77,11 +79,13 @@ class Surd:
                 return low
             bits *= 2
 
+    @checked
     def compare(self, x: Number) -> Order:
         """Order of this number and a rational one."""
         order = compare_with_surd(to_fraction(x), self.p, self.q, self.n)
         return {Order.BEFORE: Order.AFTER, Order.SAME: Order.SAME, Order.AFTER: Order.BEFORE}[order]
 
+    @checked
     def neighbours(self, bits: int) -> tuple[Fraction, Fraction]:
         """The multiples of 2^-bits next below and above; the number itself, twice, if it is rational.
 
@@ -103,6 +107,7 @@ class Surd:
         return self.p, self.q > 0, self.q * self.q * self.n
 
 
+@checked
 @dataclass(frozen=True, slots=True, init=False)
 class ExactAngle:
     """The angle of a direction with integer coordinates.
@@ -157,6 +162,7 @@ class ExactAngle:
         """In radians, in (-pi, pi]."""
         return angle(self.c, self.s)
 
+    @checked
     def neighbours(self, bits: int) -> tuple[Fraction | None, Fraction | None]:
         """Rational half-angle tangents next to this angle, clockwise and counter-clockwise.
 

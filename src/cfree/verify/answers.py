@@ -9,6 +9,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from cfree.answer import read_answer
+from cfree.arguments import checked
 from cfree.path import Path
 from cfree.scene import Scene
 from cfree.separated import Separated
@@ -28,6 +29,7 @@ SCENE, ASKED, PIECES = "scene", "poses asked for", "convex pieces"
 NO_ROOM = 'they are said to be "free", and no room is enough for that; say "approximate"'
 
 
+@checked
 def answer(
     scene: Scene,
     answer: Path | Separated | str | os.PathLike[str],

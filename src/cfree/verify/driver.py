@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from cfree.arguments import checked
 from cfree.forbidden import Boundary
 from cfree.scene import Scene
 from cfree.storage import load_boundary
@@ -28,6 +29,7 @@ PIECES, ANGLES, DOMAINS, FREE = "convex pieces", "names and angles", "domains", 
 CLOSED, ISOLATED, MISSING = "closed surfaces", "isolated parts", "nothing missing"
 
 
+@checked
 def boundary(
     boundary: Boundary | str | os.PathLike[str],
     scene: Scene | None = None,

@@ -1,0 +1,188 @@
+"""Arguments of public functions: seen to before anything is computed, and named where one is wrong.
+
+`checked` compares arguments with the annotations. What an annotation does not say, whether a number is positive, each
+function sees to itself.
+"""
+
+from __future__ import annotations
+
+import collections.abc
+import inspect
+import os
+import reprlib
+from collections.abc import Callable
+from functools import cache, update_wrapper
+from numbers import Integral, Real
+from types import FunctionType, NoneType, UnionType
+from typing import Any, Literal, TypeVar, Union, cast, get_args, get_origin, get_type_hints
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+T = TypeVar("T", bound=Callable[..., Any])
+_ARRAY = frozenset(get_args(ArrayLike))
+_NAMES: dict[Any, str] = {
+    NoneType: "None", float: "a number", int: "an int", str: "a str", bool: "True or False", np.ndarray: "an array",
+    os.PathLike: "a path", collections.abc.Callable: "a function", collections.abc.Mapping: "a dict",
+}  # fmt: skip
+_SEQUENCES = (collections.abc.Sequence, collections.abc.Iterable, list)
+
+
+def checked(function: T) -> T:
+    """A function, or a class, that refuses arguments of other types than it is annotated with.
+
+    Raises
+    ------
+    TypeError
+        With the name of the argument, what it is, and what to give.
+
+    Examples
+    --------
+    >>> @checked
+    ... def half(length: float, name: str | None = None) -> float:
+    ...     return float(length) / 2
+    >>> half(3), half(np.float32(3))
+    (1.5, 1.5)
+    >>> half("3")
+    Traceback (most recent call last):
+        ...
+    TypeError: length: '3' is a str; give a number
+    >>> half(3, name=4)
+    Traceback (most recent call last):
+        ...
+    TypeError: name: 4 is an int; give a str or None
+    """
+    if isinstance(function, type):
+        cast(Any, function).__init__ = checked(cast(Any, function).__init__)
+        return function
+    parameters, checks = inspect.signature(function).parameters.values(), dict[str, _Check]()
+    names = [parameter.name for parameter in parameters if parameter.kind is not parameter.KEYWORD_ONLY]
+    checks_of = _checks_of
+
+    def call(*arguments: Any, **named: Any) -> Any:
+        if not checks:  # at the first call: some hints name what is imported late
+            checks.update(checks_of(function))
+        for name, value in zip(names, arguments):  # noqa: B905 too many are the function's to refuse
+            check = checks[name]
+            if type(value) not in check.known:
+                check(name, value)
+        for name, value in named.items():
+            if name in checks and type(value) not in checks[name].known:
+                checks[name](name, value)
+        return function(*arguments, **named)
+
+    # at home in the function's module, where doctest looks for it
+    at_home = FunctionType(call.__code__, function.__globals__, function.__name__, None, call.__closure__)
+    return cast(T, update_wrapper(at_home, function))
+
+
+class _Check:
+    """Of one argument; `known` are types all values of which will do."""
+
+    def __init__(self, hint: Any) -> None:
+        self.hint = hint
+        self.known: set[type] = set()
+
+    def __call__(self, name: str, value: Any) -> None:
+        if not fits(self.hint, value):
+            kind = "None" if value is None else f"{reprlib.repr(value)} is {_article(type(value).__name__)}"
+            raise TypeError(f"{name}: {kind}; give {expected(self.hint)}")
+        if any(_is_plain(part) and fits(part, value) for part in (self.hint, *get_args(self.hint))):
+            self.known.add(type(value))
+
+
+def _checks_of(function: Any) -> dict[str, _Check]:
+    hints = get_type_hints(function)
+    return {name: _Check(hints.get(name, Any)) for name in inspect.signature(function).parameters}
+
+
+def _is_plain(hint: Any) -> bool:
+    return hint is Any or (isinstance(hint, type) and not get_args(hint))
+
+
+def fits(hint: Any, value: Any) -> bool:
+    """Is a value what a type hint asks for? Numbers may be of any kind; what is not known passes.
+
+    Examples
+    --------
+    >>> fits(int | None, np.int64(3)), fits(int, True), fits(tuple[int, int], (1, 2, 3)), fits(ArrayLike, [[1, "x"]])
+    (True, False, False, False)
+    """
+    return _test_of(hint)(value)
+
+
+@cache
+def _test_of(hint: Any) -> Callable[[Any], bool]:
+    """What tells whether a value fits."""
+    origin, parts = get_origin(hint), get_args(hint)
+    if hint is Any:
+        return lambda value: True
+    if hint is float or hint is int:
+        number = Real if hint is float else Integral
+        return lambda value: isinstance(value, number) and not isinstance(value, bool)
+    if isinstance(hint, type) and not parts:
+        kinds = (bool, np.bool_) if hint is bool else hint
+        return lambda value: isinstance(value, kinds)
+    if origin is Union or origin is UnionType:
+        numbers = set(parts) >= _ARRAY
+        tests = [_test_of(part) for part in parts if not (numbers and part in _ARRAY)]
+        tests += [_is_numbers] if numbers else []
+        return lambda value: any(test(value) for test in tests)
+    if origin is Literal:
+        return lambda value: any(isinstance(value, type(part)) for part in parts)
+    if origin is tuple:
+        tests = [_test_of(part) for part in parts if part is not Ellipsis]
+        return lambda value: _is_row(value, tests, parts[-1] is Ellipsis)
+    if origin in _SEQUENCES:
+        test = _test_of(parts[0])
+        return lambda value: _is_many(value) and (not isinstance(value, list | tuple) or all(map(test, value)))
+    return lambda value: not isinstance(origin, type) or isinstance(value, origin)
+
+
+def _is_many(value: Any) -> bool:
+    return isinstance(value, collections.abc.Iterable) and not isinstance(value, str | bytes | collections.abc.Mapping)
+
+
+def _is_row(value: Any, tests: list[Callable[[Any], bool]], endless: bool) -> bool:
+    if isinstance(value, str) or not isinstance(value, tuple | collections.abc.Sequence | np.ndarray):
+        return False
+    tests = tests * len(value) if endless else tests
+    return len(value) == len(tests) and all(test(part) for test, part in zip(tests, value, strict=True))
+
+
+def _is_numbers(value: Any) -> bool:
+    if isinstance(value, str | bytes) or value is None:
+        return False
+    if isinstance(value, tuple | list) and all(type(part) is float or type(part) is int for part in value):
+        return True
+    try:
+        return np.asarray(value).dtype.kind in "biuf" or bool(np.asarray(value, dtype=np.float64).shape)
+    except (TypeError, ValueError, OverflowError):
+        return False
+
+
+def expected(hint: Any) -> str:
+    """A type hint in words.
+
+    Examples
+    --------
+    >>> expected(tuple[float, float] | None), expected(list[str] | ArrayLike)
+    ('(a number, a number) or None', 'numbers or a sequence of a str')
+    """
+    origin, parts = get_origin(hint), get_args(hint)
+    if origin is Union or origin is UnionType:
+        numbers = ["numbers"] if set(parts) >= _ARRAY else []
+        others = [expected(part) for part in parts if not (numbers and part in _ARRAY)]
+        return " or ".join(dict.fromkeys([*numbers, *others]))
+    if origin is Literal:
+        return " or ".join(map(repr, parts))
+    if origin is tuple:
+        return f"({', '.join('...' if part is Ellipsis else expected(part) for part in parts)})"
+    if origin in _SEQUENCES:
+        return f"a sequence of {'these' if parts[0] is Any else expected(parts[0])}"
+    kind = origin or hint
+    return _NAMES.get(kind) or _article(getattr(kind, "__name__", str(kind)))
+
+
+def _article(name: str) -> str:
+    return f"{'an' if name[:1].lower() in 'aeiou' else 'a'} {name}"

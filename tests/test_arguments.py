@@ -1,0 +1,192 @@
+"""Every public function, method and constructor: an argument of a wrong type is one error that names it."""
+
+import inspect
+import math
+import pkgutil
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from typing import Any, get_type_hints
+
+import numpy as np
+import pytest
+
+import cfree
+import cfree.figures
+import cfree.verify
+from cfree import Pose, Rotation, Translation
+from cfree.arguments import checked, fits
+
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+SCENE = cfree.Scene(SQUARE, [[(3, 0), (4, 0), (4, 1)]], bounds=(-2, -2, 6, 6), start=(0, 0, 0), goal=(1, 2, "90deg"))
+# made by cfree, and not by users
+RESULTS = """
+    AlgebraicAngle AngleInterval AngleRange BezierPatch Boundary Cell CellComplex Clearance EdgeEdgeSegment
+    FirstContact Fit FreeSpace Helix Interval LocalGeometry Mesh NearestMiss Pieces Pinch RationalHelix RationalRange
+    RationalSegment RationalSurface Separated Slice Surface
+""".split()  # noqa: SIM905
+
+
+def callables() -> Iterator[tuple[str, Callable[..., Any]]]:
+    """Of the package by name: functions, constructors, methods."""
+    modules = {"": cfree, "verify.": cfree.verify}
+    for prefix, module in modules.items():
+        for name in module.__all__:
+            value = getattr(module, name)
+            if inspect.isfunction(value):
+                yield prefix + name, value
+            if inspect.isclass(value) and not issubclass(value, Exception):
+                if name not in (*RESULTS, "Check", "Finding", "Verification"):
+                    yield prefix + name, value.__init__
+                for member, method in inspect.getmembers_static(value):
+                    function = getattr(method, "__func__", method)
+                    if inspect.isfunction(function) and not member.startswith("_"):
+                        yield f"{prefix}{name}.{member}", function
+    yield "figures.draw", cfree.figures.draw
+    yield "figures.draw_all", cfree.figures.draw_all
+
+
+PARAMETERS = [
+    (name, function, parameter.name)
+    for name, function in callables()
+    for parameter in inspect.signature(function).parameters.values()
+    if parameter.name not in ("self", "cls") and not parameter.name.startswith("_")
+]
+
+
+@pytest.fixture(scope="module")
+def pool() -> list[Any]:
+    """One value of each type."""
+    boundary = cfree.boundary(SCENE, threads=1)
+    space = cfree.free_space(boundary)
+    triangle = cfree.Polygon([(0, 0), (2, 0), (0, 1)])
+    contact, corner = cfree.VertexEdge(0, 0), cfree.VertexVertex(0, 1)
+    path = cfree.Path(Pose(0, 0), [Translation((1, 0))])
+    touch = cfree.Touch("vertex-edge", (0, 0), (0, 2))
+    return [
+        1, 0.5, (0, 0), (0, 0, 0), SCENE, boundary, space, triangle, contact, corner, path, Pose(0, 0), [], True,
+        Translation((1, 0)), (touch, touch), "1", b"", {}, len, [[0, 0, 0]], cfree.EdgeEdge(0, 0), np.zeros(3),
+        cfree.rational_surface(triangle, triangle, cfree.VertexEdge(1, 2)), boundary.mesh(1.0), space.complex,
+        cfree.Poses([[0, 0]], [0]), cfree.contact_surface(triangle, triangle, contact), cfree.MotionChecker(SCENE),
+        boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1), cfree.Surd(1),
+    ]  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "function", "parameter"), PARAMETERS, ids=lambda value: str(value)[:40])
+def test_an_argument_of_a_wrong_type_is_named(
+    name: str, function: Callable[..., Any], parameter: str, pool: list[Any]
+) -> None:
+    hints = get_type_hints(function)
+    arguments: dict[str, Any] = {}
+    for other in inspect.signature(function).parameters.values():
+        if other.name == "self":
+            owner = getattr(cfree, name.split(".")[0])
+            arguments["self"] = object.__new__(owner) if "." not in name else owner.__new__(owner)
+        elif other.default is inspect.Parameter.empty:
+            hint = hints.get(other.name, Any)
+            arguments[other.name] = SQUARE if hint is Any else next(value for value in pool if fits(hint, value))
+    for wrong in (object(), 1j, None, "a text", {1: 2}):
+        if (wrong is not None and not isinstance(wrong, str | dict)) or not fits(hints.get(parameter, Any), wrong):
+            with pytest.raises((TypeError, ValueError), match=rf"\b{parameter}\b") as caught:
+                function(**{**arguments, parameter: wrong})
+            assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+@pytest.mark.parametrize(
+    ("ask", "said"),
+    [
+        (lambda: cfree.plan("scene.json"), "scene: 'scene.json' is a str; give a Scene"),
+        (lambda: cfree.plan(SCENE, improve="2s"), "improve: '2s' is a str; give a number or None"),
+        (lambda: cfree.boundary(SCENE, threads="2"), "threads: '2' is a str; give an int or None"),
+        (lambda: cfree.boundary(SCENE, threads=True), "threads: True is a bool; give an int or None"),
+        (lambda: cfree.Scene(SQUARE, bounds=(0, 0, 1)), "bounds: (0, 0, 1) has 3 numbers; give xmin, ymin, xmax, ymax"),
+        (lambda: cfree.Scene(SQUARE, bounds=(0, 0, 1, "x")), "bounds: 'x' is no number"),
+        (lambda: cfree.Scene(SQUARE, start=(0, 0)), "start: (0, 0) is no pose; give a Pose, or x, y and theta"),
+        (lambda: cfree.Scene(SQUARE, goal="abc"), "goal: 'abc' is a str; give a Pose"),
+        (lambda: cfree.plan(SCENE, (0, 0, "north")), "start: theta: 'north' is no number"),
+        (lambda: cfree.plan_many(SCENE, [((0, 0, 0), 1)]), "queries: "),
+        (lambda: cfree.plan_many(SCENE, [((0, 0, 0), (1, 2))]), "query 0: goal: (1, 2) is no pose"),
+        (lambda: cfree.is_free(SCENE, [(0, 0, 0), (0, 0, "x")]), "poses[1]: theta: 'x' is no number"),
+        (lambda: cfree.Path(Pose(0, 0), [Translation((1, 0)), 1]), "motions: "),
+        (lambda: cfree.max_scale(cfree.Scene(SQUARE)), "no start: the scene has none"),
+        (lambda: Rotation((0, 0), "north"), "angle: 'north' is no number"),
+    ],
+)
+def test_the_message_says_what_is_there_and_what_to_give(ask: Callable[[], object], said: str) -> None:
+    with pytest.raises((TypeError, ValueError)) as caught:
+        ask()
+    assert str(caught.value).startswith(said)
+
+
+def test_a_pose_is_what_a_scene_takes_for_one() -> None:
+    """Everywhere: (x, y, theta) of any numbers, theta in degrees or as a tangent."""
+    start, goal, same = (0, "0", "0°"), [1, Fraction(2), "90°"], (Pose(0, 0), Pose(1, 2, "90deg"))
+    scene = cfree.Scene(SQUARE, SCENE.obstacles, bounds=(-2, -2, 6, 6), start=start, goal=goal)
+    assert scene == SCENE and (scene.start, scene.goal) == same
+    space, checker = cfree.free_space(cfree.boundary(scene)), cfree.MotionChecker(scene)
+    path = cfree.plan(scene, start, goal)
+    assert path == cfree.plan(scene, *same) == cfree.plan(scene) == cfree.Planner(scene).plan(start, goal)
+    assert [path] == cfree.plan_many(space, [(start, goal)]) == [space.plan(start, goal)]
+    assert space.locate(start) == space.reachable(start).index == space.common_cell(start, goal)
+    assert space.locate([start, goal]).tolist() == [space.locate(pose) for pose in same]
+    motion = cfree.motion_between(start, goal)
+    assert motion == cfree.motion_between(*same) and motion.apply(start) == same[1] == motion.at(start, 1)
+    assert checker.is_free(start, motion) == cfree.is_free_motion(scene, start, motion)
+    assert checker.first_contact(start, motion) == cfree.first_contact(scene, same[0], motion)
+    assert cfree.Path(start, [motion]) == cfree.Path(same[0], [motion])
+    assert cfree.turn_in_place(scene, start) == cfree.turn_in_place(scene, same[0])
+    assert cfree.free_nearby(scene, goal) == cfree.free_nearby(scene, same[1])
+    cfree.require_free(scene, start)
+    assert cfree.is_contact(scene.robot[0], scene.obstacles[0], (2, 0, 0))
+    assert cfree.max_margin(scene, tolerance=0.5) == cfree.max_margin(scene, start, goal, tolerance=0.5)
+    assert cfree.max_scale(scene, tolerance=0.5) == cfree.max_scale(scene, *same, tolerance=0.5)
+
+
+def test_one_pose_has_one_verdict() -> None:
+    for pose in (Pose(0, 0), (0, 0, 0), [0, "0", "0°"], np.zeros(3), (Fraction(1, 3), 0, 0.5)):
+        assert cfree.is_free(SCENE, pose) is True
+    rows = [(0, 0, 0), (3, 0, 0)]
+    exact = [Pose(*row) for row in rows]
+    for poses in (rows, np.array(rows), exact, [(0, 0, "0°"), (3, 0, "0°")], cfree.Poses.from_poses(exact)):
+        assert cfree.is_free(SCENE, poses).tolist() == [True, False]
+    assert not len(cfree.is_free(SCENE, np.zeros((0, 3))))
+
+
+def test_numbers_may_be_of_any_kind() -> None:
+    assert cfree.boundary(SCENE, threads=np.int64(1), max_seconds=Fraction(100)).complete
+    assert Rotation((0, 0), np.float32(0.5)).angle == Rotation((0, 0), np.float32(0.5)).turn == pytest.approx(0.5)
+
+
+def test_the_decorated_are_what_they_were() -> None:
+    @checked
+    def twice(length: float, *, name: str = "") -> float:
+        """Twice."""
+        return 2 * length
+
+    assert (twice.__name__, twice.__doc__) == ("twice", "Twice.")
+    assert str(inspect.signature(twice)) == "(length: float, *, name: str = '') -> float"
+    assert twice(length=math.pi, name="x") == math.tau
+    with pytest.raises(TypeError, match="positional"):
+        twice(1, 2)  # type: ignore[misc]
+
+
+# names and hints
+
+
+def test_only_what_is_public_is_listed() -> None:
+    assert dir(cfree) == sorted([*cfree.__all__, "figures", "ompl", "verify"])
+
+
+def test_no_module_hides_a_name() -> None:
+    assert not set(cfree.__all__) & {module.name for module in pkgutil.iter_modules(cfree.__path__)}
+
+
+@pytest.mark.parametrize("name", cfree.__all__)
+def test_type_hints_resolve(name: str) -> None:
+    value = getattr(cfree, name)
+    if not callable(value):
+        return
+    get_type_hints(value)
+    for _, member in inspect.getmembers_static(value) if inspect.isclass(value) else ():
+        function = getattr(member, "fget", None) or getattr(member, "func", None) or getattr(member, "__func__", member)
+        if inspect.isfunction(function) and not function.__name__.startswith("_"):
+            get_type_hints(function)
