@@ -80,14 +80,15 @@ class _Check:
     """Of one argument; `known` are types all values of which will do."""
 
     def __init__(self, hint: Any) -> None:
-        self.hint = hint
+        self.hint, self.test = hint, _test_of(hint)
+        self.plain = [_test_of(part) for part in (hint, *get_args(hint)) if _is_plain(part)]
         self.known: set[type] = set()
 
     def __call__(self, name: str, value: Any) -> None:
-        if not fits(self.hint, value):
+        if not self.test(value):
             kind = "None" if value is None else f"{reprlib.repr(value)} is {_article(type(value).__name__)}"
             raise TypeError(f"{name}: {kind}; give {expected(self.hint)}")
-        if any(_is_plain(part) and fits(part, value) for part in (self.hint, *get_args(self.hint))):
+        if any(test(value) for test in self.plain):
             self.known.add(type(value))
 
 
