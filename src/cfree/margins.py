@@ -102,7 +102,7 @@ def nearest_miss(
     >>> box = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
     >>> square = [(-1.25, -1.25), (1.25, -1.25), (1.25, 1.25), (-1.25, 1.25)]
     >>> scene = Scene(square, walls, workspace=box)
-    >>> miss = nearest_miss(scene, Pose(0, 5), Pose(0, -5))
+    >>> miss = nearest_miss(scene, (0, 5, 0), (0, -5, 0))
     >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.pinches[0].obstacles)
     (True, [0, 1])
     """
@@ -166,7 +166,7 @@ def max_scale(
     --------
     >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
     >>> scene = Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
-    >>> found = max_scale(scene, Pose(0, 5), Pose(0, -5))
+    >>> found = max_scale(scene, (0, 5, 0), (0, -5, 0))
     >>> found.lo <= 1 <= found.hi <= 1.01 * found.lo
     True
     """
@@ -218,7 +218,7 @@ def max_margin(
     --------
     >>> walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
     >>> scene = Scene([(0, 0), ("1/2", 0), (0, "1/2")], walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
-    >>> found = max_margin(scene, Pose(0, 5), Pose(0, -5), tolerance=0.05)
+    >>> found = max_margin(scene, (0, 5, 0), (0, -5, 0), tolerance=0.05)
     >>> found.lo < 1 - 2**0.5 / 8 < found.hi < 1.08 * found.lo      # the triangle's height is 2**0.5 / 4
     True
     """

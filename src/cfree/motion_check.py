@@ -127,7 +127,7 @@ class MotionChecker(Value):
         return next(filter(self.joins, ways), None)
 
     @checked
-    def first_contact(self, pose: PoseLike, motion: Translation | Rotation) -> FirstContact | None:
+    def first_contact(self, pose: PoseLike, motion: Motion) -> FirstContact | None:
         """Where a motion becomes forbidden for the first time; None if it is free.
 
         Raises
@@ -212,7 +212,7 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
 
 
 @checked
-def first_contact(scene: Scene, pose: PoseLike, motion: Translation | Rotation) -> FirstContact | None:
+def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact | None:
     """Where a motion becomes forbidden for the first time; None if it is free.
 
     Examples

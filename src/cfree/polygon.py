@@ -18,6 +18,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 from shapely import Polygon as ShapelyPolygon
+from shapely.geometry.base import BaseGeometry
 
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
@@ -229,7 +230,7 @@ class Polygon:
 
     @classmethod
     @checked
-    def from_shapely(cls, geometry: ShapelyPolygon) -> Polygon:
+    def from_shapely(cls, geometry: BaseGeometry) -> Polygon:
         """Polygon of a shapely polygon, whose coordinates are the doubles they are; heights are ignored.
 
         Examples
