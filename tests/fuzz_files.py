@@ -1,4 +1,6 @@
-"""Files of boundaries and cells with flipped bits and right checksums: refused, or used without a crash or a hang.
+"""Files with flipped bits and right checksums: refused, or used without a crash or a hang.
+
+Three in four are of boundaries and cells, the others answers and scenes.
 
     python tests/fuzz_files.py --seconds 600 --seed 7
 
@@ -24,12 +26,14 @@ import numpy as np
 
 import cfree.verify
 import fuzz
-from cfree import FreeSpace, Pose, boundary, free_space, load_boundary
+from answer_mutations import corridor, tee, text_of
+from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_boundary, load_scene, plan
 from cfree.errors import CfreeError
 from cfree.geometry.area import trapezoid_areas
+from cfree.io import scene_text
 from cfree.storage import signed
 from compared import scene_of
-from shapes import PlainScene
+from shapes import PlainScene, box
 from workers import Lost, Worker
 
 PATIENCE = 60.0  # seconds for all that is done with one file
@@ -85,16 +89,35 @@ def sealed(arrays: dict[str, Any]) -> dict[str, Any]:
     return arrays | {"header": np.frombuffer(json.dumps(header).encode(), np.uint8)}
 
 
+@cache
+def texts() -> list[tuple[str, Scene, bytes]]:
+    """Files of answers and of scenes: what they are, the scene, the bytes."""
+    closed = scene_of(PlainScene([box(0, 0, 1, 2)], [box(0, -3, 1, 9)], bounds=(-9, -2, 9, 5)))
+    start, goal = Pose(-5, 0), Pose(5, 0)
+    pairs: list[tuple[Scene, Any]] = [corridor(), tee(), (closed, plan(closed, start, goal, improve=0))]
+    answers = [("answer", scene, text_of(answer).encode()) for scene, answer in pairs]
+    return [*answers, *(("scene", scene, scene_text(scene).encode()) for scene, _ in pairs)]
+
+
 def used(number: int) -> tuple[str, str, str]:
-    """The column of a damaged file, what came of using it, and what is wrong with that."""
+    """The column of a damaged file, or what is in it, what came of using it, and what is wrong with that."""
     rng = random.Random(f"file {number}")
-    column, arrays = damaged(rng)
     with tempfile.TemporaryDirectory() as folder:
-        file = FilePath(folder) / "damaged.npz"
-        with file.open("wb") as stream:
-            np.savez(stream, **sealed(arrays))
+        file = FilePath(folder) / ("damaged.json" if number % 4 == 3 else "damaged.npz")
+        if number % 4 == 3:
+            column, scene, text = rng.choice(texts())
+            flipped = bytearray(text)
+            for _ in range(rng.randint(1, 3)):
+                flipped[rng.randrange(len(flipped))] ^= 1 << rng.randrange(7)
+            file.write_bytes(flipped)
+        else:
+            column, arrays = damaged(rng)
+            with file.open("wb") as stream:
+                np.savez(stream, **sealed(arrays))
         try:
-            return column, _everything(file, rng), ""
+            if column == "answer":
+                return column, "verified" if cfree.verify.answer(scene, file).verified else "rejected", ""
+            return column, _scene(file) if number % 4 == 3 else _everything(file, rng), ""
         except CfreeError as error:
             return column, type(error).__name__, ""
         except Exception as error:
@@ -119,6 +142,13 @@ def _everything(file: FilePath, rng: random.Random) -> str:
     return "answers"
 
 
+def _scene(file: FilePath) -> str:
+    scene = load_scene(file)
+    if scene.start and scene.goal:
+        plan(scene, improve=0, max_seconds=5)
+    return "answers"
+
+
 def _space(space: FreeSpace) -> None:
     poses = [Pose(x, y, {"tau": tau}) for x, y, tau in ((0, 0, 0), (30, 30, 1), (1, 2, None), (3, 1, "1/3"))]
     cells = space.locate(poses).tolist()
@@ -140,7 +170,7 @@ def main() -> int:
         try:
             column, what, text = worker.ask(number)
         except Lost as error:
-            column, what, text = damaged(random.Random(f"file {number}"))[0], str(error), str(error)
+            column, what, text = "?", str(error), str(error)
         came[what] += 1
         place = text.strip().splitlines()[-3:] if text else []
         if text and (what, *place[:1]) not in wrong:
