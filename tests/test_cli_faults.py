@@ -7,12 +7,15 @@ import re
 import signal
 import subprocess
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
 from typer.testing import CliRunner
 
+import cfree
 from cfree.cli import app
 from cfree.files import replacing
 
@@ -202,3 +205,20 @@ def test_letters_that_the_output_cannot_write_are_escaped(tmp_path: Path) -> Non
     file.write_text(f'{{"robot": {TRIANGLE}, "obstacles": [], "name": "Bühne"}}', encoding="utf-8")
     result = shell(f"cfree check {file}", env={**os.environ, "PYTHONIOENCODING": "ascii"})
     assert result.returncode == 0 and result.stdout.startswith("B\\xfchne\n")
+
+
+def test_each_phase_of_a_plan_has_its_name() -> None:
+    names: list[str] = []
+
+    @contextmanager
+    def phase(name: str) -> Iterator[None]:
+        names.append(name)
+        yield
+
+    wall, room = [(4, 0), (5, 0), (5, 9), (4, 9)], [(0, 0), (9, 0), (9, 9), (0, 9)]
+    scene = cfree.Scene([(0, 0), (2, 0), (0, 1)], [wall], workspace=room)
+    cfree.Planner(scene, phase=phase).plan((1, 1, 0), (6, 1, 0))
+    assert names == ["search", "free space", "cells", "path in a cell", "proof"]
+    names.clear()
+    cfree.Planner(scene, phase=phase).plan((1, 1, 0), (1, 2, 0))
+    assert names == ["search", "shorter paths"]

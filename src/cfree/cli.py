@@ -95,7 +95,10 @@ def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
         from cfree.describe import describe
         from cfree.io import load_scene
 
-        facts = {"file": str(scene)} | describe(load_scene(scene))
+        with _bar("reading"):
+            given = load_scene(scene)
+        with _bar("counting"):
+            facts = {"file": str(scene)} | describe(given)
         if as_json:
             _print_json(facts)
         else:
@@ -221,13 +224,12 @@ def plan(
         if objective not in ("short", "clear"):
             raise ValueError(f'--objective: {objective!r}; give "short" or "clear"')
         ends = [read_pose(text, name) for text, name in ((start, "--start"), (goal, "--goal"))]
-        with _bar("free space") as progress:
-            planner = _planner_of(scene, max_seconds, progress)
-            begin, end = required(planner.scene, *ends)
-            try:
-                answer = planner.plan(begin, end, improve=seconds, objective=objective)  # type: ignore[arg-type]
-            except IncompleteError as error:
-                fail(str(error), INCOMPLETE)
+        planner = _planner_of(scene, max_seconds)
+        begin, end = required(planner.scene, *ends)
+        try:
+            answer = planner.plan(begin, end, improve=seconds, objective=objective)  # type: ignore[arg-type]
+        except IncompleteError as error:
+            fail(str(error), INCOMPLETE)
         if output:
             if isinstance(answer, Motions):
                 answer.save(output, planner.angle_scale / 20, scene=planner.scene, form=kind)
@@ -239,7 +241,9 @@ def plan(
             from cfree.plot import save_figure
             from cfree.plot_answer import picture as drawn
 
-            save_figure(drawn(answer, planner.scene, planner.free_space.boundary), picture)
+            space = planner.free_space
+            with _bar("picture"):
+                save_figure(drawn(answer, planner.scene, space.boundary), picture)
         if film and isinstance(answer, Motions):
             from cfree.film import film_path
 
@@ -247,7 +251,8 @@ def plan(
                 film_path(answer, planner.scene, film, progress=progress)
         elif film:
             _leave_out(written, "film", "there is no path to film")
-        facts = answer_facts(answer, planner.scene) if as_json else answer_rows(answer, planner.scene)
+        with _bar("least clearance"):
+            facts = answer_facts(answer, planner.scene) if as_json else answer_rows(answer, planner.scene)
         if miss and not isinstance(answer, Motions):
             from cfree.margins import nearest_miss
 
@@ -427,7 +432,7 @@ def figures(
 # input
 
 
-def _planner_of(source: Path, max_seconds: float | None, progress: Callable[[float], object] | None) -> Planner:
+def _planner_of(source: Path, max_seconds: float | None) -> Planner:
     """For the scene in a file, with its free space if the file is a boundary."""
     from cfree.cells import free_space
     from cfree.io import load_scene
@@ -435,9 +440,12 @@ def _planner_of(source: Path, max_seconds: float | None, progress: Callable[[flo
     from cfree.storage import load_boundary
 
     if _is_archive(source):
-        space = free_space(load_boundary(source))
-        return Planner(space.boundary.scene, space)
-    return Planner(load_scene(source), max_seconds=max_seconds, progress=progress)
+        with _bar("cells"):
+            space = free_space(load_boundary(source))
+        return Planner(space.boundary.scene, space, phase=_bar)
+    with _bar("reading"):
+        scene = load_scene(source)
+    return Planner(scene, max_seconds=max_seconds, phase=_bar)
 
 
 def _exit_code(answer: Motions | Separated) -> int:
@@ -460,14 +468,15 @@ def _boundary_of(
 
     if _is_archive(source):
         return load_boundary(source)
-    scene = load_scene(source)
+    with _bar("reading"):
+        scene = load_scene(source)
     with _bar("boundary") as progress:
         return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
 
 
 @contextmanager
 def _bar(name: str) -> Iterator[Callable[[float], object] | None]:
-    """What to call with the share that is done: it moves a bar on a terminal."""
+    """What to call with the share that is done: it moves a bar on a terminal, which says what is being done."""
     if not sys.stderr.isatty():
         yield None
         return
@@ -475,8 +484,8 @@ def _bar(name: str) -> Iterator[Callable[[float], object] | None]:
     from rich.progress import Progress
 
     with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(name, total=1.0)
-        yield lambda share: bar.update(task, completed=share)
+        task = bar.add_task(name, total=None)
+        yield lambda share: bar.update(task, completed=share, total=1.0)
 
 
 def _is_archive(path: Path) -> bool:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.features import BODY, scene_features
-from cfree.free import is_free
+from cfree.features import BODY, SceneFeatures, scene_features
+from cfree.free import Checker
 from cfree.mesh import KINDS
 from cfree.polygon import Polygon
 from cfree.pose import Pose
@@ -40,6 +40,8 @@ def describe(scene: Scene) -> dict[str, Any]:
     >>> facts["goal"]
     {'x': 3.4, 'y': 2.2, 'degrees': 90.0, 'free': True}
     """
+    features = scene_features(scene)
+    checker = Checker(scene, features) if scene.start or scene.goal else None
     shapes = [
         *(("robot" if len(scene.robot) == 1 else f"robot[{k}]", part) for k, part in enumerate(scene.robot)),
         *zip(scene.obstacle_names, scene.obstacles, strict=True),
@@ -59,9 +61,9 @@ def describe(scene: Scene) -> dict[str, Any]:
             for name, shape in shapes
             for point in shape.removed
         ],
-        "patches": expected_patches(scene),
-        "start": _pose_facts(scene, scene.start),
-        "goal": _pose_facts(scene, scene.goal),
+        "patches": expected_patches(scene, features),
+        "start": _pose_facts(checker, scene.start),
+        "goal": _pose_facts(checker, scene.goal),
     }
 
 
@@ -89,9 +91,8 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
     return facts | {"free area": (x1 - x0) * (y1 - y0) - area}
 
 
-def expected_patches(scene: Scene) -> dict[str, int]:
+def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     """Numbers of contact patches before trimming: convex vertices times edges, both ways."""
-    features = scene_features(scene)
     robot, obstacles = features.robot.rings, features.obstacles.rings
     body = [convex for convex, layer in zip(robot["convex"], robot["layer"], strict=True) if layer == BODY]
     columns = zip(obstacles["convex"], obstacles["layer"], obstacles["emit"], strict=True)
@@ -112,8 +113,8 @@ def _counts(shapes: Sequence[Polygon]) -> dict[str, int]:
     }
 
 
-def _pose_facts(scene: Scene, pose: Pose | None) -> dict[str, Any] | None:
-    if pose is None:
+def _pose_facts(checker: Checker | None, pose: Pose | None) -> dict[str, Any] | None:
+    if pose is None or checker is None:
         return None
     degrees = float(np.degrees(pose.theta))
-    return {"x": float(pose.x), "y": float(pose.y), "degrees": degrees, "free": is_free(scene, pose)}
+    return {"x": float(pose.x), "y": float(pose.y), "degrees": degrees, "free": checker.is_free(pose)}

@@ -60,6 +60,10 @@ def to_ratio(value: Number) -> tuple[int, int]:
     >>> to_ratio(0.75)
     (3, 4)
     """
+    if type(value) is Fraction:  # the usual ones first
+        return value.as_integer_ratio()
+    if type(value) is Decimal:
+        return _decimal_ratio(value)
     if isinstance(value, (bool, np.bool_)):
         raise ValueError(f"{value} is a truth value; give a number")
     if isinstance(value, (int, np.integer)):

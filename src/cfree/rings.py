@@ -115,7 +115,9 @@ def _read_points(ring: int, points: Points) -> Ratios:
         raise _fault(ring, f"{reprlib.repr(rows)} is no ring; give a sequence of points (x, y)")
     ratios: Ratios = []
     for k, row in enumerate(rows):
-        if isinstance(row, str) or not isinstance(row, Iterable) or len(pair := tuple(row)) != 2:
+        if type(row) is tuple and len(row) == 2:
+            pair: Sequence[Any] = row
+        elif isinstance(row, str) or not isinstance(row, Iterable) or len(pair := tuple(row)) != 2:
             raise _fault(ring, f"point {k} = {reprlib.repr(row)} is no point; give a pair (x, y)")
         try:
             x, y = to_ratio(pair[0]), to_ratio(pair[1])

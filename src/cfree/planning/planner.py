@@ -11,6 +11,7 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -39,6 +40,7 @@ from cfree.value import Value
 if TYPE_CHECKING:
     from cfree.planning.passages import Passages
 
+Phase = Callable[[str], AbstractContextManager[Any]]
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
 OTHERS = 30  # other ways looked for
@@ -116,12 +118,16 @@ class Planner(Value):
         Computed when needed, unless given.
     max_seconds, progress
         As in `plan`, for that computation.
+    phase : callable, optional
+        Called with the name of each long part of the work; gives a context for it, which gives what to call with the
+        share of that part that is done, or None.
     """
 
     scene: Scene
     space: FreeSpace | None = None
     max_seconds: float | None = None
     progress: Callable[[float], object] | None = None
+    phase: Phase = field(default=nullcontext, repr=False)
     stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
     _slides: dict[tuple[Pose, Pose], Slide] = field(default_factory=dict, repr=False)  # by the poses that they join
     _lock: threading.RLock = field(default_factory=threading.RLock, repr=False)  # of all that is kept for later
@@ -162,12 +168,15 @@ class Planner(Value):
         from cfree.cells import free_space
 
         if self.space is None:
-            found = boundary(self.scene, max_seconds=self.max_seconds, progress=self.progress)
+            with self.phase("free space") as share:
+                progress = share if callable(share) else self.progress
+                found = boundary(self.scene, max_seconds=self.max_seconds, progress=progress)
             if not found.complete:
                 raise IncompleteError(
                     f"{self.max_seconds} seconds were not enough to compute the free space; give more"
                 )
-            self.space = free_space(found)
+            with self.phase("cells"):
+                self.space = free_space(found)
         return self.space
 
     @checked
@@ -189,17 +198,20 @@ class Planner(Value):
             return way
         parts = self._without_slides(way)
         seconds = improve and improve / len(parts)
-        if objective == "clear":
-            return self.path([q for part in parts for q in self._cleared(self.shortened(part, None), seconds)])
-        return self.path([q for part in parts for q in self.shortened(part, seconds)])
+        with self.phase("clearer paths" if objective == "clear" else "shorter paths"):
+            if objective == "clear":
+                return self.path([q for part in parts for q in self._cleared(self.shortened(part, None), seconds)])
+            return self.path([q for part in parts for q in self.shortened(part, seconds)])
 
     def _way(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """Poses of a path, or a proof; the way back is the same."""
         ends = sorted((start, goal), key=lambda q: (q.x, q.y, q.tau is None, q.tau or 0))
         first, last = ends
-        poses = self.checker.first_free(simple_ways(first, last)) if first != last else None
-        if poses is None and first != last and (self.space is None or self.space.common_cell(first, last) is not None):
-            poses = self._searched(first, last)
+        with self.phase("search"):
+            poses = self.checker.first_free(simple_ways(first, last)) if first != last else None
+            is_joined = self.space is None or self.space.common_cell(first, last) is not None
+            if poses is None and first != last and is_joined:
+                poses = self._searched(first, last)
         if poses is None:  # a motion that is free has free ends
             for pose, name in ((start, "start"), (goal, "goal")):
                 if not self.checker.joins([pose, pose]):
@@ -217,19 +229,25 @@ class Planner(Value):
         """What the free space says: poses of a path, or a proof."""
         from cfree.separated import separation
 
-        if (cell := self.free_space.common_cell(start, goal)) is not None:
-            return self.walker.walk(start, goal, cell)
+        space = self.free_space
+        with self.phase("path in a cell"):
+            if (cell := space.common_cell(start, goal)) is not None:
+                return self.walker.walk(start, goal, cell)
         quick, *others = insets_of(self.scene)
-        proof = separation(self.free_space, start, goal, [quick])
+        with self.phase("proof"):
+            proof = separation(space, start, goal, [quick])
         if proof is not None and proof.of == "closed":
             return proof
-        if (way := self._passages.path(start, goal)) is not None:
-            return way
-        proof = separation(self.free_space, start, goal, others)
+        with self.phase("exact fits"):
+            if (way := self._passages.path(start, goal)) is not None:
+                return way
+        with self.phase("closer proofs"):
+            proof = separation(space, start, goal, others)
         assert proof is not None, "not in one cell"
         if proof.of == "closed":
             return proof
-        return self._passages.path(start, goal, irrational=True) or proof
+        with self.phase("other exact fits"):
+            return self._passages.path(start, goal, irrational=True) or proof
 
     @checked
     def path(self, poses: Sequence[Pose]) -> Path:
