@@ -373,6 +373,7 @@ class Boundary(Value):
         """
         return self.evaluate_near(patch, t, theta) + self.features.moved(theta)
 
+    @checked
     def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
         """The same from the features' frame, which keeps areas and has all digits in scenes that are far away."""
         s, t, theta = self._ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
