@@ -30,6 +30,7 @@ BENCHES = (
     "cells",
     "plan",
     "tight",
+    "fits",
     "start",
 )
 

@@ -195,7 +195,23 @@ std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
 }
 
 // The root's bracket shrunk to about the precision of balls: certain, opposite signs at its ends.
-std::optional<Predicates::Bracket> Predicates::narrowed(const Event& x) const {
+const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
+    constexpr std::size_t size = 256;
+    if (recent.empty()) recent.resize(size, {{{}, {}, 2, 2}, {}});
+    const auto mixed = [](const Feature& f) {
+        return 4 * (static_cast<std::size_t>(f.obstacle) * 31 + static_cast<std::size_t>(f.robot)) + static_cast<std::size_t>(f.kind);
+    };
+    const auto same = [](const Feature& f, const Feature& g) {
+        return f.kind == g.kind && f.robot == g.robot && f.obstacle == g.obstacle;
+    };
+    Narrowed& known = recent[(mixed(x.first) + 7 * mixed(x.second)) % size];
+    const Event& y = known.x;
+    if (!(same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine))
+        known = {x, found_narrowed(x)};
+    return known.bracket;
+}
+
+std::optional<Predicates::Bracket> Predicates::found_narrowed(const Event& x) const {
     if (x.first.kind == Kind::none) return Bracket{Ball(x.lo), Ball(x.hi)};
     const auto factor = simple(x);
     if (!factor) return {};
@@ -243,7 +259,7 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
             RealRoot p = root_of(x), q = root_of(y);
             return cfree::compare(p, q);
         } else {
-            const auto p = narrowed(x), q = narrowed(y);
+            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
             if (!p || !q) return {};
             if (is_below((*p)[1], (*q)[0])) return -1;
             if (is_below((*q)[1], (*p)[0])) return 1;
@@ -297,7 +313,7 @@ Sample Predicates::between(const Event& x, const Event& y, int attempt) {
     if (double_only) return {0.25 * (x.lo + x.hi + y.lo + y.hi), {}};
     const auto [below, above] = settled(counters, [&]<class T>() -> std::optional<std::array<Dyadic, 2>> {
         if constexpr (std::is_same_v<T, Ball>) {
-            const auto p = narrowed(x), q = narrowed(y);
+            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
             if (!p || !q || !is_below((*p)[1], (*q)[0])) return {};
             return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
         } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cfree/stop.hpp"
 
@@ -19,6 +20,46 @@ void keep_small(Poly& p) {
     for (const Int& c : p) g = gcd(g, c);
     if (g > 1)
         for (Int& c : p) c /= g;
+}
+
+// Whether two polynomials have no common root for the reason that they have none modulo a prime: the leading coefficient of a
+// common divisor divides theirs, so that it keeps its degree there if one of theirs is not zero.
+bool are_coprime_modulo_prime(const Poly& p, const Poly& q) {
+    using Word = std::uint64_t;
+    constexpr Word prime = (Word(1) << 61) - 1;
+    const auto times = [](Word x, Word y) { return static_cast<Word>(static_cast<Wide>(x) * y % prime); };
+    struct Small {
+        Word c[7];
+        int size = 0;
+    };
+    const auto reduced = [&](const Poly& f) {
+        Small r;
+        for (const Int& c : f) {
+            const Int rest = c % Int(prime);
+            r.c[r.size++] = static_cast<Word>(rest.sign() < 0 ? Int(rest + prime) : rest);
+        }
+        return r;
+    };
+    Small a = reduced(p), b = reduced(q);
+    if (a.size == 0 || b.size == 0 || (a.c[a.size - 1] == 0 && b.c[b.size - 1] == 0)) return false;
+    const auto trim = [](Small& f) {
+        while (f.size > 0 && f.c[f.size - 1] == 0) --f.size;
+    };
+    trim(a), trim(b);
+    while (b.size > 0) {
+        while (a.size >= b.size) {  // lead(b) a - lead(a) t^k b
+            const Word top = a.c[a.size - 1], lead = b.c[b.size - 1];
+            for (int i = 0; i < a.size; ++i) a.c[i] = times(a.c[i], lead);
+            for (int i = 0; i < b.size; ++i) {
+                Word& c = a.c[i + a.size - b.size];
+                const Word less = times(top, b.c[i]);
+                c = c >= less ? c - less : c + prime - less;
+            }
+            trim(a);
+        }
+        std::swap(a, b);
+    }
+    return a.size == 1;
 }
 
 // A positive multiple of the remainder of p by q.
@@ -154,6 +195,7 @@ int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi) {
 }
 
 Poly greatest_common_divisor(Poly p, Poly q) {
+    if (are_coprime_modulo_prime(p, q)) return {1};
     while (!q.empty()) {
         Poly r = p.size() >= q.size() ? remainder(p, q) : p;
         p = q;

@@ -1,4 +1,4 @@
-#include "cfree/polynomial.hpp"
+#include "cfree/algebraic.hpp"
 
 #include "check.hpp"
 
@@ -42,7 +42,30 @@ static void rounding_is_outward() {
         CHECK(Dyadic::from(x).rounded_down() == x && Dyadic::from(x).rounded_up() == x);
 }
 
+static void narrowing_doubles_the_digits() {
+    RealRoot root{Poly{-1, 0, 2}, Dyadic::from(0.70710678118654746), Dyadic::from(0.70710678118654757)};
+    for (int k = 0; k < 6; ++k) root.narrow();
+    CHECK(root.digits() > 500 && root.digits() < 2000);
+    CHECK(sign_at(root.p, root.lo) < 0 && sign_at(root.p, root.hi) > 0);
+    RealRoot third{Poly{-1, 3}, Dyadic::from(0.25), Dyadic::from(0.5)}, half{Poly{-1, 2}, Dyadic::from(0.25), Dyadic::from(0.75)};
+    for (int k = 0; k < 20; ++k) third.narrow(), half.narrow();
+    CHECK(sign_at(third.p, third.lo) < 0 && sign_at(third.p, third.hi) > 0 && third.digits() > 20);
+    CHECK(half.is_dyadic() && compare(half.lo, Dyadic::from(0.5)) == 0);
+}
+
+static void numbers_that_nearly_agree_are_told_apart() {
+    const Int much = Int(1) << 300;
+    const Poly p{-much, 0, 2 * much}, above{-much - 1, 0, 2 * much};  // sqrt(1/2), and a little more
+    const auto about = [](const Poly& f) { return RealRoot{f, Dyadic::from(0.5), Dyadic::from(1)}; };
+    RealRoot x = about(p), y = about(above), z = about(product(p, Poly{3, 1}));
+    CHECK(compare(x, y) < 0 && compare(y, x) > 0 && compare(x, z) == 0);
+    CHECK(sign_at(above, x) < 0 && sign_at(p, y) > 0 && sign_at(z.p, x) == 0);
+    CHECK(sign_on(p, Dyadic::from(0.79), Dyadic::from(0.8)) == 1 && sign_on(p, Dyadic::from(0.7), Dyadic::from(0.8)) == 0);
+}
+
 int main() {
+    narrowing_doubles_the_digits();
+    numbers_that_nearly_agree_are_told_apart();
     signs_at_dyadics_are_exact();
     common_divisors_are_found();
     roots_are_isolated_in_order();

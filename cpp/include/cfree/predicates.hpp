@@ -187,7 +187,8 @@ private:
     using Bracket = std::array<Ball, 2>;
     bool is_touch_of_quadratic(const Event& x) const;
     std::optional<Coefficients<Ball>> simple(const Event& x) const;
-    std::optional<Bracket> narrowed(const Event& x) const;
+    const std::optional<Bracket>& narrowed(const Event& x);
+    std::optional<Bracket> found_narrowed(const Event& x) const;
     bool same_polynomial(const Event& x, const Event& y);
     template <class T>
     std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
@@ -197,6 +198,11 @@ private:
     Surface surface;
     double kappa;
     std::vector<std::array<Dyadic, 2>> fine;
+    struct Narrowed {
+        Event x;
+        std::optional<Bracket> bracket;
+    };
+    std::vector<Narrowed> recent;  // a table by features, since one angle is compared with many; empty until then
 };
 
 }  // namespace cfree
