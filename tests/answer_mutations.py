@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
-import cfree.verify
+import second_opinion
 from cfree import (
     FormatError,
     FreeSpace,
@@ -424,7 +424,7 @@ def verdict(scene: Scene, answer: Answer) -> str:
         file = FilePath(folder, "answer.json")
         file.write_text(json.dumps(answer))
         try:
-            result = cfree.verify.answer(scene, file)
+            result = second_opinion.verified(scene, file)
         except FormatError:
             return "bad file"
         if result.verified:

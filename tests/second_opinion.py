@@ -1,0 +1,58 @@
+"""An answer checked by `cfree.verify` and by `tools/check_answer.py`, which have to say the same."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+import tempfile
+from pathlib import Path as FilePath
+from typing import Any
+
+import cfree.verify
+from cfree import FormatError, Path, Scene, Separated
+from cfree.io import scene_text
+from cfree.verify.result import Verification
+
+TOOL = FilePath(__file__).parents[1] / "tools/check_answer.py"
+
+
+def _loaded() -> Any:
+    spec = importlib.util.spec_from_file_location("check_answer", TOOL)
+    assert spec and spec.loader
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["check_answer"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+check_answer = _loaded()
+
+
+def verified(scene: Scene, file: FilePath) -> Verification:
+    """What `cfree.verify` says of an answer in a file.
+
+    Raises
+    ------
+    AssertionError
+        If the other checker says something else.
+    FormatError
+        If both cannot read the file.
+    """
+    code, said = check_answer.verdict(scene_text(scene), file.read_text(encoding="utf-8"))
+    try:
+        result = cfree.verify.answer(scene, file)
+    except FormatError as error:
+        assert code == 2, f"a bad file for cfree, and not for check_answer: {error}; {said}"
+        raise
+    assert code == (0 if result.verified else 1), f"check_answer: {said}; cfree.verify: {result}"
+    assert not result.verified or said == f"{result.proved} verified", f"{said}; {result.proved}"
+    return result
+
+
+def verified_in_a_file(scene: Scene, found: Path | Separated) -> Verification:
+    """The same of an answer in memory, which is saved first."""
+    known = Path(found.start, found.motions, scene=scene) if isinstance(found, Path) else found
+    with tempfile.TemporaryDirectory() as folder:
+        file = FilePath(folder, "answer.json")
+        known.save(file)
+        return verified(scene, file)

@@ -1,0 +1,1497 @@
+#!/usr/bin/env python3
+"""Check an answer of cfree, a path or a proof that there is none, with Python's standard library and nothing else.
+
+    python check_answer.py SCENE.json ANSWER.json
+
+prints one line. Exit code 0: verified. 1: refuted. 2: a file cannot be read; so are scenes in GeoJSON or WKT, and
+answers without exact numbers. The formats are those of docs/scene-format.md and docs/answer-format.md.
+
+What has to be believed: this file; Python's integers, `fractions`, `decimal`, `json` and `hashlib`; and the mathematics
+below. Nothing is computed in floating point but the rational that an angle in radians or degrees stands for ("Angles").
+All signs are signs of integers. No part of cfree is used, and none of its code is here.
+
+A robot is a set of polygons that turn and move together: a point a of it is at R(theta) a + r. A pose is forbidden if
+the interior of one of them meets the interior of an obstacle, or leaves the workspace, or if r leaves the bounds.
+
+Paths. With tau = tan(theta / 2), cos = (1 - tau^2) / (1 + tau^2) and sin = 2 tau / (1 + tau^2), every motion is a
+quotient of polynomials. Robot and obstacles are cut into convex pieces. Two of these do not overlap exactly if a side
+of one of them has all of the other on its outer side; whether a vertex is there is the sign of a polynomial. So nothing
+changes between two neighbouring zeros of all these polynomials, and one moment stands for all between them. Where one
+side does for some time, no zeros are needed.
+
+Proofs that there is none. A contact surface is a set of poses at which a vertex is on an edge. A piece of it is {(t,
+theta): lower(theta) <= t <= upper(theta), from <= theta <= to}, t the place on the edge. If every part of an edge of
+one of the pieces is one of an even number of them, then they have no boundary, and a closed path crosses them an even
+number of times, if it crosses them properly. If a ray from the start does so an odd number of times, and one from the
+goal an even number, every path between these poses meets a piece: there the robot touches something. That is why
+"interior" proofs exclude paths that keep a distance. "closed" ones are made of contacts of a robot strictly inside the
+real one: where it touches, the real one overlaps.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import math
+import re
+import sys
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from copy import copy
+from dataclasses import dataclass, field
+from decimal import Decimal, InvalidOperation
+from fractions import Fraction
+from functools import cmp_to_key, lru_cache
+from itertools import chain, pairwise, zip_longest
+from operator import mul
+from pathlib import Path
+from typing import Any
+
+VERIFIED, REFUTED, UNREADABLE = 0, 1, 2
+BOUNDS, WORKSPACE = -1, -2  # instead of the number of an obstacle
+
+Point = tuple[Any, Any]  # of Fractions or integers
+Ring = list[Point]
+Poly = tuple[int, ...]  # coefficients, the constant first
+Contact = tuple[str, tuple[int, int], tuple[int, int]]  # kind, robot's and obstacle's polygon and vertex
+Fractions = Sequence[Fraction]
+Interval = tuple[Fraction, Fraction]
+ZERO, ONE = Fraction(0), Fraction(1)
+
+class BadFileError(Exception):
+    """A file does not say what its format asks for."""
+
+class RefutedError(Exception):
+    """The answer is wrong, or not proved."""
+
+# === Files: JSON with exact numbers, no unknown and no repeated keys ===
+
+MAX_DIGITS = 4000
+LARGEST = 10**150  # of a coordinate
+MAX_BITS = 1110  # of a scene's coordinates over their common denominator
+QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
+BITS = 1300  # of angles: there may be 1024 in front of the point
+REQUIRED = object()
+
+def decoded(text: str) -> Any:
+    """A JSON value: decimals as `Decimal`, integers as int."""
+
+    def exact(literal: str) -> Any:
+        if len(literal) > MAX_DIGITS:
+            return literal  # a text of that length is no number
+        return int(literal) if literal.lstrip("-").isdigit() else Decimal(literal)
+
+    def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        found = dict(pairs)
+        if len(found) < len(pairs):
+            raise BadFileError(f"a key is there twice, one of {list(found)!a:.60}")
+        return found
+
+    try:
+        return json.loads(text, parse_int=exact, parse_float=exact, object_pairs_hook=unique)
+    except (ValueError, InvalidOperation, RecursionError) as error:
+        raise BadFileError(f"no JSON: {error}") from None
+
+def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
+    """The members of an object; `known` holds the keys, each with what counts if it is not there."""
+    if not isinstance(value, dict):
+        raise BadFileError(f"{place}: expected an object")
+    for key in value:
+        if key not in known:
+            raise BadFileError(f"{place}: unknown key {key!a}")
+    for key, default in known.items():
+        if default is REQUIRED and key not in value:
+            raise BadFileError(f"{place}: {key!a} is missing")
+    return {key: value.get(key, default) for key, default in known.items()}
+
+def items(value: Any, place: str, least: int = 0, most: int | None = None) -> list[Any]:
+    if not isinstance(value, list) or len(value) < least or (most is not None and len(value) > most):
+        raise BadFileError(f"{place}: expected a list" + (f" of {least} to {most}" if most is not None else ""))
+    return value
+
+def one_of(value: Any, place: str, *choices: Any) -> Any:
+    if not any(type(value) is type(choice) and value == choice for choice in choices):
+        raise BadFileError(f"{place}: expected one of {', '.join(map(repr, choices))}")
+    return value
+
+def whole(value: Any, place: str, least: int, most: int = 2**31 - 1) -> int:
+    if type(value) is not int or not least <= value <= most:
+        raise BadFileError(f"{place}: expected an integer of at least {least}")
+    return value
+
+def number(value: Any, place: str) -> Fraction:
+    """A JSON number, as it is written, or a text "p/q" or of a decimal."""
+    if type(value) is int:
+        return Fraction(value)
+    if isinstance(value, str) and len(value) <= MAX_DIGITS:
+        if (found := QUOTIENT.fullmatch(value)) and int(found[2]):
+            return Fraction(int(found[1]), int(found[2]))
+        with contextlib.suppress(InvalidOperation):
+            value = Decimal(value)
+    if isinstance(value, Decimal) and value.is_finite():
+        _, digits, exponent = value.as_tuple()
+        if len(digits) + abs(int(exponent)) <= MAX_DIGITS:
+            return Fraction(value)
+    raise BadFileError(f'{place}: expected a number or "p/q", of at most {MAX_DIGITS} digits')
+
+def numbers(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
+    return tuple(number(item, place) for item in items(value, place, count, count))
+
+# === Angles: tau = tan(theta / 2), a Fraction, or None for the half turn ===
+#
+# The formats define which rational an angle in radians or degrees stands for. Let k be the integer nearest to theta /
+# (pi / 2), and r = theta - k pi / 2, which counts as 0 if it is at most an ulp of the double theta. Then tau is that of
+# r, plus k right angles, and that of r is the fraction of least denominator within 2^-53 of the double tan(r / 2),
+# relatively.
+
+@dataclass
+class Pose:
+    """r = (x, y), and tau."""
+
+    x: Fraction
+    y: Fraction
+    tau: Fraction | None
+
+    @property
+    def rotation(self) -> tuple[Fraction, Fraction]:
+        """Cosine and sine."""
+        t = self.tau
+        return (-ONE, ZERO) if t is None else ((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t))
+
+    def __str__(self) -> str:
+        return f"({float(self.x):g}, {float(self.y):g}, {math.degrees(float(angle_to(self.tau)) % math.tau):g} deg)"
+
+def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
+    """Of the sum of two angles."""
+    if one is None or other is None:
+        finite = one if other is None else other
+        return ZERO if finite is None else -1 / finite if finite else None
+    return (one + other) / (1 - one * other) if one * other != 1 else None
+
+@lru_cache(maxsize=1 << 12)
+def angle_to(tau: Fraction | None) -> Fraction:
+    """2 atan(tau), in (-pi, pi], but for an error below 2^-1250: the tangent is halved 8 times, then its series."""
+    if tau is None or abs(tau) > 1:
+        return 2 * angle_to(ONE) if tau is None else sign(tau) * angle_to(None) - angle_to(1 / tau)
+    unit = 1 << BITS
+    x = tau.numerator * unit // tau.denominator
+    for _ in range(8):
+        x = x * unit // (unit + math.isqrt(unit * unit + x * x))
+    total, power, k = 0, x, 1
+    while abs(power) > 1:
+        total += power // k
+        power, k = -(power * x // unit) * x // unit, k + 2
+    return Fraction(total << 9, unit)
+
+def turns_off(theta: Fraction, exact: Fraction) -> Fraction:
+    """The distance of two angles but for whole turns."""
+    circle = 2 * angle_to(None)
+    return abs(theta - exact - circle * round((theta - exact) / circle))
+
+def simplest_between(low: Fraction, high: Fraction) -> Fraction:
+    """The fraction of least denominator in a closed interval."""
+    if low <= 0 <= high:
+        return Fraction(0)
+    if high < 0:
+        return -simplest_between(-high, -low)
+    below = math.floor(low)
+    if -math.floor(-low) <= high:
+        return Fraction(-math.floor(-low))
+    return below + 1 / simplest_between(1 / (high - below), 1 / (low - below))
+
+def read_angle(value: Any, place: str) -> Fraction | None:
+    """Of radians, "90deg", or {"tau": "p/q"}."""
+    if isinstance(value, dict):
+        return read_tau(members(value, place, tau=REQUIRED)["tau"], place)
+    if isinstance(value, str) and value.strip().endswith("deg"):
+        degrees = number(value.strip().removesuffix("deg"), place)
+        quarters = round(degrees / 90)
+        rest = (degrees - 90 * quarters) / 180 * angle_to(None)
+    else:
+        radians = number(value, place)
+        try:
+            ulp = math.ulp(float(radians))
+        except OverflowError:
+            raise BadFileError(f"{place}: the angle is too large") from None
+        quarters = round(radians / angle_to(ONE))
+        rest = radians - quarters * angle_to(ONE)
+        rest = rest if abs(rest) > ulp else ZERO
+    tangent = Fraction(math.tan(float(rest) / 2))
+    margin = abs(tangent) / 2**53
+    tau: Fraction | None = simplest_between(tangent - margin, tangent + margin)
+    for _ in range(quarters % 4):
+        tau = tau_sum(tau, ONE)
+    return tau
+
+def read_tau(value: Any, place: str) -> Fraction | None:
+    return None if value in ("inf", "-inf", "1/0") and isinstance(value, str) else number(value, place)
+
+def read_pose(value: Any, place: str) -> Pose:
+    x, y = numbers(items(value, place, 3, 3)[:2], place, 2)
+    if max(abs(x), abs(y)) > LARGEST:
+        raise BadFileError(f"{place}: a position beyond 1e150")
+    return Pose(x, y, read_angle(value[2], place))
+
+# === Polygons ===
+
+def cross(u: Point, v: Point) -> Any:
+    return u[0] * v[1] - u[1] * v[0]
+
+def dot(u: Point, v: Point) -> Any:
+    return u[0] * v[0] + u[1] * v[1]
+
+def minus(u: Any, v: Any) -> Point:
+    return u[0] - v[0], u[1] - v[1]
+
+def side(p: Any, q: Any, r: Any) -> int:
+    """1 if r is on the left of the line from p to q, -1 if on the right, 0 if on it."""
+    area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+    return bool(area > 0) - bool(area < 0)
+
+def edges_of(ring: Sequence[Any]) -> list[tuple[Any, Any]]:
+    return list(zip(ring, [*ring[1:], ring[0]], strict=True))
+
+class Polygon:
+    """An outer ring, counter-clockwise, and holes, clockwise: the interior is on the left of every edge."""
+
+    def __init__(self, outer: Ring, holes: Sequence[Ring], place: str) -> None:
+        self.rings: list[Ring] = []
+        for ring in (clean(ring, place) for ring in (outer, *holes)):
+            is_left = sum(cross(p, q) for p, q in edges_of(ring)) > 0
+            self.rings.append(ring if is_left == (not self.rings) else [ring[0], *ring[:0:-1]])
+        self.unit = math.lcm(*(c.denominator for ring in self.rings for point in ring for c in point))
+        if self.unit.bit_length() > MAX_BITS:
+            raise BadFileError(f"{place}: the common denominator of its coordinates is too long")
+        check_rings(self.integers(self.unit), place)
+
+    def integers(self, scale: int) -> list[Ring]:
+        """Its rings times a multiple of all denominators."""
+        return [scaled(ring, scale) for ring in self.rings]
+
+def scaled(ring: Ring, scale: int) -> Ring:
+    return [(x.numerator * (scale // x.denominator), y.numerator * (scale // y.denominator)) for x, y in ring]
+
+def clean(points: Ring, place: str) -> Ring:
+    """Without the closing point, repeated ones, and those on a line with their neighbours."""
+    points = points[: len(points) - (len(points) > 1 and points[0] == points[-1])]
+    ring = [point for k, point in enumerate(points) if point != points[k - 1]]
+    around = list(zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True))
+    kept = [q for p, q, r in around if side(p, q, r)]
+    spikes = (side(p, q, r) == 0 > dot(minus(q, p), minus(r, q)) for p, q, r in around)
+    if len(points) < 3 or len(kept) < 3 or any(spikes):
+        raise BadFileError(f"{place}: a ring without area, or with a spike")
+    return kept
+
+def check_rings(rings: list[Ring], place: str) -> None:
+    """Rings must not cross themselves or each other; holes are in the outer ring, and in no other hole."""
+    edges = sorted((min(e), max(e), k, i) for k, ring in enumerate(rings) for i, e in enumerate(edges_of(ring)))
+    touching: dict[tuple[int, int], list[Point]] = defaultdict(list)  # points of other rings on an edge
+    active: list[tuple[Point, Point, int, int]] = []
+    for p, q, k, i in edges:
+        active = [other for other in active if other[1][0] >= p[0]]
+        for r, s, m, j in active:
+            if k == m and abs(i - j) in (1, len(rings[k]) - 1):
+                continue  # neighbours have one point in common, as they are not on one line
+            common = common_points(p, q, r, s)
+            if common is None or (common and k == m):
+                raise BadFileError(f"{place}: edges that cross, overlap or touch")
+            touching[k, i] += common
+            touching[m, j] += common
+        active.append((p, q, k, i))
+    for p, q, k, i in edges if len(rings) > 1 else ():
+        # rings may touch in points; between two of them an edge is on one side of all other rings
+        for a, b in pairwise(sorted({p, q, *touching[k, i]})):
+            middle = Fraction(a[0] + b[0]) / 2, Fraction(a[1] + b[1]) / 2
+            for m, other in enumerate(rings):
+                if m != k and encloses([other], middle) != (k > 0 and m == 0):
+                    raise BadFileError(f"{place}: its rings cross, or do not lie in each other as they should")
+
+def common_points(p: Point, q: Point, r: Point, s: Point) -> list[Point] | None:
+    """Those in which two edges touch, p < q and r < s; None if they cross or overlap."""
+    of_r, of_s, of_p, of_q = side(p, q, r), side(p, q, s), side(r, s, p), side(r, s, q)
+    if of_r == of_s == 0:
+        low, high = max(p, r), min(q, s)
+        return None if low < high else [low] * (low == high)
+    if of_r * of_s > 0 or of_p * of_q > 0:
+        return []
+    return [x for x, on in ((r, of_r), (s, of_s), (p, of_p), (q, of_q)) if on == 0] or None
+
+def encloses(rings: Iterable[Ring], point: Point) -> bool:
+    """Is a point that is on none of the rings inside an odd number of them? By a ray towards +x."""
+    inside = False
+    for ring in rings:
+        for p, q in edges_of(ring):
+            if (p[1] > point[1]) != (q[1] > point[1]) and (side(p, q, point) > 0) == (q[1] > p[1]):
+                inside = not inside
+    return inside
+
+def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
+    """Is all of one polygon, with its boundary, in the interior of another?
+
+    Exactly if their boundaries have no point in common, the rings of the one are inside the other, and no ring of the
+    other is inside the one, where it would be a hole.
+    """
+    unit = math.lcm(inner.unit, outer.unit)
+    one, other = inner.integers(unit), outer.integers(unit)
+    edges = [[(min(e), max(e)) for ring in rings for e in edges_of(ring)] for rings in (one, other)]
+    for p, q in edges[0]:
+        if any(r[0] <= q[0] and p[0] <= s[0] and common_points(p, q, r, s) != [] for r, s in edges[1]):
+            return False
+    return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
+
+# === Scenes ===
+
+class Scene:
+    """A robot of polygons, obstacles, perhaps a workspace, bounds, start and goal."""
+
+    def __init__(
+        self, robot: list[Polygon], obstacles: list[Polygon], workspace: Polygon | None, bounds: Fractions | None
+    ) -> None:
+        self.robot, self.obstacles, self.workspace, self.bounds = robot, obstacles, workspace, bounds
+        self.asked: dict[str, Pose] = {}
+        polygons = [*robot, *obstacles, *([workspace] if workspace else [])]
+        self.scale = math.lcm(*(p.unit for p in polygons), *(b.denominator for b in bounds or ()))
+        coordinates = [c for p in polygons for ring in p.rings for point in ring for c in point]
+        largest = max(abs(c) for c in (*coordinates, *(bounds or ())))
+        if largest > LARGEST or max(self.scale, int(largest * self.scale)).bit_length() > MAX_BITS:
+            raise BadFileError("a coordinate is larger than 1e150, or the scene's have too long a common denominator")
+
+    @property
+    def box(self) -> tuple[Fraction, ...]:
+        """Around the robot, in its frame."""
+        xs, ys = zip(*(point for part in self.robot for point in part.rings[0]), strict=True)
+        return min(xs), min(ys), max(xs), max(ys)
+
+    @property
+    def sha256(self) -> str:
+        """Of all that decides whether a pose is free (docs/answer-format.md, "The scene")."""
+        lines = ["cfree scene 1"]
+        kinds = ("robot", self.robot), ("obstacle", self.obstacles), ("workspace", filter(None, [self.workspace]))
+        for word, polygon in ((word, polygon) for word, polygons in kinds for polygon in polygons):
+            lines.append(word)
+            lines += [f"{'hole' if k else 'outer'} {joined(chain(*ring))}" for k, ring in enumerate(polygon.rings)]
+        lines += [f"bounds {joined(self.bounds)}"] if self.bounds else []
+        return hashlib.sha256("".join(f"{line}\n" for line in lines).encode("ascii")).hexdigest()
+
+def joined(numbers: Iterable[Fraction]) -> str:
+    return " ".join(map(str, numbers))
+
+def read_scene(data: Any) -> Scene:
+    if isinstance(data, dict) and "type" in data:
+        raise BadFileError("GeoJSON is not read here; save the scene as a JSON scene")
+    optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
+    got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], **optional)
+    one_of(got["version"], "version", 1)
+    robot = [got["robot"]] if isinstance(got["robot"], dict) else items(got["robot"], "robot", 1)
+    obstacles = enumerate(items(got["obstacles"], "obstacles"))
+    found = Scene(
+        [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
+        [read_polygon(part, f"obstacles[{k}]", name=None) for k, part in obstacles],
+        None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
+        None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
+    )
+    found.asked = {end: read_pose(got[end], end) for end in ("start", "goal") if got[end] is not None}
+    return found
+
+def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
+    got = members(value, place, outer=REQUIRED, holes=[], **more)
+    rings = [got["outer"], *items(got["holes"], f"{place}.holes")]
+    read: list[Any] = [[numbers(point, place, 2) for point in items(ring, place)] for ring in rings]
+    return Polygon(read[0], read[1:], place)
+
+def read_bounds(value: Any, place: str) -> tuple[Fraction, ...]:
+    x0, y0, x1, y1 = found = numbers(value, place, 4)
+    if x0 >= x1 or y0 >= y1:
+        raise BadFileError(f"{place}: they are empty")
+    return found
+
+# === Polynomials with integer coefficients, and their roots ===
+
+def sign(value: Any) -> int:
+    return bool(value > 0) - bool(value < 0)
+
+def trimmed(p: Sequence[int]) -> Poly:
+    """Without leading zeros; () is the zero polynomial."""
+    return tuple(p[: max((k + 1 for k, c in enumerate(p) if c), default=0)])
+
+def primitive(p: Sequence[int]) -> Poly:
+    """Divided by its content; the leading coefficient is positive."""
+    p = trimmed(p)
+    content = math.gcd(*p) * sign(p[-1]) if p else 1
+    return tuple(c // content for c in p)
+
+def times(p: Sequence[Any], q: Sequence[Any]) -> tuple[Any, ...]:
+    if not p or not q:
+        return ()
+    found = [0] * (len(p) + len(q) - 1)
+    for i, a in enumerate(p):
+        for j, b in enumerate(q):
+            found[i + j] += a * b
+    return tuple(found)
+
+def combined(factors: Sequence[int], *polys: Sequence[int]) -> Poly:
+    """The sum of polynomials, each times a number."""
+    return tuple([sum(map(mul, factors, column)) for column in zip_longest(*polys, fillvalue=0)])
+
+def value(p: Sequence[int], x: Fraction) -> Fraction:
+    return Fraction(*value_over(p, x))
+
+def value_over(p: Sequence[int], x: Fraction) -> tuple[int, int]:
+    """Numerator and denominator, positive and not reduced, of p(x)."""
+    n, d = x.numerator, x.denominator
+    found, power = 0, 1
+    for k, c in enumerate(reversed(p)):
+        power = power * d if k else 1
+        found = found * n + c * power
+    return found, power
+
+def sign_at(p: Sequence[int], x: Fraction) -> int:
+    return sign(value_over(p, x)[0])
+
+def derivative(p: Poly) -> Poly:
+    return tuple(k * c for k, c in enumerate(p))[1:]
+
+@lru_cache(maxsize=1 << 14)
+def common_divisor(p: Poly, q: Poly) -> Poly:
+    """Greatest common divisor, primitive: Euclid's algorithm with pseudo-remainders."""
+    p, q = primitive(p), primitive(q)
+    while q:
+        while len(p) >= len(q):
+            p = primitive(combined((q[-1], -p[-1]), p, [0] * (len(p) - len(q)) + [*q]))
+        p, q = q, p
+    return p
+
+def quotient(p: Poly, q: Poly) -> Poly:
+    """p / q for a primitive q that divides p."""
+    p, found = trimmed(p), []
+    while len(p) >= len(q):
+        found.append(p[-1] // q[-1])
+        p = combined((1, -found[-1]), p, [0] * (len(p) - len(q)) + [*q])[:-1]
+    assert not any(p)
+    return tuple(reversed(found))
+
+@lru_cache(maxsize=1 << 14)
+def squarefree(p: Poly) -> Poly:
+    """With the same roots, each of them simple."""
+    p = primitive(p)
+    return quotient(p, common_divisor(p, derivative(p))) if len(p) > 2 else p
+
+@lru_cache(maxsize=1 << 12)
+def mapping(degree: int, lo: Fraction, hi: Fraction) -> list[list[int]]:
+    """Rows that give the coefficients in s of (1 + s)^degree p((lo + hi s) / (1 + s)), times a positive number."""
+    n = math.lcm(lo.denominator, hi.denominator)
+    a, b = int(lo * n), int(hi * n)
+    columns = []
+    for k in range(degree + 1):
+        p: Poly = (n ** (degree - k),)
+        for factor in [(a, b)] * k + [(1, 1)] * (degree - k):
+            p = times(p, factor)
+        columns.append(p)
+    return [list(row) for row in zip(*columns, strict=True)]
+
+def mapped(p: Sequence[int], interval: Interval) -> list[int]:
+    """Coefficients of p in s, 0 <= s <= oo from one end of an interval to the other.
+
+    If all are positive, so is p there; the number of their changes of sign bounds that of its roots (Descartes).
+    """
+    return [sum(map(mul, row, p)) for row in mapping(len(p) - 1, *interval)]
+
+def changes(coefficients: Sequence[int]) -> int:
+    signs = [c > 0 for c in coefficients if c]
+    return sum(a != b for a, b in pairwise(signs))
+
+class Root:
+    """A real algebraic number: the only root of a squarefree polynomial in [lo, hi].
+
+    Either lo = hi, or the polynomial has different signs, and not 0, at lo and hi.
+    """
+
+    def __init__(self, poly: Poly, lo: Fraction, hi: Fraction) -> None:
+        self.poly, self.lo, self.hi, self.before = poly, lo, hi, sign_at(poly, lo)
+
+    @classmethod
+    def rational(cls, x: Fraction) -> Root:
+        return cls((-x.numerator, x.denominator), x, x)
+
+    def narrow(self) -> None:
+        """Halve the interval."""
+        if self.lo < self.hi:
+            middle = (self.lo + self.hi) / 2
+            found = sign_at(self.poly, middle)
+            if found == 0:
+                self.poly = -middle.numerator, middle.denominator
+            self.lo = self.lo if found == -self.before else middle
+            self.hi = self.hi if found == self.before else middle
+
+    def sign(self, p: Poly) -> int:
+        """Of another polynomial at this number."""
+        while self.lo < self.hi:
+            found = mapped(p, (self.lo, self.hi)) if p else [0]
+            if min(found) > 0 or max(found) < 0:
+                return sign(found[0])
+            g = common_divisor(self.poly, trimmed(p))  # it has no root in the interval but this one
+            if sign_at(g, self.lo) != sign_at(g, self.hi):
+                return 0
+            self.narrow()
+        return sign_at(p, self.lo)
+
+    def is_change(self, p: Poly) -> bool:
+        """Does a polynomial change its sign here: is it a root an odd number of times?"""
+        return self.sign(p) == 0 and not self.is_change(derivative(p))
+
+    def compared(self, other: Root) -> int:
+        """-1 if less, 0 if equal, 1 if greater than another number."""
+        if self.lo <= other.hi and other.lo <= self.hi:
+            # equal to the only root of the other's polynomial between other.lo and other.hi?
+            low, high = (self.sign((-end.numerator, end.denominator)) for end in (other.lo, other.hi))
+            if low >= 0 >= high and self.sign(other.poly) == 0:
+                return 0
+        while self.lo <= other.hi and other.lo <= self.hi:
+            self.narrow()
+            other.narrow()
+        return -1 if self.hi < other.lo else 1
+
+def roots_in(p: Poly, lo: Fraction, hi: Fraction) -> list[Root]:
+    """All roots in a closed interval, each once, in order. By halving, until Descartes' rule says none or one."""
+    found, rational, todo = [], set(), [(squarefree(p), lo, hi)]
+    while todo:
+        q, lo, hi = todo.pop()
+        for end in {lo, hi}:
+            if sign_at(q, end) == 0:  # divided out, so that ends are no roots
+                rational.add(end)
+                q = quotient(q, (-end.numerator, end.denominator))
+        count = changes(mapped(q, (lo, hi))) if lo < hi else 0
+        if count == 1:
+            found.append(Root(q, lo, hi))
+        elif count:
+            middle = (lo + hi) / 2
+            todo += [(q, lo, middle), (q, middle, hi)]
+    return sorted([*found, *map(Root.rational, rational)], key=lambda root: (root.lo, root.hi))
+
+def ordered(roots: Iterable[Root]) -> list[list[Root]]:
+    """In order, equal ones together."""
+    found: list[list[Root]] = []
+    for root in sorted(roots, key=cmp_to_key(Root.compared)):
+        if found and found[-1][0].compared(root) == 0:
+            found[-1].append(root)
+        else:
+            found.append([root])
+    return found
+
+def between(lo: Fraction, hi: Fraction) -> Fraction:
+    """A dyadic number of few digits strictly between two."""
+    power = 1
+    while (n := math.floor(lo * power) + 1) >= hi * power:
+        power *= 2
+    return Fraction(n, power)
+
+def samples(polys: Iterable[Poly], lo: Fraction, hi: Fraction) -> Iterator[Fraction]:
+    """One number between any two neighbouring roots of all the polynomials in an interval, and its ends."""
+    roots = [root for p in set(map(primitive, polys)) if len(p) > 1 for root in roots_in(p, lo, hi)]
+    for (one, *_), (other, *_) in pairwise(ordered([*roots, Root.rational(lo), Root.rational(hi)])):
+        one.compared(other)  # narrows both until they are apart
+        yield between(one.hi, other.lo)
+
+
+ALL = ZERO, ONE  # of a motion: from u = 0 to u = 1
+
+def is_nowhere_positive(p: Sequence[int], interval: Interval) -> bool:
+    """Yes is right; no may be wrong."""
+    return all(sum(map(mul, row, p)) <= 0 for row in mapping(len(p) - 1, *interval))
+
+def positive_place(p: Poly) -> Fraction | None:
+    """Some u from 0 to 1 at which p is positive, if there is one."""
+    if is_nowhere_positive(p, ALL):
+        return None
+    return next((u for u in samples([p], *ALL) if sign_at(p, u) > 0), None)
+
+# === Convex pieces ===
+
+class Piece:
+    """A convex polygon: counter-clockwise corners (x, y, z), which stand for (x / z, y / z), and lines (l, m, k)
+    through them: on their left, where the piece is, l x + m y + k z > 0.
+    """
+
+    def __init__(self, points: Ring) -> None:
+        self.points = points
+        self.corners = []
+        for x, y in points:
+            z = math.lcm(x.denominator, y.denominator)
+            self.corners.append((int(x * z), int(y * z), z))
+        self.lines = []
+        for (a, b, c), (d, e, f) in edges_of(self.corners):
+            line = b * f - c * e, c * d - a * f, a * e - b * d
+            unit = math.gcd(*line)
+            self.lines.append(tuple(part // unit for part in line))
+
+def convex_pieces(rings: list[Ring]) -> list[Piece]:
+    """Trapezoids between the vertical lines through all vertices, put together where the same edges bound them.
+
+    Between two neighbouring lines edges do not cross, so they have an order; every other gap between them is inside.
+    """
+    if len(rings) == 1 and len(convex_hull(rings[0])) == len(rings[0]):
+        return [Piece(rings[0])]
+    edges = [(min(p, q), max(p, q)) for ring in rings for p, q in edges_of(ring) if p[0] != q[0]]
+    stops = sorted({p[0] for ring in rings for p in ring})
+    open_ones: dict[Any, int] = {}  # pairs of edges with space between them, and where it begins
+    found = []
+    for left, right in [*pairwise(stops), (stops[-1], None)]:
+        here = [] if right is None else [e for e in edges if e[0][0] <= left and right <= e[1][0]]
+        here.sort(key=lambda e: height(e, left) + height(e, right))
+        gaps = set(zip(here[::2], here[1::2], strict=True))
+        for lower, upper in [gap for gap in open_ones if gap not in gaps]:
+            begin = open_ones.pop((lower, upper))
+            ring = [(x, height(e, x)) for e, x in ((lower, begin), (lower, left), (upper, left), (upper, begin))]
+            found.append(Piece([point for k, point in enumerate(ring) if point != ring[k - 1]]))
+        for gap in gaps:
+            open_ones.setdefault(gap, left)
+    return found
+
+def height(edge: tuple[Point, Point], x: Any) -> Fraction:
+    """The y of an edge at an x."""
+    (a, b), (c, d) = edge
+    return Fraction(b * (c - a) + (d - b) * (x - a), c - a)
+
+def convex_hull(points: Iterable[Point]) -> Ring:
+    """Counter-clockwise, from the leftmost point on."""
+    found = sorted(set(points))
+    half = []
+    for run in (found, found[::-1]):
+        turned: list[Point] = []
+        for r in run:
+            while len(turned) > 1 and side(turned[-2], turned[-1], r) <= 0:
+                turned.pop()
+            turned.append(r)
+        half.append(turned[:-1])
+    return half[0] + half[1]
+
+class World:
+    """Convex pieces of a scene's robot and obstacles, in coordinates of its own: the scene's times `scale`.
+
+    The outside of the workspace is what is outside of its box, and what is in the box and outside the workspace.
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scale = scene.scale
+        self.robot = [piece for part in scene.robot for piece in convex_pieces(part.integers(self.scale))]
+        self.walls = [piece for part in scene.obstacles for piece in convex_pieces(part.integers(self.scale))]
+        self.bounds = [b * self.scale for b in scene.bounds or ()]  # of the reference point
+        self.box: list[int] = []  # of all of the robot
+        if scene.workspace:
+            outer, *holes = scene.workspace.integers(self.scale)
+            (x0, *_, x1), (y0, *_, y1) = (sorted(c) for c in zip(*outer, strict=True))
+            self.box = [x0, y0, x1, y1]
+            around = [(x0 - 1, y0 - 1), (x1 + 1, y0 - 1), (x1 + 1, y1 + 1), (x0 - 1, y1 + 1)]
+            self.walls += convex_pieces([around, outer])
+            self.walls += [piece for hole in holes for piece in convex_pieces([hole])]
+        self.boxes = [box_around(piece.corners) for piece in self.walls]
+
+    def roomier(self, leeway: Fraction) -> World:
+        """For a robot larger by the square [-leeway, leeway]^2, within bounds smaller by leeway on every side."""
+        found, by = copy(self), leeway * self.scale
+        signs = [(-by, -by), (by, -by), (by, by), (-by, by)]
+        found.robot = [
+            Piece(convex_hull((x + dx, y + dy) for x, y in piece.points for dx, dy in signs)) for piece in self.robot
+        ]
+        found.bounds = [b + (by if k < 2 else -by) for k, b in enumerate(self.bounds)]
+        if self.bounds and (found.bounds[0] >= found.bounds[2] or found.bounds[1] >= found.bounds[3]):
+            raise RefutedError("its decimals are not free, as it says: of smaller bounds nothing would be left")
+        return found
+
+def box_around(points: Iterable[Any]) -> tuple[int, int, int, int]:
+    """Of points (x, y, z), larger by less than 1 / 1024."""
+    xs, ys, zs = zip(*points, strict=True)
+    low = [min(1024 * c // z for c, z in zip(axis, zs, strict=True)) for axis in (xs, ys)]
+    high = [-min(-1024 * c // z for c, z in zip(axis, zs, strict=True)) for axis in (xs, ys)]
+    return low[0], low[1], high[0], high[1]
+
+# === Motions ===
+
+class Course:
+    """A motion as polynomials in u, 0 <= u <= 1: a point (a, b) of the robot is at ((X + C a - S b) / W,
+    (Y + S a + C b) / W), W > 0. These are in `moving`; in `back` those for points of the world in the robot's frame.
+    """
+
+    def __init__(self, *given: Fractions) -> None:
+        unit = math.lcm(*(c.denominator for p in given for c in p))
+        polys = [[int(c * unit) for c in p] for p in given]
+        content = math.gcd(*(c for p in polys for c in p))
+        W, C, S, X, Y = self.moving = padded([tuple(c // content for c in p) for p in polys])
+        turned = combined((-1, -1), times(C, X), times(S, Y)), combined((1, -1), times(S, X), times(C, Y))
+        self.back = padded([times(W, W), times(C, W), combined((-1,), times(S, W)), *turned])
+
+def padded(polys: Sequence[Poly]) -> list[Poly]:
+    """To one length."""
+    length = max(len(trimmed(p)) for p in polys)
+    return [(*p, *[0] * length)[:length] for p in polys]
+
+@dataclass
+class Motion:
+    """A translation by a vector; a rotation about a pole, by at most half a turn; or a slide.
+
+    In the parameter u the reference point moves by (x(u), y(u)) / d(u), and the robot turns by 2 atan(u tau). Half a
+    turn has no tau: it is None. So `parts` divides rotations by more than a right angle.
+    """
+
+    vector: Fractions = ()
+    pole: Fractions = ()
+    tau: Fraction | None = ZERO
+    clockwise: bool = False
+    slide: Sequence[Fractions] = ()
+    contacts: Sequence[Any] = ()
+
+    @property
+    def angle(self) -> Fraction:
+        """By which it turns, but for an error below 2^-1250."""
+        return -angle_to(None) if self.tau is None and self.clockwise else angle_to(self.tau)
+
+    @property
+    def parts(self) -> list[Motion]:
+        if not self.pole or (self.tau is not None and abs(self.tau) <= 1):
+            return [self]
+        right = Fraction(-1 if self.clockwise else 1)
+        return [Motion(pole=self.pole, tau=tau) for tau in (right, tau_sum(self.tau, -right))]
+
+    def moved(self, pose: Pose) -> Sequence[Fractions]:
+        """x, y and d, for one part."""
+        if self.pole:
+            t, rx, ry = self.tau, pose.x - self.pole[0], pose.y - self.pole[1]
+            assert t is not None
+            return [ZERO, -2 * t * ry, -2 * t * t * rx], [ZERO, 2 * t * rx, -2 * t * t * ry], [ONE, ZERO, t * t]
+        if self.slide:
+            return self.slide
+        return [ZERO, self.vector[0]], [ZERO, self.vector[1]], [ONE]
+
+    def end(self, pose: Pose) -> Pose:
+        for part in self.parts:
+            x, y, d = (sum(p, ZERO) for p in part.moved(pose))
+            pose = Pose(pose.x + x / d, pose.y + y / d, tau_sum(pose.tau, part.tau))
+        return pose
+
+    def courses(self, pose: Pose, scale: int) -> Iterator[Course]:
+        """One of each part."""
+        for part in self.parts:
+            t, (c, s) = part.tau, pose.rotation
+            assert t is not None
+            x, y, d = part.moved(pose)
+            X = [scale * (pose.x * f + g) for f, g in zip_longest(d, x, fillvalue=ZERO)]
+            Y = [scale * (pose.y * f + g) for f, g in zip_longest(d, y, fillvalue=ZERO)]
+            W, C, S = [ONE, ZERO, t * t], [c, -2 * s * t, -c * t * t], [s, 2 * c * t, -s * t * t]
+            if part.slide:  # else d is W, or both are 1
+                yield Course(*(times(p, d) for p in (W, C, S)), times(W, X), times(W, Y))
+            else:
+                yield Course(W, C, S, X, Y)
+            pose = part.end(pose)
+
+def read_slide(exact: Any, contacts: list[tuple[Any, ...]], place: str) -> Motion:
+    got = members(exact, place, x=REQUIRED, y=REQUIRED, d=REQUIRED, tau=REQUIRED)
+    tau, terms = number(got["tau"], place), []
+    for key in "xyd":
+        listed = [number(c, f"{place}.{key}") for c in items(got[key], f"{place}.{key}")]
+        if any(listed[5:]) or (key != "d" and any(listed[:1])):
+            raise BadFileError(f"{place}.{key}: expected at most five coefficients; those of x and y begin with 0")
+        terms.append((listed + [ZERO] * 5)[:5])
+    unit = -1 if terms[2][0] < 0 else 1
+    x, y, d = ([unit * c * tau**k for k, c in enumerate(p)] for p in terms)
+    common = math.lcm(*(c.denominator for c in d))
+    if min(mapped([int(c * common) for c in d], ALL)) <= 0:
+        raise BadFileError(f"{place}: d may be zero on the way")
+    return Motion(vector=(sum(x, ZERO) / sum(d), sum(y, ZERO) / sum(d)), tau=tau, slide=(x, y, d), contacts=contacts)
+
+# === Collisions ===
+
+STANDING = Motion(vector=(ZERO, ZERO))
+SHORT = Fraction(1, 2**8)  # parts of a motion are halved; in those as short as that roots are looked for
+
+class Pair:
+    """A piece of the robot on its course, and one of the walls."""
+
+    def __init__(self, course: Course, part: Piece, wall: Piece) -> None:
+        self.sides = [(line, part.corners, course.moving) for line in wall.lines]
+        self.sides += [(line, wall.corners, course.back) for line in part.lines]
+        self.known: dict[tuple[int, int], Poly] = {}
+
+    def heights(self, i: int) -> Iterator[Poly]:
+        """Of one's corners over a side of the other, times positive numbers: those on its inner side are positive."""
+        (l, m, k), corners, polys = self.sides[i]
+        for j, (x, y, z) in enumerate(corners):
+            if (i, j) not in self.known:
+                self.known[i, j] = combined((k * z, l * x + m * y, m * x - l * y, l * z, m * z), *polys)
+            yield self.known[i, j]
+
+    def is_apart(self, interval: Interval) -> bool:
+        """Does one side have all of the other piece on its outer side, all the time? No may be wrong."""
+        return any(all(is_nowhere_positive(p, interval) for p in self.heights(i)) for i in range(len(self.sides)))
+
+    def overlaps(self, u: Fraction) -> bool:
+        return all(any(sign_at(p, u) > 0 for p in self.heights(i)) for i in range(len(self.sides)))
+
+    def touches(self) -> bool:
+        """Have they a point in common, at u = 0?"""
+        return all(any(p[0] >= 0 for p in self.heights(i)) for i in range(len(self.sides)))
+
+def beyond(world: World, course: Course) -> Iterator[Poly]:
+    """What is positive where the reference point is out of the bounds, or a corner of the robot out of the box."""
+    W, C, S, X, Y = course.moving
+    lines = ((-1, 0, 1), (0, -1, 1), (1, 0, -1), (0, 1, -1))  # l x + m y + k b > 0 is beyond
+    for (l, m, k), bound in zip(lines, world.bounds, strict=False):
+        b, unit = bound.as_integer_ratio()
+        yield combined((l * unit, m * unit, k * b), X, Y, W)
+    for (l, m, k), b in zip(lines, world.box, strict=False):
+        for x, y, z in (corner for part in world.robot for corner in part.corners):
+            yield combined((l * z, m * z, k * b * z, l * x + m * y, m * x - l * y), X, Y, W, C, S)
+
+def collision(world: World, course: Course) -> Fraction | None:
+    """Some u at which the robot is where it may not be; None if there is none: that is proved."""
+    for p in beyond(world, course):
+        if (found := positive_place(p)) is not None:
+            return found
+    for part in world.robot:
+        pairs: dict[int, Pair] = {}
+        todo = [(ALL, list(range(len(world.walls))))]
+        while todo:
+            (lo, hi), walls = todo.pop()
+            left, middle = [], (lo + hi) / 2
+            for k in near(world, course, part, (lo, hi), walls):
+                pair = pairs[k] = pairs.get(k) or Pair(course, part, world.walls[k])
+                if pair.is_apart((lo, hi)):
+                    continue
+                is_long = hi - lo > SHORT
+                every = [p for i in range(len(pair.sides)) for p in pair.heights(i)]
+                for u in [middle] if is_long else samples(every, lo, hi):
+                    if pair.overlaps(u):
+                        return u
+                left += [k] * is_long
+            if left:
+                todo += [((lo, middle), left), ((middle, hi), left)]
+    return None
+
+def near(world: World, course: Course, part: Piece, interval: Interval, walls: list[int]) -> list[int]:
+    """Those walls whose boxes meet one around all places of a piece: a quotient is between those of coefficients."""
+    W, C, S, X, Y = (mapped(p, interval) for p in course.moving)
+    if min(W) <= 0:
+        return walls
+    places = [
+        (c * x + cos * a - sin * b, c * y + sin * a + cos * b, c * w)
+        for a, b, c in part.corners
+        for w, cos, sin, x, y in zip(W, C, S, X, Y, strict=True)
+    ]
+    x0, y0, x1, y1 = box_around(places)
+    boxes = ((k, *world.boxes[k]) for k in walls)
+    return [k for k, left, bottom, right, top in boxes if x0 <= right and left <= x1 and y0 <= top and bottom <= y1]
+
+def touches(world: World, pose: Pose) -> bool:
+    """Has the robot, at a free pose, no distance from something?"""
+    course = next(STANDING.courses(pose, world.scale))
+    if any(p[0] == 0 for p in beyond(world, course)):
+        return True
+    walls = list(range(len(world.walls)))
+    pairs = ((part, k) for part in world.robot for k in near(world, course, part, ALL, walls))
+    return any(Pair(course, part, world.walls[k]).touches() for part, k in pairs)
+
+def check_pose(world: World, pose: Pose, what: str) -> None:
+    if collision(world, next(STANDING.courses(pose, world.scale))) is not None:
+        raise RefutedError(f"{what}: {pose} is forbidden")
+
+# === Answers: exact numbers, and the decimals beside them (docs/answer-format.md, "Decimals") ===
+
+class Answer:
+    """Start, goal, for which scene, and all decimals by place."""
+
+    def __init__(self, data: dict[str, Any], **more: Any) -> None:
+        if data.get("exact") is None:
+            raise BadFileError("decimals alone are not read here; cfree saves exact numbers beside them")
+        required = dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED)
+        self.got = got = members(data, "answer", **required, version=1, units="", frame="world", **more)
+        one_of(got["version"], "version", 1)
+        ends = members(got["exact"], "exact", start=REQUIRED, goal=REQUIRED)
+        self.start, self.goal = (read_pose(ends[end], f"exact.{end}") for end in ("start", "goal"))
+        stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED)
+        self.sha256, self.box = stamp["sha256"], read_bounds(stamp["robot"], "scene.robot")
+        if not isinstance(self.sha256, str) or not re.fullmatch("[0-9a-f]{64}", self.sha256):
+            raise BadFileError("scene.sha256: expected 64 digits 0-9 and a-f")
+        self.size = max(self.box[2] - self.box[0], self.box[3] - self.box[1])
+        self.reach = sum(max(abs(self.box[k]), abs(self.box[k + 2])) for k in (0, 1))
+        self.decimals: dict[Any, Fraction] = {}
+        for end in ("start", "goal"):
+            self.read_decimals(end, got[end], 3)
+        self.check_decimals("goal", self.goal)
+
+    def read_decimals(self, place: Any, value: Any, count: int) -> None:
+        if any(type(c) is not int and not isinstance(c, Decimal) for c in items(value, str(place), count, count)):
+            raise BadFileError(f"{place}: expected numbers, as everywhere beside exact ones")
+        self.decimals |= {(place, k): c for k, c in enumerate(numbers(value, str(place), count))}
+
+    def check_decimals(self, place: Any, pose: Pose, theta: Fraction | None = None) -> None:
+        """Are they a pose? Whole turns count if an angle is given."""
+        given = self.decimals[place, 2]
+        apart = turns_off(given, angle_to(pose.tau)) if theta is None else abs(given - theta)
+        if off(self.decimals, place, (pose.x, pose.y)) + self.reach * apart > self.size / 10**9:
+            raise BadFileError(f"{place}: the decimals are another pose than the exact numbers")
+
+    def check_asked(self, scene: Scene) -> None:
+        if self.sha256 != scene.sha256:
+            raise RefutedError("it is an answer for another scene")
+        if self.box != scene.box:
+            raise RefutedError("scene.robot is not the box around the robot")
+        for name, pose in scene.asked.items():
+            if pose != getattr(self, name):
+                raise RefutedError(f"the {name} is {getattr(self, name)}, and {pose} in the scene")
+
+def off(decimals: dict[Any, Fraction], place: Any, exact: Fractions) -> Fraction:
+    return sum((abs(decimals[place, k] - c) for k, c in enumerate(exact)), ZERO)
+
+def read_contact(value: Any, place: str) -> Contact:
+    got = members(value, place, kind=REQUIRED, robot=REQUIRED, obstacle=REQUIRED)
+    features = []
+    for key in ("robot", "obstacle"):
+        polygon, vertex = items(got[key], f"{place}.{key}", 2, 2)
+        features.append((whole(polygon, f"{place}.{key}", WORKSPACE), whole(vertex, f"{place}.{key}", 0)))
+    return one_of(got["kind"], f"{place}.kind", "vertex-edge", "edge-vertex"), features[0], features[1]
+
+# === Paths ===
+
+class PathAnswer(Answer):
+    """A start, and motions that lead to the goal."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        super().__init__(data, decimals=REQUIRED, motions=REQUIRED)
+        one_of(self.got["decimals"], "decimals", "free", "approximate")
+        self.motions = [self.read_motion(k, m) for k, m in enumerate(items(self.got["motions"], "motions"))]
+        if self.effect(self.decimals) > self.size / 10**9:
+            raise BadFileError("the decimals lead elsewhere than the exact numbers")
+        circle, given, exact = 2 * angle_to(None), self.decimals["start", 2], angle_to(self.start.tau)
+        pose, theta = self.start, exact + circle * round((given - exact) / circle)
+        for k, motion in enumerate(self.motions):
+            pose, theta = motion.end(pose), theta + motion.angle
+            self.check_decimals((k, "to"), pose, theta)
+        if pose != self.goal:
+            raise BadFileError("the motions do not lead to the exact goal")
+
+    def read_motion(self, k: int, data: Any) -> Motion:
+        kind, place = data.get("type") if isinstance(data, dict) else None, f"motions[{k}]"
+        keys = {"translation": {"vector": 2}, "rotation": {"pole": 2, "angle": 1}, "slide": {"vector": 2, "angle": 1}}
+        written = keys[one_of(kind, f"{place}.type", *keys)] | {"to": 3}
+        contacts = {"contacts": REQUIRED} if kind == "slide" else {}
+        got = members(data, place, type=kind, exact=REQUIRED, **contacts, **dict.fromkeys(written, REQUIRED))
+        for key, count in written.items():
+            self.read_decimals((k, key), [got[key]] if key == "angle" else got[key], count)
+        if kind == "slide":
+            touching = [read_contact(c, f"{place}.contacts") for c in items(got["contacts"], f"{place}.contacts", 2, 2)]
+            return read_slide(got["exact"], touching, f"{place}.exact")
+        if kind == "translation":
+            vector = members(got["exact"], f"{place}.exact", vector=REQUIRED)["vector"]
+            return Motion(vector=numbers(vector, f"{place}.exact.vector", 2))
+        exact = members(got["exact"], f"{place}.exact", pole=REQUIRED, tau=REQUIRED)
+        tau = read_tau(exact["tau"], f"{place}.exact.tau")
+        clockwise = exact["tau"] == "-inf" if tau is None else tau < 0
+        return Motion(pole=numbers(exact["pole"], f"{place}.exact.pole", 2), tau=tau, clockwise=clockwise)
+
+    def effect(self, decimals: dict[Any, Fraction]) -> Fraction:
+        """How far they may put a point of the robot from where it should be."""
+        turned = turns_off(decimals["start", 2], angle_to(self.start.tau))
+        moved, pose = off(decimals, "start", (self.start.x, self.start.y)), self.start
+        for k, motion in enumerate(self.motions):
+            angle = decimals.get(((k, "angle"), 0), ZERO)
+            apart = abs(angle - motion.angle)
+            turned += apart
+            if motion.pole:
+                moved += min(Fraction(2), abs(angle)) * off(decimals, (k, "pole"), motion.pole)
+                moved += apart * (abs(pose.x - motion.pole[0]) + abs(pose.y - motion.pole[1]))
+            else:
+                moved += off(decimals, (k, "vector"), motion.vector)
+            pose = motion.end(pose)
+        return moved + self.reach * turned
+
+    def leeway(self) -> Fraction:
+        """How far the exact path has to keep from everything so that the path of the decimals, as doubles, is free."""
+        if any(motion.slide for motion in self.motions):
+            raise RefutedError("its decimals are not free, as it says: there are slides")
+        try:
+            doubles = {place: Fraction(float(c)) for place, c in self.decimals.items()}
+        except OverflowError:
+            raise RefutedError("its decimals are not free, as it says: they are no doubles") from None
+        most = 4 * max(self.effect(self.decimals), self.effect(doubles))
+        power = Fraction(2) ** (most.numerator.bit_length() - most.denominator.bit_length())
+        return most and (power if most <= power else 2 * power)
+
+def check_path(answer: PathAnswer, scene: Scene) -> str:
+    """What is proved, in a sentence."""
+    world, said, only = World(scene), "the robot is where it may not be", "; its decimals are approximate"
+    check_pose(world, answer.start, "start")
+    check_pose(world, answer.goal, "goal")
+    if answer.got["decimals"] == "free":
+        world, only = world.roomier(answer.leeway()), ""
+        said = "its decimals are not free, as it says, or the robot is where it may not be"
+        check_pose(world, answer.start, "start, with the room that decimals need")
+    pose = answer.start
+    for k, motion in enumerate(answer.motions):
+        for course in motion.courses(pose, world.scale):
+            for contact in motion.contacts:
+                check_kept(scene, course, contact, f"motion {k}")
+            if (u := collision(world, course)) is not None:
+                raise RefutedError(f"motion {k}: {said}, near u = {float(u):.6g}")
+        pose = motion.end(pose)
+    count = f"{len(answer.motions):,} motion{'s' * (len(answer.motions) != 1)}"
+    return f"A path of {count} leads from {answer.start} to {answer.goal}, and is free of collisions{only}."
+
+def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> None:
+    """A slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
+    surface = Features(scene).surface(contact)
+    (ax, ay), (bx, by), (u, v) = surface.a, surface.b, surface.q
+    W, C, S, X, Y = course.moving
+    if contact[0] == "edge-vertex":
+        (ax, ay), (bx, by), (u, v) = surface.b, surface.a, surface.g
+        W, C, S, X, Y = course.back
+    # from where the edge begins to the vertex, times W
+    x, y = combined((1, ax, -ay, -bx), X, C, S, W), combined((1, ay, ax, -by), Y, C, S, W)
+    if any(combined((u, -v), y, x)):
+        raise RefutedError(f"{what}: the vertex of a contact is not on the edge's line all the way")
+    for past in (combined((-u, -v), x, y), combined((u, v, -u * u - v * v), x, y, W)):
+        if positive_place(past) is not None:
+            raise RefutedError(f"{what}: the vertex of a contact is beyond the end of its edge")
+
+# === Contact surfaces, and the names of their curves and angles ===
+
+Form = tuple[int, int, int]  # (f, g, h) stands for f + g cos + h sin
+CHARTS = (1, -1)  # in chart 1 angles are counted from the half turn: cosines and sines change their signs
+
+def poly_of(form: Form, chart: int) -> Poly:
+    """(1 + tau^2) times a form."""
+    f, g, h = form[0], CHARTS[chart] * form[1], CHARTS[chart] * form[2]
+    return f + g, 2 * h, f - g
+
+@dataclass(eq=False)
+class Surface:
+    """S(t) = b + t q - R (a + t g), t from 0 to 1, is where the reference point is at a contact.
+
+    Of a vertex a of the robot on an edge, g = 0; of an edge of the robot on a vertex b, q = 0. A contact is in its
+    range where all limits are negative: there both edges at the vertex leave the other one on its outer side.
+    """
+
+    a: Point
+    g: Point
+    b: Point
+    q: Point
+    limits: Sequence[Form] = ()
+
+    def form(self, beta: Point, alpha: Point) -> Form:
+        """(q - R g) x (beta - R alpha)"""
+        q, g = self.q, self.g
+        return cross(q, beta) + cross(g, alpha), -cross(q, alpha) - cross(g, beta), dot(g, beta) - dot(q, alpha)
+
+    def cut(self, other: Surface) -> tuple[Form, Form]:
+        """Numerator and denominator of t where another surface's line meets this one's."""
+        n, d = other.form(minus(self.b, other.b), minus(self.a, other.a)), other.form(self.q, self.g)
+        if not any(d):
+            raise RefutedError("a curve is cut out by a surface that is parallel at every angle")
+        return (-n[0], -n[1], -n[2]), d
+
+@dataclass
+class Shape:
+    """Vertices of the robot or of what it may not meet, by number, each with those before and after it."""
+
+    vertices: list[Any] = field(default_factory=list)
+    around: list[tuple[int, int]] = field(default_factory=list)
+    owner: dict[tuple[int, int], int] = field(default_factory=dict)
+
+    def add(self, rings: Iterable[Ring], polygon: int, backwards: bool = False) -> None:
+        count = 0
+        for ring in rings:
+            first, n = len(self.vertices), len(ring)
+            for k in range(n):
+                vertex = -k % n if backwards else k
+                self.owner[polygon, count + vertex] = first + k
+                self.around.append((first + (k - 1) % n, first + (k + 1) % n))
+                self.vertices.append(ring[vertex])
+            count += n
+
+class Features:
+    """What numbers in an answer mean (docs/answer-format.md, "Names")."""
+
+    def __init__(self, scene: Scene, auxiliary: dict[tuple[str, str, int], Ring] | None = None) -> None:
+        self.scale, self.auxiliary = scene.scale, auxiliary or {}
+        for name in ("surface", "curve", "angle"):  # each is computed once
+            setattr(self, name, lru_cache(None)(getattr(self, name)))
+        self.shapes = {"robot": Shape(), "obstacles": Shape()}
+        for name, polygons in (("robot", scene.robot), ("obstacles", scene.obstacles)):
+            for k, polygon in enumerate(polygons):
+                self.shapes[name].add(polygon.integers(self.scale), k)
+        walls = self.shapes["obstacles"]
+        if scene.workspace:
+            walls.vertices += [None] * 4
+            walls.around += [(0, 0)] * 4
+            walls.add(scene.workspace.integers(self.scale), WORKSPACE, backwards=True)
+        if scene.bounds:
+            x0, y0, x1, y1 = (int(b * self.scale) for b in scene.bounds)
+            walls.add([[(x0, y0), (x0, y1), (x1, y1), (x1, y0)]], BOUNDS)
+            self.shapes["robot"].add([[(0, 0)]], BOUNDS)
+
+    def points(self, of: str, kind: str, k: int) -> Ring:
+        """A vertex, or the ends of an edge; not in the scene perhaps: an angle may be defined by anything."""
+        shape = self.shapes[of]
+        if k < len(shape.vertices) and shape.vertices[k] is not None:
+            ends = [k] if kind == "vertex" else [k, shape.around[k][1]]
+            return [shape.vertices[end] for end in ends]
+        points = self.auxiliary.get((of, kind, k), [])
+        if not points or any(self.scale % c.denominator for point in points for c in point):
+            raise RefutedError(f"{kind} {k} of the {of} does not exist, or has another denominator than the scene")
+        return scaled(points, self.scale)
+
+    def point(self, of: str, k: int) -> Point:
+        return self.points(of, "vertex", k)[0]
+
+    def edge(self, of: str, k: int) -> tuple[Point, Point]:
+        """Where an edge begins, and its vector."""
+        begin, end = self.points(of, "edge", k)
+        return begin, minus(end, begin)
+
+    def surface(self, contact: Contact) -> Surface:
+        """That of a contact: a convex vertex and an edge."""
+        kind, *named = contact
+        found = []
+        for of, name in zip(("robot", "obstacles"), named, strict=True):
+            if name not in self.shapes[of].owner:
+                raise RefutedError(f"there is no vertex {name[1]} of polygon {name[0]} of the {of}")
+            found.append(self.shapes[of].owner[name])
+        is_of_bounds = [name[0] == BOUNDS for name in named]
+        (a, g), (b, q) = self.edge("robot", found[0]), self.edge("obstacles", found[1])
+        if kind == "vertex-edge" and all(is_of_bounds):
+            return Surface((0, 0), (0, 0), b, q)
+        of = "robot" if kind == "vertex-edge" else "obstacles"
+        shape, k = self.shapes[of], found[of == "obstacles"]
+        before, here, after = (shape.vertices[j] for j in (shape.around[k][0], k, shape.around[k][1]))
+        if any(is_of_bounds) or side(before, here, after) <= 0:
+            raise RefutedError("a contact of the bounds with an obstacle or the robot, or at a reflex vertex")
+        both = minus(after, here), minus(before, here)
+        if kind == "vertex-edge":  # q x R e < 0
+            return Surface(a, (0, 0), b, q, [(0, cross(q, e), dot(q, e)) for e in both])
+        return Surface(a, g, b, (0, 0), [(0, cross(g, f), -dot(g, f)) for f in both])  # R g x f < 0
+
+    def t_of(self, surface: Surface, name: tuple[int, int, int]) -> tuple[Form, Form]:
+        """Numerator and denominator of t on the curve that a pair of features names on a surface."""
+        kind, i, j = name
+        if kind == 1:
+            return surface.cut(Surface(self.point("robot", i), (0, 0), *self.edge("obstacles", j)))
+        if kind == 2:
+            return surface.cut(Surface(*self.edge("robot", i), self.point("obstacles", j), (0, 0)))
+        if kind != 3:
+            raise RefutedError("a curve that is named by two edges")
+        # the reference point where two vertices meet: on the surface if t is the same for all of it
+        alpha, beta = minus(self.point("robot", i), surface.a), minus(self.point("obstacles", j), surface.b)
+        n, d = dot(beta, surface.q) + dot(alpha, surface.g), dot(surface.q, surface.q) + dot(surface.g, surface.g)
+        at, along = (*beta, *alpha), (*surface.q, *surface.g)
+        if any(d * c != n * u for c, u in zip(at, along, strict=True)):
+            raise RefutedError("a curve that does not lie on its surface")
+        return (n, 0, 0), (d, 0, 0)
+
+    def zero(self, surface: Surface, names: Sequence[tuple[int, int, int]], chart: int) -> Poly:
+        """A polynomial that is 0 at the angle that one or two pairs of features name on a surface."""
+        if len(names) == 2:
+            (n, d), (m, e) = ([poly_of(form, chart) for form in self.t_of(surface, name)] for name in names)
+            return combined((1, -1), times(n, e), times(m, d))
+        kind, i, j = names[0]
+        if kind == 3:
+            found = surface.form(minus(self.point("obstacles", j), surface.b), minus(self.point("robot", i), surface.a))
+        elif kind == 4:
+            g, f = self.edge("robot", i)[1], self.edge("obstacles", j)[1]
+            found = 0, cross(g, f), -dot(g, f)
+        else:
+            raise RefutedError("an angle that is named by a vertex and an edge")
+        return poly_of(found, chart)
+
+    def curve(self, contact: Contact, chart: int, name: tuple[int, int, int]) -> Curve:
+        surface = self.surface(contact)
+        return Curve(surface, chart, self.t_of(surface, name))
+
+    def angle(self, contact: Contact, chart: int, names: Any, lo: Fraction, hi: Fraction, place: int) -> Root:
+        """The only root in an interval, or the one that is counted."""
+        if not names:
+            if lo != hi or abs(lo) != 1 or place:
+                raise RefutedError("an angle without a name is no end of a chart")
+            return Root.rational(lo)
+        poly = trimmed(self.zero(self.surface(contact), names, chart))
+        found = ordered(roots_in(poly, lo, hi)) if poly and lo > -2 and hi < 2 else []
+        if place > len(found) or (len(found) != 1) == (place == 0):
+            raise RefutedError(f"{len(found)} roots in the interval of an angle")
+        root = found[max(place, 1) - 1][0]
+        for end in (Root.rational(-ONE), Root.rational(ONE)):
+            if (order := root.compared(end)) == 0:
+                return end
+            if order == end.lo:
+                raise RefutedError("an angle beyond its chart")
+        return root
+
+    def trapezoid(self, piece: dict[str, Any]) -> Trapezoid:
+        contact, chart = piece["contact"], piece["chart"]
+        lower, upper = (self.curve(contact, chart, piece[key]) for key in ("lower", "upper"))
+        start, stop = (self.angle(contact, chart, *piece[key]) for key in ("from", "to"))
+        found = Trapezoid(self.surface(contact), chart, lower, upper, start, stop)
+        found.check()
+        return found
+
+# === Separations ===
+
+class Curve:
+    """t = n / d on a surface, and the reference point (X / Z, Y / Z) there, polynomials of degree 4 at most."""
+
+    def __init__(self, surface: Surface, chart: int, t: tuple[Form, Form]) -> None:
+        n, d = (trimmed(poly_of(form, chart)) for form in t)
+        g = common_divisor(n, d)
+        self.n, self.d = quotient(n, g), quotient(d, g)
+        (a, b), (g, h), (u, v), (x, y) = surface.a, surface.g, surface.b, surface.q
+        forms = ((u, -a, b), (x, -g, h)), ((v, -b, -a), (y, -h, -g))  # at t = 0, and along
+        at, along = ([poly_of(form, chart) for form in both] for both in zip(*forms, strict=True))
+        self.X, self.Y = (combined((1, 1), times(at[k], self.d), times(along[k], self.n)) for k in (0, 1))
+        self.Z = times((1, 0, 1), self.d)
+        # two quotients of degree 4 that agree at 9 places are one; what X, Y and Z have in common has no root there
+        places = [Fraction(k, 1009) + Fraction(1, 10**9 + 7) for k in range(-4, 5)]
+        polys = [(*p, *[0] * 5)[:5] for p in (self.X, self.Y, self.Z)]
+        rows = [[value_over(p, tau)[0] for p in polys] for tau in places]
+        units = [math.gcd(*row) * (sign(row[2]) or sign(row[1]) or sign(row[0])) for row in rows]
+        self.key = tuple(tuple(c // unit for c in row) for row, unit in zip(rows, units, strict=True))
+
+    def at(self, tau: Fraction) -> Fraction:
+        d = value(self.d, tau)
+        if d == 0:
+            raise RefutedError("a curve leaves its surface's line to infinity")
+        return value(self.n, tau) / d
+
+@dataclass
+class Trapezoid:
+    """A piece of a contact surface: lower <= t <= upper, start <= tau <= stop in a chart."""
+
+    surface: Surface
+    chart: int
+    lower: Curve
+    upper: Curve
+    start: Root
+    stop: Root
+
+    def check(self) -> None:
+        """From start to stop 0 <= lower <= upper <= 1, and the contact is in its range.
+
+        So it is at one angle between them, strictly; and no polynomial that says so changes its sign on the way.
+        """
+        p, q, limits = self.lower, self.upper, [poly_of(form, self.chart) for form in self.surface.limits]
+        if self.start.compared(self.stop) >= 0:
+            raise RefutedError("it does not end after it begins")
+        gap = combined((1, -1), times(q.n, p.d), times(p.n, q.d))
+        if not any(gap):
+            raise RefutedError("its two curves are one")
+        tau = between(self.start.hi, self.stop.lo)
+        while p.at(tau) == q.at(tau):
+            tau = between(self.start.hi, tau)
+        if not 0 <= p.at(tau) < q.at(tau) <= 1 or any(sign_at(limit, tau) >= 0 for limit in limits):
+            raise RefutedError("it is no part of its contact: t or the angle is out of range")
+        for root in (root for curve in (p, q) for root in self.roots(curve.d)):
+            if root.compared(self.start) >= 0 >= root.compared(self.stop):
+                raise RefutedError("a curve leaves its surface's line to infinity")
+        for poly in map(trimmed, (p.n, combined((1, -1), q.d, q.n), gap, *limits)):
+            for root in self.roots(poly):
+                if root.compared(self.start) > 0 > root.compared(self.stop) and root.is_change(poly):
+                    raise RefutedError("its curves cross, or t or the angle leave their range")
+
+    def roots(self, p: Poly) -> list[Root]:
+        """Those from start to stop, and perhaps some beside them."""
+        ends = self.start.lo, self.stop.hi
+        return roots_in(p, *ends) if len(p) > 1 and min(found := mapped(p, ends)) <= 0 <= max(found) else []
+
+class Proof(Answer):
+    """Two poses, and pieces of contact surfaces between them."""
+
+    def __init__(self, data: dict[str, Any]) -> None:
+        required = dict.fromkeys(("of", "cells", "obstacles", "surface"), REQUIRED)
+        super().__init__(data, **required, smaller_robot=[], larger_bounds=None, auxiliary=[])
+        self.check_decimals("start", self.start)
+        got = self.got
+        self.is_closed = one_of(got["of"], "of", "closed", "interior") == "closed"
+        for k in [*items(got["cells"], "cells", 2, 2), *items(got["obstacles"], "obstacles")]:
+            whole(k, "cells or obstacles", -2)
+        parts = items(got["smaller_robot"], "smaller_robot")
+        self.robot = [read_polygon(part, f"smaller_robot[{k}]") for k, part in enumerate(parts)]
+        self.bounds = None if got["larger_bounds"] is None else read_bounds(got["larger_bounds"], "larger_bounds")
+        if self.is_closed != bool(self.robot) or (self.bounds and not self.is_closed):
+            raise BadFileError('"smaller_robot" and "larger_bounds" belong to what is "closed"')
+        self.auxiliary = dict(read_auxiliary(item) for item in items(got["auxiliary"], "auxiliary"))
+        if len(self.auxiliary) < len(got["auxiliary"]):
+            raise BadFileError("one of the auxiliary features is there twice")
+        self.pieces = [read_piece(piece, f"surface[{k}]") for k, piece in enumerate(items(got["surface"], "surface"))]
+        if set(got["obstacles"]) != {piece["contact"][2][0] for piece in self.pieces}:
+            raise BadFileError('"obstacles" are not those of the surface')
+
+def read_auxiliary(data: Any) -> tuple[tuple[str, str, int], Ring]:
+    got = members(data, "auxiliary", of=REQUIRED, kind=REQUIRED, number=REQUIRED, points=REQUIRED)
+    of, kind = one_of(got["of"], "of", "robot", "obstacles"), one_of(got["kind"], "kind", "vertex", "edge")
+    count = 1 + (kind == "edge")
+    points = [numbers(point, "auxiliary", 2) for point in items(got["points"], "auxiliary", count, count)]
+    if len(set(points)) < count:
+        raise BadFileError("an auxiliary edge between two equal points")
+    return (of, kind, whole(got["number"], "auxiliary", 0)), points  # type: ignore[return-value]
+
+def read_piece(data: Any, place: str) -> dict[str, Any]:
+    got = members(data, place, **dict.fromkeys(("contact", "chart", "from", "to", "lower", "upper"), REQUIRED))
+    got["contact"] = read_contact(got["contact"], f"{place}.contact")
+    one_of(got["chart"], f"{place}.chart", 0, 1)
+    for key in ("lower", "upper"):
+        got[key] = read_name(got[key], f"{place}.{key}")
+    for key in ("from", "to"):
+        angle = members(got[key], f"{place}.{key}", names=REQUIRED, tau=REQUIRED, place=0)
+        names = tuple(read_name(name, f"{place}.{key}") for name in items(angle["names"], f"{place}.{key}", 0, 2))
+        lo, hi = (Fraction(float(c)) for c in numbers(angle["tau"], f"{place}.{key}.tau", 2))  # doubles, as they were
+        if not -2 <= lo <= hi <= 2:
+            raise BadFileError(f"{place}.{key}.tau: expected an interval between -2 and 2")
+        got[key] = names, lo, hi, whole(angle["place"], f"{place}.{key}.place", 0, 4)
+    return got
+
+def read_name(data: Any, place: str) -> tuple[int, int, int]:
+    kind, i, j = items(data, place, 3, 3)
+    return whole(kind, place, 1, 4), whole(i, place, 0, 2**30 - 1), whole(j, place, 0)
+
+def check_closed(pieces: list[Trapezoid]) -> None:
+    """Every part of a side of a piece is one of an even number of others.
+
+    Sides lie on curves, told apart by their keys, or on lines at one angle. A sum mod 2 of intervals of one curve is
+    zero if every end of one is that of an even number of them; so it is with segments of one line.
+    """
+    angles: dict[int, tuple[Any, Root]] = {}  # by identity of roots: a number, and one root for all that are equal
+    for chart in (0, 1):
+        roots = {id(root): root for p in pieces if p.chart == chart for root in (p.start, p.stop)}
+        for k, group in enumerate(ordered(roots.values())):
+            one = next((root for root in group if root.lo == root.hi), group[0])
+            is_end = one.lo == one.hi and abs(one.lo) == 1  # shared by the charts
+            angles |= {id(root): (("end", chart == (one.lo < 0)) if is_end else (chart, k), one) for root in group}
+    ends: Counter[Any] = Counter()
+    walls: dict[Any, list[tuple[Trapezoid, Root]]] = defaultdict(list)
+    for p in pieces:
+        for curve in (p.lower, p.upper):
+            ends.update((p.chart, curve.key, angles[id(root)][0]) for root in (p.start, p.stop))
+        for root in (p.start, p.stop):
+            angle, one = angles[id(root)]
+            walls[angle].append((p, one))
+    if any(n % 2 for n in ends.values()):
+        raise RefutedError("the surface is not closed: sides on a curve end without a partner")
+    for wall in walls.values():
+        check_wall(wall)
+
+def check_wall(wall: list[tuple[Trapezoid, Root]]) -> None:
+    """The same of the segments at one angle: from lower to upper on the line of each piece."""
+    lines: list[tuple[Trapezoid, dict[Any, Curve]]] = []  # a piece on each, and the ends on it that are odd
+    for p, root in wall:
+        odd = next((ends for other, ends in lines if other.surface is p.surface or is_one_line(p, other, root)), None)
+        if odd is None:
+            odd = {}
+            lines.append((p, odd))
+        for curve in (p.lower, p.upper):
+            key: Any = curve.key
+            if root.lo == root.hi:
+                x, y, z = (value(poly, root.lo) for poly in (curve.X, curve.Y, curve.Z))
+                key = x / z, y / z
+            elif key not in odd:
+                key = next((k for k, other in odd.items() if is_one_point(curve, other, root)), key)
+            if odd.pop(key, None) is None:
+                odd[key] = curve
+    if any(odd for _, odd in lines):
+        raise RefutedError("the surface is not closed: sides at an angle end without a partner")
+
+def is_one_line(p: Trapezoid, other: Trapezoid, root: Root) -> bool:
+    """At an angle of p."""
+    one, two = p.surface, other.surface
+    forms = one.form(two.q, two.g), one.form(minus(two.b, one.b), minus(two.a, one.a))
+    return all(root.sign(poly_of(form, p.chart)) == 0 for form in forms)
+
+def is_one_point(one: Curve, other: Curve, root: Root) -> bool:
+    both = (one.X, other.X), (one.Y, other.Y)
+    return all(root.sign(combined((1, -1), times(p, other.Z), times(q, one.Z))) == 0 for p, q in both)
+
+def crosses(p: Trapezoid, tau: Fraction, x: Fraction, y: Fraction) -> bool:
+    """Does a ray from (x, y) towards -x meet a piece just after an angle?
+
+    A piece whose lower end is level with the ray counts as below it, and so do others that end there.
+    """
+    S, unit = p.surface, math.lcm(x.denominator, y.denominator)
+    above = []
+    for curve in (p.lower, p.upper):
+        over = combined((unit, -int(unit * y)), curve.Y, curve.Z)
+        above.append(sign_after(over, tau) * sign_after(curve.Z, tau) > 0)
+    beta = int(unit * (x - S.b[0])), int(unit * (y - S.b[1]))
+    alpha = -unit * S.a[0], -unit * S.a[1]
+    on_left = sign_after(poly_of(S.form(beta, alpha), p.chart), tau)  # of the piece's line, as t grows
+    return above[0] != above[1] and (on_left < 0) == above[1]
+
+def sign_after(p: Poly, tau: Fraction) -> int:
+    """Of the first derivative that is not 0 at tau; 0 of the zero polynomial."""
+    return (sign_at(p, tau) or sign_after(derivative(p), tau)) if any(p) else 0
+
+def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
+    """Does a ray from a pose meet the surface an odd number of times, just after the angle of the pose?
+
+    The pose is not on the surface, as the robot touches nothing there, and so it is on the same side just after.
+    """
+    chart, tau = 0, pose.tau
+    if tau is None or not -1 <= tau < 1:
+        chart, tau = 1, ZERO if tau is None else -1 / tau
+    x, y, root = scale * pose.x, scale * pose.y, Root.rational(tau)
+    here = [p for p in pieces if p.chart == chart and p.start.compared(root) <= 0 < p.stop.compared(root)]
+    return sum(crosses(p, tau, x, y) for p in here) % 2 == 1
+
+def check_proof(proof: Proof, scene: Scene) -> str:
+    """What is proved, in a sentence."""
+    world, inner, apart = World(scene), scene, False
+    check_pose(world, proof.start, "start")
+    check_pose(world, proof.goal, "goal")
+    if proof.is_closed:
+        for k, part in enumerate(proof.robot):
+            if not any(strictly_inside(part, polygon) for polygon in scene.robot):
+                raise RefutedError(f"smaller_robot[{k}] is not strictly inside one of the robot's polygons")
+        if proof.bounds:
+            x0, y0, x1, y1 = scene.bounds or proof.bounds
+            left, bottom, right, top = proof.bounds
+            if min(x0 - left, y0 - bottom, right - x1, top - y1) <= 0:
+                raise RefutedError("the scene's bounds are not strictly inside larger_bounds")
+        inner = Scene(proof.robot, scene.obstacles, scene.workspace, proof.bounds)
+    else:
+        apart = touches(world, proof.start) or touches(world, proof.goal)
+    features, pieces = Features(inner, proof.auxiliary), []
+    for k, piece in enumerate(proof.pieces):
+        try:
+            pieces.append(features.trapezoid(piece))
+        except RefutedError as error:
+            raise RefutedError(f"piece {k}: {error}") from None
+    check_closed(pieces)
+    # where start or goal touches something, no path from it keeps a distance anyway
+    if not apart and is_inside(proof.start, inner.scale, pieces) == is_inside(proof.goal, inner.scale, pieces):
+        raise RefutedError("start and goal are on one side of the surface")
+    from_to = f"leads from {proof.start} to {proof.goal}"
+    if proof.is_closed:
+        return f"No path {from_to}, not even one that touches."
+    return f"No path that keeps a distance from everything {from_to}; one that touches may."
+
+# === The command ===
+
+def verdict(scene: str, answer: str) -> tuple[int, str]:
+    """Of the texts of two files: an exit code, and a line that says what is proved, or what is wrong."""
+    try:
+        world, data = read_scene(decoded(scene)), decoded(answer)
+        kind = one_of(data.get("answer") if isinstance(data, dict) else None, "answer", "path", "separated")
+        given = (PathAnswer if kind == "path" else Proof)(data)
+        given.check_asked(world)
+        proved = check_path(given, world) if isinstance(given, PathAnswer) else check_proof(given, world)
+        return VERIFIED, f"{proved} verified"
+    except RefutedError as error:
+        return REFUTED, f"REFUTED: {error}"
+    except BadFileError as error:
+        return UNREADABLE, f"cannot be read: {error}"
+
+def main(names: list[str]) -> int:
+    try:
+        scene, answer = (Path(name).read_text(encoding="utf-8-sig") for name in names)
+        code, said = verdict(scene, answer)
+    except (OSError, ValueError) as error:
+        code, said = UNREADABLE, f"{error}; give two files, a scene and an answer"
+    print(said)
+    return code
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
