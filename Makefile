@@ -50,8 +50,9 @@ fuzz-files: $(INSTALLED)  ## files of boundaries with flipped bits
 	$(BIN)/python tests/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
 lint: $(INSTALLED)
-	$(BIN)/ruff check src tests benchmarks examples
+	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy
+	$(BIN)/mypy tools/check_answer.py
 
 bench: $(INSTALLED)  ## figures against baselines measured in the same run
 	$(BIN)/python benchmarks/run.py

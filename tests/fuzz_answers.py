@@ -22,8 +22,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path as FilePath
 from typing import Any
 
-import cfree.verify
 import fuzz
+import second_opinion
 from cfree import Path, Scene, Separated, load_answer, load_scene, plan
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
 from cfree.io import scene_text
@@ -95,7 +95,7 @@ def evidence(scene: Scene, found: Path | Separated) -> list[Fault]:
         file = FilePath(folder) / "answer.json"
         found.save(file)
         faults = [] if load_answer(file) == found else [("another answer after loading", "")]
-        result = cfree.verify.answer(scene, file)
+        result = second_opinion.verified(scene, file)
         if not result.verified:
             kinds = sorted({finding.kind for finding in result.findings})
             faults.append((f"not verified: {', '.join(kinds)}", "; ".join(map(str, result.findings[:2]))))

@@ -1,7 +1,8 @@
 """Questions on random scenes, degenerate ones among them: ``python tests/fuzz_plan.py 10000 --seed 1``.
 
 Of each scene, pairs of poses in one cell, walked from one to the other without a search, and pairs in different cells,
-separated and verified. What a flood knows for certain has to agree. Prints what is wrong, and exits with 1.
+separated and verified by both checkers. What a flood knows for certain has to agree. Prints what is wrong, and exits
+with 1.
 """
 
 from __future__ import annotations
@@ -18,9 +19,9 @@ import numpy as np
 import fuzz
 from cfree import MotionChecker, Path, Planner, Pose, Poses, Scene, boundary, free_space
 from cfree.errors import InvalidPolygonError, UnsupportedError
-from cfree.verify import answer
 from compared import scene_of
 from flood import flood
+from second_opinion import verified_in_a_file
 from shapes import KINDS, PlainScene, random_scene
 
 STEPS = 60  # orientations of a flood
@@ -72,7 +73,7 @@ def mistakes(kind: str, number: int, tally: Counter[str], most: int = 3) -> list
     for i, j in [(i, j) for i, j in pairs if cells[i] != cells[j]][:most]:
         found = planner.plan(poses[i], poses[j])
         tally["contact paths" if isinstance(found, Path) else found.of] += 1
-        result = answer(scene, found)
+        result = verified_in_a_file(scene, found)
         if not result.verified:
             wrong.append(f"from {poses[i]} to {poses[j]}: {result.findings[:3]}")
     if number % 10 == 0:

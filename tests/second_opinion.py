@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import cfree.verify
-from cfree import FormatError, Path, Scene, Separated
+from cfree import FormatError, Path, Scene, Separated, UnsupportedError
 from cfree.io import scene_text
 from cfree.verify.result import Verification
 
@@ -35,13 +35,13 @@ def verified(scene: Scene, file: FilePath) -> Verification:
     ------
     AssertionError
         If the other checker says something else.
-    FormatError
+    FormatError, UnsupportedError
         If both cannot read the file.
     """
     code, said = check_answer.verdict(scene_text(scene), file.read_text(encoding="utf-8"))
     try:
         result = cfree.verify.answer(scene, file)
-    except FormatError as error:
+    except (FormatError, UnsupportedError) as error:
         assert code == 2, f"a bad file for cfree, and not for check_answer: {error}; {said}"
         raise
     assert code == (0 if result.verified else 1), f"check_answer: {said}; cfree.verify: {result}"

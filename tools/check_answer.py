@@ -66,7 +66,6 @@ class RefutedError(Exception):
     """The answer is wrong, or not proved."""
 
 # === Files: JSON with exact numbers, no unknown and no repeated keys ===
-
 MAX_DIGITS = 4000
 LARGEST = 10**150  # of a coordinate
 MAX_BITS = 1110  # of a scene's coordinates over their common denominator
@@ -89,7 +88,7 @@ def decoded(text: str) -> Any:
         return found
 
     try:
-        return json.loads(text, parse_int=exact, parse_float=exact, object_pairs_hook=unique)
+        return json.loads(text, parse_int=exact, parse_float=exact, parse_constant=int, object_pairs_hook=unique)
     except (ValueError, InvalidOperation, RecursionError) as error:
         raise BadFileError(f"no JSON: {error}") from None
 
@@ -137,6 +136,12 @@ def number(value: Any, place: str) -> Fraction:
 
 def numbers(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     return tuple(number(item, place) for item in items(value, place, count, count))
+
+def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
+    """Numbers that are not in quotes."""
+    if any(isinstance(c, str) for c in items(value, place, count, count)):
+        raise BadFileError(f"{place}: expected numbers without quotes")
+    return numbers(value, place, count)
 
 # === Angles: tau = tan(theta / 2), a Fraction, or None for the half turn ===
 #
@@ -234,7 +239,6 @@ def read_pose(value: Any, place: str) -> Pose:
     return Pose(x, y, read_angle(value[2], place))
 
 # === Polygons ===
-
 def cross(u: Point, v: Point) -> Any:
     return u[0] * v[1] - u[1] * v[0]
 
@@ -341,7 +345,6 @@ def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
     return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
 
 # === Scenes ===
-
 class Scene:
     """A robot of polygons, obstacles, perhaps a workspace, bounds, start and goal."""
 
@@ -407,7 +410,6 @@ def read_bounds(value: Any, place: str) -> tuple[Fraction, ...]:
     return found
 
 # === Polynomials with integer coefficients, and their roots ===
-
 def sign(value: Any) -> int:
     return bool(value > 0) - bool(value < 0)
 
@@ -607,7 +609,6 @@ def positive_place(p: Poly) -> Fraction | None:
     return next((u for u in samples([p], *ALL) if sign_at(p, u) > 0), None)
 
 # === Convex pieces ===
-
 class Piece:
     """A convex polygon: counter-clockwise corners (x, y, z), which stand for (x / z, y / z), and lines (l, m, k)
     through them: on their left, where the piece is, l x + m y + k z > 0.
@@ -707,7 +708,6 @@ def box_around(points: Iterable[Any]) -> tuple[int, int, int, int]:
     return low[0], low[1], high[0], high[1]
 
 # === Motions ===
-
 class Course:
     """A motion as polynomials in u, 0 <= u <= 1: a point (a, b) of the robot is at ((X + C a - S b) / W,
     (Y + S a + C b) / W), W > 0. These are in `moving`; in `back` those for points of the world in the robot's frame.
@@ -800,7 +800,6 @@ def read_slide(exact: Any, contacts: list[tuple[Any, ...]], place: str) -> Motio
     return Motion(vector=(sum(x, ZERO) / sum(d), sum(y, ZERO) / sum(d)), tau=tau, slide=(x, y, d), contacts=contacts)
 
 # === Collisions ===
-
 STANDING = Motion(vector=(ZERO, ZERO))
 SHORT = Fraction(1, 2**8)  # parts of a motion are halved; in those as short as that roots are looked for
 
@@ -895,7 +894,6 @@ def check_pose(world: World, pose: Pose, what: str) -> None:
         raise RefutedError(f"{what}: {pose} is forbidden")
 
 # === Answers: exact numbers, and the decimals beside them (docs/answer-format.md, "Decimals") ===
-
 class Answer:
     """Start, goal, for which scene, and all decimals by place."""
 
@@ -905,6 +903,8 @@ class Answer:
         required = dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED)
         self.got = got = members(data, "answer", **required, version=1, units="", frame="world", **more)
         one_of(got["version"], "version", 1)
+        if not all(isinstance(got[key], str) for key in ("units", "frame")):
+            raise BadFileError("units, frame: expected texts")
         ends = members(got["exact"], "exact", start=REQUIRED, goal=REQUIRED)
         self.start, self.goal = (read_pose(ends[end], f"exact.{end}") for end in ("start", "goal"))
         stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED)
@@ -919,9 +919,7 @@ class Answer:
         self.check_decimals("goal", self.goal)
 
     def read_decimals(self, place: Any, value: Any, count: int) -> None:
-        if any(type(c) is not int and not isinstance(c, Decimal) for c in items(value, str(place), count, count)):
-            raise BadFileError(f"{place}: expected numbers, as everywhere beside exact ones")
-        self.decimals |= {(place, k): c for k, c in enumerate(numbers(value, str(place), count))}
+        self.decimals |= {(place, k): c for k, c in enumerate(literals(value, str(place), count))}
 
     def check_decimals(self, place: Any, pose: Pose, theta: Fraction | None = None) -> None:
         """Are they a pose? Whole turns count if an angle is given."""
@@ -951,7 +949,6 @@ def read_contact(value: Any, place: str) -> Contact:
     return one_of(got["kind"], f"{place}.kind", "vertex-edge", "edge-vertex"), features[0], features[1]
 
 # === Paths ===
-
 class PathAnswer(Answer):
     """A start, and motions that lead to the goal."""
 
@@ -1053,7 +1050,6 @@ def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> Non
             raise RefutedError(f"{what}: the vertex of a contact is beyond the end of its edge")
 
 # === Contact surfaces, and the names of their curves and angles ===
-
 Form = tuple[int, int, int]  # (f, g, h) stands for f + g cos + h sin
 CHARTS = (1, -1)  # in chart 1 angles are counted from the half turn: cosines and sines change their signs
 
@@ -1232,7 +1228,6 @@ class Features:
         return found
 
 # === Separations ===
-
 class Curve:
     """t = n / d on a surface, and the reference point (X / Z, Y / Z) there, polynomials of degree 4 at most."""
 
@@ -1339,7 +1334,8 @@ def read_piece(data: Any, place: str) -> dict[str, Any]:
     for key in ("from", "to"):
         angle = members(got[key], f"{place}.{key}", names=REQUIRED, tau=REQUIRED, place=0)
         names = tuple(read_name(name, f"{place}.{key}") for name in items(angle["names"], f"{place}.{key}", 0, 2))
-        lo, hi = (Fraction(float(c)) for c in numbers(angle["tau"], f"{place}.{key}.tau", 2))  # doubles, as they were
+        ends = literals(angle["tau"], f"{place}.{key}.tau", 2)
+        lo, hi = (Fraction(float(max(-3 * ONE, min(c, 3 * ONE)))) for c in ends)  # doubles, as they were
         if not -2 <= lo <= hi <= 2:
             raise BadFileError(f"{place}.{key}.tau: expected an interval between -2 and 2")
         got[key] = names, lo, hi, whole(angle["place"], f"{place}.{key}.place", 0, 4)
@@ -1469,7 +1465,6 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     return f"No path that keeps a distance from everything {from_to}; one that touches may."
 
 # === The command ===
-
 def verdict(scene: str, answer: str) -> tuple[int, str]:
     """Of the texts of two files: an exit code, and a line that says what is proved, or what is wrong."""
     try:

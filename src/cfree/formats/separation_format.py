@@ -6,11 +6,12 @@ Import this module inside functions.
 from __future__ import annotations
 
 import json
+from decimal import Decimal
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import Field, PlainValidator, model_validator
+from pydantic import BeforeValidator, Field, PlainValidator, model_validator
 
 from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
 from cfree.formats.contact_format import ContactModel
@@ -38,13 +39,20 @@ def _code(value: Any) -> int:
 
 
 def _interval(value: Any) -> tuple[float, float]:
-    try:
-        lo, hi = map(float, value)
-    except (TypeError, ValueError):
-        raise fault("expected an interval [lo, hi], got {got}") from None
-    if not -2 <= lo <= hi <= 2:
-        raise fault("expected an interval [lo, hi] with -2 <= lo <= hi <= 2, got {got}")
-    return lo, hi
+    if isinstance(value, list) and len(value) == 2 and all(type(c) is int or _is_finite(c) for c in value):
+        lo, hi = (float(max(-3, min(c, 3))) for c in value)
+        if -2 <= lo <= hi <= 2:
+            return lo, hi
+    raise fault("expected an interval [lo, hi] with -2 <= lo <= hi <= 2, got {got}")
+
+
+def _is_finite(value: Any) -> bool:
+    return isinstance(value, Decimal) and value.is_finite()
+
+
+def _whole(value: Any) -> Any:
+    """As it is, and 0.0 and true as what is neither 0 nor 1."""
+    return value if type(value) is int else None
 
 
 Code = Annotated[int, PlainValidator(_code)]
@@ -55,14 +63,14 @@ class AngleModel(Strict):
 
     names: Annotated[list[Code], Field(max_length=2)]
     tau: Annotated[tuple[float, float], PlainValidator(_interval)]
-    place: Annotated[int, Field(ge=0, le=4)] = 0
+    place: Annotated[int, Field(strict=True, ge=0, le=4)] = 0
 
 
 class PieceModel(Strict):
     """A trapezoid of a contact surface."""
 
     contact: ContactModel
-    chart: Literal[0, 1]
+    chart: Annotated[Literal[0, 1], BeforeValidator(_whole)]
     from_: Annotated[AngleModel, Field(alias="from")]
     to: AngleModel
     lower: Code
@@ -83,7 +91,7 @@ class AuxiliaryModel(Strict):
 
     of: Literal["robot", "obstacles"]
     kind: Literal["vertex", "edge"]
-    number: Annotated[int, Field(ge=0, lt=MOST_OBSTACLE_FEATURES)]
+    number: Annotated[int, Field(strict=True, ge=0, lt=MOST_OBSTACLE_FEATURES)]
     points: list[Point]
 
     @model_validator(mode="after")
@@ -102,8 +110,8 @@ class SeparationModel(AnswerModel):
 
     answer: Literal["separated"]
     of: Literal["closed", "interior"]
-    cells: Annotated[list[Annotated[int, Field(ge=-2, lt=2**31)]], Field(min_length=2, max_length=2)]
-    obstacles: list[Annotated[int, Field(ge=-2, lt=2**31)]]
+    cells: Annotated[list[Annotated[int, Field(strict=True, ge=-2, lt=2**31)]], Field(min_length=2, max_length=2)]
+    obstacles: list[Annotated[int, Field(strict=True, ge=-2, lt=2**31)]]
     smaller_robot: Annotated[list[PolygonModel], Field(default_factory=list)]
     larger_bounds: Bounds | None = None
     auxiliary: Annotated[list[AuxiliaryModel], Field(default_factory=list)]
