@@ -275,7 +275,7 @@ def test_nothing_at_all() -> None:
     assert is_free(scene, [[1e308, 5, 1]]).tolist() == [True]
 
 
-@pytest.mark.parametrize("poses", [[1, 2, 3], [[1, 2]], [[0, 0, math.nan]], [[math.inf, 0, 0]]])
+@pytest.mark.parametrize("poses", [[[1, 2, 3, 4]], [[1, 2]], [[0, 0, math.nan]], [[math.inf, 0, 0]]])
 def test_what_is_no_pose_is_refused(poses: object) -> None:
     with pytest.raises(InvalidPoseError):
         is_free(Scene(robot=TRIANGLE), poses)  # type: ignore[call-overload]
