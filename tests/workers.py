@@ -32,7 +32,7 @@ class Worker:
     def _start(self) -> None:
         context = multiprocessing.get_context("fork")
         self.connection, theirs = context.Pipe()
-        self.process = context.Process(target=_serve, args=(self.work, theirs), daemon=True)
+        self.process = context.Process(target=_serve, args=(self.work, theirs, self.connection), daemon=True)
         self.process.start()
         theirs.close()
 
@@ -53,9 +53,12 @@ class Worker:
         raise Lost(fate)
 
 
-def _serve(work: Callable[[Any], Any], connection: Connection) -> None:
-    while True:
-        connection.send(work(connection.recv()))
+def _serve(work: Callable[[Any], Any], connection: Connection, other: Connection) -> None:
+    """Until the one who asks is gone, whose end a forked process has, too."""
+    other.close()
+    with contextlib.suppress(EOFError, BrokenPipeError):
+        while True:
+            connection.send(work(connection.recv()))
 
 
 @contextlib.contextmanager
