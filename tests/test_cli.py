@@ -182,7 +182,7 @@ def test_a_boundary_file_stands_for_its_scene(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("text", "degrees"),
-    [("30deg", 30), ("-30deg", 330), ("0.5", 28.64789), ("tau:1/3", 36.869898), ("tau:-2", 233.1301)],
+    [("30deg", 30), ("30°", 30), ("-30deg", 330), ("0.5", 28.64789), ("tau:1/3", 36.869898), ("tau:-2", 233.1301)],
 )
 def test_angles_are_written_in_three_ways(text: str, degrees: float, run: Run) -> None:
     facts = json.loads(run("slice", FIG9, "--theta", text, "--json").stdout)

@@ -482,3 +482,28 @@ def test_examples_in_the_format_document_load(tmp_path: Path) -> None:
     assert [len(read(tmp_path, block).obstacles) for block in blocks] == [2, 1]
     wkt = document.split("```\nrobot:")[1].split("```")[0]
     assert len(read(tmp_path, f"robot:{wkt}", "map.wkt").obstacles) == 3
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "POLYGON Z ((3 0 7, 4 0 8, 4 1 9, 3 0 7))",
+        "POLYGONZ((3 0 7, 4 0 8, 4 1 9))",
+        "polygon m ((3 0 1, 4 0 2, 4 1 3))",
+        "MULTIPOLYGON ZM (((3 0 1 2, 4 0 1 2, 4 1 1 2)), EMPTY)",
+        "SRID=4326;POLYGON((3 0, 4 0, 4 1), EMPTY)",
+        "lake: srid = 25832 ; POLYGON ((3 0 1, 4 0 1, 4 1 1))",
+    ],
+)
+def test_wkt_is_read_as_databases_write_it(line: str, tmp_path: Path) -> None:
+    empty = "POLYGON EMPTY\nSRID=4326;MULTIPOLYGON Z EMPTY\n"
+    scene = read(tmp_path, f"robot: POLYGON ((0 0, 1 0, 0 1))\n{empty}{line}\n", "map.wkt")
+    assert scene.obstacles == (Polygon([(3, 0), (4, 0), (4, 1)]),)
+    assert scene.obstacle_names == ("lake" if line.startswith("lake") else "obstacle 0",)
+
+
+def test_degrees_may_have_their_sign(tmp_path: Path) -> None:
+    shapes = '"robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "obstacles": []'
+    text = f'{{{shapes}, "start": [0, 0, "90°"], "goal": [0, 0, "-22.5 °"]}}'
+    scene = read(tmp_path, text, "scene.json")
+    assert (scene.start, scene.goal) == (Pose(0, 0, "90deg"), Pose(0, 0, "-22.5deg"))
