@@ -122,7 +122,7 @@ class ShapeFeatures:
         """The same for the core, which asks for differences and places only."""
         from cfree import _core
 
-        if self.origin == (0, 0):
+        if self.origin == (0, 0) and self.near_shift == self.shift:
             return self.core_shape()
         x0, y0 = self.origin
         moved = [(x - x0, y - y0) for x, y in self.vertices]
