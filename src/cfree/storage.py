@@ -85,7 +85,7 @@ def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArra
     name = os.fspath(path)
     boundary, arrays = _load(name)
     columns = {column: arrays[f"cells_{column}"] for column in CELL_COLUMNS if f"cells_{column}" in arrays}
-    wrong = "no cells are in it" if len(columns) < len(CELL_COLUMNS) else _cells_misfit(**columns)
+    wrong = "no cells are in it" if len(columns) < len(CELL_COLUMNS) else _cells_misfit(boundary, **columns)
     if wrong:
         raise FormatError(f"{name}: {wrong}; make it again with `FreeSpace.save`", path=name)
     return boundary, columns
@@ -144,7 +144,7 @@ def _member(archive: Any, name: str) -> NDArray[Any]:
     return array
 
 
-def _cells_misfit(component: Any, parent: Any, free_inside: Any, turns: Any, lift: Any) -> str:
+def _cells_misfit(boundary: Boundary, component: Any, parent: Any, free_inside: Any, turns: Any, lift: Any) -> str:
     """What cannot be right, or nothing."""
     faces, count = np.size(component), np.size(parent)
     types = {"component": (component, "i4", faces), "parent": (parent, "i4", count)}
@@ -159,7 +159,10 @@ def _cells_misfit(component: Any, parent: Any, free_inside: Any, turns: Any, lif
     above = np.append(parent, -1)  # the last stands for what nothing is around
     for _ in range(count.bit_length()):
         above = above[above]
-    return "" if np.all(above == -1) else "cells_parent is no nesting"
+    if np.any(above != -1):
+        return "cells_parent is no nesting"
+    free_around = np.where(parent >= 0, free_inside[parent], boundary.features.rim is None)
+    return "cells_free_inside does not fit the rest" if np.any(~free_inside & ~free_around) else ""
 
 
 def misfit(
