@@ -10,6 +10,7 @@ import pytest
 
 import cfree.verify
 from cfree import MotionChecker, Path, Planner, Pose, Scene, Slide, boundary, free_space, nearest_miss, plan
+from cfree.errors import InvalidPoseError
 from cfree.planning.places import Part
 
 F = Fraction
@@ -100,6 +101,16 @@ def test_the_reference_point_does_not_matter(reference: int) -> None:
     assert answered(scene, *ends) == "path"
 
 
+@pytest.mark.parametrize("k", [120, 300])
+def test_orientations_in_trapezoids_thinner_than_doubles_tell(k: int) -> None:
+    """A key in a hole of its shape but for 2^-k, the reference point a million away: angles nearer than doubles."""
+    tiny = F(1, 2**k)
+    hole = [(1, -2), (1, 2), (-2, 1 + tiny), (0, 1 + tiny), (0, -1 - tiny)]
+    scene = Scene([(x - 10**6, y) for x, y in ((1, -1), (1, 1), (-1, 1), (-1, -1))], [hole], bounds=None)
+    ends = (Pose(x, y, theta) @ Pose(10**6, 0) for x, y, theta in ((-9, -1, "180deg"), (5, 1, "90deg")))
+    assert answered(scene, *ends) == "path"
+
+
 @pytest.mark.parametrize("k", [30, 170, 300])
 def test_a_slot_narrower_by_however_little_is_closed(k: int) -> None:
     scene = slot(1 - F(1, 2**k), F(1, 3), 0)
@@ -122,6 +133,19 @@ def test_places_are_held_by_what_meets_there() -> None:
 def test_the_way_back_has_the_same_verdict_in_slits_along_bounds() -> None:
     scene = Scene([(0, -4), (5, -4), (5, 0), (0, 0)], [[(3, 4), (3, 5), (2, 5)]], bounds=(2, -1, 6, 5))
     assert answered(scene, Pose(2, 5, "90deg"), Pose(2, "31/7", "270deg")) == "path"
+
+
+def test_slits_between_bounds_and_a_wall_are_gone_through() -> None:
+    """The reference point, a vertex of the robot, slides down the bounds on a wall, and the robot turns there."""
+    walls = [[(-1, -1), (0, -1), (0, 2), (-1, 2)], [(0, -3), (5, -3), (5, 0), (0, 0)]]
+    scene = Scene([(0, -1), (1, -1), (1, 0), (0, 0)], walls, bounds=(-1, -1, 1, 4))
+    assert answered(scene, Pose(-1, 3, "180deg"), Pose(-1, -1, 0)) == "path"
+
+
+def test_poses_beyond_the_bounds_are_refused_before_any_search() -> None:
+    scene = Scene([(0, 0), (1, 0), (0, 1)], bounds=(-5, -5, 1, 1))
+    with pytest.raises(InvalidPoseError, match="start"):
+        plan(scene, Pose(6, 7), Pose(4, 8), improve=0)
 
 
 def test_slides_on_bounds_are_kept_by_the_reference_point() -> None:

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from itertools import permutations, product
 from typing import TYPE_CHECKING
@@ -100,16 +99,20 @@ class Places:
     @cached_property
     def rational(self) -> list[Pose]:
         """Where two of them or more meet."""
-        found = dict.fromkeys([*self._at_meetings(), *self._at_edges(), *self._at_parts(), *self._on_surfaces()])
+        edges = self._at_edges(self.walker)
+        found = dict.fromkeys([*self._at_meetings(), *edges, *self._at_parts(), *self._on_surfaces()])
         return [pose for pose in found if len(self.holders(pose)) > 1]
 
     def _on_surfaces(self) -> Iterator[Pose]:
-        """Of surfaces with slits: a pose well within each face."""
-        for face in range(len(self.slits.space.component)) if self.slits else ():
-            assert self.slits
+        """Of surfaces with slits: a pose well within each face, its corners, and where surfaces touch."""
+        if self.slits is None:
+            return
+        for face in range(len(self.slits.space.component)):
             sheet = self.slits.sheet(face)
             tau = between(sheet.low, sheet.high)
             yield sheet.pose(sheet.middle(tau), tau)
+            yield from _corners(self.slits, face)
+        yield from self._at_edges(self.slits)
 
     # --- at vertices ---
 
@@ -149,27 +152,20 @@ class Places:
     def _corners(self, face: int) -> tuple[Pose, ...]:
         """Of a face, at its first and last orientations as far as they are rational."""
         if face not in self._known:
-            sheet = self.walker.sheet(face)
-            taus = (tau for last in (False, True) if (tau := self._critical(face, last)) is not None)
-            self._known[face] = tuple(dict.fromkeys(sheet.pose(t, tau) for tau in taus for t in sheet.limits(tau)))
+            self._known[face] = _corners(self.walker, face)
         return self._known[face]
-
-    def _critical(self, face: int, last: bool) -> Fraction | None:
-        walls = self.space.walls
-        contact = contact_of(walls, int(walls.trapezoids.patch[face]))
-        return self.space.critical_angle(walls.trapezoids, face, last, contact)
 
     # --- along edges ---
 
-    def _at_edges(self) -> Iterator[Pose]:
+    def _at_edges(self, walker: Walker) -> Iterator[Pose]:
         """Within curves along which cells touch."""
-        cells = self.space.complex
+        cells = walker.space.complex
         for edge in cells.pinched.tolist():
             coedges = cells.at_edge(edge)
             faces = cells.face[coedges].tolist()
             side = int(cells.side[coedges[0]])
-            if side in (1, 3) and len({self.walker.cell_at(face) for face in faces}) > 1:
-                f, *others = (self.walker.sheet(face) for face in faces)
+            if side in (1, 3) and len({walker.cell_at(face) for face in faces}) > 1:
+                f, *others = (walker.sheet(face) for face in faces)
                 tau = common_tau(f, *others)
                 yield f.pose(f.limits(tau)[side == 1], tau)
 
@@ -248,3 +244,12 @@ class Tail:
         share = (high - low) / 2**halvings
         tau = between(high - share, high) if self.is_last else between(low, low + share)
         return self.sheet.pose(self.sheet.limits(tau)[self.side], tau)
+
+
+def _corners(walker: Walker, face: int) -> tuple[Pose, ...]:
+    """Of a face, at its first and last orientations as far as they are rational."""
+    sheet, walls = walker.sheet(face), walker.space.walls
+    contact = contact_of(walls, int(walls.trapezoids.patch[face]))
+    ends = (walker.space.critical_angle(walls.trapezoids, face, last, contact) for last in (False, True))
+    taus = [tau for tau in ends if tau is not None]
+    return tuple(dict.fromkeys(sheet.pose(t, tau) for tau in taus for t in sheet.limits(tau)))

@@ -209,15 +209,15 @@ class Planner(Value):
         first, last = ends
         with self.phase("search"):
             poses = self.checker.first_free(simple_ways(first, last)) if first != last else None
-            is_joined = self.space is None or self.space.common_cell(first, last) is not None
-            if poses is None and first != last and is_joined:
-                poses = self._searched(first, last)
-        if poses is None:  # a motion that is free has free ends
-            for pose, name in ((start, "start"), (goal, "goal")):
-                if not self.checker.joins([pose, pose]):
-                    require_free(self.scene, pose, name)
-            if start == goal:
-                return [start]
+            if poses is None:  # a motion that is free has free ends
+                for pose, name in ((start, "start"), (goal, "goal")):
+                    if not self.checker.joins([pose, pose]):
+                        require_free(self.scene, pose, name)
+                if start == goal:
+                    return [start]
+                if self.space is None or self.space.common_cell(first, last) is not None:
+                    poses = self._searched(first, last)
+        if poses is None:
             with self._lock:
                 answer = self._known(first, last)
             if not isinstance(answer, list):

@@ -121,6 +121,7 @@ class Sheet:
         self.low, self.high = ends
         self.line = contact_line(features, *contact)
         self._angle: AngleOf | None = None
+        self._bits = 0
 
     @classmethod
     def of(cls, boundary: Boundary, face: int, angle: AngleOf | None = None) -> Sheet:
@@ -155,8 +156,9 @@ class Sheet:
 
     def refine(self, bits: int) -> None:
         """Come as near as 2**-bits to its first and last orientation."""
-        if self._angle:
+        if self._angle and bits > self._bits:
             (_, self.low), (self.high, _) = (self._angle(self.face, last, bits) for last in (False, True))
+            self._bits = bits
 
     @property
     def theta(self) -> tuple[float, float]:
