@@ -186,8 +186,9 @@ def test_unknown_formats_are_refused(fig9: Boundary, tmp_path: Path) -> None:
 
 def test_no_global_state_of_pyplot_is_touched() -> None:
     program = (
-        "import sys, cfree, cfree.plot as plot\n"
+        "import sys, cfree\n"
         "assert 'matplotlib' not in sys.modules\n"
+        "import cfree.plot as plot\n"
         "scene = cfree.load_scene('examples/scenes/paper_fig9.json')\n"
         "plot.plot_boundary(cfree.boundary(scene)).figure.canvas.draw()\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"
