@@ -7,10 +7,10 @@ A pose at which the smaller robot touches an obstacle is one at which the robot 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import shapely
@@ -52,7 +52,8 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     Notes
     -----
     Corners are mitred. If that leaves a simple polygon inside, it is taken, however small the inset; else what shapely
-    makes of it, rounded to a grid much finer than the inset.
+    makes of it. Both are rounded to a grid much finer than the inset, if that leaves them inside: numbers are short
+    then, and edges that were nearly parallel to others are less so.
 
     Examples
     --------
@@ -62,15 +63,15 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     """
     grid = Fraction(2) ** (math.frexp(by)[1] - FINER)
 
-    def snapped(ring: shapely.LinearRing) -> list[ExactPoint]:
-        x, y = ([round(Fraction(c) / grid) * grid for c in axis] for axis in ring.coords.xy)
-        return list(zip(x, y, strict=True))
+    def snapped(points: Iterable[tuple[Any, Any]]) -> list[ExactPoint]:
+        return [(round(Fraction(x) / grid) * grid, round(Fraction(y) / grid) * grid) for x, y in points]
 
     def candidates() -> Iterator[list[list[list[ExactPoint]]]]:
         if rings := _mitred(polygon, by):
+            yield [[*map(snapped, rings)]]
             yield [rings]
         parts = shapely.get_parts(polygon.to_shapely().buffer(-float(by), join_style="mitre"))
-        yield [[snapped(part.exterior), *map(snapped, part.interiors)] for part in parts]
+        yield [[snapped(ring.coords) for ring in (part.exterior, *part.interiors)] for part in parts]
 
     for parts in candidates():
         found = []
