@@ -127,6 +127,13 @@ def test_places_are_held_by_what_meets_there() -> None:
     assert any(any(isinstance(x, Part) for x in of) and any(isinstance(x, int) for x in of) for of in held)
 
 
+def test_a_curve_named_by_another_edge_on_its_line_is_slid_along() -> None:
+    """The hypotenuses of the triangles lie on two lines: the names of curves stand for all edges on a line."""
+    corners = [[(1, 0), (1, 1), (0, 1)], [(0, 2), (1, 2), (0, 3)], [(4, 0), (4, 1), (3, 1)], [(3, 2), (4, 2), (3, 3)]]
+    scene = Scene([(0, 0), (0, 1), ("-1/2", 1)], corners, workspace=[(0, 0), (4, 0), (4, 4), (0, 4)])
+    assert answered(scene, Pose("3/2", 1, {"tau": "-1/2"}), Pose(0, 2, "180deg")) in ("path", "closed")
+
+
 # --- both directions ---
 
 

@@ -14,7 +14,7 @@ from cfree.errors import InvariantError
 from cfree.features import unpacked
 from cfree.planning.corridor import Landing
 from cfree.planning.sheet import HELIX, Sheet, between
-from cfree.planning.slides import slide
+from cfree.planning.slides import same_line, slide
 from cfree.pose import Pose
 
 if TYPE_CHECKING:
@@ -47,11 +47,12 @@ class Exits:
         if not turn:
             return False
         kind, i, j = map(int, unpacked(code))
-        found = slide(sheet.features, pose, sheet.contact, (kind, i, j), turn)
-        if found is None or found.apply(pose) != goal or not self.walker.checker.is_free(pose, found):
-            return False
-        self.walker.slides[pose, goal] = found
-        return True
+        for other in same_line(sheet.features, (kind, i, j)):
+            found = slide(sheet.features, pose, sheet.contact, other, turn)
+            if found is not None and found.apply(pose) == goal and self.walker.checker.is_free(pose, found):
+                self.walker.slides[pose, goal] = found
+                return True
+        return False
 
     def along_curve(self, pose: Pose, goal: Pose, sheet: Sheet, code: int) -> bool:
         """Is there one free motion to another pose on the same curve of a sheet?"""

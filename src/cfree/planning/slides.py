@@ -6,9 +6,11 @@ lines are rational, and so is the point where they meet; if they coincide at t =
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 from flint import fmpq, fmpq_poly
 
 from cfree.errors import InvalidPoseError
@@ -34,6 +36,15 @@ def slide(features: SceneFeatures, pose: Pose, first: Contact, last: Contact, ta
         return Slide((touches[0], touches[1]), x, y, d, tau)
     except InvalidPoseError:  # the lines are parallel on the way, or do not meet at the pose
         return None
+
+
+def same_line(features: SceneFeatures, contact: Contact) -> Iterator[Contact]:
+    """A contact, and those of edges on the line of its edge: names of curves stand for all of them."""
+    kind, i, j = contact
+    shape, edge = (features.obstacles, j) if kind == 1 else (features.robot, i)
+    line = shape.core["line"]
+    for other in np.flatnonzero(line[: len(shape.previous)] == line[edge]).tolist():
+        yield (kind, i, other) if kind == 1 else (kind, other, j)
 
 
 def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
