@@ -62,22 +62,22 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
             places = list(_places(poses))
             free = np.flatnonzero(found[1].is_free(Poses.from_poses([pose for _, pose in places])))
             if len(free) > 1:
-                (i, first), (j, last) = places[free[0]], places[free[-1]]
-                if first not in poses:
-                    first = short(first, poses[i])
-                if last not in poses:
-                    last = short(last, poses[j + 1])
-                if all(found[1].is_free(pose) for pose in (first, last)):  # the table's were rounded
+                (i, begin), (j, end) = places[free[0]], places[free[-1]]
+                first = begin if begin in poses else short(begin, poses[i])
+                last = end if end in poses else short(end, poses[j + 1])
+                # the table's were rounded
+                if first and last and all(found[1].is_free(pose) for pose in (first, last)):
                     way = way_of(found[0], first, last)
         if way is None:
             return cleared(poses, level + 1)
+        assert first and last
         return [*cleared([*poses[: i + 1], first], level + 1), *way, *cleared([last, *poses[j + 1 :]], level + 1)]
 
-    def short(place: Pose, end: Pose) -> Pose:
-        """A place on a motion, in few digits if it is free from there to an end: else they would double each time."""
+    def short(place: Pose, end: Pose) -> Pose | None:
+        """A place on a motion in few digits, if it is free from there to an end: else they would double each time."""
         x, y = (round(c * grid) / grid for c in (place.x, place.y))
         rounded = Pose(x, y, {"tau": place.tau and place.tau.limit_denominator(2**GRID_BITS)})
-        return rounded if checker.joins([end, rounded]) else place
+        return rounded if checker.joins([end, rounded]) else None
 
     return cleared(poses, 0)
 
