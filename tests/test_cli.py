@@ -16,6 +16,7 @@ from typer.testing import CliRunner
 
 import cfree
 from cfree.cli import app
+from cfree.storage import signed
 
 SCENES = Path("examples/scenes")
 FIG9 = str(SCENES / "paper_fig9.json")
@@ -344,7 +345,9 @@ def test_verify_refutes_with_exit_code_1(run: Run, fig9_boundary: Path) -> None:
     assert result.exit_code == 1 and "not the scene" in result.stdout
     arrays = dict(np.load(fig9_boundary))
     arrays["lower"], arrays["upper"] = arrays["upper"], arrays["lower"]
-    np.savez(fig9_boundary, **arrays)
+    header = json.loads(arrays.pop("header").tobytes())
+    header = np.frombuffer(json.dumps(signed(header, arrays)).encode(), np.uint8)
+    np.savez(fig9_boundary, header=header, **arrays)
     result = run("verify", FIG9, fig9_boundary)
     assert result.exit_code == 1 and result.stderr == ""
     assert "domains           REFUTED" in result.stdout and "not shown" in result.stdout

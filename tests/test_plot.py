@@ -75,7 +75,7 @@ def test_given_axes_are_used(fig9: Boundary) -> None:
     assert plot_boundary(fig9, space) is space
     assert plot_slice(fig9.slice(0.3), plane) is plane
     assert plot_workspace(fig9.scene, plane) is plane
-    with pytest.raises(ValueError, match='projection="3d"'):
+    with pytest.raises(TypeError, match="give an Axes3D or None"):
         plot_boundary(fig9, plane)
 
 

@@ -260,7 +260,7 @@ def test_pieces_of_a_slab_are_within_its_angles_and_lie_on_the_patches() -> None
 
 
 def test_axes_of_two_dimensions_are_refused(car_park: Boundary, parking: Path) -> None:
-    with pytest.raises(ValueError, match='projection="3d"'):
+    with pytest.raises(TypeError, match="give an Axes3D or None"):
         plot_path_space(parking, car_park, Figure().add_subplot())  # type: ignore[arg-type]
 
 

@@ -30,5 +30,5 @@ def test_an_unrolled_patch_has_its_area() -> None:
 def test_given_axes_are_used_and_e_v_contacts_refused() -> None:
     given = Figure().add_subplot()
     assert plot_development(ROBOT, OBSTACLE, VertexEdge(0, 0), ax=given) is given
-    with pytest.raises(ValueError, match="not developable"):
+    with pytest.raises(TypeError, match="give a VertexEdge"):
         plot_development(ROBOT, OBSTACLE, EdgeVertex(1, 2))

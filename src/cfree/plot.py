@@ -120,8 +120,6 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
 
     if ax is None:
         ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
-    if ax.name != "3d":
-        raise ValueError(f'axes of {ax.name} projection; make them with projection="3d"')
     space: Any = ax
     window = extent(boundary)
     x0, y0, x1, y1 = window

@@ -321,8 +321,6 @@ def _line(track: Track, rows: Floats) -> Pieces:
 def _space(ax: Axes3D | None) -> Any:
     if ax is None:
         ax = new_space(new_figure((8, 7)), (0.02, 0.04, 0.94, 0.94))
-    if ax.name != "3d":
-        raise ValueError(f'axes of {ax.name} projection; make them with projection="3d"')
     ax.computed_zorder = False
     return ax
 

@@ -80,6 +80,11 @@ def load_boundary(path: str | os.PathLike[str]) -> Boundary:
     return _load(os.fspath(path))[0]
 
 
+def read_boundary(path: str | os.PathLike[str]) -> Boundary:
+    """The same by the form of its columns alone, without the core: what they say is for `cfree.verify` to judge."""
+    return _read(os.fspath(path))[0]
+
+
 def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArray[Any]]]:
     """Read a boundary and the columns of its cells, written by `FreeSpace.save`; errors as of `load_boundary`."""
     name = os.fspath(path)
@@ -92,6 +97,18 @@ def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArra
 
 
 def _load(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
+    """A boundary that contradicts neither its scene nor itself, and all columns of its file."""
+    boundary, arrays = _read(name)
+    if wrong := _inconsistent(boundary):
+        raise _misfit(name, wrong)
+    return boundary, arrays
+
+
+def _misfit(name: str, column: str) -> FormatError:
+    return FormatError(f"{name}: {column} does not fit the rest; make it again with `cfree boundary`", path=name)
+
+
+def _read(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
     def fault(what: str) -> FormatError:
         return FormatError(f"{name}: {what}", path=name)
 
@@ -126,7 +143,7 @@ def _load(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
     if trimmed.dtype != bool or trimmed.shape != np.shape(kind):
         wrong = "trimmed"
     if wrong:
-        raise fault(f"{wrong} does not fit the rest; make it again with `cfree boundary`")
+        raise _misfit(name, wrong)
     return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, trimmed), arrays
 
 
@@ -205,9 +222,15 @@ def misfit(
     for name in ISOLATED_COLUMNS:
         if not column_fits(name, getattr(isolated, name), np.size(isolated.patch)):
             return f"isolated_{name}"
+    return ""
+
+
+def _inconsistent(boundary: Boundary) -> str:
+    """Name of a column that contradicts the scene or the others, exactly, or nothing."""
     from cfree import _core
 
-    shapes = features.robot.core_shape(), features.obstacles.core_shape()
-    live = [getattr(trapezoids, name) for name in COLUMNS]
-    thin = [getattr(isolated, name) for name in ISOLATED_COLUMNS]
+    shapes = boundary.features.robot.core_shape(), boundary.features.obstacles.core_shape()
+    kind, robot, obstacle = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
+    live = [getattr(boundary.trapezoids, name) for name in COLUMNS]
+    thin = [getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS]
     return _core.misfit(*shapes, kind, robot, obstacle, live, thin, os.cpu_count() or 1)

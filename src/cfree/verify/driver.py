@@ -12,7 +12,7 @@ from dataclasses import replace
 from cfree.arguments import checked
 from cfree.forbidden import Boundary
 from cfree.scene import Scene
-from cfree.storage import load_boundary
+from cfree.storage import read_boundary
 from cfree.trapezoids import CURVE
 from cfree.verify.angles import orientation
 from cfree.verify.isolated import IsolatedPart
@@ -80,7 +80,7 @@ def boundary(
     begin = time.perf_counter()
     if slices < 0 or (sample is not None and sample < 0):
         raise ValueError(f"slices {slices}, sample {sample}; give counts")
-    given = load_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
+    given = read_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
     if (finding := _unfit(given, scene)) is not None:
         return Verification((), (finding,), (), time.perf_counter() - begin)
     contacts = given.contact_kind, given.contact_robot, given.contact_obstacle
