@@ -231,12 +231,16 @@ class Walker:
     @cached_property
     def _extent(self) -> Fraction:
         xs, ys = self.space.complex.x, self.space.complex.y
-        return Fraction(float(2 * (np.ptp(xs) + np.ptp(ys)))) + 2 * self.reach
+        return Fraction(float(2 * (np.ptp(xs) + np.ptp(ys)))) + 2 * self.reach + self._rounding
 
     @cached_property
     def _far(self) -> Fraction:
-        xs = self.space.complex.x
-        return Fraction(float(xs.min())) - 2 * self.reach - Fraction(float(np.abs(xs).max())) / 2**40
+        return Fraction(float(self.space.complex.x.min())) - 2 * self.reach - self._rounding
+
+    @cached_property
+    def _rounding(self) -> Fraction:
+        """More than doubles are off, of positions on the boundary."""
+        return Fraction(float(np.abs([self.space.complex.x, self.space.complex.y]).max())) / 2**40
 
     def links(self, cell: int) -> list[Link]:
         """Free segments that link all closed surfaces of a cell, and `FAR` if it is unbounded.
