@@ -31,7 +31,7 @@ static double length_at(const std::shared_ptr<const Scene>& scene, const Job& jo
     };
     const auto& t = job.trapezoids;
     const Slicer slicer(scene, interleaved(scene->robot), interleaved(scene->obstacles), job.patches, t.patch, t.chart,
-                        t.lower, t.upper, middle(t.from_lo, t.from_hi), middle(t.to_lo, t.to_hi));
+                        t.lower, t.upper, middle(t.from_lo, t.from_hi), middle(t.to_lo, t.to_hi), {});
     const auto s = slicer.segments(chart, tau);
     double length = 0;
     for (std::size_t k = 0; k < s.trapezoid.size(); ++k)
