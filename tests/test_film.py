@@ -1,5 +1,6 @@
 """Films: true poses, continuous motions, captions that cfree.touch agrees with, and files that can be read back."""
 
+import contextlib
 import itertools
 import math
 import os
@@ -447,4 +448,8 @@ def _is_written(process: int, folder: Path) -> bool:
     handles = Path(f"/proc/{process}/fd")
     if not handles.exists():
         return bool(list(folder.iterdir()))
-    return any(str(folder) in os.readlink(handle) for handle in handles.iterdir())
+    found = False
+    for handle in handles.iterdir():
+        with contextlib.suppress(FileNotFoundError):  # closed meanwhile
+            found |= str(folder) in os.readlink(handle)
+    return found
