@@ -252,19 +252,17 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none) return -order(y, Sample{x.lo, {}});
     if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
     return settled(counters, [&]<class T>() -> std::optional<int> {
+        if constexpr (std::is_same_v<T, Ball>) {
+            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
+            if (p && q && is_below((*p)[1], (*q)[0])) return -1;
+            if (p && q && is_below((*q)[1], (*p)[0])) return 1;
+        }
         const auto first = meets_parallel<T>(x, y), second = meets_parallel<T>(y, x);
         if (!first || !second) return {};
         if ((*first && alone(y)) || (*second && alone(x))) return 0;
-        if constexpr (std::is_same_v<T, Int>) {
-            RealRoot p = root_of(x), q = root_of(y);
-            return cfree::compare(p, q);
-        } else {
-            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
-            if (!p || !q) return {};
-            if (is_below((*p)[1], (*q)[0])) return -1;
-            if (is_below((*q)[1], (*p)[0])) return 1;
-            return {};
-        }
+        if constexpr (std::is_same_v<T, Ball>) return {};
+        RealRoot p = root_of(x), q = root_of(y);
+        return cfree::compare(p, q);
     });
 }
 
