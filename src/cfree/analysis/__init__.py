@@ -1,0 +1,1 @@
+"""Questions about a scene: margins, bottlenecks, fits, orientations at a position."""

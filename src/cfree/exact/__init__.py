@@ -1,0 +1,1 @@
+"""Exact numbers: rationals, orientations, surds, algebraic numbers, poses."""

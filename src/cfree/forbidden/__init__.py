@@ -1,0 +1,1 @@
+"""The boundary of the forbidden space: trimmed contact patches, their complex, slices and meshes."""

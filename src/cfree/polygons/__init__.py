@@ -1,0 +1,1 @@
+"""Polygons with exact coordinates: read, checked, cut into convex pieces, grown and shrunk."""
