@@ -1,7 +1,7 @@
 # Everything lives in .venv; needs python3 (3.11 or newer), g++ and make. Rebuilt only when its sources change.
 PYTHON ?= python3
 BIN := .venv/bin
-SANITIZED := $(addprefix tests/test_,core.py motion.py slide.py patch.py slice.py storage.py mesh.py surface.py exact_slices.py cases.py cells.py free.py plan.py)
+SANITIZED := $(addprefix tests/,forbidden collision/test_motion.py collision/test_slide.py collision/test_pose_checker.py formats/test_boundary_file.py contact/test_surface.py free planning/test_plan.py)
 CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
 INSTALLED := .venv/installed
 
@@ -41,13 +41,13 @@ sanitize: ctest-sanitize  ## tests in Python under them, with an extension and a
 	  build/sanitize/bin/python -m pytest -n 2 $(SANITIZED)
 
 fuzz: $(INSTALLED)  ## random degenerate scenes against exact slices; SECONDS=600 SEED=0 unless given
-	$(BIN)/python tests/fuzz.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
+	$(BIN)/python tests/support/fuzz.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
 fuzz-answers: $(INSTALLED)  ## questions whose answers are known, and hard ones, asked both ways and in other words
-	$(BIN)/python tests/fuzz_answers.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
+	$(BIN)/python tests/support/fuzz_answers.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
 fuzz-files: $(INSTALLED)  ## files of boundaries with flipped bits
-	$(BIN)/python tests/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
+	$(BIN)/python tests/support/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
 lint: $(INSTALLED)
 	$(BIN)/ruff check src tests benchmarks examples tools

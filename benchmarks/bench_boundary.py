@@ -8,7 +8,7 @@ from families import convex
 from measure import REAL, SCENES, Report, Times, checksum, measured
 
 import cfree
-from cfree.trapezoids import COLUMNS
+from cfree.forbidden.columns import COLUMNS
 
 # patches, seconds of the trial's core on one thread: obstacles united beforehand, no bounds
 TRIAL = {

@@ -24,7 +24,7 @@ from measure import REAL, ROOT, SCENES, Report, measured
 from numpy.typing import NDArray
 
 import cfree
-from cfree.polygon import Polygon
+from cfree.polygons.polygon import Polygon
 
 Rings = list[list[NDArray[np.float64]]]  # of each polygon: the outer ring, then holes
 MOVED = tuple(f"{case} moved" for case in REAL if case != "street_Berlin")

@@ -12,7 +12,7 @@ import numpy as np
 from measure import REAL, SCENES, Report, timed
 
 import cfree
-from cfree.features import BODY, ShapeFeatures, scene_features
+from cfree.scene.features import BODY, ShapeFeatures, scene_features
 
 COUNT, CALLS, NUMBA_COUNT, FCL_COUNT = 1_000_000, 5, 200_000, 4_000
 Rival = Callable[[np.ndarray], np.ndarray]

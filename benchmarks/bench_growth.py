@@ -17,7 +17,7 @@ from families import SIZES, convex
 from measure import Report, Times, checksum, measured
 
 import cfree
-from cfree.trapezoids import COLUMNS
+from cfree.forbidden.columns import COLUMNS
 
 EXPONENT, BYTES = 1.1, 200
 

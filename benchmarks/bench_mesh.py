@@ -9,7 +9,7 @@ import numpy as np
 from measure import REAL, SCENES, Report, Times, checksum, timed
 
 import cfree
-from cfree.mesh import Mesh, robot_radius
+from cfree.forbidden.mesh import Mesh, robot_radius
 
 SHARES = (1e-2, 1e-3, 1e-4)
 """Errors, in the robot's radius."""

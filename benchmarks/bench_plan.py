@@ -23,7 +23,7 @@ from bench_free import numba_kernel, numba_tables, pieces_of
 from measure import REAL, SCENES, Report, measured
 
 import cfree
-from cfree.features import scene_features
+from cfree.scene.features import scene_features
 
 CAP, RUNS, ROUNDS, IMPROVE = float(os.environ.get("CAP", 30)), 5, 5, 1.0
 STEPS = {"default": 0.01, "fine": 0.001}

@@ -14,8 +14,8 @@ from measure import Report, Times, checksum, timed
 
 import cfree
 from cfree import _core
-from cfree.contact import EdgeVertex
-from cfree.surface import contact_surface
+from cfree.contact.contact import EdgeVertex
+from cfree.contact.surface import contact_surface
 
 AT_LEAST = 0.5
 SOURCE = """

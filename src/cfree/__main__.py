@@ -1,6 +1,6 @@
 """``python -m cfree``."""
 
-from cfree.cli import main
+from cfree.cli.app import main
 
 if __name__ == "__main__":
     main()

@@ -23,14 +23,14 @@ try:
 except ImportError as error:
     raise ImportError("cfree.ompl needs OMPL; install it: pip install 'cfree[ompl]'", name="ompl") from error
 
-from cfree.free import Checker
-from cfree.invalid import require_free
-from cfree.motion import Motion, motion_between
-from cfree.motion_check import MotionChecker
-from cfree.path import Path
-from cfree.planning.search import area
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.collision.motion import Motion, motion_between
+from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.nearest_free import require_free
+from cfree.collision.pose_checker import Checker
+from cfree.exact.pose import Pose
+from cfree.paths.path import Path
+from cfree.planning.rrt_connect import area
+from cfree.scene.scene import Scene
 
 MOST_HALVINGS = 30
 

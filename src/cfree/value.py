@@ -15,7 +15,7 @@ class Value:
 
     Examples
     --------
-    >>> from cfree.pose import Poses
+    >>> from cfree.exact.pose import Poses
     >>> Poses([[0, 1]], [0.5]) == Poses([[0, 1]], [0.5]), Poses([[0, 1]], [0.5]) == Poses([[0, 1]], [0.6])
     (True, False)
     >>> Poses([[0, 1]], [0.5])

@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 import shapely
+from test_cells import hollow
+from test_separated import INSIDE, OUTSIDE, room
 
 import cfree.verify
 from cfree import (
@@ -23,16 +25,14 @@ from cfree import (
     nearest_miss,
     separation,
 )
-from cfree.grown import FARTHEST_OUT, SIDES, _around_a_disc
-from cfree.inset import _is_inside, inset, with_robot
-from cfree.pinch import pinches
-from cfree.polygon import Polygon
+from cfree.analysis.bottleneck import pinches
+from cfree.planning.inset import _is_inside, inset, with_robot
+from cfree.polygons.polygon import Polygon
+from cfree.scene.dilation import FARTHEST_OUT, SIDES, _around_a_disc
 from compared import scene_of
 from shapes import PlainScene, box
-from test_cells import hollow
-from test_separated import INSIDE, OUTSIDE, room
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 def corner(length: Fraction | str, width: Fraction | str) -> Scene:

@@ -10,7 +10,7 @@ import pytest
 
 import cfree
 from cfree import AngleInterval, MotionChecker, Pose, Rotation, Scene, is_free, turn_in_place
-from cfree.arcs import union_of_intersections, where_not_positive
+from cfree.exact.angle_set import union_of_intersections, where_not_positive
 from compared import scene_of
 from shapes import KINDS, box, random_scene
 

@@ -15,8 +15,8 @@ import shapely
 from typer.testing import CliRunner
 
 import cfree
-from cfree.cli import app
-from cfree.storage import signed
+from cfree.cli.app import app
+from cfree.formats.boundary_file import signed
 
 SCENES = Path("examples/scenes")
 FIG9 = str(SCENES / "paper_fig9.json")
@@ -63,7 +63,7 @@ def test_help_and_import_are_quick() -> None:
     heavy = {"numpy", "matplotlib", "shapely", "pydantic", "trimesh", "flint", "cfree._core"}
     program = (
         "import sys, cfree\n"
-        "from cfree.cli import app\n"
+        "from cfree.cli.app import app\n"
         "try: app(['--help'])\n"
         "except SystemExit: pass\n"
         f"print('heavy:', sorted({heavy!r} & set(sys.modules)))\n"
@@ -289,12 +289,12 @@ def test_bad_arguments_get_one_clear_message(arguments: list[str], message: str,
 
 def test_an_interrupt_ends_with_one_line_and_leaves_nothing(tmp_path: Path) -> None:
     program = (
-        "import os, signal, sys, time, cfree.forbidden\n"
+        "import os, signal, sys, time, cfree.forbidden.boundary\n"
         "def slow(scene, **options):\n"
         "    print('started', flush=True)\n"
         "    time.sleep(60)\n"
-        "cfree.forbidden.boundary = slow\n"
-        "from cfree.cli import main\n"
+        "cfree.forbidden.boundary.boundary = slow\n"
+        "from cfree.cli.app import main\n"
         f"sys.argv = ['cfree', 'boundary', {FIG9!r}, '-o', {str(tmp_path / 'fig9.npz')!r}]\n"
         "main()\n"
     )

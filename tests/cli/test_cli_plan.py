@@ -18,7 +18,7 @@ import yaml
 from typer.testing import CliRunner
 
 import cfree
-from cfree.cli import app
+from cfree.cli.app import app
 
 SCENES = Path("examples/scenes")
 PARKING, SWIM, CONVEX = (str(SCENES / f"{name}.json") for name in ("benchmr_parking1", "nest_swim", "five_convex"))

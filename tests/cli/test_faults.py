@@ -16,8 +16,8 @@ import pytest
 from typer.testing import CliRunner
 
 import cfree
-from cfree.cli import app
-from cfree.files import replacing
+from cfree.cli.app import app
+from cfree.formats.atomic import replacing
 
 FIG9 = "examples/scenes/paper_fig9.json"
 TRIANGLE = '{"outer": [[0, 0], [1, 0], [0, 1]]}'
@@ -36,10 +36,10 @@ def shell(command: str, **options: Any) -> subprocess.CompletedProcess[str]:
 def with_fault(raised: str, *arguments: str) -> subprocess.CompletedProcess[str]:
     """The command, where reading a scene raises something."""
     program = (
-        "import errno, os, signal, sys, cfree.io\n"
+        "import errno, os, signal, sys, cfree.formats.scene_file\n"
         f"def load_scene(path):\n    {raised}\n"
-        "cfree.io.load_scene = load_scene\n"
-        "from cfree.cli import main\n"
+        "cfree.formats.scene_file.load_scene = load_scene\n"
+        "from cfree.cli.app import main\n"
         f"sys.argv = ['cfree', *{arguments or ('check', FIG9)!r}]\n"
         "main()\n"
     )
@@ -82,10 +82,10 @@ def test_usage_errors_end_with_2(command: str) -> None:
 
 def test_a_fault_outside_of_a_command_is_no_answer() -> None:
     program = (
-        "import sys, cfree.cli\n"
+        "import sys, cfree.cli.app\n"
         "def broken(**options):\n    raise RuntimeError\n"
-        "cfree.cli.app = broken\n"
-        "cfree.cli.main()\n"
+        "cfree.cli.app.app = broken\n"
+        "cfree.cli.app.main()\n"
     )
     assert subprocess.run([sys.executable, "-c", program], capture_output=True).returncode == 4
 
@@ -130,7 +130,11 @@ def test_outputs_are_checked_before_anything_is_computed(
     def too_late(*arguments: object, **options: object) -> None:
         raise AssertionError("computed")
 
-    for place in ("cfree.io.load_scene", "cfree.forbidden.boundary", "cfree.planning.planner.Planner"):
+    for place in (
+        "cfree.formats.scene_file.load_scene",
+        "cfree.forbidden.boundary.boundary",
+        "cfree.planning.planner.Planner",
+    ):
         monkeypatch.setattr(place, too_late)
     missing = run(*command.split(), tmp_path / "new" / file)
     assert (missing.exit_code, missing.stderr[:-1]) == (
@@ -145,8 +149,8 @@ def test_outputs_are_checked_before_anything_is_computed(
 def test_a_killed_run_leaves_nothing(tmp_path: Path) -> None:
     for number in (signal.SIGTERM, signal.SIGKILL):
         program = (
-            "import time, cfree.files\n"
-            f"with cfree.files.replacing({str(tmp_path / 'b.png')!r}) as unfinished:\n"
+            "import time, cfree.formats.atomic\n"
+            f"with cfree.formats.atomic.replacing({str(tmp_path / 'b.png')!r}) as unfinished:\n"
             "    unfinished.write_bytes(b'half')\n"
             "    print('half', flush=True)\n"
             "    time.sleep(60)\n"

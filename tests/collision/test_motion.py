@@ -10,16 +10,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import VertexEdge
+from cfree.collision.motion import Motion, Rotation, Translation, rotations
+from cfree.collision.motion_checker import FirstContact, MotionChecker
+from cfree.collision.pose_checker import is_free
+from cfree.contact.contact import VertexEdge
 from cfree.errors import InvalidPoseError
-from cfree.free import is_free
-from cfree.io import load_scene
-from cfree.motion import Motion, Rotation, Translation, rotations
-from cfree.motion_check import FirstContact, MotionChecker
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.rational.surd import Surd
-from cfree.scene import Scene
+from cfree.exact.pose import Pose
+from cfree.exact.surd import Surd
+from cfree.formats.scene_file import load_scene
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 BITS = 200  # two different critical parameters of small numbers are farther apart
 F = Fraction

@@ -24,7 +24,7 @@ from cfree import (
 from compared import plain_of, scene_of
 from shapes import KINDS, box, random_scene
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 SQUARE = box(0, 0, 1, 1)[0]
 
 

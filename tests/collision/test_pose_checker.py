@@ -16,7 +16,7 @@ import oracles
 import shapes
 import strategies
 from cfree import Checker, InvalidPoseError, Polygon, Pose, Poses, Scene, boundary, is_forbidden, is_free, load_scene
-from cfree.free import UNCERTAIN
+from cfree.collision.pose_checker import UNCERTAIN
 from compared import plain_of, scene_of
 from shapes import PlainScene
 

@@ -18,22 +18,22 @@ import yaml
 from flint import fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_motion import box, poses
 
 import cfree.verify
 import strategies
 from cfree import FormatError, MotionChecker, Path, Pose, Rotation, Scene, Slide, Touch, Translation, is_free
 from cfree import load_answer as load
+from cfree.cli.report import answer_facts
 from cfree.errors import InvalidPoseError, UnsupportedError
-from cfree.features import SceneFeatures
-from cfree.path_clearance import narrowest
-from cfree.planning.sheet import contact_line, cross, positions
-from cfree.planning.slides import slide as slide_along
-from cfree.report import answer_facts
+from cfree.paths.clearance import narrowest
+from cfree.planning.double_contact import slide as slide_along
+from cfree.planning.exact_face import contact_line, cross, positions
+from cfree.scene.features import SceneFeatures
 from cfree.verify.course import Course, place_of
 from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, is_nowhere_positive, positive
 from compared import scene_of
 from shapes import PlainScene
-from test_motion import box, poses
 
 F = Fraction
 SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]

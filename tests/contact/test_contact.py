@@ -9,7 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import (
+from cfree.contact.contact import (
     AngleRange,
     EdgeEdge,
     EdgeVertex,
@@ -20,9 +20,9 @@ from cfree.contact import (
     contacts,
     edge_edge_range,
 )
-from cfree.exact import IntPoint
-from cfree.polygon import Polygon
-from cfree.predicates import Location, Order, Orientation, compare_directions, is_opposed, turn
+from cfree.exact.number import IntPoint
+from cfree.exact.orientation import Location, Order, Orientation, compare_directions, is_opposed, turn
+from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
 TRIANGLE = Polygon([(0, 0), (4, 0), (1, 3)])
@@ -194,7 +194,7 @@ def test_the_domain_of_equation_6_lies_in_one_turn_and_has_the_stated_width(shap
 
 @given(pairs, strategies.half_tangents())
 def test_turning_the_robot_shifts_every_range(shapes: tuple[Shape, Shape], tau: Fraction | None) -> None:
-    from cfree.pose import Pose
+    from cfree.exact.pose import Pose
 
     A, O = polygons(shapes)
     assume(len(A.ring_offsets) == 2)

@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contacts
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.predicates import Location
-from cfree.touch import contact_features, is_contact, is_forbidden, is_pseudo_contact
+from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contacts
+from cfree.contact.definitions import contact_features, is_contact, is_forbidden, is_pseudo_contact
+from cfree.exact.orientation import Location
+from cfree.exact.pose import Pose
+from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
 SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])

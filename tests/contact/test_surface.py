@@ -9,18 +9,18 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
-from cfree.half_angle import Angle
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.surface import (
+from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
+from cfree.contact.definitions import contact_features, is_contact, is_forbidden
+from cfree.contact.surface import (
     contact_helix,
     contact_segment,
     contact_surface,
     rotation_about,
     rotation_of_combination,
 )
-from cfree.touch import contact_features, is_contact, is_forbidden
+from cfree.exact.half_angle import Angle
+from cfree.exact.pose import Pose
+from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
 SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cfree.exact import angle, common_denominator, simplest_between, to_fraction, to_ratio
+from cfree.exact.number import angle, common_denominator, simplest_between, to_fraction, to_ratio
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,7 @@ from fractions import Fraction
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cfree.predicates import (
+from cfree.exact.orientation import (
     Location,
     Meeting,
     Order,

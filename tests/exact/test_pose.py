@@ -7,8 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cfree.errors import InvalidPoseError
-from cfree.half_angle import chart_of, normalize_angles, place_of, theta_of
-from cfree.pose import Pose, Poses
+from cfree.exact.half_angle import chart_of, normalize_angles, place_of, theta_of
+from cfree.exact.pose import Pose, Poses
 
 numbers = st.fractions(-9, 9, max_denominator=12)
 taus = st.none() | st.fractions(-5, 5, max_denominator=9)

@@ -11,9 +11,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import strategies
-from cfree.half_angle import half_angle_rotation
-from cfree.predicates import Order, Orientation, turn
-from cfree.rational.surd import ExactAngle, Surd
+from cfree.exact.half_angle import half_angle_rotation
+from cfree.exact.orientation import Order, Orientation, turn
+from cfree.exact.surd import ExactAngle, Surd
 
 rationals = strategies.fractions()
 radicands = st.integers(0, 60) | st.integers(0, 10**30)

@@ -19,13 +19,13 @@ from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.art3d import Text3D
 
 from cfree import Polygon, Pose, contact_features, is_contact, is_forbidden, load_scene
-from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range
+from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range
+from cfree.contact.surface import contact_helix, contact_segment, contact_surface
 from cfree.figures import FIGURES, curves, draw, draw_all, plane, poses, ranges, scenes, surfaces
 from cfree.figures.style import FORMATS, PAPER, SAFE, Palette, styled, write
-from cfree.forbidden import boundary
-from cfree.plot3d import ON_TOP, SURFACE
-from cfree.scene import Scene
-from cfree.surface import contact_helix, contact_segment, contact_surface
+from cfree.forbidden.boundary import boundary
+from cfree.plot.depth_sort import ON_TOP, SURFACE
+from cfree.scene.scene import Scene
 
 NUMBERS = [entry.number for entry in FIGURES]
 

@@ -1,4 +1,4 @@
-"""Films: true poses, continuous motions, captions that cfree.touch agrees with, and files that can be read back."""
+"""Films: true poses, continuous motions, captions that the definitions agree with, and files that can be read back."""
 
 import contextlib
 import itertools
@@ -18,22 +18,22 @@ from PIL import Image
 from typer.testing import CliRunner
 
 import cfree
-from cfree.cli import app
+from cfree.cli.app import app
+from cfree.collision.pose_checker import is_free
+from cfree.contact.definitions import contact_features, is_forbidden
 from cfree.errors import UnsupportedError
-from cfree.features import WORKSPACE
+from cfree.exact.pose import Pose
 from cfree.film.frame import Stage, caption
 from cfree.film.moves import Moment, Ring, columns, outward, over_column, roll, surface_of
 from cfree.film.reel import LATER, check_options, shots_of, views
 from cfree.film.route import Clearance, route
 from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
-from cfree.forbidden import Boundary, boundary
-from cfree.free import is_free
-from cfree.io import load_scene
-from cfree.mesh import robot_radius
-from cfree.plot import extent
-from cfree.pose import Pose
-from cfree.scene import Scene
-from cfree.touch import contact_features, is_forbidden
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.forbidden.mesh import robot_radius
+from cfree.formats.scene_file import load_scene
+from cfree.plot.boundary import extent
+from cfree.scene.features import WORKSPACE
+from cfree.scene.scene import Scene
 
 SCENES = Path("examples/scenes")
 FIG9, FIVE = SCENES / "paper_fig9.json", SCENES / "five_convex.json"

@@ -11,15 +11,15 @@ import pytest
 from PIL import Image
 
 import cfree
+from cfree.collision.motion import Rotation, Translation, rotations
 from cfree.errors import UnsupportedError
+from cfree.exact.pose import Pose
 from cfree.film.way import REST, SECONDS, PathStage, path_frames
-from cfree.forbidden import Boundary, boundary
-from cfree.io import load_scene
-from cfree.motion import Rotation, Translation, rotations
-from cfree.path import Path
-from cfree.plot_way import Track
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.formats.scene_file import load_scene
+from cfree.paths.path import Path
+from cfree.plot.path import Track
+from cfree.scene.scene import Scene
 
 SMALL = 320, 180
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]

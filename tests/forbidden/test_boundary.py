@@ -44,7 +44,7 @@ from shapes import (
     scaled,
 )
 
-TESTS = Path(__file__).parent
+TESTS = Path(__file__).parents[1]
 OPEN_BUGS = sorted((TESTS / "cases" / "failure").glob("*.json"))
 ANGLES = (0.1234, 1.9876, 3.3333, 5.4321)
 COSINE, SINE = Fraction(3, 5), Fraction(4, 5)  # of a rational turn

@@ -14,11 +14,11 @@ import pytest
 
 import fuzz
 from cfree import Boundary, InvariantError, Scene, boundary, load_scene
-from cfree.cell_complex import CellComplex, _glued
+from cfree.forbidden.cell_complex import CellComplex, _glued
 from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 20_000)
 CASES = sorted((ROOT / "tests/cases").glob("*.json"))
 
@@ -157,7 +157,7 @@ def test_walkers_go_round() -> None:
 
 
 def test_a_side_without_a_partner_is_an_error_with_its_smallest_scene(monkeypatch: pytest.MonkeyPatch) -> None:
-    from cfree import cell_complex
+    from cfree.forbidden import cell_complex
 
     scene = scene_of(random_scene(3, "convex"))
     result = boundary(scene)
@@ -178,7 +178,7 @@ def test_a_side_without_a_partner_is_an_error_with_its_smallest_scene(monkeypatc
 
 def test_a_lost_trapezoid_is_noticed() -> None:
     from cfree import _core
-    from cfree.trapezoids import COLUMNS
+    from cfree.forbidden.columns import COLUMNS
 
     result = boundary(load_scene(ROOT / "examples/scenes/five_convex.json"))
     shapes = result.features.robot.core_shape(), result.features.obstacles.core_shape()

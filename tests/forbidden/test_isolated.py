@@ -11,12 +11,12 @@ import pytest
 
 import oracles
 from cfree import Boundary, boundary, load_scene
-from cfree.patch import IsolatedPart
-from cfree.trapezoids import ISOLATED_COLUMNS
+from cfree.forbidden.columns import ISOLATED_COLUMNS
+from cfree.forbidden.patch import IsolatedPart
 from compared import cross, minus, placed, plain_of, rotation, scene_of, slit_length
 from shapes import PlainScene, box, mapped, moved, random_scene, rational_regular, scaled
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 RIM = [(-9, -9), (9, -9), (9, 9), (-9, 9)]
 FAR = Fraction(1, 10**9)
 

@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 import trimesh
 
-import cfree.mesh
+import cfree.forbidden.mesh
 import oracles
 import shapes
 from cfree.errors import InvariantError, UnsupportedError
-from cfree.forbidden import Boundary, boundary
-from cfree.io import load_scene
-from cfree.mesh import COLOURS, MESH_SUFFIXES, Mesh, robot_radius, save_mesh
-from cfree.polygon import Polygon
-from cfree.scene import Scene
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.forbidden.mesh import COLOURS, MESH_SUFFIXES, Mesh, robot_radius, save_mesh
+from cfree.formats.scene_file import load_scene
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 SCENES = ROOT / "examples/scenes"
 SMALL = sorted(p for p in SCENES.glob("*.json") if p.stat().st_size < 20_000)
 CASES = sorted((ROOT / "tests/cases").glob("*.json"))
@@ -261,12 +261,12 @@ def test_meshes_too_large_are_refused_before_they_are_made(
 ) -> None:
     with pytest.raises(UnsupportedError, match=r"about .* triangles, more than 10,000,000; an error of .* is possible"):
         triangles.mesh(1e-9)
-    monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", 3000)
+    monkeypatch.setattr(cfree.forbidden.mesh, "MOST_TRIANGLES", 3000)
     with pytest.raises(UnsupportedError, match="is possible") as raised:
         triangles.mesh(1e-4)
     possible = float(str(raised.value).split("an error of ")[1].split()[0])
     assert len(triangles.mesh(possible).triangles) <= 3000
-    monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", 10)
+    monkeypatch.setattr(cfree.forbidden.mesh, "MOST_TRIANGLES", 10)
     with pytest.raises(UnsupportedError, match="with any error; mesh a smaller scene"):
         triangles.mesh(1.0)
 
@@ -274,10 +274,10 @@ def test_meshes_too_large_are_refused_before_they_are_made(
 def test_estimates_are_near_the_truth(triangles: Boundary, monkeypatch: pytest.MonkeyPatch) -> None:
     meshes = [triangles.mesh(error) for error in (0.1, 0.01, 0.001)]
     for mesh in meshes:
-        monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", len(mesh.triangles) // 2)
+        monkeypatch.setattr(cfree.forbidden.mesh, "MOST_TRIANGLES", len(mesh.triangles) // 2)
         with pytest.raises(UnsupportedError):
             triangles.mesh(mesh.error)
-        monkeypatch.setattr(cfree.mesh, "MOST_TRIANGLES", 2 * len(mesh.triangles))
+        monkeypatch.setattr(cfree.forbidden.mesh, "MOST_TRIANGLES", 2 * len(mesh.triangles))
         triangles.mesh(mesh.error)
 
 

@@ -12,11 +12,11 @@ import numpy as np
 import pytest
 
 from cfree import Boundary, Scene, boundary, load_scene
-from cfree.patch import Contact, CriticalAngle, Patch, contact
+from cfree.forbidden.patch import Contact, CriticalAngle, Patch, contact
 from compared import cross, edge, minus, placed, rotation, scene_of, vertex
 from shapes import PlainScene, box, frame, random_scene
 
-SCENES = Path(__file__).parents[1] / "examples" / "scenes"
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 NAMED = (
     "convex",
     "nonconvex",

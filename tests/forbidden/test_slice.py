@@ -14,11 +14,11 @@ from hypothesis import strategies as st
 import oracles
 import strategies
 from cfree import boundary, load_scene
-from cfree.patch import Contact, Patch, contact
+from cfree.forbidden.patch import Contact, Patch, contact
 from compared import cross, length, minus, mistakes, placed, plain_of, rotation, scene_of
 from shapes import KINDS, PlainScene, box, random_scene
 
-SCENES = sorted((Path(__file__).parents[1] / "examples" / "scenes").glob("*.json"))
+SCENES = sorted((Path(__file__).parents[2] / "examples" / "scenes").glob("*.json"))
 thorough = settings(
     deadline=None,
     derandomize=True,

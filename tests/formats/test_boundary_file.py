@@ -14,8 +14,8 @@ from PIL import Image
 
 import fuzz_files
 from cfree import Boundary, FormatError, InvariantError, boundary, load_answer, load_boundary, load_scene
+from cfree.forbidden.columns import COLUMNS
 from cfree.formats import findings
-from cfree.trapezoids import COLUMNS
 from compared import scene_of
 from fuzz_files import sealed
 from shapes import KINDS, random_scene

@@ -11,16 +11,16 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_motion import motions, poses
+from test_path import SQUARE
+from test_slide import TEE, way
 
 import cfree.verify
 from cfree import FormatError, Path, Pose, Rotation, Scene, Translation, load_answer
 from cfree.formats.effect import Effect
-from cfree.stamp import stamp_of
+from cfree.scene.digest import stamp_of
 from replay import deviation
 from shapes import box
-from test_motion import motions, poses
-from test_path import SQUARE
-from test_slide import TEE, way
 
 paths = st.builds(Path, poses, st.lists(motions, max_size=4))
 

@@ -13,14 +13,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cfree.errors import FormatError, UnsupportedError
+from cfree.exact.pose import Pose
 from cfree.formats.findings import InvalidFileError
 from cfree.formats.json_positions import places
-from cfree.io import load_polygons, load_scene, number_text, save_scene, scene_text
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.formats.scene_file import load_polygons, load_scene, number_text, save_scene, scene_text
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
-ROOT = Path(__file__).parent.parent
+ROOT = Path(__file__).parents[2]
 SCENES = sorted((ROOT / "examples" / "scenes").glob("*.json"))
 TRIANGLE = '{"outer": [[0, 0], [1, 0], [0, 1]]}'
 

@@ -24,14 +24,14 @@ from cfree import (
     load_boundary,
     load_scene,
 )
-from cfree.cells import _parents
-from cfree.half_angle import tau_in_chart
-from cfree.storage import CELL_COLUMNS, save_boundary
+from cfree.exact.half_angle import tau_in_chart
+from cfree.formats.boundary_file import CELL_COLUMNS, save_boundary
+from cfree.free.space import _parents
 from compared import plain_of, scene_of
 from flood import flood
 from shapes import KINDS, PlainScene, box, mapped, random_scene
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 6_000)
 
 

@@ -8,18 +8,18 @@ import flint
 import numpy as np
 import pytest
 
-from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
+from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range, contacts
+from cfree.contact.surface import contact_surface
 from cfree.errors import IncompleteError
-from cfree.forbidden import boundary
+from cfree.forbidden.boundary import boundary
+from cfree.formats.scene_file import load_scene
 from cfree.geometry import quadrature
 from cfree.geometry.area import patch_areas, trapezoid_areas
 from cfree.geometry.development import develop
 from cfree.geometry.elliptic import second_kind
 from cfree.geometry.local import local_geometry
-from cfree.io import load_scene
-from cfree.polygon import Polygon
-from cfree.scene import Scene
-from cfree.surface import contact_surface
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 TRIANGLE = Polygon([(-1, -1), (3, -1), (0, 2)])
 SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])

@@ -13,11 +13,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
+from cfree.contact.contact import EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
+from cfree.contact.surface import contact_helix, contact_surface
+from cfree.exact.pose import Pose
 from cfree.geometry.congruence import arc_classes, helix_classes, patch_classes, surface_classes
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.surface import contact_helix, contact_surface
+from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
 Contacts = tuple[tuple[VertexEdge | EdgeVertex | VertexVertex, ...], ...]

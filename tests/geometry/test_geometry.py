@@ -12,8 +12,12 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import EdgeVertex, VertexEdge, angle_range, contacts
-from cfree.forbidden import boundary
+from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range, contacts
+from cfree.contact.definitions import is_forbidden
+from cfree.contact.surface import Surface, contact_surface, helix_through
+from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import boundary
+from cfree.formats.scene_file import load_scene
 from cfree.geometry.local import LocalGeometry, local_geometry
 from cfree.geometry.rulings import (
     distribution_parameters,
@@ -25,11 +29,7 @@ from cfree.geometry.rulings import (
     striction_parameter,
     striction_parameters,
 )
-from cfree.io import load_scene
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.surface import Surface, contact_surface, helix_through
-from cfree.touch import is_forbidden
+from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
 TRIANGLE = Polygon([(-1, -1), (3, -1), (0, 2)])

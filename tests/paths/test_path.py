@@ -11,19 +11,19 @@ import shapely
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_motion import box, motions, pose_of
 
 import cfree
 import strategies
-from cfree.answer import load_answer
+from cfree.collision.motion import Rotation, Translation
+from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import FormatError, UnsupportedError
-from cfree.motion import Rotation, Translation
-from cfree.motion_check import MotionChecker
-from cfree.path import Path
-from cfree.path_clearance import narrowest
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.scene import Scene
-from test_motion import box, motions, pose_of
+from cfree.exact.pose import Pose
+from cfree.formats.answer_file import load_answer
+from cfree.paths.clearance import narrowest
+from cfree.paths.path import Path
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 poses = st.builds(pose_of, strategies.poses(6))
 paths = st.builds(Path, poses, st.lists(motions, max_size=4))

@@ -7,14 +7,14 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
-from cfree.motion import Rotation, Translation
-from cfree.nearest import Walls
-from cfree.pace import Pace
-from cfree.path import Path
-from cfree.pose import Pose, Poses
-from cfree.scene import Scene
 from test_path import paths
+
+from cfree.collision.distance import Walls
+from cfree.collision.motion import Rotation, Translation
+from cfree.exact.pose import Pose, Poses
+from cfree.paths.path import Path
+from cfree.paths.travel import Pace
+from cfree.scene.scene import Scene
 
 ROBOT = [(0, 0), (3, 0), (3, 1), (1, 2)]
 

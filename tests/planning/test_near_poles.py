@@ -9,8 +9,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cfree import MotionChecker, Planner, Pose, Rotation, Scene
-from cfree.motion import motion_between
-from cfree.planning.poles import near_poles
+from cfree.collision.motion import motion_between
+from cfree.planning.near_poles import near_poles
 from shapes import box
 
 ROD = Scene(box(0, 0, 4, 1)[0], [box(-9, -1, 30, 0)[0], box(-9, 9, 30, 10)[0]])  # its corner slides on a floor

@@ -37,7 +37,7 @@ from compared import plain_of, scene_of
 from flood import flood
 from shapes import KINDS, Shape, random_scene
 
-ROOT = FilePath(__file__).parents[1]
+ROOT = FilePath(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples/scenes").glob("*.json"))
 CLEARANCES = [Fraction(1, 10**k) for k in (1, 3, 6, 9, 12)]
 

@@ -8,6 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from test_cells import ROD, TIGHT, hollow, space_of
 from typer.testing import CliRunner
 
 import cfree.verify
@@ -25,12 +26,11 @@ from cfree import (
     load_scene,
     separation,
 )
-from cfree.cli import app
+from cfree.cli.app import app
 from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
-from test_cells import ROD, TIGHT, hollow, space_of
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 
 
 def proved(space: FreeSpace, start: Pose, goal: Pose) -> Separated:
@@ -184,7 +184,7 @@ def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkey
     assert isinstance(again, Separated) and again == proof
     bare = replace(again, pieces=replace(again.pieces, auxiliary=()))
     assert bare != proof and not cfree.verify.answer(space.boundary.scene, bare).verified
-    monkeypatch.setattr("cfree.decompose._merge", lambda v, rings, triangles: triangles[::-1])
+    monkeypatch.setattr("cfree.polygons.convex_decomposition._merge", lambda v, rings, triangles: triangles[::-1])
     assert cfree.verify.answer(scene_of(plain), load_answer(tmp_path / "proof.json")).verified
 
 

@@ -11,7 +11,7 @@ import pytest
 import cfree.verify
 from cfree import MotionChecker, Path, Planner, Pose, Scene, Slide, boundary, free_space, nearest_miss, plan
 from cfree.errors import InvalidPoseError
-from cfree.planning.places import Part
+from cfree.planning.meeting_places import Part
 
 F = Fraction
 Ring = Sequence[tuple[Any, Any]]

@@ -15,20 +15,20 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 import cfree
-from cfree import slab
+from cfree.collision.motion import Rotation, Translation, rotations
+from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UnsupportedError
-from cfree.forbidden import Boundary, boundary
-from cfree.io import load_scene
-from cfree.motion import Rotation, Translation, rotations
-from cfree.motion_check import MotionChecker
-from cfree.path import Path
-from cfree.plot import save_figure
-from cfree.plot3d import CURVE, ON_TOP, OVER, WALL, Painting, patches_of
-from cfree.plot_answer import picture, plot_path_space, surface_of
-from cfree.plot_way import GHOSTS, LIMIT, Track, plot_path, quantity
-from cfree.pose import Pose
-from cfree.scene import Scene
-from cfree.strips import strips
+from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.formats.scene_file import load_scene
+from cfree.paths.path import Path
+from cfree.plot import unrolled as slab
+from cfree.plot.answer import picture, plot_path_space, surface_of
+from cfree.plot.boundary import save_figure
+from cfree.plot.depth_sort import CURVE, ON_TOP, OVER, WALL, Painting, patches_of
+from cfree.plot.path import GHOSTS, LIMIT, Track, plot_path, quantity
+from cfree.plot.strips import strips
+from cfree.scene.scene import Scene
 
 SCENES = FilePath("examples/scenes")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
@@ -139,10 +139,10 @@ def test_a_path_that_is_not_free_is_refused(car_park: Boundary) -> None:
 
 @pytest.mark.parametrize("size", ["1e-9", "1", "1e9"])
 def test_pictures_are_alike_in_any_unit(size: str) -> None:
-    n = cfree.exact.to_fraction(size)
+    n = cfree.exact.number.to_fraction(size)
 
     def scaled(points: list[tuple[Any, Any]]) -> list[tuple[Any, Any]]:
-        return [(cfree.exact.to_fraction(x) * n, cfree.exact.to_fraction(y) * n) for x, y in points]
+        return [(cfree.exact.number.to_fraction(x) * n, cfree.exact.number.to_fraction(y) * n) for x, y in points]
 
     scene = Scene(robot=scaled(SQUARE), obstacles=[scaled(wall) for wall in CORRIDOR])
     path = Path(Pose(0, 0), [Translation((5 * n, 0))])
@@ -220,7 +220,7 @@ def test_patches_far_from_the_path_are_left_out(car_park: Boundary, parking: Pat
     pieces = painting_of(ax)._pieces
     faces = pieces.sort < CURVE
     track = Track.of(parking, car_park.scene)
-    radius = cfree.mesh.robot_radius(car_park.scene)
+    radius = cfree.forbidden.mesh.robot_radius(car_park.scene)
     rows = track.rows * (1, 1, 180 / math.pi)
     assert faces.any() and slab.distances(pieces, rows, radius)[faces].max() < 2 * radius * 1.01
     assert len(pieces.corners) < len(patches_of(car_park, track.window).corners)

@@ -12,15 +12,15 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
-from cfree import plot3d
 from cfree.errors import UnsupportedError
-from cfree.forbidden import Boundary, boundary
-from cfree.io import load_scene
-from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
-from cfree.mesh import COLOURS
-from cfree.plot import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
+from cfree.forbidden.mesh import COLOURS
+from cfree.formats.scene_file import load_scene
+from cfree.plot import depth_sort as plot3d
+from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
+from cfree.scene.scene import Scene
 from compared import scene_of
 from shapes import PlainScene, box
 
@@ -188,7 +188,7 @@ def test_no_global_state_of_pyplot_is_touched() -> None:
     program = (
         "import sys, cfree\n"
         "assert 'matplotlib' not in sys.modules\n"
-        "import cfree.plot as plot\n"
+        "import cfree.plot.boundary as plot\n"
         "scene = cfree.load_scene('examples/scenes/paper_fig9.json')\n"
         "plot.plot_boundary(cfree.boundary(scene)).figure.canvas.draw()\n"
         "assert 'matplotlib.pyplot' not in sys.modules\n"

@@ -9,10 +9,10 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 
-from cfree.contact import EdgeVertex, VertexEdge, angle_range
-from cfree.mesh import COLOURS
-from cfree.polygon import Polygon
-from cfree.rational.plot import SHOWN, plot_models
+from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range
+from cfree.forbidden.mesh import COLOURS
+from cfree.plot.rational import SHOWN, plot_models
+from cfree.polygons.polygon import Polygon
 
 A = Polygon([(-1, -1), (2, -1), (0, 2)])
 O = Polygon([(3, 0), (6, 1), (4, 4)])
@@ -44,8 +44,8 @@ def test_both_halves_show_the_patch_in_its_colour(contact: VertexEdge | EdgeVert
 
 
 def test_cells_are_on_the_surface_and_the_patch_is_phi() -> None:
+    from cfree.plot.rational import cells
     from cfree.rational.model import rational_surface
-    from cfree.rational.plot import cells
 
     S = rational_surface(A, O, VertexEdge(1, 0))
     outlines, on_patch = cells(S, 180)

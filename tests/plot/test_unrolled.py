@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from cfree.contact import EdgeVertex, VertexEdge, angle_range
+from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range
+from cfree.contact.surface import contact_surface
 from cfree.geometry.area import patch_areas
-from cfree.geometry.plot import plot_development
-from cfree.polygon import Polygon
-from cfree.surface import contact_surface
+from cfree.plot.development import plot_development
+from cfree.polygons.polygon import Polygon
 
 ROBOT, OBSTACLE = Polygon([(0, 0), (1, 0), (0, 1)]), Polygon([(3, 3), (5, 3), (5, 5), (3, 5)])
 

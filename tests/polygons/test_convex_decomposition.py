@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import strategies
-from cfree.decompose import _delaunay, _outline, convex_pieces, is_cover
-from cfree.exact import IntPoint
-from cfree.polygon import Polygon
-from cfree.predicates import Location, Orientation, locate, orient
-from cfree.rings import doubled_area
+from cfree.exact.number import IntPoint
+from cfree.exact.orientation import Location, Orientation, locate, orient
+from cfree.polygons.convex_decomposition import _delaunay, _outline, convex_pieces, is_cover
+from cfree.polygons.polygon import Polygon
+from cfree.polygons.rings import doubled_area
 from shapes import Shape
 
 L_SHAPE = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])

@@ -3,9 +3,9 @@ from __future__ import annotations
 from hypothesis import given
 
 import strategies
-from cfree.decompose import _outline, is_cover
-from cfree.ears import clip_ears
-from cfree.polygon import Polygon
+from cfree.polygons.convex_decomposition import _outline, is_cover
+from cfree.polygons.ear_clipping import clip_ears
+from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
 

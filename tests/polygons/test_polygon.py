@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 import strategies
 from cfree.errors import InvalidPolygonError
-from cfree.polygon import Polygon
-from cfree.rings import Removed
+from cfree.polygons.polygon import Polygon
+from cfree.polygons.rings import Removed
 from shapes import Shape
 
 L_SHAPE = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]

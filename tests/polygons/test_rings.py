@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import strategies
 from cfree.errors import InvalidPolygonError
-from cfree.predicates import Orientation, orient
-from cfree.rings import Removed, doubled_area, read_rings
+from cfree.exact.orientation import Orientation, orient
+from cfree.polygons.rings import Removed, doubled_area, read_rings
 from shapes import Shape
 
 

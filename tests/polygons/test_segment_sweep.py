@@ -3,8 +3,8 @@ from itertools import combinations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cfree.predicates import Location, Meeting, Orientation, locate, locate_in_sector, meet, orient
-from cfree.sweep import EdgesMeet, Nesting, sweep
+from cfree.exact.orientation import Location, Meeting, Orientation, locate, locate_in_sector, meet, orient
+from cfree.polygons.segment_sweep import EdgesMeet, Nesting, sweep
 
 Point = tuple[int, int]
 Shapes = list[list[Point]]

@@ -13,12 +13,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import EdgeVertex, VertexEdge, contacts
-from cfree.polygon import Polygon
-from cfree.predicates import Location
+from cfree.contact.contact import EdgeVertex, VertexEdge, contacts
+from cfree.contact.surface import contact_surface
+from cfree.exact.orientation import Location
+from cfree.polygons.polygon import Polygon
 from cfree.rational.bezier import BezierPatch, bezier_patch, bezier_patches, save_bezier
 from cfree.rational.model import RationalSurface, rational_surface
-from cfree.surface import contact_surface
 from shapes import Shape
 
 SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])

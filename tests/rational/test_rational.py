@@ -14,7 +14,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree.contact import (
+from cfree.contact.contact import (
     Contact,
     EdgeEdge,
     EdgeVertex,
@@ -25,11 +25,13 @@ from cfree.contact import (
     contacts,
     edge_edge_range,
 )
+from cfree.contact.definitions import is_contact
 from cfree.errors import InvalidPoseError
-from cfree.half_angle import chart_intervals, half_tangent
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.predicates import Location
+from cfree.exact.half_angle import chart_intervals, half_tangent
+from cfree.exact.orientation import Location
+from cfree.exact.pose import Pose
+from cfree.exact.surd import Surd
+from cfree.polygons.polygon import Polygon
 from cfree.rational.model import (
     RationalHelix,
     RationalPoint,
@@ -42,8 +44,6 @@ from cfree.rational.model import (
     to_geometrical,
     to_rational,
 )
-from cfree.rational.surd import Surd
-from cfree.touch import is_contact
 from shapes import Shape
 
 SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
@@ -310,8 +310,8 @@ def test_remark_4_no_function_of_an_angle_is_called() -> None:
 import cmath, math, numpy
 import cfree._core
 from cfree.rational.bezier import bezier_patches
-from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
-from cfree.polygon import Polygon
+from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
+from cfree.polygons.polygon import Polygon
 from cfree.rational.model import rational_helix, rational_segment, rational_surface
 A, O = Polygon([(0, 0), (2, 0), (1, 3)]), Polygon([(5, 0), (8, 1), (6, 4)])
 def refused(*_, **__):

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 import cfree
-from cfree import features
 from cfree.errors import FormatError, UnsupportedError
-from cfree.extent import MAX_BITS
+from cfree.scene import features
+from cfree.scene.coordinate_range import MAX_BITS
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 

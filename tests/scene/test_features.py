@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import strategies
 from cfree import Scene
-from cfree.features import ShapeFeatures, classes, limbs, ranks, scene_features
+from cfree.scene.features import ShapeFeatures, classes, limbs, ranks, scene_features
 from compared import scene_of
 from shapes import PlainScene, box, frame, l_shape, random_scene
 

@@ -7,10 +7,11 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from cfree import Boundary, InvariantError, Scene, boundary, forbidden
-from cfree.cli import app
-from cfree.io import scene_from_text
-from cfree.shrink import smallest_scene
+import cfree.forbidden.boundary as forbidden
+from cfree import Boundary, InvariantError, Scene, boundary
+from cfree.cli.app import app
+from cfree.formats.scene_file import scene_from_text
+from cfree.scene.reduction import smallest_scene
 from compared import scene_of
 from shapes import PlainScene, box, frame, random_scene
 
@@ -45,7 +46,7 @@ def test_a_contradiction_comes_with_its_smallest_scene(monkeypatch: pytest.Monke
         boundary(scene)
     assert isinstance(raised.value.state, Scene) and len(raised.value.state.obstacles) == 2
 
-    from cfree.io import scene_text
+    from cfree.formats.scene_file import scene_text
 
     file = tmp_path / "scene.json"
     file.write_text(scene_text(scene))

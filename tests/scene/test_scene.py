@@ -9,9 +9,9 @@ import pytest
 import shapely
 
 from cfree.errors import InvalidPolygonError
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.scene import Scene
+from cfree.exact.pose import Pose
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 TRIANGLE = [(0, 0), (1, 0), (0, 1)]
 SQUARE = [(2, 2), (3, 2), (3, 3), (2, 3)]

@@ -15,6 +15,8 @@ from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
+from test_cells import ROD, TIGHT, hollow
+
 import second_opinion
 from cfree import (
     FormatError,
@@ -33,11 +35,10 @@ from cfree import (
     load_answer,
     separation,
 )
+from cfree.collision.motion import Motion
 from cfree.errors import InvalidPoseError
-from cfree.motion import Motion
 from compared import scene_of
 from shapes import PlainScene, box
-from test_cells import ROD, TIGHT, hollow
 
 Answer = dict[str, Any]
 # changes an answer; False if there is nothing to change

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 import oracles
 from cfree import Boundary, Polygon, Scene, boundary, load_scene
-from cfree.patch import Contact, Place
+from cfree.forbidden.patch import Contact, Place
 from shapes import PlainScene, Shape
 
 Point = tuple[Fraction, Fraction]

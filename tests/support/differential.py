@@ -12,8 +12,8 @@ from itertools import pairwise
 from typing import Any
 
 from cfree import _core
-from cfree.exact import to_fraction
-from cfree.features import LARGEST_BITS, ShapeFeatures, unpacked
+from cfree.exact.number import to_fraction
+from cfree.scene.features import LARGEST_BITS, ShapeFeatures, unpacked
 from hard_scenes import Rings
 from reference import (
     EDGE_EDGE,

@@ -1,8 +1,8 @@
 """What is known of the scenes in `cases`, and its update.
 
-python tests/expected.py                    what differs from the files
-python tests/expected.py --write            fill in what the files do not say yet
-python tests/expected.py --write --force    replace what differs; review the difference
+python tests/support/expected.py                    what differs from the files
+python tests/support/expected.py --write            fill in what the files do not say yet
+python tests/support/expected.py --write --force    replace what differs; review the difference
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from compared import plain_of
 from exact_slices import area, ends, exact_slice
 from shapes import PlainScene
 
-CASES = Path(__file__).parent / "cases"
+CASES = Path(__file__).parents[1] / "cases"
 KINDS = {1: "v-e", 2: "e-v", 3: "bound"}
 
 

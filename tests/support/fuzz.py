@@ -1,7 +1,7 @@
 """Random degenerate scenes, their slices compared exactly, until a time is up or one is wrong; that one is made small.
 
-    python tests/fuzz.py --seconds 600 --seed 7 --kinds boxes fit
-    python tests/fuzz.py SCENE.json
+    python tests/support/fuzz.py --seconds 600 --seed 7 --kinds boxes fit
+    python tests/support/fuzz.py SCENE.json
 
 A scene is named by its kind and number: the same name is the same scene for ever.
 """
@@ -24,7 +24,7 @@ from typing import Any
 import shapes
 from cfree import Boundary, boundary, load_scene
 from cfree.errors import InvalidPolygonError
-from cfree.io import scene_text
+from cfree.formats.scene_file import scene_text
 from compared import plain_of, scene_of
 from compared_exactly import Undecided, differences, rational_angles
 from shapes import PlainScene, Point, Shape, box, l_shape, mapped, moved, quarter_turned, random_lattice_shape, scaled

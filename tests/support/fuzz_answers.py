@@ -1,7 +1,7 @@
 """Questions asked both ways and in other words, answers saved, loaded, verified and replayed, until a time is up.
 
-    python tests/fuzz_answers.py --seconds 600 --seed 7 --families slot room tiny
-    python tests/fuzz_answers.py SCENE.json
+    python tests/support/fuzz_answers.py --seconds 600 --seed 7 --families slot room tiny
+    python tests/support/fuzz_answers.py SCENE.json
 
 Question k of family f is the same for ever; the first have the number `--seed`, and the last line says where to go on.
 A fault is shown when its kind is new in a family, and made small when it is new at all; the summary counts it.
@@ -26,7 +26,7 @@ import fuzz
 import second_opinion
 from cfree import Path, Scene, Separated, load_answer, load_scene, plan
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
-from cfree.io import scene_text
+from cfree.formats.scene_file import scene_text
 from laws import broken, laws
 from questions import FAMILIES, Question, question
 from replay import CLOSE, collisions, deviation

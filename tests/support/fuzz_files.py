@@ -2,7 +2,7 @@
 
 Three in four are of boundaries and cells, the others answers and scenes.
 
-    python tests/fuzz_files.py --seconds 600 --seed 7
+    python tests/support/fuzz_files.py --seconds 600 --seed 7
 
 File k is the same for ever. What is neither an error of cfree nor an answer is shown; the last line counts what came.
 """
@@ -29,9 +29,9 @@ import fuzz
 from answer_mutations import corridor, tee, text_of
 from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_boundary, load_scene, plan
 from cfree.errors import CfreeError
+from cfree.formats.boundary_file import signed
+from cfree.formats.scene_file import scene_text
 from cfree.geometry.area import trapezoid_areas
-from cfree.io import scene_text
-from cfree.storage import signed
 from compared import scene_of
 from shapes import PlainScene, box
 from workers import Lost, Worker

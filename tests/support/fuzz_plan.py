@@ -1,4 +1,4 @@
-"""Questions on random scenes, degenerate ones among them: ``python tests/fuzz_plan.py 10000 --seed 1``.
+"""Questions on random scenes, degenerate ones among them: ``python tests/support/fuzz_plan.py 10000 --seed 1``.
 
 Of each scene, pairs of poses in one cell, walked from one to the other without a search, and pairs in different cells,
 separated and verified by both checkers. What a flood knows for certain has to agree. Prints what is wrong, and exits

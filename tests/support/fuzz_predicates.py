@@ -1,4 +1,4 @@
-"""Ask the core's predicates for as long as one likes: ``python tests/fuzz_predicates.py --seconds 60 --seed 1``.
+"""The core's predicates, for as long as one likes: ``python tests/support/fuzz_predicates.py --seconds 60 --seed 1``.
 
 Prints how much was asked of each family of scenes. Stops at the first answer that differs from the reference, prints
 the scene and what was asked, and exits with 1; `--family` and `--seed` as printed repeat it.

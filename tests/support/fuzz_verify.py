@@ -1,4 +1,4 @@
-"""The scenes of `fuzz.py`, verified: ``python tests/fuzz_verify.py 10000 --seed 1``.
+"""The scenes of `fuzz.py`, verified: ``python tests/support/fuzz_verify.py 10000 --seed 1``.
 
 Euler numbers are compared with those of the core's cell complex, too. Prints what is found and, at the end, the first
 scene with a finding made small; exits with 1 if there is one.
@@ -16,7 +16,7 @@ import cfree.verify
 import fuzz
 from cfree import boundary
 from cfree.errors import InvalidPolygonError
-from cfree.io import scene_text
+from cfree.formats.scene_file import scene_text
 from compared import scene_of
 from shapes import PlainScene
 

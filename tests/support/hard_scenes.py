@@ -11,7 +11,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any, NamedTuple
 
-from cfree.exact import to_fraction
+from cfree.exact.number import to_fraction
 
 Number = int | float | Fraction
 Ring = list[tuple[Number, Number]]

@@ -10,7 +10,7 @@ from typing import Literal, NamedTuple
 
 import fuzz
 from cfree import Polygon, Pose, is_free
-from cfree.decompose import convex_pieces
+from cfree.polygons.convex_decomposition import convex_pieces
 from compared import scene_of
 from questions import Question, Verdict, carried
 from shapes import PlainScene, Shape, mirrored

@@ -16,10 +16,10 @@ import numpy as np
 
 import cfree.verify
 from cfree import Boundary, boundary, load_scene
-from cfree.features import unpacked
-from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
+from cfree.exact.algebraic import Exact, Number
+from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
+from cfree.scene.features import unpacked
 from cfree.verify import Verification
-from cfree.verify.algebra import Exact, Number
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader
 

@@ -14,7 +14,7 @@ from typing import Literal
 import fuzz
 from cfree import MotionChecker, Polygon, Pose, Scene
 from cfree.errors import InvalidPolygonError
-from cfree.planning.search import simple_ways
+from cfree.planning.rrt_connect import simple_ways
 from compared import plain_of, scene_of
 from shapes import PlainScene, Point, Shape, box, comb, l_shape, mapped, moved, random_lattice_shape
 

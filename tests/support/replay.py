@@ -15,7 +15,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from cfree import Path, Pose, Scene
-from cfree.free import Checker
+from cfree.collision.pose_checker import Checker
 
 BITS = 900
 CLOSE = 1e-9  # of the robot's size: how far decimals may lead astray

@@ -10,10 +10,10 @@ from typing import Any
 
 import cfree.verify
 from cfree import FormatError, Path, Scene, Separated, UnsupportedError
-from cfree.io import scene_text
+from cfree.formats.scene_file import scene_text
 from cfree.verify.result import Verification
 
-TOOL = FilePath(__file__).parents[1] / "tools/check_answer.py"
+TOOL = FilePath(__file__).parents[2] / "tools/check_answer.py"
 
 
 def _loaded() -> Any:

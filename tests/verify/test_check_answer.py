@@ -18,16 +18,16 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_cells import ROD, TIGHT
 
 from answer_mutations import corridor, separations, tee
 from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan
 from cfree.errors import InvalidPolygonError
-from cfree.polygon import Polygon
+from cfree.polygons.polygon import Polygon
 from second_opinion import TOOL, check_answer, verified_in_a_file
 from shapes import box
-from test_cells import ROD, TIGHT
 
-ROOT = FilePath(__file__).parents[1]
+ROOT = FilePath(__file__).parents[2]
 SQUARE = box("-1/2", "-1/2", "1/2", "1/2")[0]
 
 

@@ -19,7 +19,7 @@ import cfree.verify
 import oracles
 import strategies
 from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene
-from cfree.verify.algebra import Number, between, roots
+from cfree.exact.algebraic import Number, between, roots
 from cfree.verify.matching import matched
 from cfree.verify.missing import free_contacts
 from cfree.verify.polygons import convex_sum, tile
@@ -30,7 +30,7 @@ from cfree.verify.world import World
 from compared import plain_of, scene_of
 from shapes import KINDS, PlainScene, random_scene
 
-TESTS = Path(__file__).parent
+TESTS = Path(__file__).parents[1]
 SCENES = TESTS.parent / "examples" / "scenes"
 REAL = {"benchmr_parking1", "benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin"}
 SMALL = [path for path in sorted(SCENES.glob("*.json")) if path.stem not in REAL]

@@ -10,7 +10,7 @@ import pytest
 from cfree import Boundary, boundary, load_scene
 from mutations import OF_ISOLATED_PARTS, OF_TRAPEZOIDS, Mutation, detected, mutants, says_the_same
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 FILES = (
     "tests/cases/triangle_pair.json",
     "tests/cases/l_in_u.json",

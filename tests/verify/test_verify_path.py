@@ -11,6 +11,8 @@ from pathlib import Path as FilePath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from test_cells import ROD, TIGHT
+from test_motion import motions, poses
 
 import cfree.verify
 import strategies
@@ -20,10 +22,8 @@ from cfree.verify.motions import _samples, is_nowhere_positive, touches
 from cfree.verify.world import World
 from compared import scene_of
 from shapes import PlainScene, box
-from test_cells import ROD, TIGHT
-from test_motion import motions, poses
 
-ROOT = FilePath(__file__).parents[1]
+ROOT = FilePath(__file__).parents[2]
 SQUARE = box("-1/2", "-1/2", "1/2", "1/2")[0]
 
 

@@ -13,15 +13,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.features import NAMES
-from cfree.motion import Translation
-from cfree.motion_check import MotionChecker
-from cfree.pose import Pose
-from cfree.scene import default_name
-from cfree.trapezoids import Floats, Ints
+from cfree.collision.motion import Translation
+from cfree.collision.motion_checker import MotionChecker
+from cfree.exact.pose import Pose
+from cfree.forbidden.columns import Floats, Ints
+from cfree.scene.features import NAMES
+from cfree.scene.scene import default_name
 
 if TYPE_CHECKING:
-    from cfree.cells import FreeSpace
+    from cfree.free.space import FreeSpace
 
 COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a pinch
 MOST = 100  # samples of a pinch that are pushed

@@ -14,14 +14,14 @@ from fractions import Fraction
 from functools import cached_property, cmp_to_key
 from typing import Any
 
-from cfree.angle_interval import AlgebraicAngle, AngleInterval
-from cfree.forbidden import Boundary, boundary
-from cfree.half_angle import normalize_angles, tau_in_chart
-from cfree.pose import Pose
-from cfree.scene import Scene, polygons_of
-from cfree.trapezoids import Trapezoids
-from cfree.verify.algebra import Root, between
-from cfree.verify.algebra import part as set_apart
+from cfree.exact.algebraic import Root, between
+from cfree.exact.algebraic import part as set_apart
+from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
+from cfree.exact.half_angle import normalize_angles, tau_in_chart
+from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.forbidden.columns import Trapezoids
+from cfree.scene.scene import Scene, polygons_of
 from cfree.verify.isolated import IsolatedPart
 from cfree.verify.surfaces import Turn
 from cfree.verify.trapezoids import Reader

@@ -11,16 +11,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from cfree.analysis.bottleneck import Pinch, pinches
 from cfree.arguments import checked
-from cfree.cells import FreeSpace, free_space
-from cfree.exact import ExactPoint
-from cfree.forbidden import boundary
-from cfree.grown import FARTHEST_OUT, grown
-from cfree.inset import inset, insets_of, size_power, with_robot
-from cfree.pinch import Pinch, pinches
-from cfree.polygon import Polygon
-from cfree.pose import PoseLike
-from cfree.scene import Scene, required
+from cfree.exact.number import ExactPoint
+from cfree.exact.pose import PoseLike
+from cfree.forbidden.boundary import boundary
+from cfree.free.space import FreeSpace, free_space
+from cfree.planning.inset import inset, insets_of, size_power, with_robot
+from cfree.polygons.polygon import Polygon
+from cfree.scene.dilation import FARTHEST_OUT, grown
+from cfree.scene.scene import Scene, required
 
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried

@@ -12,15 +12,15 @@ import math
 from fractions import Fraction
 from itertools import pairwise
 
-from cfree.angle_interval import AngleInterval
-from cfree.arcs import Arcs, Form, union_of_intersections, where_not_positive
 from cfree.arguments import checked
-from cfree.exact import Number, common_denominator, to_fraction
-from cfree.features import BODY, Point, ShapeFeatures, box, scene_features
-from cfree.forbidden import Boundary
-from cfree.free import limits_of
-from cfree.pose import Pose, PoseLike, to_pose
-from cfree.scene import Scene
+from cfree.collision.pose_checker import limits_of
+from cfree.exact.angle_interval import AngleInterval
+from cfree.exact.angle_set import Arcs, Form, union_of_intersections, where_not_positive
+from cfree.exact.number import Number, common_denominator, to_fraction
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.forbidden.boundary import Boundary
+from cfree.scene.features import BODY, Point, ShapeFeatures, box, scene_features
+from cfree.scene.scene import Scene
 
 
 @checked

@@ -14,15 +14,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from cfree.cli_faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
-from cfree.cli_values import read_angle, read_numbers, read_pixels, read_pose, read_seconds, read_size
-from cfree.terminal import json_text, printable
+from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
+from cfree.cli.terminal import json_text, printable
+from cfree.cli.values import read_angle, read_numbers, read_pixels, read_pose, read_seconds, read_size
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.path import Path as Motions
+    from cfree.forbidden.boundary import Boundary
+    from cfree.paths.path import Path as Motions
     from cfree.planning.planner import Planner
-    from cfree.separated import Separated
+    from cfree.planning.separation import Separated
 
 app = typer.Typer(
     name="cfree",
@@ -92,8 +92,8 @@ def _global_options(
 def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
     """Validate a scene and describe it: vertices, pieces, patches to expect, start and goal."""
     with one_line_faults():
-        from cfree.describe import describe
-        from cfree.io import load_scene
+        from cfree.cli.describe import describe
+        from cfree.formats.scene_file import load_scene
 
         with _bar("reading"):
             given = load_scene(scene)
@@ -102,7 +102,7 @@ def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
         if as_json:
             _print_json(facts)
         else:
-            from cfree.report import print_scene
+            from cfree.cli.report import print_scene
 
             print_scene(facts)
 
@@ -151,18 +151,18 @@ def boundary(
             kept = f"; what was done is in {output}" if output else ""
             fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
         if mesh:
-            from cfree.mesh import robot_radius, save_mesh
+            from cfree.forbidden.mesh import robot_radius, save_mesh
 
             save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
         if picture:
-            from cfree.plot import plot_overview, save_figure
+            from cfree.plot.boundary import plot_overview, save_figure
 
             save_figure(plot_overview(result), picture)
         if as_json:
             facts = asdict(result.stats) | {"isolated": len(result.isolated)}
             _print_json({"file": str(scene), **facts, "files": written})
         else:
-            from cfree.report import boundary_rows, print_rows
+            from cfree.cli.report import boundary_rows, print_rows
 
             print_rows(result.scene.name or str(scene), boundary_rows(result), written)
 
@@ -212,11 +212,11 @@ def plan(
 ) -> None:
     """Find a path from start to goal, each motion of it proved free, or prove that there is none."""
     with one_line_faults():
+        from cfree.cli.report import answer_facts, answer_rows, print_rows
         from cfree.errors import IncompleteError
-        from cfree.path import Path as Motions
-        from cfree.path import form_of
-        from cfree.report import answer_facts, answer_rows, print_rows
-        from cfree.scene import required
+        from cfree.paths.path import Path as Motions
+        from cfree.paths.path import form_of
+        from cfree.scene.scene import required
 
         written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
         kind = form_of(output, form) if output else "json"
@@ -238,8 +238,8 @@ def plan(
             else:
                 _leave_out(written, "answer", f"there is no path to write as {kind}; a proof is written as .json")
         if picture:
-            from cfree.plot import save_figure
-            from cfree.plot_answer import picture as drawn
+            from cfree.plot.answer import picture as drawn
+            from cfree.plot.boundary import save_figure
 
             space = planner.free_space
             with _bar("picture"):
@@ -254,7 +254,7 @@ def plan(
         with _bar("least clearance"):
             facts = answer_facts(answer, planner.scene) if as_json else answer_rows(answer, planner.scene)
         if miss and not isinstance(answer, Motions):
-            from cfree.margins import nearest_miss
+            from cfree.analysis.margins import nearest_miss
 
             with _bar("nearest miss") as progress:
                 found = nearest_miss(planner.scene, begin, end, progress=progress)
@@ -291,23 +291,23 @@ def cut(
     with one_line_faults():
         angle = read_angle(theta)
         written = _check_outputs(scene, {"geojson": output, "picture": picture})
-        from cfree.describe import describe_slice
+        from cfree.cli.describe import describe_slice
 
         result = _boundary_of(scene, threads)
         found = result.slice(angle)
         if output:
-            from cfree.slice_geojson import save_slice
+            from cfree.formats.slice_geojson import save_slice
 
             save_slice(found, output)
         if picture:
-            from cfree.plot import plot_slice, save_figure
+            from cfree.plot.boundary import plot_slice, save_figure
 
             save_figure(plot_slice(found).figure, picture)
         facts = describe_slice(found)
         if as_json:
             _print_json({"file": str(scene), **facts, "files": written})
         else:
-            from cfree.report import print_rows
+            from cfree.cli.report import print_rows
 
             print_rows(f"slice of {result.scene.name or scene}", facts, written)
 
@@ -350,7 +350,7 @@ def film(
         found = [_boundary_of(scene, None) for scene in scenes]
         with _bar("film") as progress:
             save_film(found, output, seconds=seconds, fps=fps, size=pixels, storyboard=storyboard, progress=progress)
-        from cfree.report import print_rows
+        from cfree.cli.report import print_rows
 
         print_rows(
             ", ".join(map(str, scenes)), {"frames": round(seconds * fps), "size": "x".join(map(str, pixels))}, written
@@ -382,7 +382,7 @@ def verify(
     """Check a boundary or an answer by independent exact code, and say what is proved and what is sampled."""
     with one_line_faults():
         import cfree.verify
-        from cfree.io import load_scene
+        from cfree.formats.scene_file import load_scene
 
         given = load_scene(scene)
         with _bar("verify") as progress:
@@ -394,7 +394,7 @@ def verify(
         if as_json:
             _print_json({"file": str(file), "verified": result.verified, **asdict(result)})
         else:
-            from cfree.report import print_verification
+            from cfree.cli.report import print_verification
 
             print_verification(str(file), result)
     if not result.verified:
@@ -434,10 +434,10 @@ def figures(
 
 def _planner_of(source: Path, max_seconds: float | None) -> Planner:
     """For the scene in a file, with its free space if the file is a boundary."""
-    from cfree.cells import free_space
-    from cfree.io import load_scene
+    from cfree.formats.boundary_file import load_boundary
+    from cfree.formats.scene_file import load_scene
+    from cfree.free.space import free_space
     from cfree.planning.planner import Planner
-    from cfree.storage import load_boundary
 
     if _is_archive(source):
         with _bar("cells"):
@@ -462,9 +462,9 @@ def _boundary_of(
     source: Path, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
 ) -> Boundary:
     """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
-    from cfree.forbidden import boundary
-    from cfree.io import load_scene
-    from cfree.storage import load_boundary
+    from cfree.forbidden.boundary import boundary
+    from cfree.formats.boundary_file import load_boundary
+    from cfree.formats.scene_file import load_scene
 
     if _is_archive(source):
         return load_boundary(source)
@@ -498,17 +498,17 @@ def _is_archive(path: Path) -> bool:
 
 
 _CHECKS = {  # of the names of files
-    "boundary": ("storage", "check_boundary_path"),
+    "boundary": ("formats.boundary_file", "check_boundary_path"),
     "film": ("film.encode", "check_film_path"),
-    "geojson": ("slice_geojson", "check_slice_path"),
-    "mesh": ("mesh", "check_mesh_path"),
-    "picture": ("plot", "check_picture_path"),
+    "geojson": ("formats.slice_geojson", "check_slice_path"),
+    "mesh": ("forbidden.mesh", "check_mesh_path"),
+    "picture": ("plot.boundary", "check_picture_path"),
 }
 
 
 def _check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
     """The files to write; what cannot be written is refused before a long computation rather than after it."""
-    from cfree.files import check_place
+    from cfree.formats.atomic import check_place
 
     files = {name: path for name, path in wanted.items() if path is not None}
     for name, path in files.items():

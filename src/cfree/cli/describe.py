@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.features import BODY, SceneFeatures, scene_features
-from cfree.free import Checker
-from cfree.mesh import KINDS
-from cfree.polygon import Polygon
-from cfree.pose import Pose
+from cfree.collision.pose_checker import Checker
+from cfree.exact.pose import Pose
+from cfree.forbidden.mesh import KINDS
+from cfree.polygons.polygon import Polygon
+from cfree.scene.features import BODY, SceneFeatures, scene_features
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
-    from cfree.slice import Slice
+    from cfree.forbidden.slice import Slice
+    from cfree.scene.scene import Scene
 
 
 def describe(scene: Scene) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def describe(scene: Scene) -> dict[str, Any]:
 
     Examples
     --------
-    >>> from cfree.io import load_scene
+    >>> from cfree.formats.scene_file import load_scene
     >>> facts = describe(load_scene("examples/scenes/paper_fig9.json"))
     >>> facts["patches"]
     {'v-e': 9, 'e-v': 9, 'bound': 4, 'total': 22}

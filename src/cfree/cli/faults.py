@@ -22,7 +22,7 @@ from typing import NoReturn
 
 import typer
 
-from cfree.terminal import printable
+from cfree.cli.terminal import printable
 
 REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
@@ -55,10 +55,10 @@ def one_line_faults() -> Iterator[None]:
     except KeyboardInterrupt:
         fail("interrupted; no file was left half-written", INTERRUPTED)
     except InvariantError as error:
-        from cfree.scene import Scene
+        from cfree.scene.scene import Scene
 
         if isinstance(error.state, Scene):
-            from cfree.io import scene_text
+            from cfree.formats.scene_file import scene_text
 
             fail(f"{error}, with this scene:\n{scene_text(error.state)}", BUG)
         fail(str(error), BUG)

@@ -10,21 +10,21 @@ from typing import TYPE_CHECKING, Any
 from rich.console import Console
 from rich.table import Table
 
-from cfree.features import NAMES
-from cfree.terminal import printable
+from cfree.cli.terminal import printable
+from cfree.scene.features import NAMES
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.path import Path
-    from cfree.scene import Scene
-    from cfree.separated import Separated
+    from cfree.forbidden.boundary import Boundary
+    from cfree.paths.path import Path
+    from cfree.planning.separation import Separated
+    from cfree.scene.scene import Scene
     from cfree.verify import Verification
 
 COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
 
 
 def print_scene(facts: Mapping[str, Any]) -> None:
-    """The facts of `cfree.describe.describe`."""
+    """The facts of `cfree.cli.describe.describe`."""
     counts = Table(box=None)
     counts.add_column()
     for column in COUNTS:
@@ -75,7 +75,7 @@ def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
 
 def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float | str]:
     """An answer in words and numbers."""
-    from cfree.path import Path
+    from cfree.paths.path import Path
 
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
@@ -101,7 +101,7 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
 
 def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
     """The same as numbers, for machines: lengths in the scene's unit, radians."""
-    from cfree.path import Path
+    from cfree.paths.path import Path
 
     if not isinstance(answer, Path):
         facts = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
@@ -120,8 +120,8 @@ def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
 
 def motion_counts(path: Path) -> dict[str, int]:
     """How many of each kind."""
-    from cfree.motion import Rotation, Translation
-    from cfree.slide import Slide
+    from cfree.collision.motion import Rotation, Translation
+    from cfree.collision.slide import Slide
 
     kinds = {"translations": Translation, "rotations": Rotation, "slides": Slide}
     return {name: sum(isinstance(motion, kind) for motion in path.motions) for name, kind in kinds.items()}

@@ -6,8 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from cfree.half_angle import Angle
-    from cfree.pose import Pose
+    from cfree.exact.half_angle import Angle
+    from cfree.exact.pose import Pose
 
 
 def read_numbers(text: str) -> list[int]:
@@ -19,7 +19,7 @@ def read_numbers(text: str) -> list[int]:
 
 def read_angle(text: str) -> Angle:
     """An angle as `Pose` takes it; ``tau:p/q`` gives the tangent of its half."""
-    from cfree.pose import Pose
+    from cfree.exact.pose import Pose
 
     angle: Angle = {"tau": text.removeprefix("tau:")} if text.startswith("tau:") else text
     Pose(0, 0, angle)
@@ -28,7 +28,7 @@ def read_angle(text: str) -> Angle:
 
 def read_pose(text: str | None, name: str) -> Pose | None:
     """A pose, from "1,1/2,30deg"."""
-    from cfree.pose import Pose
+    from cfree.exact.pose import Pose
 
     if text is None:
         return None

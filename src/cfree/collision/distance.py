@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.features import WORKSPACE
-from cfree.mesh import robot_radius
+from cfree.forbidden.mesh import robot_radius
+from cfree.scene.features import WORKSPACE
 
 if TYPE_CHECKING:
-    from cfree.polygon import Polygon
-    from cfree.scene import Scene
+    from cfree.polygons.polygon import Polygon
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -19,12 +19,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
+from cfree.collision.slide import Slide
 from cfree.errors import InvalidPoseError
-from cfree.exact import ExactPoint, Number, to_fraction
-from cfree.exact import angle as angle_of
-from cfree.half_angle import Angle, number_of_degrees
-from cfree.pose import Pose, PoseLike, Poses, to_pose
-from cfree.slide import Slide
+from cfree.exact.half_angle import Angle, number_of_degrees
+from cfree.exact.number import ExactPoint, Number, to_fraction
+from cfree.exact.number import angle as angle_of
+from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 
 Floats = NDArray[np.float64]
 MOST_HALVES = 1000

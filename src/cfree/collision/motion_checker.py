@@ -13,15 +13,15 @@ from itertools import pairwise
 from typing import Any
 
 from cfree.arguments import checked
-from cfree.contact import EdgeVertex, VertexEdge
+from cfree.collision.motion import Motion, Rotation, Translation, motion_between
+from cfree.collision.slide import Slide
+from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.errors import UnsupportedError
-from cfree.exact import common_denominator
-from cfree.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
-from cfree.motion import Motion, Rotation, Translation, motion_between
-from cfree.pose import Pose, PoseLike, to_pose
-from cfree.rational.surd import Surd
-from cfree.scene import Scene
-from cfree.slide import Slide
+from cfree.exact.number import common_denominator
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.exact.surd import Surd
+from cfree.scene.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
+from cfree.scene.scene import Scene
 from cfree.value import Value
 
 
@@ -32,8 +32,8 @@ class FirstContact:
     Attributes
     ----------
     at : Surd
-        The motion is free up to this parameter, itself included, and forbidden right after it; see `cfree.motion`.
-        0 may also mean that the first pose is forbidden.
+        The motion is free up to this parameter, itself included, and forbidden right after it; see
+        `cfree.collision.motion`. 0 may also mean that the first pose is forbidden.
     robot : int
         The robot's polygon.
     obstacle : int
@@ -65,8 +65,8 @@ class MotionChecker(Value):
 
     Examples
     --------
-    >>> from cfree.motion import Translation
-    >>> from cfree.scene import Scene
+    >>> from cfree.collision.motion import Translation
+    >>> from cfree.scene.scene import Scene
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> walls = [[(3, 0), (4, 0), (4, 1)], [(0, 1), (2, 1), (2, 2), (0, 2)]]
     >>> checker = MotionChecker(Scene(robot=square, obstacles=walls))
@@ -100,8 +100,8 @@ class MotionChecker(Value):
 
         Examples
         --------
-        >>> from cfree.motion import Rotation
-        >>> from cfree.scene import Scene
+        >>> from cfree.collision.motion import Rotation
+        >>> from cfree.scene.scene import Scene
         >>> rod, room = [(-4, -3), (4, -3), (4, 3), (-4, 3)], [(-5, -5), (5, -5), (5, 5), (-5, 5)]
         >>> checker = MotionChecker(Scene(robot=rod, obstacles=[], workspace=room))
         >>> checker.is_free(Pose(0, 0), Rotation((0, 0), "90deg"))  # its corners are 5 from the pole
@@ -198,8 +198,8 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
 
     Examples
     --------
-    >>> from cfree.motion import Rotation
-    >>> from cfree.scene import Scene
+    >>> from cfree.collision.motion import Rotation
+    >>> from cfree.scene.scene import Scene
     >>> square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     >>> scene = Scene(robot=square, obstacles=[[(2, -2), (3, -2), (3, 2), (2, 2)]])
     >>> is_free_motion(scene, Pose(0, 0), Rotation((0, 0), "90deg"))
@@ -217,8 +217,8 @@ def first_contact(scene: Scene, pose: PoseLike, motion: Motion) -> FirstContact 
 
     Examples
     --------
-    >>> from cfree.motion import Rotation
-    >>> from cfree.scene import Scene
+    >>> from cfree.collision.motion import Rotation
+    >>> from cfree.scene.scene import Scene
     >>> rod = [(-5, -1), (5, -1), (5, 0), (-5, 0)]
     >>> scene = Scene(robot=rod, obstacles=[[(-9, 3), (9, 3), (9, 9), (-9, 9)]])
     >>> found = first_contact(scene, Pose(0, 0), Rotation((0, 0), "90deg"))  # (5, 0) arrives at (4, 3)

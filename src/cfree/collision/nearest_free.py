@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cfree.arguments import checked
+from cfree.collision.motion import Translation
+from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.pose_checker import Checker
 from cfree.errors import InvalidPoseError
-from cfree.features import BOUNDS, WORKSPACE
-from cfree.forbidden import Boundary
-from cfree.free import Checker
-from cfree.motion import Translation
-from cfree.motion_check import MotionChecker
-from cfree.pose import Pose, PoseLike, Poses, to_pose
-from cfree.scene import Scene
+from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.forbidden.boundary import Boundary
+from cfree.scene.features import BOUNDS, WORKSPACE
+from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from cfree.pose import Floats
+    from cfree.exact.pose import Floats
 
 DIRECTIONS, GROWTH = 32, 1.5  # of the places looked at, on circles whose radii grow so
 NEAREST, FARTHEST = 1e-6, 10.0  # these radii, in lengths of the robot

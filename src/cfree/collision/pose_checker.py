@@ -18,10 +18,10 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import InvalidPoseError
-from cfree.features import SceneFeatures, scene_features
-from cfree.forbidden import Boundary
-from cfree.pose import Floats, OnePose, Pose, PoseLike, Poses, one_pose, to_pose
-from cfree.scene import Scene
+from cfree.exact.pose import Floats, OnePose, Pose, PoseLike, Poses, one_pose, to_pose
+from cfree.forbidden.boundary import Boundary
+from cfree.scene.features import SceneFeatures, scene_features
+from cfree.scene.scene import Scene
 from cfree.value import Value
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
@@ -71,7 +71,7 @@ def is_free(
 
     Examples
     --------
-    >>> from cfree.scene import Scene
+    >>> from cfree.scene.scene import Scene
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
     >>> scene = Scene(robot=square, obstacles=square, bounds=(-2, -2, 2, 2))
     >>> is_free(scene, Pose(1, 0)), is_free(scene, Pose("0.999", 0)), is_free(scene, Pose(3, 0))

@@ -19,9 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
-from cfree.exact import ExactPoint, Number, angle, to_fraction
-from cfree.half_angle import to_rational
-from cfree.pose import Pose, PoseLike, Poses, to_pose
+from cfree.exact.half_angle import to_rational
+from cfree.exact.number import ExactPoint, Number, angle, to_fraction
+from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 
 DEGREE = 4
 PARTS = 16  # for which speeds are bounded

@@ -19,10 +19,9 @@ import math
 from dataclasses import dataclass
 
 from cfree.arguments import checked
-from cfree.exact import IntPoint, angle
-from cfree.half_angle import normalize_angles
-from cfree.polygon import Polygon
-from cfree.predicates import (
+from cfree.exact.half_angle import normalize_angles
+from cfree.exact.number import IntPoint, angle
+from cfree.exact.orientation import (
     Location,
     Order,
     Orientation,
@@ -32,6 +31,7 @@ from cfree.predicates import (
     locate_in_sector,
     turn,
 )
+from cfree.polygons.polygon import Polygon
 
 
 @checked

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from cfree.arguments import checked
-from cfree.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
-from cfree.exact import IntPoint
-from cfree.polygon import Polygon
-from cfree.pose import Pose, PoseLike, to_pose
-from cfree.predicates import Location, Meeting, is_inside_segment, is_opposed, locate, meet
+from cfree.contact.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
+from cfree.exact.number import IntPoint
+from cfree.exact.orientation import Location, Meeting, is_inside_segment, is_opposed, locate, meet
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.polygons.polygon import Polygon
 
 Edge = tuple[IntPoint, IntPoint]
 

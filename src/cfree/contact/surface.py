@@ -21,11 +21,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
-from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
-from cfree.exact import ExactPoint, Number, finite, to_fraction
-from cfree.half_angle import Angle
-from cfree.polygon import Polygon
-from cfree.pose import Pose, PoseLike, to_pose
+from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
+from cfree.exact.half_angle import Angle
+from cfree.exact.number import ExactPoint, Number, finite, to_fraction
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.polygons.polygon import Polygon
 
 Floats = NDArray[np.float64]
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from cfree.arguments import checked
-from cfree.half_angle import Angle, normalize_angles, tau_in_chart, theta_in
-from cfree.pose import Pose, PoseLike, to_pose
-from cfree.verify.algebra import Root
+from cfree.exact.algebraic import Root
+from cfree.exact.half_angle import Angle, normalize_angles, tau_in_chart, theta_in
+from cfree.exact.pose import Pose, PoseLike, to_pose
 
 FINE = Fraction(1, 1 << 60)
 

@@ -16,10 +16,10 @@ import numpy as np
 from flint import fmpz_poly
 from numpy.typing import NDArray
 
-from cfree.angle_interval import AlgebraicAngle
-from cfree.predicates import Order
-from cfree.rational.surd import Surd
-from cfree.verify.algebra import roots
+from cfree.exact.algebraic import roots
+from cfree.exact.angle_interval import AlgebraicAngle
+from cfree.exact.orientation import Order
+from cfree.exact.surd import Surd
 
 CLOSE = 1e-13  # far more than the error of an end's double: closer ones are compared exactly
 Form = tuple[int, int, int]

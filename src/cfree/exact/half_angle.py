@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import InvalidPoseError
-from cfree.exact import ExactPoint, Number, simplest_between, to_fraction
+from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
 
 Floats = NDArray[np.float64]
 # radians; degrees as in "90deg" or "90°"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}, {"tau": None}

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from enum import Enum
 from fractions import Fraction
 
-from cfree.exact import ExactPoint
+from cfree.exact.number import ExactPoint
 
 Exact = int | Fraction
 Vector = tuple[Exact, Exact]

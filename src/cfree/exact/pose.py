@@ -17,8 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
-from cfree.exact import ExactPoint, Number
-from cfree.half_angle import (
+from cfree.exact.half_angle import (
     Angle,
     half_angle_rotation,
     normalize_angles,
@@ -27,7 +26,8 @@ from cfree.half_angle import (
     to_chart,
     to_rational,
 )
-from cfree.predicates import Vector
+from cfree.exact.number import ExactPoint, Number
+from cfree.exact.orientation import Vector
 from cfree.value import Value
 
 Floats = NDArray[np.float64]

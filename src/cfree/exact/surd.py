@@ -14,9 +14,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from cfree.arguments import checked
-from cfree.exact import Number, angle, to_fraction
-from cfree.half_angle import chart_of_direction, tau_in_chart
-from cfree.predicates import Order, compare_with_surd
+from cfree.exact.half_angle import chart_of_direction, tau_in_chart
+from cfree.exact.number import Number, angle, to_fraction
+from cfree.exact.orientation import Order, compare_with_surd
 
 
 @checked

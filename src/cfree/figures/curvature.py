@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib import colormaps
 
-from cfree.contact import EdgeVertex
+from cfree.contact.contact import EdgeVertex
+from cfree.contact.surface import contact_surface
 from cfree.figures.space import curve, draw_frame, new_space, paint, sheet
 from cfree.figures.style import GREY, INK, Palette, new_figure
 from cfree.geometry.local import local_geometry
 from cfree.geometry.rulings import striction_parameter
-from cfree.polygon import Polygon
-from cfree.surface import contact_surface
+from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

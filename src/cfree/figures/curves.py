@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from cfree.contact import EdgeEdge, VertexVertex, angle_range
+from cfree.contact.contact import EdgeEdge, VertexVertex, angle_range
+from cfree.contact.surface import contact_helix, contact_segment
 from cfree.figures.plane import arc, arrow, dot, label, line, new_plane, on_arc, placed, shape
 from cfree.figures.style import GREY, INK, Palette
-from cfree.polygon import Polygon
-from cfree.surface import contact_helix, contact_segment
+from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

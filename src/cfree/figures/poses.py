@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from cfree.exact.pose import Pose
 from cfree.figures.plane import (
     arc,
     arrow,
@@ -21,8 +22,7 @@ from cfree.figures.plane import (
     shape,
 )  # fmt: skip
 from cfree.figures.style import GREY, INK, Palette
-from cfree.polygon import Polygon
-from cfree.pose import Pose
+from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.contact import AngleRange, EdgeVertex, VertexEdge, angle_range
+from cfree.contact.contact import AngleRange, EdgeVertex, VertexEdge, angle_range
+from cfree.contact.surface import contact_surface
 from cfree.figures.plane import Floats, arc, dot, edge_label, frame, label, line, new_plane, on_arc, placed, shape
 from cfree.figures.style import GREY, INK, Palette
-from cfree.polygon import Polygon
-from cfree.surface import contact_surface
+from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

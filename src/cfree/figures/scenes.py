@@ -10,9 +10,9 @@ from cfree.figures.plane import label, placed, shape
 from cfree.figures.space import draw_frame, new_space, paint
 from cfree.figures.style import GREY, Palette, new_figure
 from cfree.figures.surfaces import OBSTACLE, ROBOT, VIEW, colours_of, patch_legend
-from cfree.forbidden import Boundary, boundary
-from cfree.plot3d import ON_TOP, SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
-from cfree.scene import Scene
+from cfree.forbidden.boundary import Boundary, boundary
+from cfree.plot.depth_sort import ON_TOP, SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
+from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

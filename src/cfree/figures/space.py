@@ -11,7 +11,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from cfree.figures.style import FAINT, GREY
-from cfree.plot3d import SURFACE, Painting, Pieces, joined, of_line, shaded
+from cfree.plot.depth_sort import SURFACE, Painting, Pieces, joined, of_line, shaded
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,7 +10,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from cfree.files import replacing
+from cfree.formats.atomic import replacing
 
 FORMATS = ("svg", "pdf", "png")
 INK, GREY, FAINT = "#20242b", "#8a92a0", "#d9dce2"

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.contact import EdgeVertex, VertexEdge
+from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.contact.surface import Surface, contact_surface
 from cfree.figures.space import curve, draw_frame, legend, new_space, paint, sheet
 from cfree.figures.style import Palette, new_figure
-from cfree.forbidden import boundary
-from cfree.plot3d import Colours, pieces_of
-from cfree.polygon import Polygon
-from cfree.scene import Scene
-from cfree.surface import Surface, contact_surface
+from cfree.forbidden.boundary import boundary
+from cfree.plot.depth_sort import Colours, pieces_of
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

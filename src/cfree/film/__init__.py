@@ -6,9 +6,9 @@ from collections.abc import Callable, Sequence
 from os import PathLike
 
 from cfree.arguments import checked
-from cfree.forbidden import Boundary
-from cfree.path import Path
-from cfree.scene import Scene
+from cfree.forbidden.boundary import Boundary
+from cfree.paths.path import Path
+from cfree.scene.scene import Scene
 
 MOST = 60.0  # seconds of motion
 
@@ -127,7 +127,7 @@ def film_path(
     from cfree.film.encode import check_film_path, write
     from cfree.film.reel import check_frames
     from cfree.film.way import path_frames
-    from cfree.plot_way import Track
+    from cfree.plot.path import Track
 
     suffix = check_film_path(file)
     if size is None:

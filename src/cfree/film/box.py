@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 if TYPE_CHECKING:
     from cfree.film.painter import Eye
-    from cfree.outlines import Window
+    from cfree.plot.workspace import Window
 
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]

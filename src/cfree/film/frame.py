@@ -14,18 +14,18 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
+from cfree.exact.pose import Pose
 from cfree.film.box import INK
 from cfree.film.moves import Moment
 from cfree.film.painter import EDGE_EDGE, HELIX
 from cfree.film.plane import TOUCH, Plane, edge_number
 from cfree.film.space import FREE, SOLID, Space
-from cfree.mesh import COLOURS
-from cfree.patch import Contact
-from cfree.plot import extent
-from cfree.pose import Pose
+from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.patch import Contact
+from cfree.plot.boundary import extent
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
@@ -111,7 +111,7 @@ def caption(contact: Contact | None) -> str:
 
     Examples
     --------
-    >>> from cfree.patch import Place
+    >>> from cfree.forbidden.patch import Place
     >>> caption(Contact("v-e", Place(0, "robot", 0, 2), Place(0, "kite", 0, 3, 0)))
     'v-e contact: vertex $a_{2}$ on edge $E_{3}^O$ of kite'
     >>> caption(None)

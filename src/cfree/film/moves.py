@@ -15,18 +15,18 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.contact import EdgeVertex, VertexEdge
-from cfree.features import WORKSPACE
-from cfree.mesh import robot_radius
-from cfree.patch import Contact, Patch, Place
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.strips import strips
-from cfree.surface import Surface
+from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.contact.surface import Surface
+from cfree.exact.pose import Pose
+from cfree.forbidden.mesh import robot_radius
+from cfree.forbidden.patch import Contact, Patch, Place
+from cfree.plot.strips import strips
+from cfree.polygons.polygon import Polygon
+from cfree.scene.features import WORKSPACE
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.scene import Scene
+    from cfree.forbidden.boundary import Boundary
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -52,7 +52,7 @@ class Column:
     ----------
     patch : int
     parts : tuple of int
-        Parts in the sense of `cfree.strips.Strips`, from below.
+        Parts in the sense of `cfree.plot.strips.Strips`, from below.
     trapezoids : tuple of int
     angles : tuple of float, radians in [0, 2 pi]
         Where the parts begin, and where the last one ends.

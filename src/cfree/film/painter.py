@@ -14,14 +14,14 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.mesh import COLOURS, robot_radius
-from cfree.plot3d import Colours, shaded
-from cfree.strips import Strips, step_for, strips
+from cfree.forbidden.mesh import COLOURS, robot_radius
+from cfree.plot.depth_sort import Colours, shaded
+from cfree.plot.strips import Strips, step_for, strips
 
 if TYPE_CHECKING:
     from matplotlib.collections import PolyCollection
 
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -50,7 +50,7 @@ class Pieces:
     width : (n,) float64
         Line width of a curve in points, 0 for a face.
     part : (n,) int64
-        Part in the sense of `cfree.strips.Strips`, or -1.
+        Part in the sense of `cfree.plot.strips.Strips`, or -1.
     owner : (n,) int64
         The face whose border a curve is, or -1 if it is seen from all sides; itself for a face.
     lift : (n,) float64

@@ -10,21 +10,21 @@ from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from cfree.features import WORKSPACE
+from cfree.exact.pose import Pose
 from cfree.film.box import INK
 from cfree.film.moves import Moment, shape_of
 from cfree.film.painter import HELIX
-from cfree.mesh import COLOURS, robot_radius
-from cfree.outlines import BOUNDS, OBSTACLE, ROBOT, Window, path_of, rings_of, rings_of_geometry
-from cfree.patch import Contact, Place
-from cfree.plot import FORBIDDEN
-from cfree.pose import Pose
+from cfree.forbidden.mesh import COLOURS, robot_radius
+from cfree.forbidden.patch import Contact, Place
+from cfree.plot.boundary import FORBIDDEN
+from cfree.plot.workspace import BOUNDS, OBSTACLE, ROBOT, Window, path_of, rings_of, rings_of_geometry
+from cfree.scene.features import WORKSPACE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from cfree.scene import Scene
-    from cfree.slice import Slice
+    from cfree.forbidden.slice import Slice
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Mark = tuple[Floats, str, Floats]  # points of a feature, its name, where to write it

@@ -14,7 +14,7 @@ from cfree.film.painter import AZIMUTHS
 from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]

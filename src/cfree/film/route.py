@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.mesh import robot_radius
+from cfree.forbidden.mesh import robot_radius
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -16,18 +16,18 @@ from matplotlib.patches import PathPatch
 from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
+from cfree.exact.pose import Pose
 from cfree.film.box import INK, Box
 from cfree.film.painter import ON_FACE, Eye, Pieces, facing, joined, line_pieces, paint, pieces_of, within
-from cfree.mesh import COLOURS
-from cfree.outlines import Window, path_of, rings_of, rings_of_geometry
-from cfree.pose import Pose
+from cfree.forbidden.mesh import COLOURS
+from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.path import Path
 
-    from cfree.forbidden import Boundary
-    from cfree.slice import Slice
+    from cfree.forbidden.boundary import Boundary
+    from cfree.forbidden.slice import Slice
 
 Floats = NDArray[np.float64]
 

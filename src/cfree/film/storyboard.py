@@ -22,15 +22,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.exact.pose import Pose
 from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
 from cfree.film.painter import AZIMUTHS, HELIX
 from cfree.film.route import Clearance, route
-from cfree.mesh import robot_radius
-from cfree.plot import extent
-from cfree.pose import Pose
+from cfree.forbidden.mesh import robot_radius
+from cfree.plot.boundary import extent
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 
@@ -102,8 +102,8 @@ def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBO
 
     Examples
     --------
-    >>> from cfree.forbidden import boundary
-    >>> from cfree.io import load_scene
+    >>> from cfree.forbidden.boundary import boundary
+    >>> from cfree.formats.scene_file import load_scene
     >>> shots = storyboard(boundary(load_scene("examples/scenes/paper_fig9.json")), 60)
     >>> [shot.kind for shot in shots]
     ['slices', 'helix', 'v-e', 'e-v', 'pillar', 'path']

@@ -14,18 +14,18 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
 
+from cfree.collision.distance import Walls
 from cfree.film.box import INK
 from cfree.film.frame import GREY, INCHES, MONO
 from cfree.film.painter import Eye
 from cfree.film.space import Space
-from cfree.mesh import robot_radius
-from cfree.nearest import Walls
-from cfree.outlines import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
-from cfree.plot import extent, set_window, with_unit
-from cfree.plot_way import LIMIT, Track, placed, poses_of, quantity, statement
+from cfree.forbidden.mesh import robot_radius
+from cfree.plot.boundary import extent, set_window, with_unit
+from cfree.plot.path import LIMIT, Track, placed, poses_of, quantity, statement
+from cfree.plot.workspace import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]

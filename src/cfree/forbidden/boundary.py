@@ -21,11 +21,11 @@ import cfree
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import IncompleteError, InvariantError
-from cfree.features import BOUNDS, SceneFeatures, scene_features
-from cfree.half_angle import Angle, tau_in
-from cfree.patch import IsolatedPart, Patches, Trapezoid
-from cfree.scene import Scene
-from cfree.trapezoids import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.exact.half_angle import Angle, tau_in
+from cfree.forbidden.columns import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.forbidden.patch import IsolatedPart, Patches, Trapezoid
+from cfree.scene.features import BOUNDS, SceneFeatures, scene_features
+from cfree.scene.scene import Scene
 from cfree.value import Value
 
 VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
@@ -111,7 +111,7 @@ def boundary(
     try:
         return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
     except InvariantError as error:
-        from cfree.shrink import smallest_scene
+        from cfree.scene.reduction import smallest_scene
 
         raise InvariantError(error.what, state=smallest_scene(scene, _contradicts_itself)) from error
 
@@ -288,7 +288,7 @@ class Boundary(Value):
     @cached_property
     def complex(self) -> cfree.CellComplex:
         """The trapezoids glued into closed surfaces; computed when first asked for."""
-        from cfree.cell_complex import glue
+        from cfree.forbidden.cell_complex import glue
 
         self.require_complete()
         return glue(self)
@@ -296,7 +296,7 @@ class Boundary(Value):
     @cached_property
     def checker(self) -> cfree.Checker:
         """The scene prepared for `cfree.is_free`; when first asked for."""
-        from cfree.free import Checker
+        from cfree.collision.pose_checker import Checker
 
         return Checker(self.scene, self.features)
 
@@ -419,7 +419,7 @@ class Boundary(Value):
         -----
         Time is proportional to the output, after a look-up; nothing is trimmed again.
         """
-        from cfree.slice import Slice
+        from cfree.forbidden.slice import Slice
 
         self.require_complete()
         return Slice(self, theta)
@@ -460,7 +460,7 @@ class Boundary(Value):
         >>> len(mesh.vertices) - len(mesh.seam) - len(mesh.triangles) // 2   # V - E + F of a torus
         0
         """
-        from cfree.mesh import triangulated
+        from cfree.forbidden.mesh import triangulated
 
         self.require_complete()
         return triangulated(self, error, angle_scale)
@@ -479,6 +479,6 @@ class Boundary(Value):
     @checked
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write scene and boundary to one file, all of it or nothing; `load_boundary` reads it."""
-        from cfree.storage import save_boundary
+        from cfree.formats.boundary_file import save_boundary
 
         save_boundary(self, path)

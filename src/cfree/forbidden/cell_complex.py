@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.errors import InvariantError
-from cfree.trapezoids import COLUMNS, Floats, Ints
+from cfree.forbidden.columns import COLUMNS, Floats, Ints
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.scene import Scene
+    from cfree.forbidden.boundary import Boundary
+    from cfree.scene.scene import Scene
 
 SIDES = ("from", "upper", "to", "lower")
 
@@ -155,7 +155,7 @@ def glue(boundary: Boundary) -> CellComplex:
     -----
     Time is about linear in the trapezoids.
     """
-    from cfree.shrink import smallest_scene
+    from cfree.scene.reduction import smallest_scene
 
     try:
         return _glued(boundary)
@@ -186,7 +186,7 @@ def _glued(boundary: Boundary) -> CellComplex:
 
 
 def _cannot_be_glued(scene: Scene) -> bool:
-    from cfree.forbidden import boundary
+    from cfree.forbidden.boundary import boundary
 
     try:
         _glued(boundary(scene, threads=1))

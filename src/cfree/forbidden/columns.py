@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.half_angle import theta_in
+from cfree.exact.half_angle import theta_in
 from cfree.value import Value
 
 Floats = NDArray[np.float64]

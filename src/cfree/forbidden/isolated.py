@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.half_angle import tau_in
-from cfree.trapezoids import CURVE
+from cfree.exact.half_angle import tau_in
+from cfree.forbidden.columns import CURVE
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 

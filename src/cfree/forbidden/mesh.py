@@ -19,12 +19,12 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.errors import InvariantError, UnsupportedError
-from cfree.files import checked_suffix, replacing
+from cfree.formats.atomic import checked_suffix, replacing
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.scene import Scene
+    from cfree.forbidden.boundary import Boundary
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]

@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.contact.surface import evaluate
 from cfree.errors import InvariantError
-from cfree.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
-from cfree.half_angle import theta_in
-from cfree.surface import evaluate
+from cfree.exact.half_angle import theta_in
+from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.trapezoids import Trapezoids
+    from cfree.forbidden.boundary import Boundary
+    from cfree.forbidden.columns import Trapezoids
 
 KINDS = {1: "v-e", 2: "e-v", 3: "v-v", 4: "e-e"}
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
-from cfree.forbidden import Boundary
-from cfree.half_angle import Angle, place_of
+from cfree.exact.half_angle import Angle, place_of
+from cfree.forbidden.boundary import Boundary
 from cfree.value import Value
 
 

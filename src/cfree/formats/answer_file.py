@@ -7,8 +7,8 @@ from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
-from cfree.path import Path
-from cfree.separated import Separated
+from cfree.paths.path import Path
+from cfree.planning.separation import Separated
 
 if TYPE_CHECKING:
     from cfree.formats.answer_format import Read

@@ -18,8 +18,8 @@ from cfree.formats.json_positions import Path as Place
 from cfree.formats.path_format import PathModel
 from cfree.formats.scene_format import report
 from cfree.formats.separation_format import SeparationModel
-from cfree.path import Path
-from cfree.separated import Separated
+from cfree.paths.path import Path
+from cfree.planning.separation import Separated
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,13 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
+from cfree.collision.motion import motion_between
+from cfree.exact.pose import Pose
 from cfree.formats.effect import PART, Effect, Term, Written, decimal_near
 from cfree.formats.json_positions import Path as Place
 from cfree.formats.json_positions import shortened
 from cfree.formats.path_format import AnswerModel, PathModel
-from cfree.motion import motion_between
-from cfree.path import Path
-from cfree.pose import Pose
+from cfree.paths.path import Path
 
 NEAR = Fraction(1, 10**6)  # of the way, and radians: how far decimals alone may lead from the goal
 

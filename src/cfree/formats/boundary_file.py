@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.errors import FormatError
-from cfree.features import SceneFeatures, scene_features, unpacked
-from cfree.files import checked_suffix, replacing
-from cfree.forbidden import Boundary, Stats
-from cfree.trapezoids import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
+from cfree.forbidden.boundary import Boundary, Stats
+from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
+from cfree.formats.atomic import checked_suffix, replacing
+from cfree.scene.features import SceneFeatures, scene_features, unpacked
 
 CELL_COLUMNS = ("component", "parent", "free_inside", "turns", "lift")
 PATCH_COLUMNS = ("contact_kind", "contact_robot", "contact_obstacle", "trimmed")
@@ -38,7 +38,7 @@ def save_boundary(
     boundary: Boundary, path: str | os.PathLike[str], cells: Mapping[str, NDArray[Any]] | None = None
 ) -> None:
     """Write a boundary, with its cells if given; equal boundaries make equal files."""
-    from cfree.io import scene_text
+    from cfree.formats.scene_file import scene_text
 
     check_boundary_path(path)
     arrays: dict[str, Any] = {"scene": np.frombuffer(scene_text(boundary.scene).encode(), np.uint8)}
@@ -135,7 +135,7 @@ def _read(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
         raise
     except FAULTS:
         raise fault("truncated, damaged, or not a boundary file; make it again with `cfree boundary`") from None
-    from cfree.io import scene_from_text
+    from cfree.formats.scene_file import scene_from_text
 
     scene = scene_from_text(f"{name}:scene", text)
     features = scene_features(scene)

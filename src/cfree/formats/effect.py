@@ -15,12 +15,12 @@ from functools import cached_property
 
 from flint import arb, ctx, fmpq
 
+from cfree.collision.motion import Motion, Rotation, Translation
+from cfree.collision.slide import Slide
+from cfree.exact.pose import Pose
 from cfree.formats.json_positions import Path as Place
-from cfree.motion import Motion, Rotation, Translation
-from cfree.path import Path
-from cfree.pose import Pose
-from cfree.slide import Slide
-from cfree.stamp import Stamp
+from cfree.paths.path import Path
+from cfree.scene.digest import Stamp
 
 PART = Fraction(1, 10**9)  # of the robot's size: how far decimals may put a point of it
 BITS = 300  # of angles, more than weights need

@@ -14,8 +14,8 @@ from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path
 from cfree.formats.scene_format import Point, is_encodable, report
 from cfree.formats.shapes import ROLES, Shape
-from cfree.polygon import Polygon
-from cfree.scene import explained, flat_shape
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import explained, flat_shape
 
 # further coordinates, such as heights, are ignored as the RFC allows
 _RINGS = TypeAdapter(list[list[Annotated[Point, BeforeValidator(lambda p: p[:2] if isinstance(p, list) else p)]]])

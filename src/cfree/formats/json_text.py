@@ -6,7 +6,7 @@ import json
 import re
 from decimal import Decimal, InvalidOperation
 
-from cfree.exact import MAX_DIGITS
+from cfree.exact.number import MAX_DIGITS
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import shortened
 

@@ -16,8 +16,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, PrivateAttr, model_validator
 
+from cfree.collision.motion import Motion, Rotation, Translation, rotations
+from cfree.collision.slide import Slide, Touch
 from cfree.errors import InvalidPoseError, UnsupportedError
-from cfree.exact import MAX_DIGITS
+from cfree.exact.number import MAX_DIGITS
+from cfree.exact.pose import Pose
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.effect import Effect, Written
 from cfree.formats.json_positions import Path as Place
@@ -33,14 +36,11 @@ from cfree.formats.scene_format import (
     fault,
     list_of,
 )
-from cfree.motion import Motion, Rotation, Translation, rotations
-from cfree.path import Path
-from cfree.pose import Pose
-from cfree.slide import Slide, Touch
-from cfree.stamp import Stamp
+from cfree.paths.path import Path
+from cfree.scene.digest import Stamp
 
 if TYPE_CHECKING:
-    from cfree.separated import Separated
+    from cfree.planning.separation import Separated
 
 
 def _turning(value: Any) -> Any:

@@ -7,12 +7,12 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from cfree.outlines import rings_of
-from cfree.path import Path
-from cfree.pose import Poses
+from cfree.exact.pose import Poses
+from cfree.paths.path import Path
+from cfree.plot.workspace import rings_of
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
+    from cfree.scene.scene import Scene
 
 
 def csv_text(path: Path, step: float, turn: float) -> str:

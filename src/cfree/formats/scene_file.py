@@ -18,14 +18,14 @@ from pathlib import Path
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import UnsupportedError
-from cfree.exact import MAX_DIGITS
-from cfree.files import replacing
+from cfree.exact.half_angle import Angle
+from cfree.exact.number import MAX_DIGITS
+from cfree.exact.pose import Pose
+from cfree.formats.atomic import replacing
 from cfree.formats.findings import Findings, read_text
 from cfree.formats.json_text import read_json
-from cfree.half_angle import Angle
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.scene import Scene, default_name
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
 

@@ -29,13 +29,13 @@ from pydantic import (
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from cfree.errors import InvalidPolygonError, InvalidPoseError
-from cfree.exact import to_fraction
-from cfree.extent import LARGEST, range_fault
+from cfree.exact.number import to_fraction
+from cfree.exact.pose import Pose
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path, shortened
-from cfree.polygon import Polygon
-from cfree.pose import Pose
-from cfree.scene import Scene, explained
+from cfree.polygons.polygon import Polygon
+from cfree.scene.coordinate_range import LARGEST, range_fault
+from cfree.scene.scene import Scene, explained
 
 VERSION = 1
 MAX_NESTING = 32

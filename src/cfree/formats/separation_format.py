@@ -13,17 +13,17 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, PlainValidator, model_validator
 
-from cfree.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
+from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.effect import Effect
 from cfree.formats.json_text import json_line
 from cfree.formats.path_format import AnswerModel, answer_head
 from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict, fault
-from cfree.path import Path
-from cfree.polygon import Polygon
-from cfree.separated import Auxiliary, Pieces, Separated
-from cfree.stamp import Stamp
-from cfree.trapezoids import CODED, COLUMNS, Trapezoids
+from cfree.paths.path import Path
+from cfree.planning.separation import Auxiliary, Pieces, Separated
+from cfree.polygons.polygon import Polygon
+from cfree.scene.digest import Stamp
+from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
 
 KINDS = {1: "vertex-edge", 2: "edge-vertex"}
 ENDS = ("from", "to")

@@ -8,8 +8,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from cfree.formats.findings import Findings
-from cfree.polygon import Polygon
-from cfree.scene import Scene
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 ROLES = ("robot", "obstacle", "workspace")
 

@@ -16,10 +16,10 @@ import json
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from cfree.files import checked_suffix, replacing
+from cfree.formats.atomic import checked_suffix, replacing
 
 if TYPE_CHECKING:
-    from cfree.slice import Slice
+    from cfree.forbidden.slice import Slice
 
 
 def slice_geojson(cut: Slice) -> dict[str, Any]:
@@ -27,8 +27,8 @@ def slice_geojson(cut: Slice) -> dict[str, Any]:
 
     Examples
     --------
-    >>> from cfree.forbidden import boundary
-    >>> from cfree.io import load_scene
+    >>> from cfree.forbidden.boundary import boundary
+    >>> from cfree.formats.scene_file import load_scene
     >>> cut = boundary(load_scene("examples/scenes/paper_fig9.json")).slice("30deg")
     >>> region, *contacts = slice_geojson(cut)["features"]
     >>> region["properties"]["role"], contacts[0]["properties"]["obstacle"], len(contacts)

@@ -13,12 +13,12 @@ from fractions import Fraction
 from typing import NoReturn, TypeVar
 
 from cfree.errors import InvalidPolygonError
-from cfree.exact import ExactPoint, to_fraction
+from cfree.exact.number import ExactPoint, to_fraction
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import shortened
 from cfree.formats.shapes import ROLES, Shape
-from cfree.polygon import Polygon
-from cfree.scene import explained, flat_shape
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import explained, flat_shape
 
 T = TypeVar("T")
 _LABEL = re.compile(r"\s*(?:([^:()]*):)?\s*(?:SRID\s*=\s*[0-9]+\s*;\s*)?", re.IGNORECASE)

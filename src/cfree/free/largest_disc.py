@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
-from cfree.pose import Pose
+from cfree.exact.pose import Pose
 
 if TYPE_CHECKING:
-    from cfree.cells import Cell
+    from cfree.free.space import Cell
 
 ORIENTATIONS = 9
 PRECISION = 1e-3  # of a disc's radius, relative to its slice's extent

@@ -21,16 +21,16 @@ from numpy.typing import NDArray
 
 import cfree
 from cfree.arguments import checked
+from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import FormatError, InvalidPoseError, InvariantError
-from cfree.features import BOUNDS, WORKSPACE
-from cfree.forbidden import Boundary
-from cfree.free import FORBIDDEN as CERTAINLY_FORBIDDEN
+from cfree.exact.half_angle import chart_of, tau_in_chart
+from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.columns import COLUMNS, Floats, Ints, Trapezoids
+from cfree.formats.boundary_file import CELL_COLUMNS, load_cells, save_boundary
 from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.half_angle import chart_of, tau_in_chart
-from cfree.path import Objective, Path
-from cfree.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
-from cfree.storage import CELL_COLUMNS, load_cells, save_boundary
-from cfree.trapezoids import COLUMNS, Floats, Ints, Trapezoids
+from cfree.paths.path import Objective, Path
+from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.value import Value
 
 FORBIDDEN, NO_CELL = -1, -2
@@ -85,7 +85,7 @@ class Cell(Value):
         The largest found at nine orientations of it; None if it is too narrow there for one of more than rounding. Of
         an unbounded cell the largest near the obstacles; infinite if there are none.
         """
-        from cfree.roomiest import roomiest
+        from cfree.free.largest_disc import roomiest
 
         return roomiest(self)
 
@@ -411,7 +411,7 @@ class FreeSpace(Value):
         True
         """
         start = to_pose(start, "start")
-        from cfree.invalid import require_free
+        from cfree.collision.nearest_free import require_free
 
         require_free(self.boundary, start, "start")
         cell = self.locate(start)
@@ -436,7 +436,7 @@ class FreeSpace(Value):
 
     @cached_property
     def insets(self) -> dict[int, FreeSpace | None]:
-        """Free spaces of smaller robots, as far as they were needed; see `cfree.inset.inset_space`."""
+        """Free spaces of smaller robots, as far as they were needed; see `cfree.planning.inset.inset_space`."""
         return {}
 
 

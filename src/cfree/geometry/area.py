@@ -12,12 +12,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.arguments import checked
-from cfree.exact import finite
-from cfree.forbidden import Boundary
+from cfree.exact.number import finite
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.columns import Ints
 from cfree.geometry.development import distance_across
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
-from cfree.trapezoids import Ints
 
 
 @checked

@@ -24,9 +24,9 @@ from fractions import Fraction
 from typing import TypeVar
 
 from cfree.arguments import checked
-from cfree.contact import EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
-from cfree.exact import ExactPoint
-from cfree.polygon import Polygon
+from cfree.contact.contact import EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
+from cfree.exact.number import ExactPoint
+from cfree.polygons.polygon import Polygon
 
 Key = tuple[object, ...]
 C = TypeVar("C", VertexEdge | EdgeVertex, VertexVertex)

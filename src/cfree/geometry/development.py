@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.arguments import checked
-from cfree.exact import finite
+from cfree.exact.number import finite
 from cfree.geometry.elliptic import second_kind
 from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
 

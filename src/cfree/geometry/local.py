@@ -1,6 +1,6 @@
 """The local geometry of contact surfaces: fundamental forms, normal, curvatures, directions.
 
-Paper, section 4, for both kinds of surface and for many at once. A surface is given as in `cfree.surface`,
+Paper, section 4, for both kinds of surface and for many at once. A surface is given as in `cfree.contact.surface`,
 
     S(t, phi) = (p + t q - R(phi) (a + t g), w phi),    one of q and g is 0,
 
@@ -26,7 +26,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.arguments import checked
-from cfree.exact import finite
+from cfree.exact.number import finite
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
 from cfree.value import Value
 

@@ -10,8 +10,8 @@ import numpy as np
 from cfree.geometry.ruled import Floats
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
-    from cfree.trapezoids import Ints
+    from cfree.forbidden.boundary import Boundary
+    from cfree.forbidden.columns import Ints
 
 NODES = 8  # over an interval of orientations
 CLOSE = 1e-12

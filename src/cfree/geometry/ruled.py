@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.exact import finite
+from cfree.exact.number import finite
 
 Floats = NDArray[np.float64]
 

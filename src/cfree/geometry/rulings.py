@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cfree.arguments import checked
+from cfree.contact.surface import Helix, Surface
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
-from cfree.surface import Helix, Surface
 
 
 @checked

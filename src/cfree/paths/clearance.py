@@ -9,13 +9,13 @@ from fractions import Fraction
 import numpy as np
 
 from cfree.arguments import checked
-from cfree.motion import Motion, Translation
-from cfree.motion_check import MotionChecker
-from cfree.nearest import Floats, Ints, Walls
-from cfree.pace import Pace, reach
-from cfree.path import Clearance, Path
-from cfree.pose import Poses
-from cfree.scene import Scene
+from cfree.collision.distance import Floats, Ints, Walls
+from cfree.collision.motion import Motion, Translation
+from cfree.collision.motion_checker import MotionChecker
+from cfree.exact.pose import Poses
+from cfree.paths.path import Clearance, Path
+from cfree.paths.travel import Pace, reach
+from cfree.scene.scene import Scene
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
 MOST = 1 << 12  # parts of motions looked at together: where more would be needed, what is known is the bound
@@ -108,8 +108,8 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
 
     Examples
     --------
-    >>> from cfree.pose import Pose
-    >>> from cfree.scene import Scene
+    >>> from cfree.exact.pose import Pose
+    >>> from cfree.scene.scene import Scene
     >>> gates = [[(x, -9), (x + 1, -9), (x + 1, -gap), (x, -gap)] for x, gap in ((3, 1), (9, 2), (15, 1.5))]
     >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=gates)
     >>> [(place.found, place.obstacle[0]) for place in narrowest(Path(Pose(0, 0), [Translation((20, 0))]), scene)]

@@ -5,14 +5,14 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UnsupportedError
-from cfree.grown import grown_by_square
-from cfree.inset import with_robot
-from cfree.motion_check import MotionChecker
-from cfree.path import Path
+from cfree.paths.path import Path
+from cfree.planning.inset import with_robot
+from cfree.scene.dilation import grown_by_square
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
+    from cfree.scene.scene import Scene
 
 
 def keeps_leeway(path: Path, scene: Scene, leeway: Fraction) -> bool:

@@ -18,15 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
+from cfree.collision.motion import Motion, Rotation, Translation
+from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.slide import Slide
 from cfree.errors import UnsupportedError
-from cfree.exact import Number, to_fraction
-from cfree.files import replacing
-from cfree.motion import Motion, Rotation, Translation
-from cfree.motion_check import MotionChecker
-from cfree.pose import Pose, PoseLike, Poses, to_pose
-from cfree.scene import Scene
-from cfree.slide import Slide
-from cfree.stamp import Stamp, stamp_for
+from cfree.exact.number import Number, to_fraction
+from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+from cfree.formats.atomic import replacing
+from cfree.scene.digest import Stamp, stamp_for
+from cfree.scene.scene import Scene
 
 Objective = Literal["short", "clear"]
 Floats = NDArray[np.float64]
@@ -80,7 +80,7 @@ class Path:
 
     Examples
     --------
-    >>> from cfree.motion import Rotation
+    >>> from cfree.collision.motion import Rotation
     >>> path = Path(Pose(0, 0), [Translation((2, 0)), Rotation((2, 1), "90deg")])
     >>> path.goal == Pose(3, 1, "90deg"), path.turning == math.pi / 2, path.length == 2 + math.pi / 2
     (True, True, True)
@@ -236,7 +236,7 @@ class Path:
 
         Examples
         --------
-        >>> from cfree.scene import Scene
+        >>> from cfree.scene.scene import Scene
         >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
         >>> checker = MotionChecker(Scene(robot=square, obstacles=[[(2, 0), (3, 0), (3, 3)]]))
         >>> Path(Pose(0, 0), [Translation((1, 0)), Translation((0, 4))]).is_free(checker)
@@ -274,14 +274,14 @@ class Path:
 
         Examples
         --------
-        >>> from cfree.scene import Scene
+        >>> from cfree.scene.scene import Scene
         >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
         >>> scene = Scene(robot=square, obstacles=[(2, "1.25"), (5, "1.25"), (5, 3), (2, 3)])
         >>> found = Path(Pose(0, 0), [Translation((7, 0))]).clearance(scene, tolerance=1e-3)
         >>> found.found, found.least > 0.249, found.obstacle
         (0.25, True, (0, 0))
         """
-        from cfree.path_clearance import least_clearance, walls_beside
+        from cfree.paths.clearance import least_clearance, walls_beside
 
         return least_clearance(self, walls_beside(self, scene), tolerance)
 
@@ -319,7 +319,7 @@ class Path:
         """
         from cfree.formats.path_format import path_text
         from cfree.formats.poses_text import csv_text, geojson_text, ros_text
-        from cfree.leeway import keeps_leeway
+        from cfree.paths.leeway import keeps_leeway
 
         kind, scene = form_of(path, form), scene or self.scene
         if kind == "json":

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.motion import Motion, Translation
-from cfree.pose import Pose
-from cfree.slide import Slide
+from cfree.collision.motion import Motion, Translation
+from cfree.collision.slide import Slide
+from cfree.exact.pose import Pose
 
 if TYPE_CHECKING:
-    from cfree.path import Path
-    from cfree.scene import Scene
+    from cfree.paths.path import Path
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -35,9 +35,9 @@ class Pace:
 
     Examples
     --------
-    >>> from cfree.motion import Rotation
-    >>> from cfree.path import Path
-    >>> from cfree.scene import Scene
+    >>> from cfree.collision.motion import Rotation
+    >>> from cfree.paths.path import Path
+    >>> from cfree.scene.scene import Scene
     >>> rod = Scene(robot=[(0, 0), (4, 0), (4, 1)])
     >>> path = Path(Pose(0, 0), [Translation((5, 0)), Rotation((9, 1), "90deg")])  # (4, 1) is the pole, then
     >>> pace = Pace(path, rod)

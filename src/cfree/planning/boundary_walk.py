@@ -15,18 +15,18 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.cells import surfaces_with_slits
+from cfree.collision.motion import Translation
+from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.slide import Slide
 from cfree.errors import InvariantError
-from cfree.motion import Translation
-from cfree.motion_check import MotionChecker
-from cfree.planning.corridor import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
-from cfree.planning.exits import Exits
-from cfree.planning.sheet import FINEST, Sheet, Vector, between, common_part, common_tau, rotated
-from cfree.pose import Pose
-from cfree.slide import Slide
+from cfree.exact.pose import Pose
+from cfree.free.space import surfaces_with_slits
+from cfree.planning.departures import Exits
+from cfree.planning.exact_face import FINEST, Sheet, Vector, between, common_part, common_tau, rotated
+from cfree.planning.face_graph import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
 
 if TYPE_CHECKING:
-    from cfree.cells import FreeSpace
+    from cfree.free.space import FreeSpace
 
 MOST_HALVINGS = 4096  # more than any scene needs
 SLID = 48  # halvings after which slides along a trapezoid's curves are tried as well

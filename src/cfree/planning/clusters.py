@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.trapezoids import Floats, Ints
+from cfree.forbidden.columns import Floats, Ints
 
 
 def clusters(points: Floats, near: float) -> list[Ints]:

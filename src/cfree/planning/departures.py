@@ -11,14 +11,14 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from cfree.errors import InvariantError
-from cfree.features import unpacked
-from cfree.planning.corridor import Landing
-from cfree.planning.sheet import HELIX, Sheet, between
-from cfree.planning.slides import same_line, slide
-from cfree.pose import Pose
+from cfree.exact.pose import Pose
+from cfree.planning.double_contact import same_line, slide
+from cfree.planning.exact_face import HELIX, Sheet, between
+from cfree.planning.face_graph import Landing
+from cfree.scene.features import unpacked
 
 if TYPE_CHECKING:
-    from cfree.planning.walk import Walker
+    from cfree.planning.boundary_walk import Walker
 
 MOST_HALVINGS = 4096  # of the way to the other end of a trapezoid: more than any scene needs
 

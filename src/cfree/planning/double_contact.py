@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 from flint import fmpq, fmpq_poly
 
+from cfree.collision.slide import Slide, Touch, control_points, terms_of
 from cfree.errors import InvalidPoseError
-from cfree.features import SceneFeatures, ShapeFeatures
-from cfree.half_angle import half_angle_rotation
-from cfree.planning.sheet import Contact, Curve, as_flint, contact_line, curve_cross, positions_over
-from cfree.pose import Pose
-from cfree.slide import Slide, Touch, control_points, terms_of
+from cfree.exact.half_angle import half_angle_rotation
+from cfree.exact.pose import Pose
+from cfree.planning.exact_face import Contact, Curve, as_flint, contact_line, curve_cross, positions_over
+from cfree.scene.features import SceneFeatures, ShapeFeatures
 
 
 def slide(features: SceneFeatures, pose: Pose, first: Contact, last: Contact, tau: Fraction) -> Slide | None:

@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq, fmpq_poly
 
-from cfree.exact import simplest_between
-from cfree.features import SceneFeatures, ShapeFeatures, unpacked
-from cfree.half_angle import half_angle_rotation, tau_in_chart, theta_in
-from cfree.pose import Pose
+from cfree.exact.half_angle import half_angle_rotation, tau_in_chart, theta_in
+from cfree.exact.number import simplest_between
+from cfree.exact.pose import Pose
+from cfree.scene.features import SceneFeatures, ShapeFeatures, unpacked
 
 if TYPE_CHECKING:
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 FINEST = 32  # bits of tau that doubles are trusted with
 AngleOf = Callable[[int, bool, int], tuple[Fraction, Fraction]]

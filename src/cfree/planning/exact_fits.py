@@ -12,11 +12,11 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from cfree.planning.places import Holder, Places
-from cfree.pose import Pose
+from cfree.exact.pose import Pose
+from cfree.planning.meeting_places import Holder, Places
 
 if TYPE_CHECKING:
-    from cfree.planning.walk import Walker
+    from cfree.planning.boundary_walk import Walker
 
 Node = Pose | Holder
 Way = list[Pose]

@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.pose import Pose
-from cfree.trapezoids import Floats
+from cfree.exact.pose import Pose
+from cfree.forbidden.columns import Floats
 
 if TYPE_CHECKING:
-    from cfree.cells import FreeSpace
+    from cfree.free.space import FreeSpace
 
 UPPER, LAST, LOWER = 1, 2, 3
 

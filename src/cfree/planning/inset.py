@@ -16,14 +16,14 @@ import numpy as np
 import shapely
 
 from cfree.errors import UnsupportedError
-from cfree.exact import ExactPoint
-from cfree.polygon import Polygon
-from cfree.rings import containers, doubled_area
-from cfree.scene import Scene
-from cfree.sweep import EdgesMeet, sweep
+from cfree.exact.number import ExactPoint
+from cfree.polygons.polygon import Polygon
+from cfree.polygons.rings import containers, doubled_area
+from cfree.polygons.segment_sweep import EdgesMeet, sweep
+from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
-    from cfree.cells import FreeSpace
+    from cfree.free.space import FreeSpace
 
 FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 FINER = 12  # bits of an inset that survive the rounding of its polygons
@@ -124,8 +124,8 @@ def _is_inside(inner: Polygon, outer: Polygon) -> bool:
 
 def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:
     """Free space of a robot smaller by 2**power in bounds as much larger; None if nothing is left of the robot."""
-    from cfree.cells import free_space
-    from cfree.forbidden import boundary
+    from cfree.forbidden.boundary import boundary
+    from cfree.free.space import free_space
 
     if power not in space.insets:
         scene, by = space.boundary.scene, Fraction(2) ** power

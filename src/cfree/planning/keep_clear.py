@@ -14,14 +14,14 @@ from itertools import pairwise
 
 import numpy as np
 
+from cfree.collision.motion import motion_between
+from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.pose_checker import Checker
 from cfree.errors import UnsupportedError
-from cfree.free import Checker
-from cfree.grown import grown
-from cfree.inset import with_robot
-from cfree.motion import motion_between
-from cfree.motion_check import MotionChecker
-from cfree.pose import Pose, Poses
-from cfree.scene import Scene
+from cfree.exact.pose import Pose, Poses
+from cfree.planning.inset import with_robot
+from cfree.scene.dilation import grown
+from cfree.scene.scene import Scene
 
 WayOf = Callable[[Scene, Pose, Pose], Sequence[Pose] | None]
 HALVINGS = 10  # of the margin, from the robot's radius on

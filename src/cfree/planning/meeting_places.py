@@ -16,14 +16,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 import shapely
 
+from cfree.exact.pose import Pose
+from cfree.forbidden.columns import Ints
 from cfree.planning.clusters import clusters
-from cfree.planning.sheet import Sheet, between, common_tau, contact_of
-from cfree.planning.thin import ThinPart
-from cfree.pose import Pose
-from cfree.trapezoids import Ints
+from cfree.planning.exact_face import Sheet, between, common_tau, contact_of
+from cfree.planning.thin_parts import ThinPart
 
 if TYPE_CHECKING:
-    from cfree.planning.walk import Walker
+    from cfree.planning.boundary_walk import Walker
 
 NEAR = 1e-9  # of the scene's size: what doubles do not tell apart
 HALVINGS = (4, 16, 64)  # of the way to the other end: how near to an irrational orientation a slide begins

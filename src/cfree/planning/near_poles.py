@@ -12,13 +12,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from cfree.exact import ExactPoint
-from cfree.motion import Rotation, motion_between
-from cfree.motion_check import MotionChecker
-from cfree.pose import Pose
+from cfree.collision.motion import Rotation, motion_between
+from cfree.collision.motion_checker import MotionChecker
+from cfree.exact.number import ExactPoint
+from cfree.exact.pose import Pose
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
+    from cfree.scene.scene import Scene
 
 FAR = 1000  # sizes of the scene
 PARTS = (1, 2, 4)  # of a motion, each replaced by a turn and a translation

@@ -18,27 +18,27 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from cfree.arguments import checked
-from cfree.cells import FreeSpace
+from cfree.collision.motion import Rotation, motion_between
+from cfree.collision.motion_checker import MotionChecker
+from cfree.collision.nearest_free import require_free
+from cfree.collision.slide import Slide
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
-from cfree.extent import LARGEST
-from cfree.forbidden import boundary
-from cfree.inset import insets_of
-from cfree.invalid import require_free
-from cfree.mesh import robot_radius
-from cfree.motion import Rotation, motion_between
-from cfree.motion_check import MotionChecker
-from cfree.path import Objective, Path
-from cfree.planning.poles import near_poles
-from cfree.planning.search import Searcher, area, simple_ways
-from cfree.planning.walk import Walker
-from cfree.pose import Pose, PoseLike, to_pose
-from cfree.scene import Scene, required
-from cfree.separated import Separated
-from cfree.slide import Slide
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.forbidden.boundary import boundary
+from cfree.forbidden.mesh import robot_radius
+from cfree.free.space import FreeSpace
+from cfree.paths.path import Objective, Path
+from cfree.planning.boundary_walk import Walker
+from cfree.planning.inset import insets_of
+from cfree.planning.near_poles import near_poles
+from cfree.planning.rrt_connect import Searcher, area, simple_ways
+from cfree.planning.separation import Separated
+from cfree.scene.coordinate_range import LARGEST
+from cfree.scene.scene import Scene, required
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.planning.passages import Passages
+    from cfree.planning.exact_fits import Passages
 
 Phase = Callable[[str], AbstractContextManager[Any]]
 SEARCH = 10_000  # motions checked at most before the free space is built
@@ -152,20 +152,20 @@ class Planner(Value):
     @cached_property
     def walker(self) -> Walker:
         """Of the free space."""
-        from cfree.planning.walk import Walker
+        from cfree.planning.boundary_walk import Walker
 
         return Walker(self.free_space, self.checker, self.angle_scale, self._slides)
 
     @cached_property
     def _passages(self) -> Passages:
-        from cfree.planning.passages import Passages
+        from cfree.planning.exact_fits import Passages
 
         return Passages(self.walker)
 
     @property
     def free_space(self) -> FreeSpace:
         """The cells, computed when first asked for."""
-        from cfree.cells import free_space
+        from cfree.free.space import free_space
 
         if self.space is None:
             with self.phase("free space") as share:
@@ -227,7 +227,7 @@ class Planner(Value):
 
     def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """What the free space says: poses of a path, or a proof."""
-        from cfree.separated import separation
+        from cfree.planning.separation import separation
 
         space = self.free_space
         with self.phase("path in a cell"):
@@ -304,7 +304,7 @@ class Planner(Value):
         return searcher.poses(best.path())
 
     def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
-        from cfree.planning.clear import clear
+        from cfree.planning.keep_clear import clear
 
         end = time.perf_counter() + (seconds or 0)
 
@@ -405,7 +405,7 @@ def plan_many(
     """
     from concurrent.futures import ThreadPoolExecutor
 
-    from cfree.cells import free_space
+    from cfree.free.space import free_space
 
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")

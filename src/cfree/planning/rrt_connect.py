@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.mesh import robot_radius
-from cfree.motion_check import MotionChecker
-from cfree.pose import Pose
+from cfree.collision.motion_checker import MotionChecker
+from cfree.exact.pose import Pose
+from cfree.forbidden.mesh import robot_radius
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
+    from cfree.scene.scene import Scene
 
 Places = tuple[float, float, float, float]
 PLACE_BITS, ANGLE_BITS = 24, 20  # of random poses: few, for short integers

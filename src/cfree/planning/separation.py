@@ -19,22 +19,22 @@ from numpy.typing import NDArray
 
 import cfree
 from cfree.arguments import checked
-from cfree.cells import FORBIDDEN, FreeSpace
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
-from cfree.exact import ExactPoint
-from cfree.features import unpacked
-from cfree.files import replacing
-from cfree.forbidden import Boundary
-from cfree.inset import inset_space, insets_of, size_power
-from cfree.polygon import Polygon
-from cfree.pose import Pose, PoseLike, to_pose
-from cfree.scene import Bounds, Scene
-from cfree.stamp import Stamp, stamp_for
-from cfree.trapezoids import CODED, COLUMNS, Ints, Trapezoids
+from cfree.exact.number import ExactPoint
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.columns import CODED, COLUMNS, Ints, Trapezoids
+from cfree.formats.atomic import replacing
+from cfree.free.space import FORBIDDEN, FreeSpace
+from cfree.planning.inset import inset_space, insets_of, size_power
+from cfree.polygons.polygon import Polygon
+from cfree.scene.digest import Stamp, stamp_for
+from cfree.scene.features import unpacked
+from cfree.scene.scene import Bounds, Scene
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.features import SceneFeatures
+    from cfree.scene.features import SceneFeatures
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ class Separated:
 
         Computed when first asked for; None if there is none. Needs `scene`.
         """
-        from cfree.margins import nearest_miss
+        from cfree.analysis.margins import nearest_miss
 
         if self.scene is None:
             raise ValueError("the scene is not in a file: call cfree.nearest_miss(scene, start, goal)")

@@ -6,12 +6,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from cfree.planning.sheet import Sheet, Vector, between, contact_of, cross, dot, minus
-from cfree.pose import Pose
-from cfree.trapezoids import CURVE
+from cfree.exact.pose import Pose
+from cfree.forbidden.columns import CURVE
+from cfree.planning.exact_face import Sheet, Vector, between, contact_of, cross, dot, minus
 
 if TYPE_CHECKING:
-    from cfree.planning.walk import Walker
+    from cfree.planning.boundary_walk import Walker
 
 SAMPLES = 8  # of a curve
 MOST_PARTS = 64  # of a curve: one slide does unless its formula cannot be seen to be defined on all of it

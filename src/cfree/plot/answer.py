@@ -12,19 +12,19 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
-from cfree.forbidden import Boundary
-from cfree.mesh import robot_radius
-from cfree.outlines import Window, draw_robot, draw_surroundings, path_of, rings_of
-from cfree.path import Path
-from cfree.plot import around, new_figure, new_space, set_window, with_unit
-from cfree.plot3d import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
-from cfree.plot_way import LIMIT, Track, draw_track, statement
-from cfree.scene import Scene
-from cfree.separated import Separated
-from cfree.slab import Range, chosen, distances, slab
-from cfree.strips import strips
-from cfree.trapezoids import ISOLATED_COLUMNS, IsolatedParts
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
+from cfree.forbidden.mesh import robot_radius
+from cfree.paths.path import Path
+from cfree.planning.separation import Separated
+from cfree.plot.boundary import around, new_figure, new_space, set_window, with_unit
+from cfree.plot.depth_sort import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
+from cfree.plot.path import LIMIT, Track, draw_track, statement
+from cfree.plot.strips import strips
+from cfree.plot.unrolled import Range, chosen, distances, slab
+from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.scene.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
+from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 
@@ -63,11 +63,11 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
     Examples
     --------
-    >>> from cfree.forbidden import boundary
-    >>> from cfree.motion import rotations
-    >>> from cfree.path import Path
-    >>> from cfree.pose import Pose
-    >>> from cfree.scene import Scene
+    >>> from cfree.forbidden.boundary import boundary
+    >>> from cfree.collision.motion import rotations
+    >>> from cfree.paths.path import Path
+    >>> from cfree.exact.pose import Pose
+    >>> from cfree.scene.scene import Scene
     >>> scene = Scene(robot=[(0, 0), (2, 0), (2, 1), (0, 1)], obstacles=[[(3, 2), (6, 2), (6, 4)]], units="m")
     >>> ax = plot_path_space(Path(Pose(0, 0), rotations((-1, 0), "400deg")), boundary(scene))
     >>> [float(limit) for limit in ax.get_zlim()]
@@ -106,15 +106,15 @@ def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = 
     Examples
     --------
     >>> from cfree.planning.planner import plan
-    >>> from cfree.pose import Pose
-    >>> from cfree.scene import Scene
+    >>> from cfree.exact.pose import Pose
+    >>> from cfree.scene.scene import Scene
     >>> hall, wall = [(0, 0), (9, 0), (9, 3), (0, 3)], [(4, -1), (5, -1), (5, 4)]
     >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], workspace=hall)
     >>> figure = picture(plan(scene, Pose(1, 1), Pose(7, 1)), scene)
     >>> [text.get_text() for text in figure.texts]
     ['no path from start to goal', 'parted by workspace, obstacle 0']
     """
-    from cfree.separated import Separated
+    from cfree.planning.separation import Separated
 
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
@@ -162,7 +162,7 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene) -> N
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
     """The surface of a separation, as a boundary of its trapezoids alone: to be drawn, it answers no questions."""
-    from cfree.forbidden import Boundary, Stats
+    from cfree.forbidden.boundary import Boundary, Stats
 
     if answer.of == "closed":
         scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)

@@ -18,15 +18,15 @@ from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.files import checked_suffix, replacing
-from cfree.forbidden import Boundary
-from cfree.isolated_lines import ISOLATED_COLOUR, isolated_at, isolated_lines
-from cfree.mesh import COLOURS, KINDS
-from cfree.outlines import BOUNDS, ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
-from cfree.pose import Pose
-from cfree.scene import Scene
-from cfree.slice import Slice
-from cfree.strips import THIN, strips
+from cfree.exact.pose import Pose
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
+from cfree.forbidden.mesh import COLOURS, KINDS
+from cfree.forbidden.slice import Slice
+from cfree.formats.atomic import checked_suffix, replacing
+from cfree.plot.strips import THIN, strips
+from cfree.plot.workspace import BOUNDS, ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
+from cfree.scene.scene import Scene
 
 FORBIDDEN = "#e4e4e9"
 
@@ -48,7 +48,7 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     -----
     Without start and goal the robot is drawn where its file has it, with the reference point at the origin.
     """
-    from cfree.pose import Pose
+    from cfree.exact.pose import Pose
 
     ax = ax or new_axes((7, 6))
     boxes = draw_surroundings(ax, scene)
@@ -101,7 +101,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
 
 @checked
 def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
-    """Contact patches in (x, y, theta), in the paper's colours; see `cfree.plot3d` for how they are drawn.
+    """Contact patches in (x, y, theta), in the paper's colours; see `cfree.plot.depth_sort` for how they are drawn.
 
     Parameters
     ----------
@@ -116,7 +116,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     from matplotlib.patches import Patch
     from matplotlib.ticker import MaxNLocator
 
-    from cfree.plot3d import CUT, SECTION_COLOUR, Colours, Painting, pieces_of
+    from cfree.plot.depth_sort import CUT, SECTION_COLOUR, Colours, Painting, pieces_of
 
     if ax is None:
         ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))

@@ -17,13 +17,13 @@ from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d import proj3d
 from numpy.typing import NDArray
 
-from cfree.mesh import COLOURS, robot_radius
-from cfree.strips import Strips, step_for, strips
+from cfree.forbidden.mesh import COLOURS, robot_radius
+from cfree.plot.strips import Strips, step_for, strips
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
 
-    from cfree.forbidden import Boundary
+    from cfree.forbidden.boundary import Boundary
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

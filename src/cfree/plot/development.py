@@ -8,11 +8,11 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from cfree.arguments import checked
-from cfree.contact import VertexEdge, angle_range
+from cfree.contact.contact import VertexEdge, angle_range
+from cfree.contact.surface import contact_surface
+from cfree.forbidden.mesh import COLOURS
 from cfree.geometry.development import develop
-from cfree.mesh import COLOURS
-from cfree.polygon import Polygon
-from cfree.surface import contact_surface
+from cfree.polygons.polygon import Polygon
 
 HELICES, RULINGS, POINTS = 9, 13, 241  # lines drawn, and points of a curve
 

@@ -12,17 +12,17 @@ from matplotlib.cm import ScalarMappable
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.mesh import robot_radius
-from cfree.motion import Translation
-from cfree.nearest import Walls
-from cfree.outlines import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
-from cfree.pace import Pace
-from cfree.path import Clearance, Path
-from cfree.path_clearance import least_clearance, walls_beside
-from cfree.plot import around, new_axes, set_window, with_unit
-from cfree.polygon import Polygon
-from cfree.pose import Pose, Poses
-from cfree.scene import Scene
+from cfree.collision.distance import Walls
+from cfree.collision.motion import Translation
+from cfree.exact.pose import Pose, Poses
+from cfree.forbidden.mesh import robot_radius
+from cfree.paths.clearance import least_clearance, walls_beside
+from cfree.paths.path import Clearance, Path
+from cfree.paths.travel import Pace
+from cfree.plot.boundary import around, new_axes, set_window, with_unit
+from cfree.plot.workspace import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 
@@ -135,10 +135,10 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
 
     Examples
     --------
-    >>> from cfree.motion import Rotation, Translation
-    >>> from cfree.path import Path
-    >>> from cfree.pose import Pose
-    >>> from cfree.scene import Scene
+    >>> from cfree.collision.motion import Rotation, Translation
+    >>> from cfree.paths.path import Path
+    >>> from cfree.exact.pose import Pose
+    >>> from cfree.scene.scene import Scene
     >>> scene = Scene(robot=[(0, 0), (2, 0), (2, 1), (0, 1)], obstacles=[[(2, 3), (5, 3), (5, 4)]], units="m")
     >>> ax = plot_path(Path(Pose(0, 0), [Translation((4, 0)), Rotation((6, 0), "-90deg")]), scene)
     >>> ax.get_title()

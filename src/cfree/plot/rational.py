@@ -15,10 +15,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.contact import EdgeVertex, VertexEdge
-from cfree.mesh import COLOURS
-from cfree.polygon import Polygon
-from cfree.predicates import Location
+from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.exact.orientation import Location
+from cfree.forbidden.mesh import COLOURS
+from cfree.polygons.polygon import Polygon
 from cfree.rational.model import RationalSurface, rational_surface, to_rational
 
 Floats = NDArray[np.float64]

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.plot3d import CURVE, WALL, Pieces, joined
+from cfree.plot.depth_sort import CURVE, WALL, Pieces, joined
 
 if TYPE_CHECKING:
-    from cfree.outlines import Window
+    from cfree.plot.workspace import Window
 
 Floats = NDArray[np.float64]
 Range = tuple[float, float]

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.path import Path
 
-    from cfree.pose import Pose
-    from cfree.scene import Scene
+    from cfree.exact.pose import Pose
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Window = tuple[float, float, float, float]

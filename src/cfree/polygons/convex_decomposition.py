@@ -14,14 +14,14 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING
 
-from cfree.ears import clip_ears
 from cfree.errors import InvariantError
-from cfree.exact import IntPoint
-from cfree.predicates import Orientation, orient
-from cfree.sweep import Nesting, sweep
+from cfree.exact.number import IntPoint
+from cfree.exact.orientation import Orientation, orient
+from cfree.polygons.ear_clipping import clip_ears
+from cfree.polygons.segment_sweep import Nesting, sweep
 
 if TYPE_CHECKING:
-    from cfree.polygon import Polygon
+    from cfree.polygons.polygon import Polygon
 
 Ring = list[int]
 Triangle = tuple[int, int, int]
@@ -41,7 +41,7 @@ def convex_pieces(polygon: Polygon) -> tuple[tuple[int, ...], ...]:
 
     Examples
     --------
-    >>> from cfree.polygon import Polygon
+    >>> from cfree.polygons.polygon import Polygon
     >>> convex_pieces(Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]))
     ((0, 1, 2, 3), (0, 3, 4, 5))
     """

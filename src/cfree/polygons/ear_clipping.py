@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from cfree.errors import InvariantError
-from cfree.exact import IntPoint
-from cfree.predicates import Location, Meeting, Orientation, locate_in_sector, meet, orient
-from cfree.rings import doubled_area
+from cfree.exact.number import IntPoint
+from cfree.exact.orientation import Location, Meeting, Orientation, locate_in_sector, meet, orient
+from cfree.polygons.rings import doubled_area
 
 
 def clip_ears(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[tuple[int, int, int]]:

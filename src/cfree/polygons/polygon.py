@@ -22,9 +22,9 @@ from shapely.geometry.base import BaseGeometry
 
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
-from cfree.exact import ExactPoint, IntPoint, angle
-from cfree.predicates import Orientation, orient
-from cfree.rings import Points, Removed, doubled_area, read_rings
+from cfree.exact.number import ExactPoint, IntPoint, angle
+from cfree.exact.orientation import Orientation, orient
+from cfree.polygons.rings import Points, Removed, doubled_area, read_rings
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -38,7 +38,7 @@ class Polygon:
     Parameters
     ----------
     outer : (n, 2) array or sequence of pairs of numbers
-        In either direction; a last point equal to the first is dropped. Numbers as in `cfree.exact`.
+        In either direction; a last point equal to the first is dropped. Numbers as in `cfree.exact.number`.
     holes : sequence of the same
         Inside the outer ring, apart from it and from each other.
 
@@ -215,7 +215,7 @@ class Polygon:
     @cached_property
     def pieces(self) -> tuple[tuple[int, ...], ...]:
         """Convex pieces that cover the polygon, counter-clockwise, as indices of vertices."""
-        from cfree.decompose import convex_pieces
+        from cfree.polygons.convex_decomposition import convex_pieces
 
         return convex_pieces(self)
 

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import InvalidPolygonError
-from cfree.exact import MAX_DIGITS, ExactPoint, IntPoint, Number, to_ratio
-from cfree.predicates import (
+from cfree.exact.number import MAX_DIGITS, ExactPoint, IntPoint, Number, to_ratio
+from cfree.exact.orientation import (
     Meeting,
     Orientation,
     Vector,
@@ -26,7 +26,7 @@ from cfree.predicates import (
     orient,
     turn,
 )
-from cfree.sweep import EdgesMeet, Nesting, sweep
+from cfree.polygons.segment_sweep import EdgesMeet, Nesting, sweep
 
 Points = Sequence[Sequence[Number]] | NDArray[Any]
 Ratios = list[tuple[tuple[int, int], tuple[int, int]]]

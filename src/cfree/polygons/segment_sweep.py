@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise
 
 from cfree.errors import InvariantError
-from cfree.exact import IntPoint
-from cfree.predicates import Location, Meeting, Orientation, locate_in_sector, meet, orient
+from cfree.exact.number import IntPoint
+from cfree.exact.orientation import Location, Meeting, Orientation, locate_in_sector, meet, orient
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ bidegree (1, 2) in (x, y) alone. Control points are values of the polar form; so
 
 The middle weight of degree 2 is positive exactly if the angle spans less than half a turn; those of degree 3 are at
 least 2/3 for u and v of one chart. Since tau has no value at the half turn, a patch that passes it is cut, and where
-|tau| > 1 it is written in the other chart of `cfree.half_angle`.
+|tau| > 1 it is written in the other chart of `cfree.exact.half_angle`.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.exact import ExactPoint, Number, to_fraction
-from cfree.files import replacing
-from cfree.half_angle import chart_intervals, seen_in_chart
+from cfree.contact.surface import Surface
+from cfree.exact.half_angle import chart_intervals, seen_in_chart
+from cfree.exact.number import ExactPoint, Number, to_fraction
+from cfree.formats.atomic import replacing
 from cfree.rational.model import RationalSurface
-from cfree.surface import Surface
 
 Floats = NDArray[np.float64]
 Row = tuple[tuple[Fraction, ...], ...]
@@ -62,9 +62,9 @@ class BezierPatch:
 
     Examples
     --------
-    >>> from cfree.contact import EdgeVertex
-    >>> from cfree.polygon import Polygon
-    >>> from cfree.surface import contact_surface
+    >>> from cfree.contact.contact import EdgeVertex
+    >>> from cfree.polygons.polygon import Polygon
+    >>> from cfree.contact.surface import contact_surface
     >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     >>> patch = bezier_patch(contact_surface(square, square, EdgeVertex(0, 2)), 0, 1)
     >>> [str(w) for w in patch.weights]
@@ -139,9 +139,9 @@ def bezier_patch(
 
     Examples
     --------
-    >>> from cfree.contact import VertexEdge
-    >>> from cfree.polygon import Polygon
-    >>> from cfree.surface import contact_surface
+    >>> from cfree.contact.contact import VertexEdge
+    >>> from cfree.polygons.polygon import Polygon
+    >>> from cfree.contact.surface import contact_surface
     >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     >>> S = contact_surface(square, square, VertexEdge(0, 2))
     >>> [str(w) for w in bezier_patch(S, "-1/2", 1, dimension=2).weights]
@@ -192,8 +192,8 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
 
     Examples
     --------
-    >>> from cfree.contact import VertexEdge
-    >>> from cfree.polygon import Polygon
+    >>> from cfree.contact.contact import VertexEdge
+    >>> from cfree.polygons.polygon import Polygon
     >>> from cfree.rational.model import rational_surface
     >>> triangle, square = Polygon([(0, 0), (2, 0), (1, 1)]), Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     >>> patch = rational_surface(triangle, square, VertexEdge(1, 2))     # from -135 to 0 degrees

@@ -6,7 +6,7 @@ Paper, eq. (2) and section 5. The rotation by theta is the rational matrix
 
 so eqs. (4), (5), (8) and the curves of section 3.3 are rational functions of tau and t, and map fractions to
 fractions. tau runs through all numbers and infinity, which is one point, the half turn: None where numbers are exact,
-inf in arrays. The sub-domain Phi ends at numbers with one square root (`cfree.rational.surd`).
+inf in arrays. The sub-domain Phi ends at numbers with one square root (`cfree.exact.surd`).
 
     contact     surface or curve                     on fractions                 a contact for
     v-e, e-v    S(t, tau) = p + t q - M (a + t g)    x, y, tau fractions          t in [0, 1], tau in Phi
@@ -26,13 +26,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
-from cfree.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, end_directions
-from cfree.exact import Number, to_fraction
-from cfree.half_angle import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
-from cfree.polygon import Polygon
-from cfree.predicates import Location, Order, compare_directions, locate_in_sector
-from cfree.rational.surd import ExactAngle, Surd
-from cfree.surface import Helix, Surface, contact_helix, contact_surface
+from cfree.contact.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, end_directions
+from cfree.contact.surface import Helix, Surface, contact_helix, contact_surface
+from cfree.exact.half_angle import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
+from cfree.exact.number import Number, to_fraction
+from cfree.exact.orientation import Location, Order, compare_directions, locate_in_sector
+from cfree.exact.surd import ExactAngle, Surd
+from cfree.polygons.polygon import Polygon
 
 Floats = NDArray[np.float64]
 HalfTangent = Fraction | None
@@ -226,7 +226,7 @@ class RationalSegment:
     angle : ExactAngle
         phi_min.
     t_range : (Surd, Surd)
-        Closed range of t where it is a contact, see `cfree.contact.edge_edge_range`.
+        Closed range of t where it is a contact, see `cfree.contact.contact.edge_edge_range`.
 
     Examples
     --------
@@ -279,7 +279,7 @@ def rational_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> Ratio
     Raises
     ------
     ValueError
-        If it never is a contact, as in `cfree.contact.angle_range`.
+        If it never is a contact, as in `cfree.contact.contact.angle_range`.
 
     Notes
     -----

@@ -13,7 +13,7 @@ from itertools import chain
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from cfree.polygon import Polygon
+    from cfree.polygons.polygon import Polygon
 
 Path = tuple[str | int, ...]  # as in a scene file
 

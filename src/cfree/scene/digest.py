@@ -13,8 +13,8 @@ from itertools import chain, pairwise
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from cfree.polygon import Polygon
-    from cfree.scene import Bounds, Scene
+    from cfree.polygons.polygon import Polygon
+    from cfree.scene.scene import Bounds, Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +50,7 @@ def stamp_of(scene: Scene) -> Stamp:
 
     Examples
     --------
-    >>> from cfree.scene import Scene
+    >>> from cfree.scene.scene import Scene
     >>> stamp = stamp_of(Scene([(0, 0), (0, 1), ("1/3", 0)]))
     >>> stamp.sha256[:8], *map(str, stamp.robot)
     ('240feabd', '0', '0', '1/3', '1')

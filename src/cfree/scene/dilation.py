@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
-from cfree.exact import ExactPoint
-from cfree.polygon import Polygon
-from cfree.scene import Scene
+from cfree.exact.number import ExactPoint
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 SIDES = 16  # of the polygon that stands for a disc
 ROUNDING = 1 + 2**-20  # more than that of its coordinates

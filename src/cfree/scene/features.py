@@ -23,10 +23,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import UnsupportedError
-from cfree.polygon import Polygon
+from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
+    from cfree.scene.scene import Scene
 
 Point = tuple[int, int]
 Box = tuple[int, int, int, int]

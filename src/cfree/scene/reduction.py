@@ -8,8 +8,8 @@ from contextlib import suppress
 from itertools import pairwise
 
 from cfree.errors import CfreeError
-from cfree.polygon import Polygon
-from cfree.scene import Scene
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
 
 
 def smallest_scene(scene: Scene, fails: Callable[[Scene], bool], *, seconds: float = 20.0) -> Scene:

@@ -17,10 +17,10 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
-from cfree.exact import Number, to_fraction
-from cfree.extent import range_fault
-from cfree.polygon import Polygon
-from cfree.pose import Pose, PoseLike, to_pose
+from cfree.exact.number import Number, to_fraction
+from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.polygons.polygon import Polygon
+from cfree.scene.coordinate_range import range_fault
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 
@@ -162,7 +162,7 @@ class Scene:
         --------
         cfree.load_scene : the inverse.
         """
-        from cfree.io import save_scene
+        from cfree.formats.scene_file import save_scene
 
         save_scene(self, path)
 

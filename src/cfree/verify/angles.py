@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from cfree.verify.algebra import between, roots
+from cfree.exact.algebraic import between, roots
 from cfree.verify.polygons import Corner, primitive
 from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Turn, Vector, cross, dot, minus, polynomial
 from cfree.verify.trapezoids import Reader

@@ -8,13 +8,13 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from cfree.answer import read_answer
 from cfree.arguments import checked
-from cfree.path import Path
-from cfree.scene import Scene
-from cfree.separated import Separated
-from cfree.slide import Slide
-from cfree.stamp import Stamp, stamp_of
+from cfree.collision.slide import Slide
+from cfree.formats.answer_file import read_answer
+from cfree.paths.path import Path
+from cfree.planning.separation import Separated
+from cfree.scene.digest import Stamp, stamp_of
+from cfree.scene.scene import Scene
 from cfree.verify.leeway import roomier
 from cfree.verify.motions import CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
@@ -22,8 +22,8 @@ from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_
 from cfree.verify.world import World
 
 if TYPE_CHECKING:
+    from cfree.exact.pose import Pose
     from cfree.formats.answer_format import Read
-    from cfree.pose import Pose
 
 SCENE, ASKED, PIECES = "scene", "poses asked for", "convex pieces"
 NO_ROOM = 'they are said to be "free", and no room is enough for that; say "approximate"'

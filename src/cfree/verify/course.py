@@ -16,15 +16,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.motion import Translation
-from cfree.slide import Slide
-from cfree.verify.algebra import homogeneous
+from cfree.collision.motion import Translation
+from cfree.collision.slide import Slide
+from cfree.exact.algebraic import homogeneous
 from cfree.verify.polygons import Ring, corners
 from cfree.verify.surfaces import minus
 
 if TYPE_CHECKING:
-    from cfree.motion import Motion
-    from cfree.pose import Pose
+    from cfree.collision.motion import Motion
+    from cfree.exact.pose import Pose
 
 Poly = tuple[int, ...]  # constant term first
 Placed = tuple[Fraction, Fraction, Fraction, Fraction]  # x, y, cos, sin

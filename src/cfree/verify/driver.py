@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from cfree.arguments import checked
-from cfree.forbidden import Boundary
-from cfree.scene import Scene
-from cfree.storage import read_boundary
-from cfree.trapezoids import CURVE
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.columns import CURVE
+from cfree.formats.boundary_file import read_boundary
+from cfree.scene.scene import Scene
 from cfree.verify.angles import orientation
 from cfree.verify.isolated import IsolatedPart
 from cfree.verify.matching import Matching, matched

@@ -6,7 +6,7 @@ from itertools import chain, pairwise
 
 import numpy as np
 
-from cfree.polygon import Polygon
+from cfree.polygons.polygon import Polygon
 from cfree.verify.polygons import Ring, boxes, near
 from cfree.verify.surfaces import Vector, cross, dot, minus
 

@@ -13,8 +13,8 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import pairwise
 
-from cfree.trapezoids import CURVE, POINT, SEGMENT
-from cfree.verify.algebra import Exact, Number, Root, between, part, ratio
+from cfree.exact.algebraic import Exact, Number, Root, between, part, ratio
+from cfree.forbidden.columns import CURVE, POINT, SEGMENT
 from cfree.verify.section import Section
 from cfree.verify.surfaces import Curve, Fault, Line, Turn, Vector, minus, point_at, position_of
 from cfree.verify.trapezoids import Piece, Reader, has_root

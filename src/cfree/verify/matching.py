@@ -16,7 +16,7 @@ from functools import cmp_to_key
 from itertools import pairwise
 from typing import Any
 
-from cfree.verify.algebra import Exact, Root, between, part, ratio
+from cfree.exact.algebraic import Exact, Root, between, part, ratio
 from cfree.verify.surfaces import Turn, Vector, cross, dot
 from cfree.verify.trapezoids import Reader, Side
 

@@ -12,7 +12,7 @@ from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 
-from cfree.verify.algebra import Number
+from cfree.exact.algebraic import Number
 from cfree.verify.isolated import pieces
 from cfree.verify.section import Interval, Section
 from cfree.verify.surfaces import LineKey, Turn, Vector, point_at, position_of

@@ -18,10 +18,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from flint import fmpz_poly
 
-from cfree.motion import Translation
-from cfree.slide import Slide, Touch
-from cfree.trapezoids import Ints
-from cfree.verify.algebra import Root, between, part, roots, sign
+from cfree.collision.motion import Translation
+from cfree.collision.slide import Slide, Touch
+from cfree.exact.algebraic import Root, between, part, roots, sign
+from cfree.forbidden.columns import Ints
 from cfree.verify.course import ALL, Course, Interval, Placed, Poly, bernstein, bernstein_rows, combined, place_of
 from cfree.verify.polygons import Ring, near
 from cfree.verify.result import Finding
@@ -29,10 +29,10 @@ from cfree.verify.surfaces import Fault
 from cfree.verify.world import numbers
 
 if TYPE_CHECKING:
-    from cfree.motion import Motion
-    from cfree.path import Path
-    from cfree.pose import Pose
-    from cfree.separated import Separated
+    from cfree.collision.motion import Motion
+    from cfree.exact.pose import Pose
+    from cfree.paths.path import Path
+    from cfree.planning.separation import Separated
     from cfree.verify.world import World
 
 ENDS, CONTINUOUS, FREE, KEPT = "start and goal", "continuous", "free of collisions", "contacts kept"

@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING
 
 from flint import fmpz_poly
 
-from cfree.verify.algebra import sign
+from cfree.exact.algebraic import sign
 from cfree.verify.surfaces import Curve, Fault, Surface, Turn, Vector, dot, polynomial
 from cfree.verify.trapezoids import Trapezoid
 
 if TYPE_CHECKING:
-    from cfree.pose import Pose
+    from cfree.exact.pose import Pose
 
 
 def chart_of(pose: Pose) -> tuple[int, Fraction]:

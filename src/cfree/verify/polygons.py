@@ -10,7 +10,7 @@ from math import gcd
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.polygon import Polygon
+from cfree.polygons.polygon import Polygon
 from cfree.verify.surfaces import Vector, cross, minus
 
 Ring = list[Vector]

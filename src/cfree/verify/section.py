@@ -11,7 +11,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from cfree.verify.algebra import Exact, Number, ratio
+from cfree.exact.algebraic import Exact, Number, ratio
 from cfree.verify.polygons import Ring, boxes, convex_sum, corners, near
 from cfree.verify.surfaces import Line, Surface, Turn, Vector, cross, minus
 from cfree.verify.world import World

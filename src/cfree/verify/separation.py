@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.scene import Scene
-from cfree.separated import Pieces
-from cfree.trapezoids import ISOLATED_COLUMNS, IsolatedParts
-from cfree.verify.algebra import Exact
+from cfree.exact.algebraic import Exact
+from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
+from cfree.planning.separation import Pieces
+from cfree.scene.scene import Scene
 from cfree.verify.inside import strictly_inside
 from cfree.verify.motions import touches
 from cfree.verify.parity import is_inside
@@ -21,7 +21,7 @@ from cfree.verify.trapezoids import Reader, Side, Trapezoid
 from cfree.verify.world import Feature, numbers
 
 if TYPE_CHECKING:
-    from cfree.separated import Separated
+    from cfree.planning.separation import Separated
     from cfree.verify.world import World
 
 INSIDE, CONTACTS, CLOSED, SIDES = "smaller robot", "contacts", "closed surface", "two sides"

@@ -18,7 +18,7 @@ from typing import Any
 
 from flint import fmpz_poly
 
-from cfree.verify.algebra import Exact, Root, at, ratio
+from cfree.exact.algebraic import Exact, Root, at, ratio
 
 Vector = tuple[Exact, Exact]
 LineKey = tuple[Exact | None, Exact]  # slope, None if upright, and where the line meets an axis

@@ -16,14 +16,14 @@ import numpy as np
 from flint import fmpz_poly
 from numpy.typing import NDArray
 
-from cfree.verify.algebra import Exact, Root, between, part, roots
+from cfree.exact.algebraic import Exact, Root, between, part, roots
 from cfree.verify.section import Section
 from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, Vector, polynomial
 from cfree.verify.world import Feature, World, name_of
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
-    from cfree.trapezoids import IsolatedParts, Trapezoids
+    from cfree.forbidden.columns import IsolatedParts, Trapezoids
+    from cfree.scene.scene import Scene
 
 Contacts = tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.int32]]  # kind, robot and obstacle feature by patch
 Side = tuple[bytes, Exact, Exact]  # a curve, or a line at one angle; angles, or positions, where a side begins and ends

@@ -1,7 +1,7 @@
 """What the scene forbids, and which contacts it has, recomputed from its exact coordinates.
 
-Coordinates are integers, the scene's times `scale`. `cfree.features` serves as the address book that says which vertex
-a number in the file means; whether two features make a contact is decided here, from the rings.
+Coordinates are integers, the scene's times `scale`. `cfree.scene.features` is the address book: it says which vertex a
+number in the file means; whether two features make a contact is decided here, from the rings.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.features import ShapeFeatures, scene_features, unpacked
-from cfree.polygon import Polygon
-from cfree.trapezoids import Ints
+from cfree.forbidden.columns import Ints
+from cfree.polygons.polygon import Polygon
+from cfree.scene.features import ShapeFeatures, scene_features, unpacked
 from cfree.verify.polygons import (
     Corner,
     Ring,
@@ -29,7 +29,7 @@ from cfree.verify.polygons import (
 from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Vector, cross, cut, dot, helix, minus
 
 if TYPE_CHECKING:
-    from cfree.scene import Scene
+    from cfree.scene.scene import Scene
 
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
 Feature = tuple[str, str, int]  # of "robot" or "obstacles", "vertex" or "edge", number
