@@ -35,7 +35,7 @@ def test_the_paper_is_covered_by_code_and_tests_that_exist(request: pytest.Fixtu
         assert name in listed, name
     for k in range(1, 11):
         assert re.search(rf"Figures? (\d, )?{k}\b", listed), f"Figure {k}"
-    written = " ".join(path.read_text() for path in (root / "tests").glob("test_*.py"))
+    written = " ".join(path.read_text() for path in (root / "tests").rglob("test_*.py"))
     for _, _, code, test in rows:
         assert f"def {test.strip('`')}(" in written, test
         for name in re.findall(r"`cfree\.(\w+)`", code):
