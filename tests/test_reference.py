@@ -111,6 +111,22 @@ def test_a_root_next_to_a_parallel_is_another_though_the_opposite_of_the_paralle
     assert surface.check_order(parallel, root) == -1 == -surface.check_order(root, parallel)
 
 
+@pytest.mark.parametrize("epsilon", [Fraction(1, 2**40), Fraction(1, 2**200)])
+def test_a_place_is_found_on_a_line_next_to_where_it_is_at_infinity(epsilon: Fraction) -> None:
+    # a_0 is on f_0 and on f_2, which slopes by epsilon and crosses f_0 a unit before b_0; g_0, of two units, is on b_0.
+    # Where g_0 is parallel to f_2, an epsilon away, the place on it is at infinity; some epsilons away it is about b_0.
+    def turned(x: Any, y: Any) -> tuple[Any, Any]:
+        return 4 * x - 3 * y, 3 * x + 4 * y
+
+    obstacle: Ring = [turned(0, 0), turned(1, 0), turned(1, 2 * epsilon), turned(-1, 0)]
+    on_edge, on_vertex, slope = Feature(VERTEX_EDGE, 0, 0), Feature(EDGE_VERTEX, 0, 0), Feature(VERTEX_EDGE, 0, 2)
+    surface = Surface(Rings([[(0, 0), (10, 0), (0, 1)]], [obstacle]), on_edge, 0)
+    (parallel,), _ = surface.core.parallel_roots(0, 0, FIRST_WALL, LAST_WALL)
+    junction = _core.Junction(surface.core, parallel, False)
+    assert junction.side(pack(on_edge), pack(on_vertex)) == 0
+    assert junction.value(pack(on_vertex), (pack(on_edge), pack(slope))) == pytest.approx(1 / 2, abs=1e-9)
+
+
 def test_bounds_hold_where_products_underflow() -> None:
     # one far vertex, so that the core's doubles of the others are about 2^-535
     for number in range(40):

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 #include "form.hpp"
@@ -136,24 +135,23 @@ double Junction::value(const Feature& line, const Spot& p) const {
         const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau), t = filtered(N).polar(tau, tau) / d;
         if (filtered(N).err + std::abs(t) * filtered(D).err < 0x1p-32 * std::abs(d)) return t;
     }
-    // as a ratio of integers, at both ends of an interval that shrinks until it makes no difference
+    // as a ratio of integers at one end of an interval that shrinks until it is nearly that on all of it: equal ends are not enough
     const auto [N, D] = position<Int>(line, p);
+    const Poly n = polynomial(N), d = polynomial(D);
     const auto at = [](const Poly& f, const Dyadic& tau) {
         Int value = 0;
         for (int k = f.size(); k-- > 0;) value = value * tau.n + (f[k] << (tau.k * static_cast<unsigned>(2 - k)));
         return value;
     };
-    const Poly n = polynomial(N), d = polynomial(D);
-    const auto quotient = [&](const Dyadic& tau) {
-        const Int below = at(d, tau);
-        return below.is_zero() ? std::numeric_limits<double>::quiet_NaN() : ratio(at(n, tau), below);
-    };
-    RealRoot near = here();
-    for (int halvings = 64;; halvings *= 2) {
-        const double first = quotient(near.lo), last = quotient(near.hi);
-        if (first == last || std::abs(first - last) <= 0x1p-40 * (1 + std::abs(first))) return first;
-        if (halvings > (1 << 14)) throw std::logic_error("a place is at infinity");
-        for (int k = 0; k < halvings; ++k) near.halve();
+    for (RealRoot near = here();; near.narrow()) {
+        const int sign = sign_on(d, near.lo, near.hi);
+        const double t = sign == 0 ? 0 : ratio(at(n, near.lo), at(d, near.lo)), most = 0x1p-40 * (1 + std::abs(t));
+        const auto side_of = [&](double bound) {
+            const Dyadic x = Dyadic::from(bound);
+            return sign * sign_on(difference(product({Int(1) << x.k}, n), product({x.n}, d)), near.lo, near.hi);
+        };
+        if (sign != 0 && std::isfinite(t) && side_of(t - most) > 0 && side_of(t + most) < 0) return t;
+        if (near.is_dyadic() || near.digits() >> 15 != 0) throw std::logic_error("a place is at infinity");
     }
 }
 

@@ -448,16 +448,18 @@ class Junction:
         """About t."""
         n, d = self.along(line, place)
         x = Angle(self.angle.polynomial, self.angle.lo, self.angle.hi)
-
-        def at(tau: Fraction) -> Fraction | None:
-            below = d(rational(tau))
-            t = n(rational(tau)) / below if below else fmpq(0)
-            return Fraction(int(t.p), int(t.q)) if below else None
-
-        while (lo := at(x.lo)) is None or (hi := at(x.hi)) is None or abs(hi - lo) * 2**40 > 1 + abs(lo):
+        least = Fraction(1, 2**40)
+        while True:
+            lo = rational(x.lo)
+            if d(lo):
+                t = n(lo) / d(lo)
+                found = Fraction(int(t.p), int(t.q))
+                sides = (n * b.denominator - b.numerator * d for b in (found - least, found + least))
+                below, above = (self.sign(side) * self.sign(d) for side in sides)
+                if below > 0 > above:
+                    return found
             for _ in range(32):
                 x.halve()
-        return lo
 
 
 def exact_quotient(polynomial: fmpz_poly) -> fmpz_poly:
