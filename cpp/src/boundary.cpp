@@ -1,5 +1,6 @@
 #include "cfree/boundary.hpp"
 
+#include <algorithm>
 #include <numeric>
 #include <utility>
 
@@ -58,7 +59,7 @@ Job::Job(std::shared_ptr<const Scene> s, int threads, bool regularized)
 }
 
 Job::~Job() {
-    stop = true;
+    cancel();
     runner.join();
 }
 
@@ -80,9 +81,11 @@ void Job::run(int threads) {
         in_parallel(threads, stop, [this] { trim_patches(); });
         tally.trim_seconds = lap();
         Trapezoids thin;
-        if (!stop || early) gather(found, trapezoids), gather(found_thin, thin);
+        if (!cancelled) gather(found, trapezoids), gather(found_thin, thin);
         tally.collect_seconds = lap();
-        if (!stop) isolated = isolated_parts(*scene, patches, trapezoids, thin, threads, stop);
+        stop_flag = &cancelled;
+        const bool is_complete = std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end();
+        if (is_complete && !cancelled) isolated = isolated_parts(*scene, patches, trapezoids, thin, threads, cancelled);
         tally.isolated_seconds = lap();
     } catch (...) {
         error = std::current_exception();

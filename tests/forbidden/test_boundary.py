@@ -24,10 +24,12 @@ from cfree import (
     IncompleteError,
     Polygon,
     Scene,
+    _core,
     boundary,
     load_boundary,
     load_scene,
 )
+from cfree.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
 from shapes import (
     KINDS,
@@ -426,6 +428,19 @@ def test_repr_and_types() -> None:
     assert repr(result) == f"Boundary(18 of 18 patches live, {len(result.trapezoids)} trapezoids)"
     with pytest.raises(ValueError, match="read-only"):
         result.trapezoids.patch[0] = 1
+
+
+def test_a_limit_after_the_last_patch_leaves_no_isolated_part_out() -> None:
+    squares = [[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] for x in range(0, 12, 2) for y in range(0, 12, 2)]
+    features = scene_features(Scene(squares[0], squares))
+    job = _core.Job(features.robot.near_shape(), features.obstacles.near_shape(), threads=1, regularized=False)
+    while job.progress() < 1:
+        time.sleep(0)
+    job.finish_early()
+    while not job.wait(1):
+        pass
+    (patch, *_), *_ = job.isolated()
+    assert job.trimmed().all() and len(patch) == 40
 
 
 def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:

@@ -34,8 +34,8 @@ public:
 
     bool wait(double seconds);  // whether it has ended; rethrows what a thread threw
     double progress() const;    // patches done, of all
-    void cancel() { stop = true; }
-    void finish_early() { early = true, stop = true; }  // with the patches done so far
+    void cancel() { cancelled = true, stop = true; }
+    void finish_early() { stop = true; }  // with the patches done so far; if these are all, as if it had not been asked for
     // After wait() returned true.
     Patches patches;
     std::vector<std::uint8_t> trimmed;  // of each patch, whether it has been
@@ -55,7 +55,7 @@ private:
     std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};
-    std::atomic<bool> stop{false}, early{false};
+    std::atomic<bool> stop{false}, cancelled{false};  // trimming; all of it
     std::mutex mutex;
     std::condition_variable ended_signal;
     bool ended = false;
