@@ -23,8 +23,7 @@ auto watched(Work&& work) {
         if (PyErr_CheckSignals() == 0) continue;
         stop = true;
         const nanobind::python_error interrupted;
-        const nanobind::gil_scoped_release release;
-        result.wait();
+        while (!wait()) {}
         throw interrupted;
     }
     return result.get();
