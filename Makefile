@@ -2,7 +2,7 @@
 PYTHON ?= python3
 BIN := .venv/bin
 SANITIZED := $(addprefix tests/,forbidden collision/test_motion.py collision/test_slide.py collision/test_pose_checker.py formats/test_boundary_file.py contact/test_surface.py free planning/test_plan.py)
-CPP := $(wildcard cpp/*/*.cpp cpp/include/cfree/*.hpp)
+CPP := $(wildcard cpp/*/*.?pp cpp/src/*/*.?pp cpp/include/cfree/*/*.hpp)
 INSTALLED := .venv/installed
 
 PARKING = examples/scenes/benchmr_parking1.json

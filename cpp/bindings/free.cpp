@@ -3,7 +3,7 @@
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 
-#include "cfree/free.hpp"
+#include "cfree/collision/pose_checker.hpp"
 #include "integers.hpp"
 #include "watched.hpp"
 

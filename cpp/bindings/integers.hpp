@@ -2,7 +2,7 @@
 #pragma once
 #include <nanobind/nanobind.h>
 
-#include "cfree/number.hpp"
+#include "cfree/exact/number.hpp"
 
 inline cfree::Int integer(const nanobind::int_& n) {
     int overflow;

@@ -6,13 +6,13 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "cfree/boundary.hpp"
-#include "cfree/cell_complex.hpp"
-#include "cfree/cells.hpp"
-#include "cfree/consistency.hpp"
-#include "cfree/mesh.hpp"
-#include "cfree/slice.hpp"
-#include "cfree/surface.hpp"
+#include "cfree/contact/surface.hpp"
+#include "cfree/forbidden/boundary.hpp"
+#include "cfree/forbidden/cell_complex.hpp"
+#include "cfree/forbidden/consistency.hpp"
+#include "cfree/forbidden/slice.hpp"
+#include "cfree/free/point_location.hpp"
+#include "cfree/mesh/mesh.hpp"
 #include "integers.hpp"
 #include "watched.hpp"
 

@@ -2,7 +2,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
 
-#include "cfree/motion.hpp"
+#include "cfree/collision/motion_checker.hpp"
 #include "integers.hpp"
 
 namespace nb = nanobind;

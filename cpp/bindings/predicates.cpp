@@ -7,9 +7,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include "cfree/critical_angle.hpp"
-#include "cfree/fingerprint.hpp"
-#include "cfree/junction.hpp"
+#include "cfree/forbidden/critical_angle.hpp"
+#include "cfree/forbidden/curve_hash.hpp"
+#include "cfree/predicates/junction.hpp"
 #include "integers.hpp"
 
 namespace nb = nanobind;

@@ -2,7 +2,7 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
 
-#include "cfree/search.hpp"
+#include "cfree/search/rrt_connect.hpp"
 #include "integers.hpp"
 
 namespace nb = nanobind;

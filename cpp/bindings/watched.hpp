@@ -5,7 +5,7 @@
 #include <chrono>
 #include <future>
 
-#include "cfree/stop.hpp"
+#include "cfree/support/stop.hpp"
 
 template <class Work>
 auto watched(Work&& work) {

@@ -1,9 +1,9 @@
 // Balls against exact dyadic numbers: whatever is computed, the truth lies inside.
-#include "cfree/ball.hpp"
+#include "cfree/exact/ball.hpp"
 
 #include <random>
 
-#include "cfree/polynomial.hpp"
+#include "cfree/exact/polynomial.hpp"
 #include "check.hpp"
 
 using namespace cfree;

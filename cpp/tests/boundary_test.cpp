@@ -1,9 +1,9 @@
-#include "cfree/boundary.hpp"
+#include "cfree/forbidden/boundary.hpp"
 
 #include <algorithm>
 #include <memory>
 
-#include "cfree/slice.hpp"
+#include "cfree/forbidden/slice.hpp"
 #include "check.hpp"
 #include "shapes.hpp"
 

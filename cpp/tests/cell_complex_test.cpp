@@ -1,5 +1,5 @@
-#include "cfree/boundary.hpp"
-#include "cfree/cell_complex.hpp"
+#include "cfree/forbidden/boundary.hpp"
+#include "cfree/forbidden/cell_complex.hpp"
 
 #include "check.hpp"
 #include "shapes.hpp"

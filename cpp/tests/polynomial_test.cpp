@@ -1,4 +1,4 @@
-#include "cfree/algebraic.hpp"
+#include "cfree/exact/algebraic.hpp"
 
 #include "check.hpp"
 

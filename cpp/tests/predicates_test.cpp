@@ -1,4 +1,4 @@
-#include "cfree/predicates.hpp"
+#include "cfree/predicates/predicates.hpp"
 
 #include "check.hpp"
 #include "shapes.hpp"

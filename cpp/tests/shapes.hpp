@@ -3,7 +3,7 @@
 #include <numeric>
 #include <vector>
 
-#include "cfree/scene.hpp"
+#include "cfree/scene/scene.hpp"
 
 using Ring = std::vector<std::pair<long, long>>;  // convex, counter-clockwise
 

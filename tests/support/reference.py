@@ -1,6 +1,6 @@
 """The core's predicates again, in plain Python: the second opinion that the core is compared with.
 
-Written from sections 5 and 6 of ``docs/theory.md``, with the names of ``cpp/include/cfree/predicates.hpp``. Numbers are
+Written from sections 5 and 6 of ``docs/theory.md``, with the names of ``cfree/predicates/predicates.hpp``. Numbers are
 integers, fractions and polynomials in tau (python-flint); a critical angle is a root of an irreducible polynomial, so
 that two are equal exactly if polynomial and place among its roots are. No float decides anything.
 

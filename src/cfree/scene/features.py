@@ -43,7 +43,7 @@ NAMES = {BOUNDS: "bounds", WORKSPACE: "workspace"}
 
 
 class ShapeFeatures:
-    """Flat arrays of the robot or of the obstacles; see ``cpp/include/cfree/scene.hpp`` for those the core takes.
+    """Flat arrays of the robot or of the obstacles; see ``cpp/include/cfree/scene/scene.hpp`` for those the core takes.
 
     Attributes
     ----------

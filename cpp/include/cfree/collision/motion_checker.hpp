@@ -1,0 +1,63 @@
+// Whether whole motions are free: translations, rotations about a pole, and slides, decided exactly.
+//
+// Along a motion the robot's points are X(u) / W(u), polynomials in a parameter u in [0, 1]; so are the obstacles' points
+// seen from the robot. They are quadratic, of slides of degree 6. A point is on the inner side of an edge's line where a
+// polynomial is positive. Two convex pieces overlap unless an edge of one has the other's vertices on its outer side or on
+// its line.
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cfree/exact/algebraic.hpp"
+#include "cfree/scene/scene.hpp"
+
+namespace cfree {
+
+struct Box;
+class BoxTree;
+
+// From a pose along a vector, or about a pole by at most half a turn. Lengths are in the scene's integer units, over `unit`.
+struct Motion {
+    Int c, s, w;     // the pose's cosine is c / w, its sine s / w
+    Int x, y, unit;  // and its position
+    bool turns;
+    Int vx, vy;      // the vector, or the pole
+    Int start, q, p; // half of the angle turned is that of (1 - u) (start, 0) + u (q, p)
+};
+
+// From a pose along (x / d, y / d), polynomials in u, as the robot turns: half the angle is that of (q, p u).
+struct Slide {
+    Int c, s, w, q, p;
+    std::array<Int, 5> x, y, d;  // position in the scene's integer units; d is positive
+};
+
+// The pieces overlap just after a parameter: a root at which the polynomial grows through zero, or 0.
+struct Collision {
+    RealRoot at;
+    Index robot_piece, obstacle_piece;
+    int kind = 0;  // 1: robot vertex on obstacle edge; 2: robot edge on obstacle vertex; 0: forbidden from the beginning
+    Index robot = -1, obstacle = -1;
+};
+
+class MotionChecker {
+public:
+    MotionChecker(const Shape& robot, const Shape& obstacles, int shift);
+    ~MotionChecker();
+    MotionChecker(const MotionChecker&) = delete;
+    MotionChecker& operator=(const MotionChecker&) = delete;
+    bool is_free(const Motion& motion) const;
+    bool is_free(const Slide& slide) const;
+    std::optional<Collision> first_collision(const Motion& motion) const;
+
+private:
+    template <int N>
+    class Run;
+    const Scene scene;
+    const int shift;  // of the shapes' doubles
+    const std::vector<Box> boxes;
+    const std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
+};
+
+}  // namespace cfree

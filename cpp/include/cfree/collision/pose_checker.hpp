@@ -1,0 +1,94 @@
+// Is a pose free? Convex pieces of the robot against those of the obstacles near by, by separating axes.
+//
+// A pose is forbidden if the interiors of two pieces meet; those of convex polygons do unless an edge of one has all of
+// the other on its outer side, or on its line. In doubles that is a distance d of an edge's line from the other piece, and
+// |error| < margin for every d computed here (pose_checker.cpp): d >= margin separates, d <= -margin for all edges is an overlap.
+// Anything else is decided in exact integers.
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <mutex>
+
+#include "cfree/scene/scene.hpp"
+
+namespace cfree {
+
+enum class Verdict : std::uint8_t { forbidden, free, uncertain };
+
+// A pose in doubles: x and y correctly rounded, cosine and sine within 2^-49 of those of the pose meant.
+struct Placement {
+    double x, y, c, s;
+};
+
+// The pose itself: cosine c / w, sine s / w, position (x, y) / unit; w, unit > 0.
+struct ExactPlacement {
+    Int c, s, w, x, y, unit;
+};
+
+class Checker {
+public:
+    // Coordinates in the user's units, correctly rounded; integers are those times `scale`. The reference point stays in
+    // limits: x0, y0, x1, y1.
+    Checker(std::shared_ptr<const Scene> scene, Int scale, const double* robot_xy, const double* obstacle_xy,
+            std::array<double, 4> limits);
+
+    // Verdicts of poses x, y and theta in [0, 2 pi], radians.
+    void check(const double* poses, std::size_t count, int threads, Verdict* out) const;
+    // One pose within the limits, exactly.
+    bool is_free(const Placement& at, const ExactPlacement& exact) const;
+
+    // Certainly free are all poses from + u (by), u in [0, 1]: x, y and theta, radians, change evenly. False may mean that
+    // they come too close to tell.
+    bool sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const;
+
+private:
+    // Convex pieces, edge k from vertex k, with its outward unit normal n and n . vertex.
+    struct Pieces {
+        std::vector<Index> number, first;  // in the shape; of its vertices, and the end
+        std::vector<double> x, y, nx, ny, h;
+        std::vector<std::array<Index, 16>> far;  // of a piece, vertices that reach far in sixteen directions
+        Index count() const { return static_cast<Index>(number.size()); }
+    };
+    struct Ranges {  // of a piece's coordinates
+        double x0, y0, x1, y1;
+    };
+    static Pieces pieces_of(const Shape& shape, const double* xy);
+    double distance(const Pieces& p, Index piece, double x, double y) const;
+    struct Placed;
+    // Poses around one: the reference point no further away than `shift`, turned by no more than `turn`. Verdicts hold for all.
+    struct Range {
+        double shift = 0, turn = 0;
+        Verdict wanted = Verdict::uncertain;  // forbidden: others need not be told apart
+    };
+    Verdict meet(Placed& robot, Index i, Index j, const Range& range) const;
+    template <class F>
+    Verdict against(Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide) const;
+    bool overlap(const ExactPlacement& at, Index i, Index j) const;
+
+    // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
+    // of all poses there, found when a third one comes by; threads may find it twice, and find the same.
+    enum class State : std::uint8_t { unseen, once, twice, forbidden, free, mixed };
+    struct Grid {
+        double x0 = 0, y0 = 0, side = 0, per_unit = 0, radius = 0;  // radius: of a cell, and a little more
+        Index nx = 0, ny = 0;
+        std::vector<Index> start, member;
+        std::vector<Ranges> around;  // by sector and robot piece: boxes that hold it, the reference point at the origin
+        std::vector<std::atomic<State>> known;
+        std::size_t slot(double x, double y, double theta) const;
+    };
+    Grid& near() const;  // made when first asked for
+    Verdict verdict(Grid& grid, std::size_t slot, const double* pose, Placed& placed) const;
+    void fill(Grid& grid) const;
+
+    std::shared_ptr<const Scene> scene;
+    Int scale;
+    std::array<double, 4> limits;
+    Pieces robot, obstacles;
+    std::vector<Ranges> box;       // of the obstacles' pieces
+    double reach = 0, margin = 0;  // of the robot around its reference point, rounded up; see above
+    mutable std::once_flag once;
+    mutable Grid grid;
+};
+
+}  // namespace cfree

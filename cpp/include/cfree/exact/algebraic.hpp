@@ -1,0 +1,25 @@
+// Real algebraic numbers of degree at most 6, compared exactly.
+#pragma once
+#include "cfree/exact/polynomial.hpp"
+
+namespace cfree {
+
+// The only root of p in [lo, hi]; p changes sign there, or lo = hi is the root.
+struct RealRoot {
+    Poly p;
+    Dyadic lo, hi;
+    bool is_dyadic() const { return cfree::compare(lo, hi) == 0; }
+    unsigned digits() const;  // d if the interval is narrower than 2^-d, or 0
+    void halve();
+    void narrow();  // by ever more, once the polynomial is nearly straight in the interval
+};
+
+// Sign of q at the root; narrows its interval.
+int sign_at(const Poly& q, RealRoot& x);
+// Order of two roots; narrows their intervals.
+int compare(RealRoot& x, RealRoot& y);
+// Sign of q just after the root, and just before; q is not zero.
+int sign_after(const Poly& q, RealRoot& x);
+int sign_before(const Poly& q, RealRoot& x);
+
+}  // namespace cfree

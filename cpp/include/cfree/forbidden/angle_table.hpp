@@ -1,0 +1,42 @@
+// The critical angles of all trapezoids in one order, equal ones made one: across patches, names and charts.
+#pragma once
+#include <optional>
+
+#include "cfree/forbidden/critical_angle.hpp"
+
+namespace cfree {
+
+class AngleTable {
+public:
+    AngleTable(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids);
+
+    // Ranks from 0 (theta = -pi/2) over `middle` (pi/2, where the charts meet) to `last` (3 pi/2, which is -pi/2 again).
+    std::vector<Index> from, to;  // of each trapezoid
+    Index middle = 0, last = 0;
+
+    // An angle in a chart that holds it: an interval of tau, and the exact number.
+    double lo(Index rank, int chart) const { return angles[place(rank, chart)].lo; }
+    double hi(Index rank, int chart) const { return angles[place(rank, chart)].hi; }
+    const RealRoot& exact(Index rank, int chart);
+    // A sample strictly between two angles.
+    Sample between(Index first, Index second, int chart);
+
+private:
+    struct Angle {
+        double lo, hi;
+        Index trapezoid;  // one that has it; -1: a wall
+        bool is_to;
+    };
+    std::size_t place(Index rank, int chart) const { return static_cast<std::size_t>(rank + chart); }
+    void sort_chart(int chart);
+    void order_cluster(const Angle* begin, const Angle* end, int chart);
+    CriticalAngle critical(const Angle& x) const;
+
+    const Scene& scene;
+    const Patches& patches;
+    const Trapezoids& trapezoids;
+    std::vector<Angle> angles;  // of chart 0, wall to wall, then of chart 1: `middle` is in both
+    std::optional<std::pair<std::size_t, CriticalAngle>> recent;  // the last that was asked for exactly
+};
+
+}  // namespace cfree

@@ -1,0 +1,44 @@
+// The result as flat arrays: patches, trapezoids, isolated parts; features packed into one number.
+#pragma once
+#include <vector>
+
+#include "cfree/forbidden/trim.hpp"
+
+namespace cfree {
+
+struct Patches {
+    std::vector<std::uint8_t> kind;
+    std::vector<Index> robot, obstacle;
+};
+
+inline std::uint64_t packed(const Feature& f) {
+    return static_cast<std::uint64_t>(f.kind) << 61 | static_cast<std::uint64_t>(f.robot) << 31 |
+           static_cast<std::uint64_t>(f.obstacle);
+}
+inline Feature unpacked(std::uint64_t code) {
+    return {static_cast<Kind>(code >> 61), static_cast<Index>(code >> 31 & 0x3fffffff),
+            static_cast<Index>(code & 0x7fffffff)};
+}
+
+// Structure of arrays; features packed.
+struct Trapezoids {
+    std::vector<Index> patch;
+    std::vector<std::uint8_t> chart;
+    std::vector<std::uint64_t> lower, upper;
+    std::vector<std::uint64_t> from_first, from_second, to_first, to_second;
+    std::vector<double> from_lo, from_hi, to_lo, to_hi;
+    std::vector<std::uint8_t> from_place, to_place;
+    void reserve(std::size_t count);
+    void push_back(const Trapezoid& x);
+};
+
+// What is free without any width, {(t, theta): lower <= t <= upper, from <= theta <= to} of a patch: from = to (a segment, or a
+// point) or lower = upper (a curve). A curve or an angle may be named on the surface of another patch. Its two ends are at
+// t = first_t on the surface of lower_patch and t = last_t on that of upper_patch.
+struct IsolatedParts {
+    Trapezoids parts;
+    std::vector<Index> lower_patch, upper_patch, from_patch, to_patch;
+    std::vector<double> first_t, last_t;
+};
+
+}  // namespace cfree

@@ -1,0 +1,43 @@
+// A critical angle with the surface that names it, so that angles of different surfaces can be compared.
+#pragma once
+#include <memory>
+
+#include "cfree/forbidden/columns.hpp"
+
+namespace cfree {
+
+class CriticalAngle {
+public:
+    CriticalAngle(const Surface& s, const Event& x, int place_there)
+        : lo(x.lo), hi(x.hi), first(x.first), second(x.second), place(place_there), surface(s) {}
+    // The end of a chart.
+    CriticalAngle(int chart, int side) : CriticalAngle({{}, chart}, {{}, {}, double(side), double(side)}, 0) {}
+
+    double lo, hi;
+    Feature first, second;
+    int place;
+    bool is_wall() const { return first.kind == Kind::none; }
+    int chart() const { return surface.chart; }
+    // What meets there, the same whoever says it: three surfaces, a helix and a surface, two parallel edges, or a wall.
+    using Name = std::array<Code, 3>;
+    Name name(const Scene& scene) const;
+    // Of angles with one name: whether they are seen to be one. Each is the only root of one polynomial in its interval.
+    static bool are_one(const Scene& scene, const std::vector<CriticalAngle>& same);
+    const RealRoot& exact(const Scene& scene) const;
+    Event event(Predicates& on) const { return on.restored({first, second, lo, hi}, place); }
+    const Surface& on() const { return surface; }
+
+private:
+    Surface surface;
+    mutable std::shared_ptr<RealRoot> root;  // once needed
+};
+
+// Sign of x - y, of one chart.
+int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y);
+
+// The angles of trapezoid k.
+CriticalAngle angle_from(const Patches& patches, const Trapezoids& t, Index k);
+CriticalAngle angle_to(const Patches& patches, const Trapezoids& t, Index k);
+Surface surface_of(const Patches& patches, const Trapezoids& t, Index k);
+
+}  // namespace cfree

@@ -1,0 +1,72 @@
+// A short name for a curve in C, whoever names it: its point at one fixed orientation, in integers modulo a prime.
+//
+// Equal curves have equal fingerprints. Different ones differ but for a chance of 2^-60, or by an unlucky choice of numbers:
+// whoever finds two equal ones asks `is_same_curve`.
+#pragma once
+#include <compare>
+#include <functional>
+#include <vector>
+
+#include "cfree/predicates/predicates.hpp"
+
+namespace cfree {
+
+struct Fingerprint {
+    std::uint64_t x, y;
+    auto operator<=>(const Fingerprint&) const = default;
+};
+
+// A curve as a surface names it: where `other`, a surface or a helix, meets it.
+struct NamedCurve {
+    Feature on, other;
+};
+
+// The integers modulo an odd prime below 2^62, x as the word x 2^64 (Montgomery's form).
+class Residues {
+public:
+    using Word = std::uint64_t;
+    explicit Residues(Word prime);
+    Word of(const Int& n) const;
+    Word plus(Word x, Word y) const { return x + y >= p ? x + y - p : x + y; }
+    Word minus(Word x, Word y) const { return x >= y ? x - y : x + p - y; }
+    Word times(Word x, Word y) const {
+        const Wide z = static_cast<Wide>(x) * y, m = static_cast<Wide>(static_cast<Word>(z) * inverse_of_p) * p;
+        return minus(static_cast<Word>(z >> 64), static_cast<Word>(m >> 64));
+    }
+    Word inverse(Word x) const;  // of zero: zero
+
+private:
+    Word p, inverse_of_p, one, square;  // of 2^64
+};
+
+// Of `count` curves, modulo the first prime of a fixed sequence for which all have a point.
+class Fingerprints {
+public:
+    Fingerprints(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve);
+    const Fingerprint& operator[](std::size_t k) const { return prints[k]; }
+    // Whether the curve may lie on a surface; if not, it does not.
+    bool may_lie_on(const Feature& surface, const Fingerprint& curve) const;
+
+private:
+    using Word = Residues::Word;
+    struct Point {
+        Word x, y;
+    };
+    void choose(unsigned attempt);
+    std::optional<Fingerprint> of(const NamedCurve& curve) const;
+    std::vector<Point> reduced(const Shape& shape) const;
+    Point placed(Index a, Index b) const;                 // b_b - R a_a
+    std::array<Point, 2> line(const Feature& surface) const;  // a point and the direction
+
+    const Scene& scene;
+    Residues in{3};
+    std::vector<Point> robot, obstacles;
+    Word c = 0, s = 0;  // of the orientation
+    std::vector<Fingerprint> prints;
+};
+
+// Whether a curve lies on a surface, and whether two names are of one curve, exactly.
+bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface);
+bool is_same_curve(const Scene& scene, const NamedCurve& x, const NamedCurve& y);
+
+}  // namespace cfree

@@ -1,0 +1,15 @@
+// Free contacts that no trapezoid reaches: where free space is only a curve, a segment at one angle, or a point.
+//
+// Trimming leaves parts without width on each patch. Most of them lie on trapezoids of other patches; what is left when those
+// have been taken away is isolated, and is listed once.
+#pragma once
+#include <atomic>
+
+#include "cfree/forbidden/columns.hpp"
+
+namespace cfree {
+
+IsolatedParts isolated_parts(const Scene& scene, const Patches& patches, const Trapezoids& live, const Trapezoids& thin,
+                             int threads, std::atomic<bool>& stop);
+
+}  // namespace cfree

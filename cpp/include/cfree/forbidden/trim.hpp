@@ -1,0 +1,111 @@
+// One contact patch: what remains of it when all pillars have been taken away.
+//
+// The patch's domain is (t, theta). A pillar Q = O_k (+) -R A_p covers, at each theta, one open interval of t: its bands on
+// the patch. `live` starts as the whole domain and loses one band after another; it is a list of trapezoids, each
+// bounded by two angles and two curves. Areas are closed and bands are open, so that parts of no width can remain: a curve, a
+// piece of the line at one angle, a point. Those are `thin`.
+#pragma once
+#include <initializer_list>
+#include <vector>
+
+#include "cfree/predicates/predicates.hpp"
+
+namespace cfree {
+
+struct Trapezoid {
+    Index patch = 0;
+    int chart = 0;
+    Feature lower, upper;
+    Event from, to;
+    int from_place = 0, to_place = 0;  // see Predicates::place
+};
+
+class Trimmer {
+public:
+    // The part of a patch between two angles of one chart.
+    Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
+
+    // Take away robot piece p against obstacle piece k.
+    void cover(Index p, Index k);
+    // Take away what another patch of the same surface owns, between two angles.
+    void cede(const Feature& owner, const Event& from, const Event& to);
+    bool empty() const { return live.empty() && thin.empty(); }
+    // What is left, in order, neighbours with the same curves joined; and what is left without width: lower = upper or from = to.
+    void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
+
+    Predicates decide;
+
+private:
+    struct Span {
+        Index from, to;  // events
+    };
+    struct Area {
+        Index from, to, lower, upper;  // two events, two curves
+        double t_min, t_max;           // its t lies between
+    };
+    // An edge of the pillar: an obstacle edge with a robot vertex, or a robot edge with an obstacle vertex.
+    struct PillarEdge {
+        Feature feature;
+        Index s0, v0, s1, v1;  // the vertices b_v - R a_s it leads from and to
+        Index around[2];       // edges of the other shape before and after its supporting vertex, -1 if it is a point
+    };
+    enum class Meets { never_left, never_right, crosses };  // whether the line passes through the open pillar
+    struct State {
+        Meets meets;
+        PillarEdge lower, upper;  // crosses
+        Index s, v;               // else: the pillar's vertex nearest to the line
+        Index robot_around[2], obstacle_around[2];
+    };
+    struct Condition {
+        bool is_offset;
+        Index robot, obstacle;
+        int sign;
+        bool may_vanish;  // an offset that is identically zero will do
+        Filtered value;
+    };
+    enum class Verdict { holds, wrong, resample };
+    // The part of a pillar that covers the area's inside; what is ceded has no pillar.
+    struct Band {
+        Area area;
+        Index p, k;
+        const State* state;
+    };
+
+    template <class T>
+    std::vector<T>* scratch() const;
+    template <class T>
+    State state_at(Index p, Index k, const Sample& at) const;
+    Verdict lifetime(const State& state, const Sample& at, Span& span);
+    int conditions(const State& state, Condition* out, bool& wrong);
+    bool lies_on_line(Index s, Index v) const;
+    void add_band(const State& state, const Span& span, Index p, Index k);
+    bool covers_at(const Band& band, Index event);
+    bool crosses_at(const Band& band, Index event);
+    int order_at(Index event, Index p, Index q);
+    bool touches_along(const State& state) const;
+    void cut_at(Index event);
+    Index curve_of(const Feature& feature, bool flipped);
+    Feature normal_form(const Feature& feature) const;
+    void bounds(Area& area) const;
+    void subtract(const Band& band);
+    bool subtract_from(const Area& area, const Band& band);
+    void go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip);
+    void subtract_from_thin(const Band& band);
+    void add_thin(Index from, Index to, Index lower, Index upper) { fresh.push_back({from, to, lower, upper, 0, 1}); }
+    Index intern(const Event& event);
+    bool equal(Index x, Index y) { return x == y || decide.order(events[x], events[y]) == 0; }
+    bool before(Index x, Index y) { return x != y && decide.order(events[x], events[y]) < 0; }
+
+    const Scene& scene;
+    Surface surface;
+    std::vector<Event> events;
+    std::vector<Curve> curves;
+    std::vector<Area> live, next, open;  // what there is, what will be there, and of that what has no end yet
+    std::vector<Area> thin, fresh;
+    std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line
+    std::vector<Span> todo;
+    mutable std::vector<double> heights[2];  // scratch of state_at
+    mutable std::vector<Int> exact_heights[2];
+};
+
+}  // namespace cfree

@@ -1,0 +1,96 @@
+// Which closed surfaces of a boundary are around a pose: those that the ray from it towards -x, at its orientation, crosses an
+// odd number of times. Exact: every crossing is the sign of a polynomial in tau at a rational number.
+#pragma once
+#include <optional>
+
+#include "cfree/forbidden/cell_complex.hpp"
+#include "cfree/forbidden/tau_index.hpp"
+
+namespace cfree {
+
+// Position (X, Y) / W in the scene's integers, and the orientation tau = p / r in [-1, 1] of a chart; W, r > 0.
+struct ExactPose {
+    Int X, Y, W;
+    int chart;
+    Int p, r;
+    // The pose that doubles are, in the user's units.
+    static ExactPose from(double x, double y, int chart, double tau, const Int& scale);
+};
+
+class Rays {
+public:
+    // shift: that of the scene's coordinates
+    Rays(Scene scene, int shift, Patches patches, Trapezoids trapezoids, std::vector<Index> component);
+
+    // Of every component: those around it, in order, and whether space is free just inside it.
+    struct Nesting {
+        std::vector<Index> start, around;
+        std::vector<std::uint8_t> free_inside;
+    };
+    Nesting nesting() const;
+
+    // The cell of a pose, -1 if it is forbidden, by what bounds which cell. On the boundary: the first cell that it bounds.
+    struct Cells {
+        std::span<const Index> depth, cell;  // of each component: how many are around it, the cell it bounds
+        std::span<const std::uint8_t> free_inside;
+        Index outside;                       // where nothing is around
+    };
+    Index locate(const ExactPose& q, const Cells& cells) const;
+    // The same for many poses that doubles are; the scene's integers are `scale` times the user's units.
+    void locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
+                const Cells& cells, Index* out) const;
+
+    // What is at a pose: the trapezoids that hold it, ends included, with -1 if one begins at its orientation, 1 if one ends
+    // there, else 0; those that the ray from it towards -x crosses just after its orientation, as often as it does; and whether
+    // no critical angle of these is there.
+    struct Nearby {
+        std::vector<Index> on, crossed;
+        std::vector<std::int8_t> end;
+        bool generic = true;
+    };
+    Nearby nearby(const ExactPose& q) const;
+
+    // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
+    RealRoot root(const Surface& on, const Event& angle, int place) const { return CriticalAngle(on, angle, place).exact(scene); }
+    // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.
+    std::array<Dyadic, 2> angle(Index trapezoid, bool last, unsigned bits) const;
+
+private:
+    struct View;
+    enum class When { at, after };  // at the orientation, or just after it
+    Nearby look(const View& q, When when, Index own) const;
+    void look_on(const View& q, Nearby& seen) const;
+    std::vector<Index> surfaces(const std::vector<Index>& crossed) const;
+    bool may_be_on(const Feature& contact, const View& q) const;
+    bool is_on(Index k, const View& q, bool is_end) const;
+    int order(bool of_end, Index k, const View& q) const;
+    struct Probe;
+    std::optional<Probe> probe(Index k, int attempt) const;
+    // Where the segments of a trapezoid are while tau is in a part: heights, the left end, and the top of all below in the tree.
+    struct Extent {
+        double low, high, left, top;
+        Index trapezoid;
+    };
+    Extent extent(Index k, double from, double to) const;
+    double plant(Index begin, Index end);
+    template <class F>
+    void stab(Index begin, Index end, const View& q, F&& report) const;
+
+    Scene scene;
+    int shift;
+    Patches patches;
+    Trapezoids trapezoids;
+    std::vector<Index> component;
+    TauIndex index;
+    std::vector<Extent> extents;  // of the index's lists, each a tree: in order of `low`, the root in the middle
+};
+
+// How often closed surfaces go round in theta: the greatest common divisor of the turns of all loops on each, and by how many
+// turns each face is lifted from the first of its surface, along some path. `steps` are the turns made on leaving by a coedge.
+struct Turns {
+    std::vector<Index> divisor, lift;
+};
+Turns turns(const std::vector<Index>& first, const std::vector<Index>& face, const std::vector<Index>& twin,
+            const std::vector<Index>& component, const std::vector<std::int8_t>& steps, Index components);
+
+}  // namespace cfree

@@ -1,0 +1,49 @@
+// Curves in which contact surfaces meet, in closed form with bounds of their derivatives. In complex numbers, z = exp(i phi):
+//   x(phi) = c + z m + m' / z + z^2 m'' + e [k cot(psi / 2) + l tan(psi / 2)] / 2,   psi = phi - phi_0.
+// Helices: c + z m. Two v-e surfaces: c + z m + m' / z. Two e-v: c + z m + z^2 m''. One of each: c + z m and the last term.
+#pragma once
+#include <complex>
+
+#include "cfree/forbidden/boundary.hpp"
+
+namespace cfree {
+
+using Complex = std::complex<double>;
+
+inline double dot(Complex u, Complex v) { return u.real() * v.real() + u.imag() * v.imag(); }
+inline double cross(Complex u, Complex v) { return u.real() * v.imag() - u.imag() * v.real(); }
+
+// Coordinates of robot and obstacles in the user's units.
+struct Places {
+    const Scene& scene;
+    const double *robot, *obstacle;
+    Complex a(Index i) const { return {robot[2 * i], robot[2 * i + 1]}; }
+    Complex b(Index j) const { return {obstacle[2 * j], obstacle[2 * j + 1]}; }
+    // The robot's and the obstacle's point of a surface, and the edge with its length 1.
+    struct Parts {
+        Complex a, b, edge;
+        double length;
+    };
+    Parts parts(const Feature& contact) const;
+};
+
+class ContactCurve {
+public:
+    ContactCurve() = default;
+    // Between two angles, which decide what happens at removable poles.
+    ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to);
+    Complex at(double phi) const;
+    // Bounds of |x'| and |x''| from one angle to another.
+    double speed(double from, double to) const;
+    double bend(double from, double to) const;
+
+private:
+    void meet_parallel(const Places::Parts& p, const Places::Parts& q, bool turning);
+    void meet_mixed(const Places::Parts& still, const Places::Parts& turning, double from, double to);
+    double half(double phi) const { return 0.5 * (phi - phi_0); }
+
+    Complex c = 0, m = 0, m_back = 0, m_twice = 0, e = 0;
+    double k = 0, l = 0, phi_0 = 0;
+};
+
+}  // namespace cfree

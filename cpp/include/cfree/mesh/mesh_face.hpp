@@ -1,0 +1,62 @@
+// A face of the boundary as a mesh sees it: the contact surface, the two curves, and the bounds of a triangle's distance.
+//
+// At each angle the surface is a line; s is the position along it: of an e-v surface from the foot of the perpendicular from
+// the reference point, of a v-e surface from the origin. Letters as in docs/theory.md, "Meshes".
+#pragma once
+#include <array>
+#include <utility>
+
+#include "cfree/mesh/contact_curve.hpp"
+
+namespace cfree {
+
+struct MeshPoint {
+    double s, phi;
+    std::array<double, 2> inward;  // how far inside the lower and the upper curve
+    Index vertex = -1;             // in the mesh
+};
+using Corners = std::array<const MeshPoint*, 3>;
+
+class Sheet {
+public:
+    Sheet(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
+          double error, double angle_scale);
+
+    MeshPoint point(double s, double phi) const;
+    double position(Complex x, double phi) const;
+    Complex at(double s, double phi) const;
+    // At most 1 if every point of the triangle is proved to be within `error` of the face.
+    double excess(const Corners& corners) const;
+    // The same for an e-v triangle far from the face's sides.
+    double excess_inside(const Corners& corners) const;
+
+    // Coordinates in which an e-v edge (dx, dy) is off by w |dx dy| / 4, about: u = arsinh(s / w) + shear * phi, and phi.
+    double u(double s) const { return std::asinh(s / w); }
+    double width_u(double phi) const;  // of the face at an angle
+    double most_width_u() const { return most_width; }
+
+    // Is there less between its angles than doubles can tell apart? Then its corners are all that is known of it.
+    bool is_thin() const { return to - from < 1e-9; }
+
+    bool is_saddle;
+    double from, to;      // angles
+    double shear = 0;
+    std::array<ContactCurve, 2> curves;
+
+private:
+    struct Spread;  // of a triangle's corners
+    double most_form(const Corners& corners) const;
+    double third_order(const Spread& d) const;
+    double slice_distance(const Corners& corners, const Spread& d) const;
+    double beyond(const Corners& corners, const Spread& d) const;
+    double slice_distance_near_sides(const Corners& corners, const Spread& d) const;
+    double form(const MeshPoint& p, const MeshPoint& q) const;
+
+    double eps, w;
+    Complex fixed, direction;  // e-v: b and the robot's edge; v-e: a and the obstacle's edge
+    double h = 0;              // signed perpendicular of an e-v surface
+    double offset = 0;         // v-e: n.b
+    double most_width = 0;
+};
+
+}  // namespace cfree

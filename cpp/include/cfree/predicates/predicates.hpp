@@ -1,0 +1,208 @@
+// Every sign and every order of the boundary is decided by this class (predicates.cpp, roots.cpp, angles.cpp), and nowhere
+// else; point_location.cpp compares with poses, motion_checker.cpp decides along motions.
+//
+// At an orientation theta a contact surface is a line, a pillar a convex polygon, and what is asked are signs of
+//   f(theta) = a + b cos(theta) + c sin(theta)                  (Trig: offsets, parallels, numerators, denominators)
+// and of N1 D2 - N2 D1 (two curves on a surface). In a chart, tau = tan(theta'/2) in [-1, 1] with theta = theta' or
+// theta' + pi, f times 1 + tau^2 is a quadratic and the order of two curves a quartic in tau.
+//
+// Rungs: identity of features; doubles with a proven bound; balls of twice the precision; exact integers of any size.
+// No tolerance decides anything.
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "cfree/exact/algebraic.hpp"
+#include "cfree/scene/scene.hpp"
+
+namespace cfree {
+
+// What names a curve on a surface, or a critical angle: a pair (robot feature, obstacle feature).
+enum class Kind : std::uint8_t { none, vertex_edge, edge_vertex, vertex_vertex, edge_edge };
+struct Feature {
+    Kind kind = Kind::none;
+    Index robot = 0, obstacle = 0;
+};
+// Equal features have equal codes: vertices by point, edges by line (parallels: by direction).
+using Code = std::uint64_t;
+Code code(const Scene& scene, const Feature& f);
+// Of a surface: the helix at t = 0 or t = 1.
+Feature end_helix(const Scene& scene, const Feature& contact, int end);
+
+// The contact surface under study, in one chart.
+struct Surface {
+    Feature contact;  // vertex_edge or edge_vertex, of ring features
+    int chart = 0;    // base rotation 0 or pi
+};
+
+// a + b cos + c sin in chart coordinates; every value below is within err of the truth.
+template <class T>
+struct Trig {
+    T a, b, c;
+};
+struct Filtered {
+    double a = 0, b = 0, c = 0, err = 0;
+    // Polar form: f(t, t) is the quadratic's value, f(p, p), f(p, q), f(q, q) its Bernstein coefficients on [p, q].
+    double polar(double p, double q) const { return a * (1 + p * q) + b * (1 - p * q) + c * (p + q); }
+    Filtered operator-() const { return {-a, -b, -c, err}; }
+};
+
+// A critical angle: the only root in [lo, hi] of the polynomial that its features define on the surface:
+//   none: a chart wall (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
+//   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
+// Where doubles cannot hold two roots apart, `fine` is the place of a finer interval kept by the Predicates that found it.
+struct Event {
+    Feature first, second;
+    double lo, hi;
+    Index fine = -1;
+    bool is_touch = false;  // the polynomial does not change sign there
+};
+
+// A curve t(theta) = N / D on the surface, D > 0 where it is used.
+struct Curve {
+    Feature feature;
+    Code code;
+    bool constant, constant_D;  // by kind: t, or D alone, does not depend on theta
+    bool flipped;               // N and D have been negated
+    Filtered N, D;
+};
+
+// A rational sample: a double, taken exactly, or a finer dyadic where no double lies between two angles.
+struct Sample {
+    double tau;
+    std::optional<Dyadic> fine;
+    Dyadic exact() const { return fine ? *fine : Dyadic::from(tau); }
+    Ball ball() const { return fine ? cfree::ball(fine->n, static_cast<int>(fine->k)) : Ball(tau); }
+};
+
+// Decisions by the rung that took them, and the time of the slow rungs.
+struct Counters {
+    std::int64_t identity = 0, filter = 0, interval = 0, exact = 0;
+    double interval_seconds = 0, exact_seconds = 0;
+    void operator+=(const Counters& o) {
+        identity += o.identity, filter += o.filter, interval += o.interval, exact += o.exact;
+        interval_seconds += o.interval_seconds, exact_seconds += o.exact_seconds;
+    }
+};
+
+class Predicates {
+public:
+    Predicates(const Scene& s, const Surface& on) : scene(s), surface(on), kappa(on.chart ? -1 : 1) {}
+
+    // The quadratics. offset: of vertex b_v - R a_s from the surface's line, positive on its left (forbidden) side.
+    Filtered offset(Index s, Index v) const;
+    // parallel: R(robot edge g) x (obstacle edge f)
+    Filtered parallel(Index g, Index f) const;
+    Curve curve(const Feature& f) const;
+
+    // Sign on the whole closed interval, 0 if not certain.
+    static int sign_on(const Filtered& f, double lo, double hi);
+    // Sign at a sample, exact; 0 means zero.
+    int offset_sign(Index s, Index v, const Filtered& f, const Sample& at);
+    int parallel_sign(Index g, Index f, const Filtered& value, const Sample& at);
+    // Constants: sign of E_g x E_f for two edges of one shape.
+    int cross_sign(const Shape& shape, Index e, Index f);
+
+    // Sign of x - y: 0 if they are one angle.
+    int order(const Event& x, const Event& y);
+    int order(const Event& x, const Sample& at);
+    // A sample strictly between two angles: the first about half way and of few digits, others for further attempts.
+    static constexpr int most_attempts = 1000;
+    Sample between(const Event& x, const Event& y, int attempt = 0);
+    static Sample within(double lo, double hi, int attempt = 0);
+
+    // Roots strictly between two angles, in order, those without a change of sign among them.
+    // all_zero: the polynomial vanishes identically.
+    struct Roots {
+        int count = 0;
+        bool all_zero = false;
+        Event at[4];
+    };
+    Roots offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to);
+    Roots parallel_roots(Index g, Index f, const Event& from, const Event& to);
+    // Order of two curves between two angles: where it may change, and the sign of p - q before, between and after.
+    struct Order {
+        int count = 0;
+        Event at[4];
+        int sign[5];  // all 0 if the curves are one
+        bool strict = false;  // the same sign at the two ends, too
+    };
+    Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
+
+    // Whether what two curves, or a helix alone, define on the surface is zero at every angle.
+    bool vanishes(const Feature& first, const Feature& second) const { return polynomial(first, second).empty(); }
+
+    // Order at a sample of where two curves are on the surface, wherever that is.
+    int order_at(const Feature& p, const Feature& q, const Sample& at) const;
+
+    // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
+    int place(const Event& x) const;
+    // The angle of that place, for decisions made here.
+    Event restored(const Event& x, int place);
+    // Whether the polynomial of an angle has certain, opposite signs at lo and hi.
+    bool changes_sign(const Event& x, double lo, double hi) const;
+    // Whether an angle of that place is the only root of its polynomial there.
+    bool isolates(const Event& x, int place) const;
+    // Whether 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
+    bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
+    // The angle as an exact number.
+    RealRoot root_of(const Event& x) const;
+
+    // Where a patch's range begins or ends: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
+    struct RangeEnd {
+        int chart;
+        Event event;
+    };
+    static RangeEnd range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters);
+
+    Counters counters;
+
+private:
+    friend class Junction;  // the same polynomials, at critical angles
+    friend class Rays;      // and at rational ones
+    template <class T>
+    Trig<T> offset_trig(Index s, Index v) const;
+    template <class T>
+    Trig<T> parallel_trig(Index g, Index f) const;
+    template <class T>
+    std::array<Trig<T>, 2> curve_trig(const Feature& f) const;  // N and D
+    Filtered filtered(const Trig<Approx>& f) const;
+    // What an event's features define; see Event. Two curves: N1 D2 - N2 D1.
+    template <class T>
+    Coefficients<T> coefficients(const Trig<T>& f) const;
+    template <class T>
+    Coefficients<T> coefficients(const Feature& first, const Feature& second) const;
+    Poly polynomial(const Trig<Int>& f) const { return Poly(coefficients(f)); }
+    Poly polynomial(const Feature& first, const Feature& second) const;
+    struct Form;
+    Form form(const Curve& p, const Curve& q) const;
+    Form form(const Event& x) const;
+    struct Candidates;
+    std::optional<Candidates> roots_by_balls(const Feature& first, const Feature& second, double lo, double hi) const;
+    Candidates roots_exactly(const Feature& first, const Feature& second, double lo, double hi);
+    Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
+    Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
+    int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
+    using Bracket = std::array<Ball, 2>;
+    bool is_touch_of_quadratic(const Event& x) const;
+    std::optional<Coefficients<Ball>> simple(const Event& x) const;
+    const std::optional<Bracket>& narrowed(const Event& x);
+    std::optional<Bracket> found_narrowed(const Event& x) const;
+    bool same_polynomial(const Event& x, const Event& y);
+    template <class T>
+    std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
+    int order_of_close(const Event& x, const Event& y);
+
+    const Scene& scene;
+    Surface surface;
+    double kappa;
+    std::vector<std::array<Dyadic, 2>> fine;
+    struct Narrowed {
+        Event x;
+        std::optional<Bracket> bracket;
+    };
+    std::vector<Narrowed> recent;  // a table by features, since one angle is compared with many; empty until then
+};
+
+}  // namespace cfree

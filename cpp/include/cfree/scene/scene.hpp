@@ -1,0 +1,72 @@
+// The input of the core: two shapes, the robot at rest and the obstacles, as flat arrays.
+//
+// Coordinates are integers (the user's rationals times one common denominator). Vertices that coincide share a
+// `point`, directed edges on one line with one direction share a `line`, parallel edges (either way) a `direction`:
+// equality of features is decided once, before any predicate.
+#pragma once
+#include <vector>
+
+#include "cfree/exact/ball.hpp"
+
+namespace cfree {
+
+struct Shape {
+    std::vector<Int> X, Y;         // exact coordinates
+    std::vector<double> x, y;      // the same times 2^-shift, rounded
+    std::vector<double> x_low, y_low;  // and what that left, rounded
+    bool rounded = false;          // whether any coordinate changed by rounding
+    bool rounded_twice = false;    // whether any is not the sum of its two doubles
+    std::vector<Index> point;      // class of coincident vertices
+    // Directed edges v -> w. Those of rings come first: edge e of a ring starts at vertex e. Then the pieces' diagonals.
+    std::vector<Index> v, w, line, direction;
+    // Rings: closed chains of the first ring_vertices vertices, interior on the left.
+    Index ring_vertices = 0;
+    std::vector<Index> previous;   // previous vertex in the ring
+    std::vector<char> convex;      // interior angle below pi
+    std::vector<char> emit;        // whether the ring of this vertex makes surfaces (outer rims of frames do not)
+    std::vector<Index> layer;      // vertices and pieces meet only those of the same layer of the other shape
+    std::vector<Index> vertex_rank, edge_rank;  // order among coincident ring features: the lowest owns
+    // Convex pieces, counter-clockwise; piece k has vertices piece_vertex[piece[k] .. piece[k + 1]) and as many edges,
+    // none when it is a single point.
+    std::vector<Index> piece, piece_vertex, piece_edge, piece_layer;
+
+    Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
+    bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
+    // Sets X and Y and what is derived from them. Both shapes of a scene have the same shift: 0, or enough to keep products
+    // of four doubles finite.
+    void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0);
+};
+
+struct Scene {
+    Shape robot, obstacles;
+};
+
+template <class T>
+Vec<T> difference(const Shape& s, Index p, Index q);  // vertex p minus vertex q
+
+template <>
+inline Vec<Approx> difference(const Shape& s, Index p, Index q) {
+    const double dx = s.x[p] - s.x[q], dy = s.y[p] - s.y[q];
+    if (!s.rounded) return {{dx, std::abs(dx)}, {dy, std::abs(dy)}};
+    return {{dx, std::abs(s.x[p]) + std::abs(s.x[q])}, {dy, std::abs(s.y[p]) + std::abs(s.y[q])}};
+}
+template <>
+inline Vec<Int> difference(const Shape& s, Index p, Index q) {
+    return {s.X[p] - s.X[q], s.Y[p] - s.Y[q]};
+}
+template <>
+inline Vec<Ball> difference(const Shape& s, Index p, Index q) {
+    if (!s.rounded) {
+        const auto dx = two_sum(s.x[p], -s.x[q]), dy = two_sum(s.y[p], -s.y[q]);
+        return {{dx.s, dx.e, 0}, {dy.s, dy.e, 0}};
+    }
+    const auto coordinate = [&](double high, double low) {
+        return Ball{high, low, s.rounded_twice ? ball_error(high) : 0};
+    };
+    return {coordinate(s.x[p], s.x_low[p]) - coordinate(s.x[q], s.x_low[q]),
+            coordinate(s.y[p], s.y_low[p]) - coordinate(s.y[q], s.y_low[q])};
+}
+template <class T>
+Vec<T> edge(const Shape& s, Index e) { return difference<T>(s, s.w[e], s.v[e]); }
+
+}  // namespace cfree

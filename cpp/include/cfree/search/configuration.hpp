@@ -1,0 +1,34 @@
+// Poses that a search steps through, exactly and in doubles, and the one motion between two of them.
+#pragma once
+#include "cfree/collision/motion_checker.hpp"
+
+namespace cfree {
+
+struct Configuration {
+    Int hx, hy;             // along the direction of half the orientation
+    Int x, y, unit;         // the position is (x, y) / unit in the scene's integers
+    double px, py, theta;   // the same in doubles, scaled as those of shapes; theta in (-pi, pi]
+};
+
+// Where a search works: doubles become exact on a grid, in the units of shapes scaled by 2^-shift.
+struct Grid {
+    int shift;      // of the shapes
+    int place_bits; // positions are multiples of 2^-place_bits
+    int angle_bits; // half-angle tangents of 2^-angle_bits
+    Configuration exact(double px, double py, double theta) const;
+};
+
+// A translation, or the rotation by less than half a turn (counter-clockwise by half a turn) about its pole.
+Motion motion_between(const Configuration& a, const Configuration& b);
+
+// By how much it turns, and how far the reference point travels.
+double turn_between(const Configuration& a, const Configuration& b);
+double travel_between(const Configuration& a, const Configuration& b);
+
+// Some way along the motion, in doubles.
+struct Place {
+    double x, y, theta;
+};
+Place along(const Configuration& a, const Configuration& b, double share);
+
+}  // namespace cfree

@@ -1,0 +1,451 @@
+#include "cfree/collision/pose_checker.hpp"
+
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "support/parallel.hpp"
+
+namespace cfree {
+
+// The error of a distance n . p - h. u = 2^-53; M bounds all coordinates that are compared, the robot's placed: those of the
+// obstacles plus twice the robot's. To first order in u:
+//   placed vertex   x + (c a_x - s a_y): 16 u (|a_x| + |a_y|) from c and s, 3 u of that from rounding, 2 u M from x and the
+//                   sum; below 40 u M in each coordinate, 57 u M along n
+//   edge's normal   3 u in each component (an exact difference, rounded; its length; the quotient), 40 u more when it is
+//                   turned; times |p - v| <= 2 M in each coordinate: 172 u M
+//   n . p, h and their difference: 10 u M
+//   vertex seen from the robot, instead of the first and the turned normal: 78 u M in each coordinate, 111 u M along n;
+//                   edge's normal 3 u times at most 4 M, 24 u M; n . p and h 29 u M
+// In all below 239 u M; 512 u M is allowed. A range of poses adds its width: a point of the robot moves by at most
+// shift + turn |a|, a point b of an obstacle, seen from the robot, by shift + turn |b - r|.
+namespace {
+constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
+constexpr double most_cells = 1 << 16, cells_in_reach = 8;
+constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
+constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
+
+Vec<double> unit_normal(const Vec<Int>& e) {
+    const auto bits = static_cast<int>(std::max(e.x.is_zero() ? 0 : msb(abs(e.x)), e.y.is_zero() ? 0 : msb(abs(e.y))));
+    const double dx = ball(e.x, bits).hi, dy = ball(e.y, bits).hi, length = std::sqrt(dx * dx + dy * dy);
+    return {dy / length, -dx / length};
+}
+
+double middle_of(std::size_t sector) { return (static_cast<double>(sector) + 0.5) * (two_pi / sectors); }
+
+// Sixteenths of the circle, nearly: by signs and two comparisons, as the tangent of pi / 8 is about 5 / 12.
+std::size_t direction_of(const Vec<double>& d) {
+    const double x = std::abs(d.x), y = std::abs(d.y), less = std::min(x, y), more = std::max(x, y);
+    return std::size_t(d.x < 0) + 2 * std::size_t(d.y < 0) + 4 * std::size_t(y > x) + 8 * std::size_t(12 * less > 5 * more);
+}
+Vec<double> middle_of_direction(std::size_t k) {
+    const double less = std::tan((k & 8 ? 3 : 1) * std::numbers::pi / 16);
+    const Vec<double> d = k & 4 ? Vec<double>{less, 1} : Vec<double>{1, less};
+    return {k & 1 ? -d.x : d.x, k & 2 ? -d.y : d.y};
+}
+}  // namespace
+
+Checker::Pieces Checker::pieces_of(const Shape& shape, const double* xy) {
+    Pieces p;
+    p.first.push_back(0);
+    for (Index k = 0; k < shape.pieces(); ++k) {
+        const Index begin = shape.piece[k], end = shape.piece[k + 1];
+        if (end - begin < 3 || shape.piece_layer[k] != 0) continue;
+        p.number.push_back(k);
+        for (Index m = begin; m < end; ++m) {
+            const Index v = shape.piece_vertex[m], w = shape.piece_vertex[m + 1 < end ? m + 1 : begin];
+            const auto n = unit_normal(difference<Int>(shape, w, v));
+            p.x.push_back(xy[2 * v]), p.y.push_back(xy[2 * v + 1]);
+            p.nx.push_back(n.x), p.ny.push_back(n.y), p.h.push_back(n.x * xy[2 * v] + n.y * xy[2 * v + 1]);
+        }
+        p.first.push_back(static_cast<Index>(p.x.size()));
+        auto& far = p.far.emplace_back();
+        for (std::size_t d = 0; d < far.size(); ++d) {
+            const Vec<double> to = middle_of_direction(d);
+            far[d] = p.first[p.first.size() - 2];
+            for (Index m = far[d]; m < p.first.back(); ++m)
+                if (to.x * p.x[m] + to.y * p.y[m] > to.x * p.x[far[d]] + to.y * p.y[far[d]]) far[d] = m;
+        }
+    }
+    return p;
+}
+
+Checker::Checker(std::shared_ptr<const Scene> s, Int unit, const double* robot_xy, const double* obstacle_xy,
+                 std::array<double, 4> bounds)
+    : scene(std::move(s)), scale(std::move(unit)), limits(bounds), robot(pieces_of(scene->robot, robot_xy)),
+      obstacles(pieces_of(scene->obstacles, obstacle_xy)) {
+    double largest = 0;
+    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, std::hypot(robot.x[k], robot.y[k]));
+    for (std::size_t k = 0; k < obstacles.x.size(); ++k)
+        largest = std::max({largest, std::abs(obstacles.x[k]), std::abs(obstacles.y[k])});
+    margin = margin_by_size * (largest + 4 * reach) + least_margin;
+    reach += margin;
+    for (Index j = 0; j < obstacles.count(); ++j) {
+        const auto [x0, x1] = std::minmax_element(&obstacles.x[obstacles.first[j]], &obstacles.x[0] + obstacles.first[j + 1]);
+        const auto [y0, y1] = std::minmax_element(&obstacles.y[obstacles.first[j]], &obstacles.y[0] + obstacles.first[j + 1]);
+        box.push_back({*x0 - margin, *y0 - margin, *x1 + margin, *y1 + margin});
+    }
+}
+
+// The robot in a pose, in doubles; memory is kept from one pose to the next. Vertices of a piece are placed when asked for.
+struct Checker::Placed {
+    const Pieces& at_rest;
+    Placement at{};
+    std::vector<double> x, y;
+    std::vector<Ranges> box;  // around the pieces
+    std::vector<char> is_placed;
+    explicit Placed(const Pieces& p)
+        : at_rest(p), x(p.x.size()), y(p.x.size()), box(p.number.size()), is_placed(p.number.size()) {}
+    // With boxes that are known for the pose at the origin.
+    void place(const Placement& pose, const Ranges* around) {
+        at = pose;
+        for (std::size_t i = 0; i < box.size(); ++i) {
+            box[i] = {at.x + around[i].x0, at.y + around[i].y0, at.x + around[i].x1, at.y + around[i].y1};
+            is_placed[i] = false;
+        }
+    }
+    void place(const Placement& pose) {
+        at = pose;
+        for (Index i = 0; i < at_rest.count(); ++i) {
+            is_placed[i] = false;
+            put(i);
+            const auto begin = at_rest.first[i], end = at_rest.first[i + 1];
+            const auto [x0, x1] = std::minmax_element(x.begin() + begin, x.begin() + end);
+            const auto [y0, y1] = std::minmax_element(y.begin() + begin, y.begin() + end);
+            box[i] = {*x0, *y0, *x1, *y1};
+        }
+    }
+    void put(Index i) {
+        if (is_placed[i]) return;
+        is_placed[i] = true;
+        for (Index k = at_rest.first[i]; k < at_rest.first[i + 1]; ++k) {
+            const auto v = vertex(k);
+            x[k] = v.x, y[k] = v.y;
+        }
+    }
+    Vec<double> vertex(Index k) const {
+        return {at.x + (at.c * at_rest.x[k] - at.s * at_rest.y[k]), at.y + (at.s * at_rest.x[k] + at.c * at_rest.y[k])};
+    }
+    Vec<double> normal(Index k) const {
+        return {at.c * at_rest.nx[k] - at.s * at_rest.ny[k], at.s * at_rest.nx[k] + at.c * at_rest.ny[k]};
+    }
+    Vec<double> seen_from(const Vec<double>& d) const { return {at.c * d.x + at.s * d.y, at.c * d.y - at.s * d.x}; }
+};
+
+// Is the outer side of a line n . p = h, by the margin, free of points? A point that is certainly inside is tried first the
+// next time, where the next edge of a ring most likely has one.
+static Verdict beyond(const Vec<double>& n, double h, double margin, const double* x, const double* y, Index count, Index& first) {
+    double least = std::numeric_limits<double>::infinity();
+    Index k = first;
+    for (Index tried = 0; tried < count; ++tried) {
+        const double d = n.x * x[k] + n.y * y[k] - h;
+        if (d <= -margin) {
+            first = k;
+            return Verdict::forbidden;
+        }
+        least = std::min(least, d);
+        if (++k == count) k = 0;
+    }
+    return least >= margin ? Verdict::free : Verdict::uncertain;
+}
+
+// A vertex of each piece that reaches far towards the other is on the inner side of most edges: they do not separate. If it
+// is inside the whole piece, the interiors meet.
+Verdict Checker::meet(Placed& placed, Index i, Index j, const Range& range) const {
+    const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
+    const Vec<double> towards{0.5 * (box[j].x0 + box[j].x1) - placed.at.x, 0.5 * (box[j].y0 + box[j].y1) - placed.at.y};
+    double slack = margin + range.shift + range.turn * reach;
+    Index first = robot.far[i][direction_of(placed.seen_from(towards))];
+    const Vec<double> p = placed.vertex(first);
+    const auto is_inner = [&](Index k) { return obstacles.nx[k] * p.x + obstacles.ny[k] * p.y - obstacles.h[k] <= -slack; };
+    Index k = b;
+    while (k < b + m && is_inner(k)) ++k;
+    if (k == b + m) return Verdict::forbidden;
+    placed.put(i);
+    first -= a;
+    Verdict all = Verdict::forbidden;
+    for (; k < b + m; ++k) {
+        if (is_inner(k)) continue;
+        const Verdict v = beyond({obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], slack, &placed.x[a], &placed.y[a], n, first);
+        if (v == Verdict::free || (v == Verdict::uncertain && range.wanted == Verdict::forbidden)) return v;
+        if (v == Verdict::uncertain) all = v;
+    }
+    if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
+        const double dx = std::max(box[j].x1 - placed.at.x, placed.at.x - box[j].x0);
+        const double dy = std::max(box[j].y1 - placed.at.y, placed.at.y - box[j].y0);
+        slack = margin + range.shift + range.turn * (std::abs(dx) + std::abs(dy));
+    }
+    first = obstacles.far[j][direction_of({-towards.x, -towards.y})];
+    const Vec<double> q = placed.seen_from({obstacles.x[first] - placed.at.x, obstacles.y[first] - placed.at.y});
+    first -= b;
+    bool is_inside = true;
+    for (k = a; k < a + n; ++k) {
+        if (robot.nx[k] * q.x + robot.ny[k] * q.y - robot.h[k] <= -slack) continue;
+        is_inside = false;
+        const auto normal = placed.normal(k);
+        const double h = normal.x * placed.x[k] + normal.y * placed.y[k];
+        const Verdict v = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
+        if (v == Verdict::free || (v == Verdict::uncertain && range.wanted == Verdict::forbidden)) return v;
+        if (v == Verdict::uncertain) all = v;
+    }
+    return is_inside ? Verdict::forbidden : all;
+}
+
+// All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
+// uncertain.
+template <class F>
+Verdict Checker::against(Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
+    Verdict all = Verdict::free;
+    const double slack = range.shift + range.turn * reach;
+    for (Index i = 0; i < robot.count(); ++i) {
+        Ranges r = placed.box[i];
+        r.x0 -= slack, r.y0 -= slack, r.x1 += slack, r.y1 += slack;
+        for (std::size_t m = 0; m < count; ++m) {
+            const Index j = list[m];
+            const Ranges& o = box[j];
+            if (r.x0 > o.x1 || o.x0 > r.x1 || r.y0 > o.y1 || o.y0 > r.y1) continue;
+            Verdict v = meet(placed, i, j, range);
+            if (v == Verdict::uncertain) v = decide(i, j);
+            if (v == Verdict::forbidden) return v;
+            if (v == Verdict::uncertain) all = v;
+        }
+    }
+    return all;
+}
+
+// Of a point from a piece, within the margin; 0 inside. Thin pieces are why the margin decides which edges count: ahead of
+// the tip of one, the distances of lines are small, and may have any sign.
+double Checker::distance(const Pieces& p, Index piece, double x, double y) const {
+    const Index begin = p.first[piece], end = p.first[piece + 1];
+    double least = std::numeric_limits<double>::infinity();
+    bool inside = true;
+    for (Index k = begin; k < end; ++k) {
+        const Index next = k + 1 < end ? k + 1 : begin;
+        const double d = p.nx[k] * x + p.ny[k] * y - p.h[k];
+        if (d <= -margin) continue;
+        inside = false;
+        const double ex = p.x[next] - p.x[k], ey = p.y[next] - p.y[k], dx = x - p.x[k], dy = y - p.y[k];
+        const double t = std::clamp((dx * ex + dy * ey) / std::max(ex * ex + ey * ey, least_square), 0.0, 1.0);
+        least = std::min(least, std::hypot(dx - t * ex, dy - t * ey));
+    }
+    return inside ? 0 : least;
+}
+
+void Checker::fill(Grid& g) const {
+    Ranges around{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Ranges& b : box) {
+        around.x0 = std::min(around.x0, b.x0 - reach), around.x1 = std::max(around.x1, b.x1 + reach);
+        around.y0 = std::min(around.y0, b.y0 - reach), around.y1 = std::max(around.y1, b.y1 + reach);
+    }
+    around = {std::max(around.x0, limits[0]), std::max(around.y0, limits[1]), std::min(around.x1, limits[2]),
+              std::min(around.y1, limits[3])};
+    const double width = around.x1 - around.x0, height = around.y1 - around.y0;
+    if (!(width >= 0 && height >= 0)) return;  // nothing is near
+    const double side = std::max({std::sqrt(width / most_cells) * std::sqrt(height), width / most_cells, height / most_cells,
+                                  reach / cells_in_reach});
+    g.x0 = around.x0, g.y0 = around.y0, g.per_unit = 1 / side;
+    g.nx = static_cast<Index>(width / side) + 1, g.ny = static_cast<Index>(height / side) + 1;
+    const auto cell = [&](double offset, Index n) {
+        return static_cast<Index>(std::clamp(offset * g.per_unit, 0.0, static_cast<double>(n - 1)));
+    };
+    // of a disc around a cell, and what rounding moves to the next cell; margin: the error of a distance
+    g.side = side;
+    const double radius = g.radius = std::sqrt(0.5) * side * (1 + 0x1p-20) + margin;
+    double core = 0;  // of a disc in the robot, around its reference point
+    for (Index i = 0; i < robot.count(); ++i)
+        core = std::max(core, *std::min_element(&robot.h[robot.first[i]], robot.h.data() + robot.first[i + 1]) - margin);
+    struct Near {
+        Index cell, piece;
+        double distance;
+    };
+    std::vector<Near> found;
+    std::vector<char> blocked(static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(g.ny));
+    for (Index j = 0; j < obstacles.count(); ++j) {
+        const Ranges& b = box[j];
+        const double r = reach + radius;
+        const Index c0 = cell(b.x0 - r - g.x0, g.nx), c1 = cell(b.x1 + r - g.x0, g.nx);
+        const Index r0 = cell(b.y0 - r - g.y0, g.ny), r1 = cell(b.y1 + r - g.y0, g.ny);
+        for (Index row = r0; row <= r1; ++row)
+            for (Index column = c0; column <= c1; ++column) {
+                const Index cell_number = row * g.nx + column;
+                if (blocked[cell_number]) continue;
+                const double x = g.x0 + (column + 0.5) * side, y = g.y0 + (row + 0.5) * side;
+                const double d = distance(obstacles, j, x, y);
+                if (d + radius < core) blocked[cell_number] = true;
+                else if (d < reach + radius) found.push_back({cell_number, j, d});
+            }
+    }
+    std::erase_if(found, [&](const Near& near) { return blocked[near.cell]; });
+    std::sort(found.begin(), found.end(), [](const Near& p, const Near& q) {  // what overlaps most likely is asked first
+        return std::tie(p.cell, p.distance, p.piece) < std::tie(q.cell, q.distance, q.piece);
+    });
+    g.start.assign(blocked.size() + 1, 0);
+    for (const Near& near : found) ++g.start[near.cell + 1], g.member.push_back(near.piece);
+    std::partial_sum(g.start.begin(), g.start.end(), g.start.begin());
+    Placed turned(robot);
+    for (std::size_t k = 0; k < sectors; ++k) {
+        turned.place({0, 0, std::cos(middle_of(k)), std::sin(middle_of(k))});
+        const double r = half_sector * reach + margin;
+        for (const Ranges& at : turned.box) g.around.push_back({at.x0 - r, at.y0 - r, at.x1 + r, at.y1 + r});
+    }
+    g.known = std::vector<std::atomic<State>>(blocked.size() * sectors);
+    for (std::size_t c = 0; c < blocked.size(); ++c)
+        if (blocked[c] || g.start[c] == g.start[c + 1])
+            std::fill_n(&g.known[c * sectors], sectors, blocked[c] ? State::forbidden : State::free);
+}
+
+Checker::Grid& Checker::near() const {
+    std::call_once(once, [this] { fill(grid); });
+    return grid;
+}
+
+// Box of a pose in the grid: its cell times `sectors`, and its sector.
+std::size_t Checker::Grid::slot(double x, double y, double theta) const {
+    const double column = (x - x0) * per_unit, row = (y - y0) * per_unit;
+    if (!(column >= 0 && column < nx && row >= 0 && row < ny)) return outside;
+    const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(column);
+    return cell * sectors + std::min<std::size_t>(static_cast<std::size_t>(theta * (sectors / two_pi)), sectors - 1);
+}
+
+// Cosine and sine of an angle in a sector: those of its middle, turned by series to the 8th power of at most pi / 64, whose
+// next terms are below 2^-57. In all within 2^-50.
+static Vec<double> direction(double theta, std::size_t sector) {
+    static const auto middles = [] {
+        std::array<Vec<double>, sectors> found;
+        for (std::size_t k = 0; k < sectors; ++k) found[k] = {std::cos(middle_of(k)), std::sin(middle_of(k))};
+        return found;
+    }();
+    const double d = theta - middle_of(sector), q = d * d;
+    const double s = d * (1 + q * (-1.0 / 6 + q * (1.0 / 120 + q * (-1.0 / 5040))));
+    const double c = 1 + q * (-0.5 + q * (1.0 / 24 + q * (-1.0 / 720 + q * (1.0 / 40320))));
+    return {middles[sector].x * c - middles[sector].y * s, middles[sector].y * c + middles[sector].x * s};
+}
+
+// What is known of the other poses in its box: that they have the same verdict, or nothing.
+Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
+    const std::size_t cell = slot / sectors, sector = slot % sectors, width = static_cast<std::size_t>(g.nx);
+    const Index* list = &g.member[g.start[cell]];
+    const auto count = static_cast<std::size_t>(g.start[cell + 1] - g.start[cell]);
+    const auto place = [&](double x, double y, double theta) {
+        const auto [c, s] = direction(theta, sector);
+        placed.place({x, y, c, s}, &g.around[sector * robot.number.size()]);
+    };
+    place(pose[0], pose[1], pose[2]);
+    const Verdict found = against(placed, list, count, {}, [](Index, Index) { return Verdict::uncertain; });
+    std::atomic<State>& known = g.known[slot];
+    const State state = known.load(std::memory_order_relaxed);
+    if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
+    if (state == State::once) known.store(State::twice, std::memory_order_relaxed);
+    if (state != State::twice) return found;
+    const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
+    place(g.x0 + x * g.side, g.y0 + y * g.side, middle_of(sector));
+    const Verdict other = found == Verdict::free ? Verdict::forbidden : Verdict::uncertain;  // one pair ends the search, or none
+    const Verdict all = against(placed, list, count, {g.radius, half_sector, found}, [=](Index, Index) { return other; });
+    State now = State::mixed;
+    if (all == found && found != Verdict::uncertain) now = found == Verdict::free ? State::free : State::forbidden;
+    known.store(now, std::memory_order_relaxed);
+    return found;
+}
+
+void Checker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
+    Grid& g = near();
+    std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0;
+    in_parallel(threads, stop, [&] {
+        Placed placed(robot);
+        std::vector<std::size_t> slots(chunk), open(chunk);
+        for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
+            heed_stop();
+            const std::size_t end = std::min(count, begin + chunk);
+            for (std::size_t k = begin; k < end; ++k) {
+                const double* q = poses + 3 * k;
+                const bool is_within = limits[0] <= q[0] && q[0] <= limits[2] && limits[1] <= q[1] && q[1] <= limits[3];
+                out[k] = is_within ? Verdict::free : Verdict::forbidden;
+                const std::size_t slot = is_within ? g.slot(q[0], q[1], q[2]) : outside;
+                slots[k - begin] = slot;
+                if (slot != outside) __builtin_prefetch(&g.known[slot]);
+            }
+            std::size_t count_open = 0;  // without branches that nobody could foresee
+            for (std::size_t k = begin; k < end; ++k) {
+                const std::size_t slot = slots[k - begin];
+                const State state = slot == outside ? State::free : g.known[slot].load(std::memory_order_relaxed);
+                out[k] = state == State::forbidden ? Verdict::forbidden : out[k];
+                open[count_open] = k;
+                if (slot != outside) __builtin_prefetch(&g.start[slot / sectors]);
+                count_open += state != State::forbidden && state != State::free;
+            }
+            for (std::size_t n = 0; n < count_open; ++n)
+                out[open[n]] = verdict(g, slots[open[n] - begin], poses + 3 * open[n], placed);
+        }
+    });
+}
+
+// Halved until all poses of a part, which are around its middle, have one verdict. The middle's roundings, and those of
+// distances from where the robot is farther away than `margin` allows for, are within the slack.
+bool Checker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {
+    constexpr double rounding = 0x1p-44;
+    constexpr int deepest = 20;
+    const auto within = [&](double x, double y) { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; };
+    if (!within(from[0], from[1]) || !within(from[0] + by[0], from[1] + by[1])) return false;
+    const double length = std::hypot(by[0], by[1]) * (1 + rounding), angle = std::abs(by[2]) * (1 + rounding);
+    const double slack = rounding * (std::abs(from[0]) + std::abs(from[1]) + length), turned = rounding * (std::abs(from[2]) + angle);
+    std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
+    std::iota(all.begin(), all.end(), 0);
+    Placed placed(robot);
+    std::vector<std::pair<double, int>> parts{{0.5, 1}};  // middle, and how often halved
+    while (!parts.empty()) {
+        const auto [u, depth] = parts.back();
+        parts.pop_back();
+        const double half = std::ldexp(1, -depth), theta = from[2] + u * by[2];
+        placed.place({from[0] + u * by[0], from[1] + u * by[1], std::cos(theta), std::sin(theta)});
+        const Verdict all_of_it = against(placed, all.data(), all.size(), {half * length + slack, half * angle + turned},
+                                          [](Index, Index) { return Verdict::uncertain; });
+        if (all_of_it == Verdict::free) continue;
+        if (all_of_it == Verdict::forbidden || depth == deepest) return false;
+        parts.emplace_back(u - half / 2, depth + 1);
+        parts.emplace_back(u + half / 2, depth + 1);
+    }
+    return true;
+}
+
+bool Checker::is_free(const Placement& at, const ExactPlacement& exact) const {
+    Placed placed(robot);
+    placed.place(at);
+    std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
+    std::iota(all.begin(), all.end(), 0);
+    return against(placed, all.data(), all.size(), {}, [&](Index i, Index j) {
+        return overlap(exact, i, j) ? Verdict::forbidden : Verdict::free;
+    }) == Verdict::free;
+}
+
+// Everything times scale * w * unit.
+bool Checker::overlap(const ExactPlacement& at, Index i, Index j) const {
+    using Ring = std::vector<Vec<Int>>;
+    const auto ring = [](const Shape& shape, Index piece, auto&& place) {
+        Ring r;
+        for (Index m = shape.piece[piece]; m < shape.piece[piece + 1]; ++m)
+            r.push_back(place(shape.X[shape.piece_vertex[m]], shape.Y[shape.piece_vertex[m]]));
+        return r;
+    };
+    const Int dx = at.x * scale * at.w, dy = at.y * scale * at.w, unit = at.w * at.unit;
+    const Ring a = ring(scene->robot, robot.number[i], [&](const Int& x, const Int& y) {
+        return Vec<Int>{(at.c * x - at.s * y) * at.unit + dx, (at.s * x + at.c * y) * at.unit + dy};
+    });
+    const Ring b = ring(scene->obstacles, obstacles.number[j], [&](const Int& x, const Int& y) {
+        return Vec<Int>{x * unit, y * unit};
+    });
+    const auto separates = [](const Ring& own, const Ring& other) {
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            const Vec<Int>&v = own[k], &w = own[k + 1 < own.size() ? k + 1 : 0], e{w.x - v.x, w.y - v.y};
+            if (std::all_of(other.begin(), other.end(),
+                            [&](const Vec<Int>& p) { return cross(e, Vec<Int>{p.x - v.x, p.y - v.y}) <= 0; }))
+                return true;
+        }
+        return false;
+    };
+    return !separates(a, b) && !separates(b, a);
+}
+
+}  // namespace cfree

@@ -1,0 +1,115 @@
+#include "cfree/exact/algebraic.hpp"
+
+#include <algorithm>
+
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+void RealRoot::halve() {
+    if (is_dyadic()) return;
+    heed_stop();
+    const Dyadic mid = Dyadic::middle(lo, hi);
+    const int s = cfree::sign_at(p, mid);
+    if (s == 0) lo = hi = mid;
+    else if (s == cfree::sign_at(p, lo)) lo = mid;
+    else hi = mid;
+}
+
+// The largest d so that the interval is certainly narrower than 2^-d, or 0.
+unsigned RealRoot::digits() const {
+    const unsigned k = std::max(lo.k, hi.k);
+    const Int width = (hi.n << (k - hi.k)) - (lo.n << (k - lo.k));
+    const unsigned size = width.is_zero() ? 0 : static_cast<unsigned>(msb(width)) + 1;
+    return size < k ? k - size : 0;
+}
+
+// Cut into 2^b parts, the root is looked for beside the chord's: with half the digits known, the others are known as well.
+void RealRoot::narrow() {
+    const unsigned k = std::max(lo.k, hi.k);
+    const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
+    heed_stop();
+    const unsigned b = digits() / 2;
+    if (is_dyadic() || b < 4) return halve();
+    const Int below = value_at(p, {from, k}), above = value_at(p, {from + width, k});
+    const Int part = (abs(below) << b) / (abs(below) + abs(above)), last = Int(1) << b;
+    const Dyadic l{(from << b) + width * (part == 0 ? part : Int(part - 1)), k + b};
+    const Dyadic h{(from << b) + width * std::min(Int(part + 2), last), k + b};
+    const int at_l = cfree::sign_at(p, l), at_h = cfree::sign_at(p, h);
+    if (at_l == 0) hi = lo = l;
+    else if (at_h == 0) lo = hi = h;
+    else if (at_l != below.sign()) hi = l, halve();
+    else if (at_h != above.sign()) lo = h, halve();
+    else lo = l, hi = h;
+}
+
+namespace {
+
+// Most numbers are not equal: common divisors are looked for after so many steps, or once so many digits do not tell them apart.
+constexpr int few = 6;
+constexpr unsigned many = 160;
+
+// Whether the root of x is one of g, a divisor of its polynomial.
+bool is_root_of_divisor(const Poly& g, const RealRoot& x) {
+    if (g.size() <= 1) return false;
+    const int l = sign_at(g, x.lo), h = sign_at(g, x.hi);
+    if (l == 0 || h == 0 || l != h) return true;
+    return g.size() > 2 && Sturm(squarefree(g)).roots_in(x.lo, x.hi) > 0;
+}
+
+// Order of a root and a dyadic number in its interval.
+int order_at(const RealRoot& x, const Dyadic& at) {
+    if (x.is_dyadic()) return compare(x.lo, at);
+    const int s = sign_at(x.p, at);
+    if (s == 0) return 0;
+    return s == sign_at(x.p, x.lo) ? 1 : -1;
+}
+
+}  // namespace
+
+int sign_at(const Poly& q, RealRoot& x) {
+    if (q.empty()) return 0;
+    bool differ = false;
+    for (int k = 0; !x.is_dyadic(); ++k, x.narrow()) {
+        if (const int s = sign_on(q, x.lo, x.hi); s != 0) return s;
+        if (differ || (k < few && x.digits() < many)) continue;
+        if (is_root_of_divisor(greatest_common_divisor(q, x.p), x)) return 0;
+        differ = true;
+    }
+    return sign_at(q, x.lo);
+}
+
+int compare(RealRoot& x, RealRoot& y) {
+    if (compare(x.hi, y.lo) < 0) return -1;
+    if (compare(y.hi, x.lo) < 0) return 1;
+    bool differ = false;
+    for (int k = 0;; ++k, (x.digits() < y.digits() ? x : y).narrow()) {
+        if (compare(x.hi, y.lo) < 0) return -1;
+        if (compare(y.hi, x.lo) < 0) return 1;
+        if (x.is_dyadic()) return -order_at(y, x.lo);
+        if (y.is_dyadic()) return order_at(x, y.lo);
+        if (differ || (k < 2 * few && std::min(x.digits(), y.digits()) < many)) continue;
+        const RealRoot both{{}, compare(x.lo, y.lo) < 0 ? y.lo : x.lo, compare(x.hi, y.hi) < 0 ? x.hi : y.hi};
+        if (is_root_of_divisor(greatest_common_divisor(x.p, y.p), both)) return 0;
+        differ = true;
+    }
+}
+
+int sign_after(const Poly& q, RealRoot& x) {
+    Poly p = q;
+    for (;;) {
+        if (const int s = sign_at(p, x); s != 0) return s;
+        p = derivative(p);
+    }
+}
+
+int sign_before(const Poly& q, RealRoot& x) {
+    int flip = 1;
+    Poly p = q;
+    for (;; flip = -flip) {
+        if (const int s = sign_at(p, x); s != 0) return flip * s;
+        p = derivative(p);
+    }
+}
+
+}  // namespace cfree

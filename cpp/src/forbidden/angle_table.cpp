@@ -1,0 +1,94 @@
+#include "cfree/forbidden/angle_table.hpp"
+
+#include <algorithm>
+
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+AngleTable::AngleTable(const Scene& s, const Patches& p, const Trapezoids& t) : scene(s), patches(p), trapezoids(t) {
+    from.resize(t.patch.size()), to.resize(t.patch.size());
+    sort_chart(0);
+    middle = static_cast<Index>(angles.size()) - 1;
+    sort_chart(1);
+    last = static_cast<Index>(angles.size()) - 2;
+}
+
+CriticalAngle AngleTable::critical(const Angle& x) const {
+    if (x.trapezoid < 0) return {0, x.lo < 0 ? -1 : 1};
+    return x.is_to ? angle_to(patches, trapezoids, x.trapezoid) : angle_from(patches, trapezoids, x.trapezoid);
+}
+
+void AngleTable::sort_chart(int chart) {
+    const auto& t = trapezoids;
+    std::vector<Angle> ends{{-1, -1, -1, false}, {1, 1, -1, false}};
+    for (std::size_t k = 0; k < t.patch.size(); ++k) {
+        if (t.chart[k] != chart) continue;
+        ends.push_back({t.from_lo[k], t.from_hi[k], static_cast<Index>(k), false});
+        ends.push_back({t.to_lo[k], t.to_hi[k], static_cast<Index>(k), true});
+    }
+    std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) { return x.lo < y.lo; });
+    for (std::size_t begin = 0, end; begin < ends.size(); begin = end) {  // runs of intervals that overlap
+        double reach = ends[begin].hi;
+        for (end = begin + 1; end < ends.size() && ends[end].lo <= reach; ++end) reach = std::max(reach, ends[end].hi);
+        order_cluster(&ends[begin], &ends[begin] + (end - begin), chart);
+    }
+}
+
+void AngleTable::order_cluster(const Angle* begin, const Angle* end, int chart) {
+    // one of each name stands for all that agree with it
+    std::vector<std::pair<CriticalAngle::Name, const Angle*>> named;
+    for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).name(scene), x});
+    std::sort(named.begin(), named.end());
+    struct Class {
+        CriticalAngle angle;
+        std::vector<const Angle*> members;
+    };
+    std::vector<Class> classes;  // in order
+    const auto add = [&](std::size_t first, std::size_t next) {
+        heed_stop();
+        const CriticalAngle x = critical(*named[first].second);
+        std::size_t low = 0, high = classes.size();
+        bool found = false;
+        while (low < high && !found) {
+            const std::size_t mid = (low + high) / 2;
+            const int o = order(scene, x, classes[mid].angle);
+            found = o == 0;
+            if (o == 0) low = mid;
+            else (o < 0 ? high : low) = o < 0 ? mid : mid + 1;
+        }
+        if (!found) classes.insert(classes.begin() + static_cast<std::ptrdiff_t>(low), {x, {}});
+        for (std::size_t k = first; k < next; ++k) classes[low].members.push_back(named[k].second);
+    };
+    std::vector<CriticalAngle> same;
+    for (std::size_t k = 0, next; k < named.size(); k = next) {
+        same.clear();
+        for (next = k; next < named.size() && named[next].first == named[k].first; ++next)
+            same.push_back(critical(*named[next].second));
+        if (same.size() == 1 || CriticalAngle::are_one(scene, same)) add(k, next);
+        else
+            for (std::size_t x = k; x < next; ++x) add(x, x + 1);
+    }
+    for (const Class& c : classes) {
+        const auto rank = static_cast<Index>(angles.size()) - chart;
+        for (const Angle* x : c.members)
+            if (x->trapezoid >= 0) (x->is_to ? to : from)[x->trapezoid] = rank;
+        angles.push_back(*c.members[0]);
+    }
+}
+
+const RealRoot& AngleTable::exact(Index rank, int chart) {
+    const std::size_t at = place(rank, chart);
+    if (!recent || recent->first != at) recent = {at, critical(angles[at])};
+    return recent->second.exact(scene);
+}
+
+Sample AngleTable::between(Index first, Index second, int chart) {
+    if (hi(first, chart) < lo(second, chart)) return Predicates::within(hi(first, chart), lo(second, chart));
+    RealRoot p = exact(first, chart), q = exact(second, chart);
+    while (compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+    const Dyadic at = Dyadic::middle(p.hi, q.lo);
+    return {at.rounded_down(), at};
+}
+
+}  // namespace cfree

@@ -1,0 +1,83 @@
+#include "forbidden/coincident_surfaces.hpp"
+
+#include <algorithm>
+
+namespace cfree {
+
+Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    const Event first_wall{{}, {}, -1, -1}, last_wall{{}, {}, 1, 1};
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    if (on_edge && A.previous[i] == i)  // a point touches at every orientation
+        return {2, {0, 1}, {first_wall, first_wall}, {last_wall, last_wall}};
+    const auto start = on_edge ? Predicates::range_end(scene, i, j, true, counters)
+                               : Predicates::range_end(scene, i, O.previous[j], true, counters);
+    const auto end = on_edge ? Predicates::range_end(scene, A.previous[i], j, false, counters)
+                             : Predicates::range_end(scene, i, j, false, counters);
+    if (start.chart == end.chart) return {1, {start.chart, 0}, {start.event, {}}, {end.event, {}}};
+    return {2, {start.chart, end.chart}, {start.event, first_wall}, {last_wall, end.event}};
+}
+
+Owners::Groups::Groups(const std::vector<Index>& group, Index count) {
+    Index last = -1;
+    for (Index k = 0; k < count; ++k) last = std::max(last, group[k]);
+    start.assign(static_cast<std::size_t>(last) + 2, 0);
+    for (Index k = 0; k < count; ++k) ++start[group[k] + 1];
+    for (std::size_t g = 1; g < start.size(); ++g) start[g] += start[g - 1];
+    member.resize(count);
+    std::vector<Index> at(start.begin(), start.end() - 1);
+    for (Index k = 0; k < count; ++k) member[at[group[k]]++] = k;
+}
+
+Owners::Owners(const Scene& s, bool without_slits)
+    : scene(s), regularized(without_slits), robot_points(s.robot.point, s.robot.ring_vertices),
+      robot_lines(s.robot.line, s.robot.ring_vertices), obstacle_points(s.obstacles.point, s.obstacles.ring_vertices),
+      obstacle_lines(s.obstacles.line, s.obstacles.ring_vertices) {}
+
+std::array<Index, 2> Owners::rank(const Feature& contact) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    if (contact.kind == Kind::vertex_edge) return {A.vertex_rank[i], O.edge_rank[j]};
+    return {A.edge_rank[i], O.vertex_rank[j]};
+}
+
+bool Owners::is_patch(const Feature& contact) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    if (!O.emit[j] || A.layer[i] != O.layer[j]) return false;
+    return contact.kind == Kind::vertex_edge ? A.convex[i] : O.convex[j] && A.has_extent(i);
+}
+
+std::vector<Feature> Owners::before(const Feature& contact) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const Groups &robots = on_edge ? robot_points : robot_lines, &others = on_edge ? obstacle_lines : obstacle_points;
+    const Index r = on_edge ? A.point[contact.robot] : A.line[contact.robot];
+    const Index o = on_edge ? O.line[contact.obstacle] : O.point[contact.obstacle];
+    std::vector<Feature> result;
+    for (Index x = robots.start[r]; x < robots.start[r + 1]; ++x)
+        for (Index y = others.start[o]; y < others.start[o + 1]; ++y) {
+            const Feature other{contact.kind, robots.member[x], others.member[y]};
+            if (is_patch(other) && rank(other) < rank(contact)) result.push_back(other);
+        }
+    if (regularized && on_edge) add_opposite(contact, result);
+    return result;
+}
+
+// The same surface with the other side forbidden: a robot vertex at the reference point, a wall on a bound.
+void Owners::add_opposite(const Feature& contact, std::vector<Feature>& out) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
+        if (A.point[i2] != A.point[i] || A.layer[i2] == A.layer[i]) continue;
+        for (Index j2 = 0; j2 < O.ring_vertices; ++j2) {
+            if (O.direction[j2] != O.direction[j] || !is_patch({Kind::vertex_edge, i2, j2})) continue;
+            const auto E = edge<Int>(O, j), F = edge<Int>(O, j2);
+            if (dot(E, F).sign() < 0 && cross(E, difference<Int>(O, O.v[j2], O.v[j])).is_zero())
+                out.push_back({Kind::vertex_edge, i2, j2});
+        }
+    }
+}
+
+}  // namespace cfree

@@ -1,0 +1,38 @@
+// Surfaces that coincide: every piece of boundary that several patches share belongs to one of them.
+#pragma once
+#include "cfree/predicates/predicates.hpp"
+
+namespace cfree {
+
+// The orientations of a contact (the paper's phi_min to phi_max), cut at the chart walls.
+struct Range {
+    int count = 0;
+    int chart[2];
+    Event from[2], to[2];
+};
+Range range_of(const Scene& scene, const Feature& contact, Counters& counters);
+
+class Owners {
+public:
+    // regularized: patches of one surface whose free sides face each other own nothing.
+    Owners(const Scene& scene, bool regularized);
+
+    // Contacts that own what they share with this one: of the same surface, and of lower rank, whatever the order of input.
+    std::vector<Feature> before(const Feature& contact) const;
+
+private:
+    // Ring features by class.
+    struct Groups {
+        std::vector<Index> start, member;
+        Groups(const std::vector<Index>& group, Index count);
+    };
+    std::array<Index, 2> rank(const Feature& contact) const;
+    bool is_patch(const Feature& contact) const;
+    void add_opposite(const Feature& contact, std::vector<Feature>& out) const;
+
+    const Scene& scene;
+    bool regularized;
+    Groups robot_points, robot_lines, obstacle_points, obstacle_lines;
+};
+
+}  // namespace cfree

@@ -1,0 +1,23 @@
+#include "cfree/forbidden/columns.hpp"
+
+namespace cfree {
+
+void Trapezoids::reserve(std::size_t count) {
+    patch.reserve(count), chart.reserve(count);
+    for (auto* v : {&lower, &upper, &from_first, &from_second, &to_first, &to_second}) v->reserve(count);
+    for (auto* v : {&from_lo, &from_hi, &to_lo, &to_hi}) v->reserve(count);
+    from_place.reserve(count), to_place.reserve(count);
+}
+
+void Trapezoids::push_back(const Trapezoid& x) {
+    patch.push_back(x.patch), chart.push_back(static_cast<std::uint8_t>(x.chart));
+    lower.push_back(packed(x.lower)), upper.push_back(packed(x.upper));
+    from_first.push_back(packed(x.from.first)), from_second.push_back(packed(x.from.second));
+    to_first.push_back(packed(x.to.first)), to_second.push_back(packed(x.to.second));
+    from_lo.push_back(x.from.lo), from_hi.push_back(x.from.hi);
+    to_lo.push_back(x.to.lo), to_hi.push_back(x.to.hi);
+    from_place.push_back(static_cast<std::uint8_t>(x.from_place));
+    to_place.push_back(static_cast<std::uint8_t>(x.to_place));
+}
+
+}  // namespace cfree

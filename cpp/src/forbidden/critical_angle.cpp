@@ -1,0 +1,68 @@
+#include "cfree/forbidden/critical_angle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cfree {
+
+CriticalAngle::Name CriticalAngle::name(const Scene& scene) const {
+    if (is_wall()) return {0, 0, lo < 0 ? 0u : 1u};
+    const Code a = code(scene, first), b = code(scene, second), own = code(scene, surface.contact);
+    Name names{own, a, b};
+    if (first.kind == Kind::edge_edge) names = {a, 0, 0};
+    else if (second.kind == Kind::none) names = {own, a, 0};
+    else if (first.kind == Kind::vertex_vertex || second.kind == Kind::vertex_vertex) names = {a, b, 0};  // a helix on it
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>& same) {
+    const CriticalAngle& x = same[0];
+    if (x.is_wall()) return true;
+    double low = x.lo, high = x.hi;
+    for (const CriticalAngle& y : same) {
+        if (y.place != 0) return false;
+        low = std::min(low, y.lo), high = std::max(high, y.hi);
+    }
+    return Predicates(scene, x.surface).changes_sign({x.first, x.second, x.lo, x.hi}, low, high);
+}
+
+const RealRoot& CriticalAngle::exact(const Scene& scene) const {
+    if (root) return *root;
+    root = std::make_shared<RealRoot>();
+    if (is_wall()) {
+        root->lo = root->hi = Dyadic::from(lo);
+        return *root;
+    }
+    Predicates predicates(scene, surface);
+    *root = predicates.root_of(event(predicates));
+    // axis-parallel scenes have thousands of names for one number of few digits
+    const Dyadic simple = Dyadic::from(std::nearbyint(16 * lo) / 16);
+    if (compare(root->lo, simple) <= 0 && compare(simple, root->hi) <= 0 && sign_at(root->p, simple) == 0)
+        root->lo = root->hi = simple;
+    return *root;
+}
+
+int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
+    if (x.hi < y.lo) return -1;
+    if (x.lo > y.hi) return 1;
+    RealRoot p = x.exact(scene), q = y.exact(scene);
+    return compare(p, q);
+}
+
+Surface surface_of(const Patches& patches, const Trapezoids& t, Index k) {
+    const Index patch = t.patch[k];
+    return {{static_cast<Kind>(patches.kind[patch]), patches.robot[patch], patches.obstacle[patch]}, t.chart[k]};
+}
+
+CriticalAngle angle_from(const Patches& patches, const Trapezoids& t, Index k) {
+    return {surface_of(patches, t, k), {unpacked(t.from_first[k]), unpacked(t.from_second[k]), t.from_lo[k], t.from_hi[k]},
+            t.from_place[k]};
+}
+
+CriticalAngle angle_to(const Patches& patches, const Trapezoids& t, Index k) {
+    return {surface_of(patches, t, k), {unpacked(t.to_first[k]), unpacked(t.to_second[k]), t.to_lo[k], t.to_hi[k]},
+            t.to_place[k]};
+}
+
+}  // namespace cfree

@@ -1,0 +1,124 @@
+#include "cfree/forbidden/curve_hash.hpp"
+
+#include <boost/multiprecision/miller_rabin.hpp>
+#include <stdexcept>
+
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+Residues::Residues(Word prime) : p(prime), inverse_of_p(prime) {
+    for (int k = 0; k < 5; ++k) inverse_of_p *= 2 - p * inverse_of_p;  // Newton's method: 3 bits are right, 6, 12, ...
+    one = static_cast<Word>((Wide(1) << 64) % p), square = static_cast<Word>(static_cast<Wide>(one) * one % p);
+}
+
+Residues::Word Residues::of(const Int& n) const {
+    const Int r = n % Int(p);
+    return times(static_cast<Word>(r.sign() < 0 ? Int(r + p) : r), square);
+}
+
+Residues::Word Residues::inverse(Word x) const {  // x^(p - 2)
+    Word result = one;
+    for (Word e = p - 2; e != 0; e >>= 1, x = times(x, x))
+        if (e & 1) result = times(result, x);
+    return result;
+}
+
+namespace {
+
+// Whether two lines are parallel at every orientation: there is no curve then.
+bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
+    const auto direction = [&](const Feature& f) {
+        return f.kind == Kind::vertex_edge ? edge<Int>(scene.obstacles, f.obstacle) : edge<Int>(scene.robot, f.robot);
+    };
+    const auto is_point = [](const Vec<Int>& d) { return d.x.is_zero() && d.y.is_zero(); };
+    const auto d = direction(x), e = direction(y);
+    return x.kind == y.kind ? cross(d, e).is_zero() : is_point(d) || is_point(e);
+}
+
+}  // namespace
+
+Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve) : scene(sc) {
+    prints.reserve(count);
+    for (unsigned attempt = 0; prints.size() < count; ++attempt) {
+        choose(attempt);
+        for (prints.clear(); prints.size() < count;) {
+            heed_stop();
+            const NamedCurve next = curve(prints.size());
+            const auto print = of(next);
+            if (!print && are_parallel(scene, next.on, next.other)) throw std::logic_error("a curve of two parallel surfaces");
+            if (!print) break;
+            prints.push_back(*print);
+        }
+    }
+}
+
+// Primes and orientations without any pattern: coordinates have patterns, and are short modulo 2^61 - 1.
+void Fingerprints::choose(unsigned attempt) {
+    Word seed = attempt;
+    const auto next = [&] {  // splitmix64
+        Word z = seed += 0x9e3779b97f4a7c15u;
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u, z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+        return z ^ z >> 31;
+    };
+    Word prime = next() >> 3 | Word(1) << 61 | 1;
+    while (!boost::multiprecision::miller_rabin_test(Int(prime), 25)) prime += 2;
+    in = Residues(prime);
+    robot = reduced(scene.robot), obstacles = reduced(scene.obstacles);
+    const Word unit = in.of(1), tau = in.of(next() >> 3), q = in.times(tau, tau), w = in.inverse(in.plus(unit, q));
+    c = in.times(in.minus(unit, q), w), s = in.times(in.plus(tau, tau), w);
+}
+
+std::vector<Fingerprints::Point> Fingerprints::reduced(const Shape& shape) const {
+    std::vector<Point> result;
+    for (std::size_t k = 0; k < shape.X.size(); ++k) result.push_back({in.of(shape.X[k]), in.of(shape.Y[k])});
+    return result;
+}
+
+Fingerprints::Point Fingerprints::placed(Index a, Index b) const {
+    const Point &A = robot[a], &B = obstacles[b];
+    return {in.minus(B.x, in.minus(in.times(c, A.x), in.times(s, A.y))),
+            in.minus(B.y, in.plus(in.times(s, A.x), in.times(c, A.y)))};
+}
+
+std::array<Fingerprints::Point, 2> Fingerprints::line(const Feature& f) const {
+    const Feature first = end_helix(scene, f, 0), last = end_helix(scene, f, 1);
+    const Point p = placed(first.robot, first.obstacle), q = placed(last.robot, last.obstacle);
+    return {p, {in.minus(q.x, p.x), in.minus(q.y, p.y)}};
+}
+
+// None if the two lines are parallel, modulo the prime.
+std::optional<Fingerprint> Fingerprints::of(const NamedCurve& curve) const {
+    if (curve.other.kind == Kind::vertex_vertex) {
+        const Point p = placed(curve.other.robot, curve.other.obstacle);
+        return Fingerprint{p.x, p.y};
+    }
+    const auto [P, U] = line(curve.on);
+    const auto [Q, V] = line(curve.other);
+    const auto product = [&](const Point& u, const Point& v) { return in.minus(in.times(u.x, v.y), in.times(u.y, v.x)); };
+    const Word inverse = in.inverse(product(U, V));
+    if (inverse == 0) return {};
+    const Word t = in.times(product({in.minus(Q.x, P.x), in.minus(Q.y, P.y)}, V), inverse);
+    return Fingerprint{in.plus(P.x, in.times(t, U.x)), in.plus(P.y, in.times(t, U.y))};
+}
+
+bool Fingerprints::may_lie_on(const Feature& surface, const Fingerprint& curve) const {
+    const auto [P, U] = line(surface);
+    return in.times(U.x, in.minus(curve.y, P.y)) == in.times(U.y, in.minus(curve.x, P.x));
+}
+
+bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface) {
+    if (curve.other.kind == Kind::vertex_vertex) return Predicates(scene, {surface, 0}).vanishes(curve.other, {});
+    const Code own = code(scene, surface);
+    return own == code(scene, curve.on) || own == code(scene, curve.other) ||
+           Predicates(scene, {curve.on, 0}).vanishes(curve.other, surface);
+}
+
+bool is_same_curve(const Scene& scene, const NamedCurve& x, const NamedCurve& y) {
+    const bool helix = x.other.kind == Kind::vertex_vertex;
+    if (helix && y.other.kind == Kind::vertex_vertex) return code(scene, x.other) == code(scene, y.other);
+    if (y.other.kind == Kind::vertex_vertex) return is_same_curve(scene, y, x);
+    return lies_on(scene, x, y.on) && lies_on(scene, x, y.other);
+}
+
+}  // namespace cfree

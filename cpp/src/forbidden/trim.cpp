@@ -1,0 +1,345 @@
+// The live region of a patch: bands taken away, parts without width kept.
+#include "cfree/forbidden/trim.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "cfree/forbidden/critical_angle.hpp"
+#include "cfree/predicates/junction.hpp"
+
+namespace cfree {
+
+Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
+    : decide(s, on), scene(s), surface(on) {
+    events = {from, to};
+    const Index t0 = curve_of(end_helix(s, on.contact, 0), false), t1 = curve_of(end_helix(s, on.contact, 1), false);
+    live.push_back({0, 1, t0, t1, 0, 1});
+}
+
+Index Trimmer::intern(const Event& event) {
+    events.push_back(event);
+    return static_cast<Index>(events.size()) - 1;
+}
+
+// --- curves ----------------------------------------------------------------------------------------------------------
+
+// A curve that is an end of the surface, t = 0 or t = 1, by identity of features, is named as that helix.
+Feature Trimmer::normal_form(const Feature& f) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const auto touches = [](const Shape& s, Index e, Index v) {
+        return s.point[s.v[e]] == s.point[v] || s.point[s.w[e]] == s.point[v];
+    };
+    for (const int end : {0, 1}) {
+        const Feature helix = end_helix(scene, surface.contact, end);
+        const bool through = f.kind == Kind::vertex_edge
+                                 ? A.point[f.robot] == A.point[helix.robot] && touches(O, f.obstacle, helix.obstacle)
+                                 : O.point[f.obstacle] == O.point[helix.obstacle] && touches(A, f.robot, helix.robot);
+        if (through) return helix;
+    }
+    return f;
+}
+
+Index Trimmer::curve_of(const Feature& f, bool flipped) {
+    const Code c = code(scene, f);
+    for (std::size_t k = 0; k < curves.size(); ++k)
+        if (curves[k].code == c && curves[k].flipped == flipped) return static_cast<Index>(k);
+    Curve curve = decide.curve(f);
+    if (flipped) curve.N = -curve.N, curve.D = -curve.D, curve.flipped = true;
+    curves.push_back(curve);
+    return static_cast<Index>(curves.size()) - 1;
+}
+
+// Bounds on t between two angles: of N / D, a rational Bezier function, by its control values.
+void Trimmer::bounds(Area& area) const {
+    const double lo = events[area.from].lo, hi = events[area.to].hi;
+    const auto extreme = [&](const Curve& c, bool want_max) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        double best = want_max ? -infinity : infinity;
+        const double knots[3][2] = {{lo, lo}, {lo, hi}, {hi, hi}};
+        for (const auto& k : knots) {
+            const double n = c.N.polar(k[0], k[1]), d = c.D.polar(k[0], k[1]);
+            if (!(d > c.D.err)) return want_max ? infinity : -infinity;
+            if (want_max) best = std::max(best, n + c.N.err > 0 ? (n + c.N.err) / (d - c.D.err) : (n + c.N.err) / (d + c.D.err));
+            else best = std::min(best, n - c.N.err > 0 ? (n - c.N.err) / (d + c.D.err) : (n - c.N.err) / (d - c.D.err));
+        }
+        return best;
+    };
+    // two ulps outwards for the division and the sums
+    area.t_min = extreme(curves[area.lower], false), area.t_max = extreme(curves[area.upper], true);
+    area.t_min -= std::abs(area.t_min) * 0x1p-50, area.t_max += std::abs(area.t_max) * 0x1p-50;
+}
+
+void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
+    // along the line, t grows: it enters by an edge with D > 0 and leaves by one with D < 0
+    Feature l = normal_form(state.lower.feature), u = normal_form(state.upper.feature);
+    Area band{span.from, span.to, curve_of(l, false), curve_of(u, u.kind != Kind::vertex_vertex), 0, 1};
+    bounds(band);
+    if (band.t_max < 0 || band.t_min > 1) return;
+    subtract({band, p, k, &state});
+}
+
+void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
+    const auto tighter = [&](Index own, const Event& other, int later) {
+        return decide.order(other, events[own]) * later > 0 ? intern(other) : own;
+    };
+    const auto& line = scene.obstacles.line;
+    const bool backwards = owner.kind == Kind::vertex_edge && line[owner.obstacle] != line[surface.contact.obstacle];
+    const Feature first = end_helix(scene, owner, backwards ? 1 : 0), last = end_helix(scene, owner, backwards ? 0 : 1);
+    Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
+    if (!before(band.from, band.to)) return;
+    bounds(band);
+    subtract({band, -1, -1, nullptr});
+}
+
+// Whether the band covers the inside of its segment at this one of its angles.
+bool Trimmer::covers_at(const Band& band, Index event) {
+    if (band.state == nullptr) return true;
+    const bool inside = before(band.area.from, event) && before(event, band.area.to);
+    return inside || crosses_at(band, event);
+}
+
+// Whether the line passes through the open pillar at an end of the band: there are vertices on both its sides.
+bool Trimmer::crosses_at(const Band& band, Index event) {
+    const Event& e = events[event];
+    const PillarEdge &l = band.state->lower, &u = band.state->upper;
+    const auto certain = [&](Index s, Index v) { return Predicates::sign_on(decide.offset(s, v), e.lo, e.hi); };
+    if ((certain(l.s0, l.v0) > 0 || certain(u.s1, u.v1) > 0) && (certain(l.s1, l.v1) < 0 || certain(u.s0, u.v0) < 0)) return true;
+    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); });
+    bool left = false, right = false;
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    for (Index x = A.piece[band.p]; x < A.piece[band.p + 1]; ++x)
+        for (Index y = O.piece[band.k]; y < O.piece[band.k + 1] && !(left && right); ++y) {
+            if (lies_on_line(A.piece_vertex[x], O.piece_vertex[y])) continue;
+            const int side = here.side(surface.contact, A.piece_vertex[x], O.piece_vertex[y]);
+            left |= side > 0, right |= side < 0;
+        }
+    return left && right;
+}
+
+int Trimmer::order_at(Index event, Index p, Index q) {
+    if (curves[p].code == curves[q].code) return 0;
+    const Event& e = events[event];
+    Junction here(scene, surface.chart, e.lo, e.hi, [&] { return decide.root_of(e); });
+    const Feature& on = surface.contact;
+    if (e.first.kind != Kind::none) here.know(CriticalAngle(surface, e, 0).name(scene));
+    return here.order(on, here.spot(on, curves[p].feature), here.spot(on, curves[q].feature));
+}
+
+// --- live region -----------------------------------------------------------------------------------------------------
+
+void Trimmer::subtract(const Band& taken) {
+    if (!thin.empty()) subtract_from_thin(taken);
+    next.clear(), fresh.clear();
+    for (const Area& area : live)
+        if (!subtract_from(area, taken)) next.push_back(area);
+    live.swap(next);
+    thin.insert(thin.end(), fresh.begin(), fresh.end());
+}
+
+// Areas that are open end at an angle, but for those that stay; the others begin there. After a tip, where the width is zero, all
+// are new.
+void Trimmer::go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip) {
+    const std::size_t old = open.size();
+    for (const auto& [lower, upper] : parts) {
+        Area part{at, at, lower, upper, 0, 1};
+        for (std::size_t k = 0; k < old && !after_tip; ++k)
+            if (open[k].lower == lower && open[k].upper == upper) part.from = open[k].from, open[k].from = -1;
+        open.push_back(part);
+    }
+    for (std::size_t k = 0; k < old; ++k) {
+        if (open[k].from < 0) continue;
+        open[k].to = at;
+        bounds(open[k]);
+        next.push_back(open[k]);
+    }
+    open.erase(open.begin(), open.begin() + static_cast<std::ptrdiff_t>(old));
+}
+
+// False if nothing is taken away.
+bool Trimmer::subtract_from(const Area& area, const Band& taken) {
+    const Area& band = taken.area;
+    if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi || band.t_max < area.t_min ||
+        band.t_min > area.t_max)
+        return false;
+    const Index from = before(area.from, band.from) ? band.from : area.from;
+    const Index to = before(band.to, area.to) ? band.to : area.to;
+    if (!before(from, to)) return false;
+    // where the band lies against the area: four orders, their changes in one list
+    const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[from], events[to]); };
+    Predicates::Order orders[4];
+    orders[0] = order(band.lower, area.upper);
+    if (orders[0].count == 0 && orders[0].sign[0] >= 0) return false;
+    orders[1] = order(band.upper, area.lower);
+    if (orders[1].count == 0 && orders[1].sign[0] <= 0) return false;
+    orders[2] = order(band.lower, area.lower);
+    orders[3] = order(band.upper, area.upper);
+    struct Cut {
+        Index event;
+        int which;
+    };
+    Cut cuts[16];
+    int count = 0;
+    for (int w = 0; w < 4; ++w) {
+        for (int r = 0; r < orders[w].count; ++r) {
+            Cut cut{intern(orders[w].at[r]), w};
+            int k = count++;
+            for (; k > 0 && before(cut.event, cuts[k - 1].event); --k) cuts[k] = cuts[k - 1];
+            cuts[k] = cut;
+        }
+    }
+    // what the band leaves of the area without width, at an angle between two parts (or one, or none, of them covered)
+    struct Cover {
+        bool all, low, high;  // some of the area's inside; its lower, its upper curve
+    };
+    const auto leave = [&](Index at, const Cover* before_it, const Cover* after_it, bool low_meets, bool high_meets) {
+        for (const Cover* c : {before_it, after_it})
+            if (c != nullptr && !c->all) return;
+        const auto both = [&](bool Cover::*which) {
+            return (before_it == nullptr || before_it->*which) && (after_it == nullptr || after_it->*which);
+        };
+        if (!covers_at(taken, at)) return add_thin(at, at, area.lower, area.upper);
+        const bool is_end = before_it == nullptr || after_it == nullptr;
+        const auto meets = [&](int w, Index p, Index q) { return is_end && !orders[w].strict && order_at(at, p, q) == 0; };
+        if (both(&Cover::low) && (low_meets || meets(2, band.lower, area.lower))) add_thin(at, at, area.lower, area.lower);
+        if (both(&Cover::high) && (high_meets || meets(3, band.upper, area.upper))) add_thin(at, at, area.upper, area.upper);
+    };
+    // between cuts the order is constant: keep the area, or what is below and above the band
+    open.clear();
+    if (from != area.from) go_on(area.from, {{area.lower, area.upper}}, false);
+    int position[4] = {0, 0, 0, 0};
+    Cover last{};
+    bool low_meets = false, high_meets = false;
+    for (int k = 0;;) {
+        const Index start = k == 0 ? from : cuts[k - 1].event, end = k == count ? to : cuts[k].event;
+        const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
+        const Cover cover{sign(0) < 0 && sign(1) > 0, sign(2) < 0, sign(3) > 0};
+        const bool below = sign(2) > 0, above = sign(3) < 0;
+        if (!cover.all) go_on(start, {{area.lower, area.upper}}, false);
+        else if (below && above) go_on(start, {{area.lower, band.lower}, {band.upper, area.upper}}, low_meets || high_meets);
+        else if (below) go_on(start, {{area.lower, band.lower}}, low_meets);
+        else if (above) go_on(start, {{band.upper, area.upper}}, high_meets);
+        else go_on(start, {}, false);
+        if (taken.state != nullptr) {
+            if (cover.all && sign(2) == 0) add_thin(start, end, area.lower, area.lower);
+            if (cover.all && sign(3) == 0) add_thin(start, end, area.upper, area.upper);
+            if (k > 0) leave(start, &last, &cover, low_meets, high_meets);
+            else if (from == area.from) leave(start, nullptr, &cover, false, false);
+            if (k == count && to == area.to) leave(to, &cover, nullptr, false, false);
+        }
+        last = cover;
+        if (k == count) break;
+        low_meets = high_meets = false;
+        do {
+            low_meets |= cuts[k].which == 2, high_meets |= cuts[k].which == 3;
+            ++position[cuts[k].which], ++k;
+        } while (k < count && equal(cuts[k].event, cuts[k - 1].event));
+    }
+    if (to != area.to) go_on(to, {{area.lower, area.upper}}, false);
+    go_on(area.to, {}, false);
+    return true;
+}
+
+void Trimmer::subtract_from_thin(const Band& taken) {
+    const Area& band = taken.area;
+    fresh.clear();
+    for (const Area& x : thin) {
+        if (x.from == x.to) {  // at one angle
+            const Index at = x.from;
+            if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) ||
+                order_at(at, band.lower, x.upper) >= 0 || order_at(at, band.upper, x.lower) <= 0) {
+                fresh.push_back(x);
+                continue;
+            }
+            const int low = order_at(at, band.lower, x.lower), high = order_at(at, band.upper, x.upper);
+            if (low > 0) add_thin(at, at, x.lower, band.lower);
+            if (high < 0) add_thin(at, at, band.upper, x.upper);
+            if (taken.state == nullptr) continue;
+            if (low == 0) add_thin(at, at, x.lower, x.lower);
+            if (high == 0) add_thin(at, at, x.upper, x.upper);
+            continue;
+        }
+        // a curve
+        const Index from = before(x.from, band.from) ? band.from : x.from, to = before(band.to, x.to) ? band.to : x.to;
+        if (!before(from, to)) {
+            fresh.push_back(x);
+            continue;
+        }
+        const auto order = [&](Index p) { return decide.compare(curves[p], curves[x.lower], events[from], events[to]); };
+        const Predicates::Order low = order(band.lower), high = order(band.upper);
+        struct Cut {
+            Index event;
+            bool is_low;
+        };
+        std::vector<Cut> cuts;
+        for (int r = 0; r < low.count; ++r) cuts.push_back({intern(low.at[r]), true});
+        for (int r = 0; r < high.count; ++r) cuts.push_back({intern(high.at[r]), false});
+        std::stable_sort(cuts.begin(), cuts.end(), [&](const Cut& p, const Cut& q) { return before(p.event, q.event); });
+        Index start = x.from;   // of what is kept
+        bool keeps = from != x.from, was_covered = false;
+        std::size_t k = 0;
+        int i = 0, j = 0;
+        for (Index at = from;;) {
+            const bool covered = low.sign[i] < 0 && high.sign[j] > 0;
+            if (covered && keeps) add_thin(start, at, x.lower, x.lower);
+            if (!covered && !keeps) start = at;
+            if (covered && !keeps && taken.state != nullptr) {  // covered on both sides, or from the curve's end on
+                const bool meets = was_covered || !covers_at(taken, at) || order_at(at, band.lower, x.lower) == 0 ||
+                                   order_at(at, band.upper, x.lower) == 0;
+                if (meets) add_thin(at, at, x.lower, x.lower);
+            }
+            keeps = !covered, was_covered = covered;
+            if (k == cuts.size()) break;
+            at = cuts[k].event;
+            do (cuts[k].is_low ? i : j) += 1, ++k;
+            while (k < cuts.size() && equal(cuts[k].event, at));
+        }
+        if (was_covered && to == x.to && taken.state != nullptr &&
+            (!covers_at(taken, to) || order_at(to, band.lower, x.lower) == 0 || order_at(to, band.upper, x.lower) == 0))
+            add_thin(to, to, x.lower, x.lower);
+        if (to != x.to && was_covered) start = to;
+        if (to != x.to || keeps) add_thin(start, x.to, x.lower, x.lower);
+    }
+    thin.swap(fresh);
+}
+
+// Where free space is pinched between two surfaces, neither goes on.
+void Trimmer::cut_at(Index event) {
+    const std::size_t count = live.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        if (!before(live[k].from, event) || !before(event, live[k].to)) continue;
+        Area rest = live[k];
+        rest.from = live[k].to = event;
+        live.push_back(rest);
+    }
+}
+
+void Trimmer::finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out) {
+    // join neighbours along theta that have the same curves
+    for (std::size_t k = 0; k < live.size(); ++k) {
+        for (std::size_t l = 0; l < live.size();) {
+            const bool same = l != k && live[l].lower == live[k].lower && live[l].upper == live[k].upper;
+            if (same && equal(live[k].to, live[l].from) && order_at(live[k].to, live[k].lower, live[k].upper) != 0) {
+                live[k].to = live[l].to;
+                live.erase(live.begin() + static_cast<std::ptrdiff_t>(l));
+                if (l < k) --k;
+                l = 0;
+            } else {
+                ++l;
+            }
+        }
+    }
+    for (const Index pinch : pinches) cut_at(pinch);
+    // by angle, then upwards
+    std::sort(live.begin(), live.end(), [&](const Area& x, const Area& y) {
+        if (events[x.from].lo != events[y.from].lo) return events[x.from].lo < events[y.from].lo;
+        return x.t_min < y.t_min;
+    });
+    const auto put = [&](const std::vector<Area>& areas, std::vector<Trapezoid>& into) {
+        for (const Area& x : areas)
+            into.push_back({patch, surface.chart, curves[x.lower].feature, curves[x.upper].feature, events[x.from],
+                            events[x.to], decide.place(events[x.from]), decide.place(events[x.to])});
+    };
+    put(live, out), put(thin, thin_out);
+}
+
+}  // namespace cfree

@@ -1,0 +1,470 @@
+#include "cfree/free/point_location.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+#include "predicates/form.hpp"
+#include "support/parallel.hpp"
+
+namespace cfree {
+
+namespace {
+
+// More than the roundings in any sign below: at most 40 in a row.
+constexpr double sign_error = 128 * u;
+
+// f at tau, or as a polynomial.
+struct Rotation {
+    Approx c, s;
+    Approx operator()(const Trig<Approx>& f) const { return f.a + f.b * c + f.c * s; }
+};
+struct Expansion {
+    int chart;
+    Poly operator()(const Trig<Int>& f) const {
+        if (chart == 0) return {f.a + f.b, f.c + f.c, f.a - f.b};
+        return {f.a - f.b, -(f.c + f.c), f.a + f.b};
+    }
+};
+Approx two_products(Approx p, Approx q, Approx r, Approx s) { return p * q - r * s; }
+Poly two_products(const Poly& p, const Poly& q, const Poly& r, const Poly& s) {
+    return difference(product(p, q), product(r, s));
+}
+
+// f(p / r), times a positive number.
+Int value_at(const Poly& f, const Int& p, const Int& r) {
+    Int value = 0, power = 1;
+    for (int k = f.size() - 1; k >= 0; --k, power *= r) value = value * p + f[k] * power;
+    return value;
+}
+
+// The sign of the first derivative that is not zero, and its number; -1 if there is none.
+struct Leading {
+    int order, sign;
+};
+Leading leading(Poly f, const Int& p, const Int& r) {
+    for (int order = 0; !f.empty(); ++order, f = derivative(f))
+        if (const int s = value_at(f, p, r).sign(); s != 0) return {order, s};
+    return {-1, 0};
+}
+
+template <class T>
+T coordinate(const std::vector<Int>& exact, const std::vector<double>& rounded, Index k) {
+    if constexpr (std::is_same_v<T, Int>) return exact[k];
+    else return {rounded[k], std::abs(rounded[k])};
+}
+template <class T>
+Vec<T> vertex(const Shape& s, Index k) { return {coordinate<T>(s.X, s.x, k), coordinate<T>(s.Y, s.y, k)}; }
+template <class T>
+T constant(int value) {
+    if constexpr (std::is_same_v<T, Int>) return value;
+    else return {double(value), double(std::abs(value))};
+}
+
+// The line P + t U of a contact surface, P = b - R a with U = E or -R E, seen from a point q / w; all times w.
+template <class T>
+struct Line {
+    bool on_edge;
+    Vec<T> a, b, E, q;
+    T w;
+    Line(const Scene& scene, const Feature& contact, const Vec<T>& point, const T& by) : q(point), w(by) {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        on_edge = contact.kind == Kind::vertex_edge;
+        a = vertex<T>(A, on_edge ? contact.robot : A.v[contact.robot]);
+        b = vertex<T>(O, on_edge ? O.v[contact.obstacle] : contact.obstacle);
+        E = on_edge ? edge<T>(O, contact.obstacle) : edge<T>(A, contact.robot);
+    }
+    Vec<T> away() const { return {q.x - w * b.x, q.y - w * b.y}; }  // q - b
+    T zero() const { return constant<T>(0); }
+    Trig<T> side() const {  // U x (q - P): positive on its left
+        const auto d = away();
+        if (on_edge) return {cross(E, d), w * cross(E, a), w * dot(E, a)};
+        return {-(w * cross(E, a)), -cross(E, d), dot(E, d)};
+    }
+    Trig<T> along() const {  // U . (q - P)
+        const auto d = away();
+        if (on_edge) return {dot(E, d), w * dot(E, a), -(w * cross(E, a))};
+        return {-(w * dot(E, a)), -dot(E, d), -cross(E, d)};
+    }
+    Trig<T> length() const { return {w * dot(E, E), zero(), zero()}; }  // U . U
+    Trig<T> height() const { return {w * b.y - q.y, -(w * a.y), -(w * a.x)}; }  // of P over q
+    Trig<T> down() const {  // -U, vertically
+        if (on_edge) return {-(w * E.y), zero(), zero()};
+        return {zero(), w * E.y, w * E.x};
+    }
+    Trig<T> distance() const { return {w * b.x - q.x, -(w * a.x), w * a.y}; }  // of P to the right of q
+    Trig<T> back() const {  // -U, horizontally
+        if (on_edge) return {-(w * E.x), zero(), zero()};
+        return {zero(), w * E.x, -(w * E.y)};
+    }
+};
+
+}  // namespace
+
+struct Rays::View {
+    const ExactPose* pose;
+    double tau_lo, tau_hi;  // around p / r
+    Rotation turn;
+    Vec<Approx> place;
+    View(const ExactPose& q, int shift) : pose(&q) {
+        const double tau = ratio(q.p, q.r);
+        const Dyadic d = Dyadic::from(tau);
+        const bool exact = d.n * q.r == q.p << d.k;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        tau_lo = exact ? tau : std::nextafter(std::nextafter(tau, -infinity), -infinity);
+        tau_hi = exact ? tau : std::nextafter(std::nextafter(tau, infinity), infinity);
+        const double k = (q.chart ? -1 : 1) / (1 + tau * tau);
+        turn = {{(1 - tau * tau) * k, 1}, {2 * tau * k, 1}};
+        const Int W = q.W << static_cast<unsigned>(shift);
+        const double x = ratio(q.X, W), y = ratio(q.Y, W);
+        place = {{x, std::abs(x)}, {y, std::abs(y)}};
+    }
+    template <class T>
+    Line<T> line(const Scene& scene, const Feature& contact) const {
+        if constexpr (std::is_same_v<T, Int>) return {scene, contact, {pose->X, pose->Y}, pose->W};
+        else return {scene, contact, place, {1, 1}};
+    }
+    template <class T>
+    auto expansion() const {
+        if constexpr (std::is_same_v<T, Int>) return Expansion{pose->chart};
+        else return turn;
+    }
+    // The sign of what `question` makes of either number type.
+    template <class Question>
+    int sign(When when, Question&& question) const {
+        const Approx quick = question.template operator()<Approx>();
+        if (std::abs(quick.v) > sign_error * quick.m + tiny) return quick.v > 0 ? 1 : -1;
+        const Poly exact = question.template operator()<Int>();
+        return when == When::after ? leading(exact, pose->p, pose->r).sign : value_at(exact, pose->p, pose->r).sign();
+    }
+};
+
+struct Rays::Probe {
+    ExactPose pose;
+    int rise;  // of the segment that it is on: the sign of U_y, of U_x if that is 0
+    bool is_level;
+};
+
+Rays::Rays(Scene s, int by, Patches p, Trapezoids x, std::vector<Index> of)
+    : scene(std::move(s)), shift(by), patches(std::move(p)), trapezoids(std::move(x)), component(std::move(of)),
+      index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 3) {
+    for (Index part = 0; part < index.count(); ++part) {
+        for (const Index k : index.at(part)) extents.push_back(extent(k, index.from(part), index.to(part)));
+        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& a, const Extent& b) {
+            return a.low < b.low || (a.low == b.low && a.trapezoid < b.trapezoid);
+        });
+        plant(index.begin(part), index.begin(part + 1));
+    }
+}
+
+// The ends of a segment move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
+Rays::Extent Rays::extent(Index k, double from, double to) const {
+    constexpr double rounding = 0x1p-40;
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature contact = surface_of(patches, trapezoids, k).contact;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const auto turn = [&](double tau) {
+        const double m = (trapezoids.chart[k] ? -1 : 1) / (1 + tau * tau);
+        return Vec<double>{(1 - tau * tau) * m, 2 * tau * m};
+    };
+    const auto first = turn(std::max(from, trapezoids.from_lo[k])), last = turn(std::min(to, trapezoids.to_hi[k]));
+    const double sagitta = 1 - std::sqrt(std::max(0.0, 0.5 + 0.5 * dot(first, last)));
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Extent result{infinity, -infinity, infinity, 0, k};
+    for (const bool is_end : {false, true}) {
+        const Index i = on_edge ? contact.robot : (is_end ? A.w : A.v)[contact.robot];
+        const Index j = on_edge ? (is_end ? O.w : O.v)[contact.obstacle] : contact.obstacle;
+        const Vec<double> a{A.x[i], A.y[i]}, b{O.x[j], O.y[j]};
+        const double size = std::abs(a.x) + std::abs(a.y);
+        const double slack = sagitta * size + rounding * (size + std::abs(b.x) + std::abs(b.y)) + tiny;
+        for (const auto& r : {first, last}) {
+            const double x = b.x - dot(Vec<double>{r.x, -r.y}, a), y = b.y - dot(Vec<double>{r.y, r.x}, a);
+            result.low = std::min(result.low, y - slack), result.high = std::max(result.high, y + slack);
+            result.left = std::min(result.left, x - slack);
+        }
+    }
+    return result;
+}
+
+double Rays::plant(Index begin, Index end) {
+    if (begin == end) return -std::numeric_limits<double>::infinity();
+    const Index middle = begin + (end - begin) / 2;
+    Extent& x = extents[middle];
+    return x.top = std::max({x.high, plant(begin, middle), plant(middle + 1, end)});
+}
+
+// Trapezoids that the ray from a pose towards -x may cross.
+template <class F>
+void Rays::stab(Index begin, Index end, const View& q, F&& report) const {
+    while (begin < end) {
+        const Index middle = begin + (end - begin) / 2;
+        const Extent& x = extents[middle];
+        if (x.top < q.place.y.v) return;
+        stab(begin, middle, q, report);
+        if (x.low > q.place.y.v) return;
+        if (x.high >= q.place.y.v && x.left <= q.place.x.v) report(x.trapezoid);
+        begin = middle + 1;
+    }
+}
+
+std::array<Dyadic, 2> Rays::angle(Index k, bool last, unsigned bits) const {
+    const auto critical = last ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k);
+    if (critical.is_wall()) return {Dyadic::from(critical.lo), Dyadic::from(critical.lo)};
+    RealRoot x = critical.exact(scene);
+    const Dyadic widest{1, bits};
+    const auto width = [&] { return Dyadic{(x.hi.n << x.lo.k) - (x.lo.n << x.hi.k), x.lo.k + x.hi.k}; };
+    while (!x.is_dyadic() && cfree::compare(width(), widest) > 0) x.halve();
+    return {x.lo, x.hi};
+}
+
+// Sign of an angle of a trapezoid minus that of the pose, of one chart.
+int Rays::order(bool of_end, Index k, const View& q) const {
+    const double lo = of_end ? trapezoids.to_lo[k] : trapezoids.from_lo[k];
+    const double hi = of_end ? trapezoids.to_hi[k] : trapezoids.from_hi[k];
+    if (hi < q.tau_lo) return -1;
+    if (lo > q.tau_hi) return 1;
+    if (lo == hi && q.tau_lo == q.tau_hi) return 0;
+    RealRoot root = (of_end ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k)).exact(scene);
+    return sign_at(Poly{-q.pose->p, q.pose->r}, root);
+}
+
+bool Rays::may_be_on(const Feature& contact, const View& q) const {
+    const Approx side = q.turn(q.line<Approx>(scene, contact).side());
+    return !(std::abs(side.v) > sign_error * side.m + tiny);
+}
+
+// Is a pose of its line within the limits of a trapezoid? Where a curve ends at a pole of N / D, its limit counts.
+bool Rays::is_on(Index k, const View& q, bool is_end) const {
+    const Surface surface = surface_of(patches, trapezoids, k);
+    const Predicates predicates(scene, surface);
+    const auto line = q.line<Int>(scene, surface.contact);
+    const auto expand = q.expansion<Int>();
+    if (!value_at(expand(line.side()), q.pose->p, q.pose->r).is_zero()) return false;
+    const auto beyond = [&](std::uint64_t curve) {  // sign of t minus the curve's
+        const auto [N, D] = predicates.curve_trig<Int>(unpacked(curve));
+        const Poly denominator = expand(D);
+        const auto f = leading(two_products(expand(line.along()), denominator, expand(N), expand(line.length())),
+                               q.pose->p, q.pose->r);
+        const auto d = leading(denominator, q.pose->p, q.pose->r);
+        if (f.order < 0 || f.order > d.order) return 0;
+        return f.sign * d.sign * (is_end && (f.order - d.order) % 2 != 0 ? -1 : 1);
+    };
+    return beyond(trapezoids.lower[k]) >= 0 && beyond(trapezoids.upper[k]) <= 0;
+}
+
+namespace {
+
+// Of p and p - q, and a bound of their errors.
+struct Range {
+    double low, high, err;
+};
+Range range(Approx p, Approx q) {
+    const Approx other = p - q;
+    return {std::min(p.v, other.v), std::max(p.v, other.v), sign_error * other.m + tiny};
+}
+
+}  // namespace
+
+Rays::Nearby Rays::look(const View& q, When when, Index own) const {
+    Nearby seen;
+    const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
+    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+        heed_stop();
+        if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
+        const Feature contact = surface_of(patches, trapezoids, k).contact;
+        const auto here = q.line<Approx>(scene, contact);
+        const auto [low, high, err] = range(q.turn(here.height()), q.turn(here.down()));
+        const auto [left, right, error] = range(q.turn(here.distance()), q.turn(here.back()));
+        if (low > err || high < -err || left > error) return;  // above, below or right of the pose
+        const int from = order(false, k, q), to = order(true, k, q);
+        if (from > 0 || to < 0) return;
+        if (from == 0 || to == 0) seen.generic = false;
+        if (k == own) return;
+        if (may_be_on(contact, q) && is_on(k, q, to == 0)) {
+            seen.on.push_back(k), seen.end.push_back(from == 0 ? -1 : to == 0 ? 1 : 0);
+            return;
+        }
+        if (to == 0) return;  // it ends here
+        const int side = q.sign(when, [&]<class T>() { return q.expansion<T>()(q.line<T>(scene, contact).side()); });
+        const Predicates predicates(scene, surface_of(patches, trapezoids, k));
+        const auto is_above = [&](std::uint64_t code) {  // P_y + t U_y > 0, t = N / D
+            const Feature f = unpacked(code);
+            const int d = q.sign(when, [&]<class T>() { return q.expansion<T>()(predicates.curve_trig<T>(f)[1]); });
+            return d * q.sign(when, [&]<class T>() {
+                const auto line = q.line<T>(scene, contact);
+                const auto expand = q.expansion<T>();
+                const auto [N, D] = predicates.curve_trig<T>(f);
+                return two_products(expand(line.height()), expand(D), expand(N), expand(line.down()));
+            }) > 0;
+        };
+        const bool begins_above = is_above(trapezoids.lower[k]), ends_above = is_above(trapezoids.upper[k]);
+        if (begins_above != ends_above && side == (ends_above ? -1 : 1)) seen.crossed.push_back(k);
+    });
+    return seen;
+}
+
+// Trapezoids that hold the pose, and end there.
+void Rays::look_on(const View& q, Nearby& seen) const {
+    const Index part = index.part_of(q.pose->chart, 1);
+    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
+        if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) return;
+        if (may_be_on(surface_of(patches, trapezoids, k).contact, q) && is_on(k, q, true))
+            seen.on.push_back(k), seen.end.push_back(1);
+    });
+}
+
+// A pose on a trapezoid, strictly between its angles and its curves.
+std::optional<Rays::Probe> Rays::probe(Index k, int attempt) const {
+    const Surface surface = surface_of(patches, trapezoids, k);
+    Predicates predicates(scene, surface);
+    const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
+    const Dyadic tau = predicates.between(from, to, attempt).exact();
+    const Int p = tau.n, r = Int(1) << tau.k;
+    const Int w = r * r + p * p, sign = surface.chart ? -1 : 1, c = sign * (r * r - p * p), s = sign * 2 * p * r;
+    const auto curve = [&](std::uint64_t code) {
+        auto [N, D] = predicates.curve_trig<Int>(unpacked(code));
+        std::array<Int, 2> t{N.a * w + N.b * c + N.c * s, D.a * w + D.b * c + D.c * s};
+        if (t[1] < 0) t = {-t[0], -t[1]};
+        return t;
+    };
+    const auto low = curve(trapezoids.lower[k]), high = curve(trapezoids.upper[k]);
+    if (low[1].is_zero() || high[1].is_zero() || low[0] * high[1] >= high[0] * low[1]) return {};
+    for (unsigned bits = 2 + static_cast<unsigned>(attempt);; ++bits) {
+        // the first multiple of 2^-bits above the lower end, which is at least 0; later ones if there are
+        const Int m = ((low[0] << bits) / low[1]) + 1 + attempt % 3;
+        if (m * high[1] >= high[0] << bits) continue;
+        const Line<Int> line(scene, surface.contact, {0, 0}, 1);
+        const auto turned = [&](const Vec<Int>& v) { return Vec<Int>{c * v.x - s * v.y, s * v.x + c * v.y}; };
+        const Vec<Int> a = turned(line.a), U = line.on_edge ? Vec<Int>{w * line.E.x, w * line.E.y} : -turned(line.E);
+        const Int one = Int(1) << bits;
+        Probe result{{(w * line.b.x - a.x) * one + m * U.x, (w * line.b.y - a.y) * one + m * U.y, w * one, surface.chart, p, r},
+                     U.y.sign(), U.y.is_zero()};
+        if (result.is_level) result.rise = U.x.sign();
+        return result;
+    }
+}
+
+Rays::Nesting Rays::nesting() const {
+    const auto n = static_cast<Index>(component.size());
+    const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;
+    std::vector<Index> widest(components, -1);
+    const auto width = [&](Index k) { return trapezoids.to_lo[k] - trapezoids.from_hi[k]; };
+    for (Index k = 0; k < n; ++k)
+        if (Index& best = widest[component[k]]; best < 0 || width(k) > width(best)) best = k;
+    Nesting result;
+    result.start.push_back(0);
+    for (Index x = 0; x < components; ++x) {
+        for (int attempt = 0;; ++attempt) {
+            if (attempt == Predicates::most_attempts) throw std::logic_error("no ray in general position");
+            const auto q = probe(widest[x], attempt);
+            if (!q) continue;
+            const Nearby seen = look(View(q->pose, shift), When::at, widest[x]);
+            if (!seen.generic || !seen.on.empty()) continue;
+            // the ray is from just left of the surface, or above it where that is level: forbidden if the surface rises
+            const auto crossed = surfaces(seen.crossed);
+            bool is_inside = false;
+            for (std::size_t i = 0, j; i < crossed.size(); i = j) {
+                for (j = i; j < crossed.size() && crossed[j] == crossed[i];) ++j;
+                if ((j - i) % 2 == 0) continue;
+                if (crossed[i] == x) is_inside = true;
+                else result.around.push_back(crossed[i]);
+            }
+            result.free_inside.push_back(is_inside == (q->rise < 0));
+            break;
+        }
+        result.start.push_back(static_cast<Index>(result.around.size()));
+    }
+    return result;
+}
+
+ExactPose ExactPose::from(double x, double y, int chart, double tau, const Int& scale) {
+    const auto parts = [](double value) {  // value = n 2^e
+        int e;
+        const double n = std::ldexp(std::frexp(value, &e), 53);
+        return std::pair<Int, int>(n, e - 53);
+    };
+    const auto [m, e] = parts(x);
+    const auto [n, f] = parts(y);
+    const int low = std::min({e, f, 0});
+    const Dyadic t = Dyadic::from(tau);
+    return {scale * m << static_cast<unsigned>(e - low), scale * n << static_cast<unsigned>(f - low),
+            Int(1) << static_cast<unsigned>(-low), chart, t.n, Int(1) << t.k};
+}
+
+void Rays::locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
+                  const Cells& cells, Index* out) const {
+    constexpr std::size_t chunk = 64;
+    std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0;
+    in_parallel(threads, stop, [&] {
+        for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;)
+            for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k)
+                heed_stop(), out[k] = locate(ExactPose::from(xy[2 * k], xy[2 * k + 1], chart[k], tau[k], scale), cells);
+    });
+}
+
+// The surfaces of trapezoids, in order.
+std::vector<Index> Rays::surfaces(const std::vector<Index>& crossed) const {
+    std::vector<Index> result;
+    for (const Index k : crossed) result.push_back(component[k]);
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+Rays::Nearby Rays::nearby(const ExactPose& pose) const {
+    ExactPose q = pose;
+    if (q.p == q.r) q.chart = 1 - q.chart, q.p = -1, q.r = 1;
+    Nearby seen = look(View(q, shift), When::after, -1);
+    if (q.p == -q.r) {
+        const ExactPose before{q.X, q.Y, q.W, 1 - q.chart, 1, 1};
+        look_on(View(before, shift), seen);
+    }
+    return seen;
+}
+
+Index Rays::locate(const ExactPose& pose, const Cells& cells) const {
+    const Nearby seen = nearby(pose);
+    Index found = std::numeric_limits<Index>::max();
+    for (const Index k : seen.on) found = std::min(found, cells.cell[component[k]]);
+    if (!seen.on.empty()) return found;
+    const auto crossed = surfaces(seen.crossed);
+    Index deepest = -1;
+    for (std::size_t i = 0, j; i < crossed.size(); i = j) {
+        for (j = i; j < crossed.size() && crossed[j] == crossed[i];) ++j;
+        const Index x = crossed[i];
+        if ((j - i) % 2 == 1 && (deepest < 0 || cells.depth[x] > cells.depth[deepest])) deepest = x;
+    }
+    if (deepest < 0) return cells.outside;
+    return cells.free_inside[deepest] ? cells.cell[deepest] : -1;
+}
+
+Turns turns(const std::vector<Index>& first, const std::vector<Index>& face, const std::vector<Index>& twin,
+            const std::vector<Index>& component, const std::vector<std::int8_t>& steps, Index components) {
+    const auto n = static_cast<Index>(component.size());
+    Turns result{std::vector<Index>(components, 0), std::vector<Index>(n, 0)};
+    std::vector<char> seen(n, 0);
+    std::vector<Index> stack;
+    for (Index f = 0; f < n; ++f) {
+        if (seen[f]) continue;
+        seen[f] = 1;
+        stack.push_back(f);
+        while (!stack.empty()) {
+            const Index g = stack.back();
+            stack.pop_back();
+            for (Index h = first[g]; h < first[g + 1]; ++h) {
+                const Index next = face[twin[h]], lift = result.lift[g] + steps[h];
+                if (!seen[next]) {
+                    seen[next] = 1, result.lift[next] = lift;
+                    stack.push_back(next);
+                } else {
+                    Index& divisor = result.divisor[component[f]];
+                    divisor = std::gcd(divisor, lift - result.lift[next]);
+                }
+            }
+        }
+    }
+    return result;
+}
+
+}  // namespace cfree

@@ -1,0 +1,96 @@
+#include "cfree/mesh/contact_curve.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace cfree {
+
+namespace {
+constexpr Complex i_unit{0, 1};
+constexpr double pi = std::numbers::pi;
+constexpr double rounding = 1e-14;  // what is left of numbers that cancel
+
+// The point y with p.y = r and q.y = s.
+Complex solve(Complex p, Complex q, double r, double s) { return i_unit * (s * p - r * q) / cross(p, q); }
+}  // namespace
+
+Places::Parts Places::parts(const Feature& f) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = f.kind == Kind::vertex_edge;
+    const Complex edge = on_edge ? b(O.w[f.obstacle]) - b(O.v[f.obstacle]) : a(A.w[f.robot]) - a(A.v[f.robot]);
+    const double length = std::abs(edge);
+    return {a(on_edge ? f.robot : A.v[f.robot]), b(on_edge ? O.v[f.obstacle] : f.obstacle), edge / length, length};
+}
+
+ContactCurve::ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to) {
+    if (other.kind == Kind::vertex_vertex) {
+        c = places.b(other.obstacle), m = -places.a(other.robot);
+        return;
+    }
+    const auto p = places.parts(on), q = places.parts(other);
+    const bool turns = on.kind == Kind::edge_vertex;
+    if (on.kind == other.kind) meet_parallel(p, q, turns);
+    else meet_mixed(turns ? q : p, turns ? p : q, from, to);
+}
+
+// Two surfaces of a kind: lines at a constant angle to one another.
+void ContactCurve::meet_parallel(const Places::Parts& p, const Places::Parts& q, bool turning) {
+    const Complex np = -i_unit * p.edge, nq = -i_unit * q.edge;
+    if (turning) {  // y = (x - b_p) / z: np.y = -np.a_p and nq.y = -nq.a_q + nq.(b_q - b_p) / z
+        const Complex v = solve(np, nq, 0, 1), B = q.b - p.b;
+        c = p.b + 0.5 * v * std::conj(nq) * B;
+        m = solve(np, nq, -dot(np, p.a), -dot(nq, q.a));
+        m_twice = 0.5 * v * nq * std::conj(B);
+    } else {  // n.x = n.b - n.(z a)
+        c = solve(np, nq, dot(np, p.b), dot(nq, q.b));
+        const Complex cosine = -solve(np, nq, dot(np, p.a), dot(nq, q.a));
+        const Complex sine = -solve(np, nq, dot(np, i_unit * p.a), dot(nq, i_unit * q.a));
+        m = 0.5 * (cosine - i_unit * sine), m_back = 0.5 * (cosine + i_unit * sine);
+    }
+}
+
+// A line that stands still, through b - z a, and one that turns about a point: t sin psi = d + B sin psi + C cos psi.
+void ContactCurve::meet_mixed(const Places::Parts& still, const Places::Parts& turning, double from, double to) {
+    const Complex nu = -i_unit * turning.edge, B = still.b - turning.b;
+    const double d = dot(nu, still.a - turning.a), side = cross(still.edge, B);
+    e = still.edge, c = still.b - dot(e, B) * e, m = -still.a;
+    k = d + side, l = d - side;
+    const double size = std::abs(still.a) + std::abs(turning.a) + std::abs(still.b) + std::abs(turning.b);
+    if (std::abs(k) <= rounding * size) k = 0;
+    if (std::abs(l) <= rounding * size) l = 0;
+    phi_0 = std::arg(std::conj(nu) * e) - 0.5 * pi;
+    // the poles, psi = 0 of k and psi = pi of l, are outside: take psi from 0 to 2 pi if only k counts, else from -pi to pi
+    const double middle = 0.5 * (from + to), psi = middle - phi_0;
+    phi_0 = middle - (l == 0 ? psi - 2 * pi * std::floor(psi / (2 * pi)) : std::remainder(psi, 2 * pi));
+}
+
+Complex ContactCurve::at(double phi) const {
+    const Complex z = std::polar(1.0, phi);
+    Complex x = c + z * (m + z * m_twice) + std::conj(z) * m_back;
+    if (k != 0) x += 0.5 * k / std::tan(half(phi)) * e;
+    if (l != 0) x += 0.5 * l * std::tan(half(phi)) * e;
+    return x;
+}
+
+// tan and cot of half(phi) and their derivatives grow from the middle of their period on: the ends bound them.
+double ContactCurve::speed(double from, double to) const {
+    double tangent = 0, cotangent = 0;
+    for (const double phi : {from, to}) {
+        if (l != 0) tangent = std::max(tangent, 1 / std::pow(std::cos(half(phi)), 2));
+        if (k != 0) cotangent = std::max(cotangent, 1 / std::pow(std::sin(half(phi)), 2));
+    }
+    return std::abs(m) + std::abs(m_back) + 2 * std::abs(m_twice) + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
+}
+
+double ContactCurve::bend(double from, double to) const {
+    double tangent = 0, cotangent = 0;
+    for (const double phi : {from, to}) {
+        const double s = std::abs(std::sin(half(phi))), t = std::abs(std::cos(half(phi)));
+        if (l != 0) tangent = std::max(tangent, s / (t * t * t));
+        if (k != 0) cotangent = std::max(cotangent, t / (s * s * s));
+    }
+    return std::abs(m) + std::abs(m_back) + 4 * std::abs(m_twice) + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
+}
+
+}  // namespace cfree

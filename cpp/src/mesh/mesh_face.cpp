@@ -1,0 +1,159 @@
+#include "cfree/mesh/mesh_face.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace cfree {
+
+namespace {
+constexpr Complex i_unit{0, 1};
+constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+
+double square(double x) { return x * x; }
+
+// The greatest |cos| from one angle to another.
+double most_cosine(double from, double to) {
+    if (std::floor(to / pi) > std::floor(from / pi)) return 1;
+    return std::max(std::abs(std::cos(from)), std::abs(std::cos(to)));
+}
+}  // namespace
+
+struct Sheet::Spread {
+    explicit Spread(const Corners& c) {
+        const auto [a, b] = std::minmax({c[0]->phi, c[1]->phi, c[2]->phi});
+        low = a, high = b, angle = b - a;
+        reach = std::max({std::abs(c[0]->s), std::abs(c[1]->s), std::abs(c[2]->s)});
+    }
+    double low, high, angle, reach;
+};
+
+Sheet::Sheet(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first, double last,
+             double error, double angle_scale)
+    : is_saddle(on.kind == Kind::edge_vertex), from(first), to(last), eps(error), w(angle_scale) {
+    if (!is_thin())
+        curves = {ContactCurve(places, on, lower, first, last), ContactCurve(places, on, upper, first, last)};
+    const auto parts = places.parts(on);
+    direction = parts.edge;
+    const Complex normal = -i_unit * direction;
+    if (!is_saddle) {
+        fixed = parts.a, offset = dot(normal, parts.b);
+        return;
+    }
+    fixed = parts.b, h = dot(normal, parts.a);
+    const double start = dot(parts.a, direction), middle = start + 0.5 * parts.length;
+    shear = 0.5 * h / std::hypot(w, middle);
+    for (int k = 0; k <= 8 && !is_thin(); ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
+}
+
+double Sheet::position(Complex x, double phi) const {
+    return is_saddle ? -dot(x - fixed, std::polar(1.0, phi) * direction) : dot(x, direction);
+}
+
+Complex Sheet::at(double s, double phi) const {
+    const Complex z = std::polar(1.0, phi), normal = -i_unit * direction;
+    if (is_saddle) return fixed - z * (h * normal + s * direction);
+    return s * direction + (offset - dot(normal, z * fixed)) * normal;
+}
+
+double Sheet::width_u(double phi) const {
+    return std::max(0.0, u(position(curves[1].at(phi), phi)) - u(position(curves[0].at(phi), phi)));
+}
+
+MeshPoint Sheet::point(double s, double phi) const {
+    const double low = position(curves[0].at(phi), phi), high = position(curves[1].at(phi), phi);
+    return {s, phi, {std::max(0.0, s - low), std::max(0.0, high - s)}};
+}
+
+// In its own slice a point with weights l of the corners is off the line by the sum of l_j l_k form(j, k), j < k, up to third
+// order; of a product of two linear forms the extremes over a triangle are in the middles of its edges.
+double Sheet::form(const MeshPoint& p, const MeshPoint& q) const {
+    const double phi = q.phi - p.phi;
+    return phi * (q.s - p.s + 0.5 * h * phi);
+}
+
+double Sheet::most_form(const Corners& c) const {
+    return std::max({std::abs(form(*c[0], *c[1])), std::abs(form(*c[1], *c[2])), std::abs(form(*c[2], *c[0]))});
+}
+
+double Sheet::third_order(const Spread& d) const {
+    return d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
+}
+
+double Sheet::slice_distance(const Corners& c, const Spread& d) const {
+    if (is_saddle) return most_form(c) / 4 + third_order(d);
+    const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
+    return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
+}
+
+// How far the foot on the line may be beyond the face's curves.
+double Sheet::beyond(const Corners& c, const Spread& d) const {
+    double most = 0;
+    for (int side = 0; side < 2; ++side) {
+        std::array<const MeshPoint*, 3> p = c;
+        std::sort(p.begin(), p.end(), [&](auto* x, auto* y) { return x->inward[side] < y->inward[side]; });
+        const double bend = curves[side].bend(d.low, d.high), turn = std::cos(d.angle);
+        const double least = p[0]->inward[side] * turn;
+        const double plain = bend * square(d.angle) / 8 - least;
+        const double two = std::max(bend * square(p[1]->phi - p[0]->phi) / 8 - least,
+                                    bend * square(d.angle) / 2 - p[2]->inward[side] * turn);
+        most = std::max(most, std::min(plain, two));
+    }
+    return most;
+}
+
+double Sheet::excess(const Corners& c) const {
+    if (is_thin()) return 0;
+    const Spread d(c);
+    if (d.angle > pi / 2) return infinity;
+    const double over = beyond(c, d), plain = std::hypot(slice_distance(c, d), over) / eps;
+    if (plain <= 1 || !is_saddle) return plain;
+    return std::min(plain, std::max(std::hypot(slice_distance_near_sides(c, d), over) / eps, excess_inside(c)));
+}
+
+// Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
+double Sheet::slice_distance_near_sides(const Corners& c, const Spread& d) const {
+    const double all = slice_distance(c, d), forms = most_form(c), turn = std::cos(d.angle), margin = eps / w;
+    double most = 0;
+    // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
+    const auto add = [&](std::array<double, 3> height, double near_by, double bend) {
+        std::array<int, 3> k{0, 1, 2};
+        std::sort(k.begin(), k.end(), [&](int x, int y) { return height[x] < height[y]; });
+        const double bow = bend * square(d.angle), two = square(c[k[0]]->phi - c[k[1]]->phi);
+        if (height[k[0]] - bow / 8 > near_by) return;
+        const auto share = [](double part, double whole) { return whole > part ? part / whole : 1.0; };
+        const double by_one = forms * share(near_by, height[k[1]] - bow / 2);
+        const double by_two = std::abs(form(*c[k[0]], *c[k[1]])) / 4 +
+                              forms * share(near_by + bend * two / 8, height[k[2]] - bow / 2);
+        most = std::max(most, std::min({all, by_one + third_order(d), by_two + third_order(d)}));
+    };
+    add({c[0]->phi - from, c[1]->phi - from, c[2]->phi - from}, margin, 0);
+    add({to - c[0]->phi, to - c[1]->phi, to - c[2]->phi}, margin, 0);
+    const double low = std::max(from, d.low - margin), high = std::min(to, d.high + margin);
+    for (int side = 0; side < 2; ++side)
+        add({c[0]->inward[side] * turn, c[1]->inward[side] * turn, c[2]->inward[side] * turn},
+            margin * (curves[side].speed(low, high) + all), curves[side].bend(d.low, d.high));
+    return most;
+}
+
+// The distance is at most that within the slice over a lower bound G of the gradient near by.
+double Sheet::excess_inside(const Corners& c) const {
+    const Spread d(c);
+    const double rest = third_order(d);
+    const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * std::pow(d.angle, 3) / 48 +
+                        eps * std::hypot(1, (std::abs(h) + eps * std::hypot(1, d.reach / w)) / w);
+    const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;
+    const double G = std::hypot(1, r), slope = std::copysign(r / (w * G), s);  // the tangent of a convex function
+    double most = 0;
+    for (int k = 0; k < 3; ++k) {
+        const MeshPoint &p = *c[k], &q = *c[(k + 1) % 3];
+        const double Gp = G + slope * (p.s - s), Gq = G + slope * (q.s - s);
+        const double off = std::abs(form(p, q)), tilt = eps * std::abs(Gq - Gp);
+        most = std::max(most, tilt >= off ? rest / (eps * std::min(Gp, Gq))
+                                          : (off / 4 + square(tilt) / (4 * off) + rest) / (eps * 0.5 * (Gp + Gq)));
+    }
+    return most;
+}
+
+}  // namespace cfree

@@ -1,0 +1,349 @@
+#include <stdexcept>
+
+#include "predicates/form.hpp"
+
+namespace cfree {
+
+namespace {
+
+const Event wall_event(int side) { return {{}, {}, double(side), double(side)}; }
+
+// A direction times a power of two, so that products of two are neither huge nor tiny.
+Vec<Approx> of_unit_size(const Vec<Approx>& d) {
+    const double scale = power_below(std::max(d.x.m, d.y.m));
+    return {{d.x.v * scale, d.x.m * scale}, {d.y.v * scale, d.y.m * scale}};
+}
+
+// Edge e of a shape against the line through two of its vertices.
+bool is_parallel(const Shape& s, Index e, Index p, Index q, Counters& counters) {
+    return settled(counters, [&]<class T>() { return certain_sign(cross(edge<T>(s, e), difference<T>(s, p, q))); }) == 0;
+}
+// Order of the angles of two pairs of edges, as directions (G.F, G x F) turned to the right half-plane.
+template <class T>
+std::optional<int> parallel_order(const Scene& s, const Feature& x, const Feature& y) {
+    const auto direction = [&](const Feature& f) {
+        const auto G = edge<T>(s.robot, f.robot), F = edge<T>(s.obstacles, f.obstacle);
+        return Vec<T>{dot(G, F), cross(G, F)};
+    };
+    const auto d = direction(x), e = direction(y);
+    const auto right = certain_sign(d.x), left = certain_sign(e.x), turn = certain_sign(cross(e, d));
+    if (!right || !left || !turn) return {};
+    return (*right < 0) != (*left < 0) ? -*turn : *turn;
+}
+
+bool same_feature(const Scene& s, const Feature& x, const Feature& y) { return code(s, x) == code(s, y); }
+
+
+// The angle at which two edges are parallel, as that of the direction d = (G.F, G x F) turned to the right half-plane:
+// tau = y / (|d| + |x|) moves by at most 2 (dx + dy) / |d| for errors dx, dy.
+struct ParallelAngle {
+    int side;  // sign of G.F before turning; 0 for a right angle
+    bool up;   // sign of G x F before turning
+    double tau, half;
+};
+
+// Of a direction whose coordinates are together within 8 u times `error` of the truth, x on the side given.
+ParallelAngle angle_of(double x, double y, int side, double error) {
+    const double length = std::hypot(x, y);
+    return {side, y > 0, side * y / (length + std::abs(x)), 16 * u * error / length + 4 * u};
+}
+
+Vec<Ball> as_balls(const Vec<Ball>& d) { return d; }
+Vec<Ball> as_balls(const Vec<Int>& d) {  // up to a factor
+    const auto bits = [](const Int& z) { return z.is_zero() ? 0 : static_cast<int>(msb(abs(z))); };
+    const int excess = std::max(bits(d.x), bits(d.y)) - 500;
+    return {ball(d.x, std::max(excess, 0)), ball(d.y, std::max(excess, 0))};
+}
+
+ParallelAngle parallel_angle(const Scene& scene, Index g, Index f, Counters& counters) {
+    const auto G = of_unit_size(edge<Approx>(scene.robot, g)), F = of_unit_size(edge<Approx>(scene.obstacles, f));
+    const Approx c = dot(G, F), n = cross(G, F);
+    const ParallelAngle guess = angle_of(c.v, n.v, (c.v > 0) - (c.v < 0), c.m + n.m);
+    if (double_only || (std::abs(c.v) > coefficient_error * c.m && guess.half < 64 * u)) return ++counters.filter, guess;
+    return settled(counters, [&]<class T>() -> std::optional<ParallelAngle> {
+        const auto E = edge<T>(scene.robot, g), H = edge<T>(scene.obstacles, f);
+        const Vec<T> exact{dot(E, H), cross(E, H)};
+        const auto side = certain_sign(exact.x);
+        if (!side) return {};
+        const Vec<Ball> d = as_balls(exact);
+        const double length = std::hypot(d.x.hi, d.y.hi);
+        if (!(d.x.radius + d.y.radius < u * length)) return {};
+        return angle_of(d.x.hi, d.y.hi, *side, 0.75 * length);  // less than 3 u times the length
+    });
+}
+
+}  // namespace
+
+Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from, const Event& to) {
+    // one in the chart, or two at its walls
+    Roots result;
+    const ParallelAngle p = parallel_angle(scene, g, f, counters);
+    if (p.side == 0) return result;
+    const Event x{{Kind::edge_edge, g, f}, {}, p.tau - p.half, p.tau + p.half};
+    if (order(from, x) < 0 && order(x, to) < 0) result.at[result.count++] = x;
+    return result;
+}
+
+int Predicates::order(const Event& x, const Event& y) {
+    if (x.hi < y.lo) return -1;
+    if (x.lo > y.hi) return 1;
+    if (x.first.kind == Kind::none && y.first.kind == Kind::none) return ++counters.identity, 0;  // one wall
+    const bool parallels = x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge;
+    if (parallels && same_feature(scene, x.first, y.first)) return ++counters.identity, 0;  // a chart holds one such angle
+    return order_of_close(x, y);
+}
+
+RealRoot Predicates::root_of(const Event& x) const {
+    RealRoot root{polynomial(x.first, x.second), Dyadic::from(x.lo), Dyadic::from(x.hi)};
+    if (x.fine >= 0) root.lo = fine[x.fine][0], root.hi = fine[x.fine][1];
+    // a touch: the sign changes without the multiple factor only
+    if (!root.is_dyadic() && cfree::sign_at(root.p, root.lo) == cfree::sign_at(root.p, root.hi)) root.p = squarefree(root.p);
+    return root;
+}
+
+int Predicates::place(const Event& x) const {
+    if (x.fine < 0) return 0;
+    return Sturm(squarefree(polynomial(x.first, x.second))).roots_in(Dyadic::from(x.lo), fine[x.fine][1]);
+}
+
+Event Predicates::restored(const Event& x, int place) {
+    if (place == 0) return x;
+    const Sturm sturm(squarefree(polynomial(x.first, x.second)));
+    const Dyadic first = Dyadic::from(x.lo);
+    Dyadic below = first, above = Dyadic::from(x.hi);
+    while (sturm.roots_in(first, below) != place - 1 || sturm.roots_in(below, above) != 1) {
+        const Dyadic mid = Dyadic::middle(below, above);
+        (sturm.roots_in(first, mid) < place ? below : above) = mid;
+    }
+    if (cfree::sign_at(sturm.polynomial(), above) == 0) below = above;
+    while (cfree::sign_at(sturm.polynomial(), below) == 0 && cfree::compare(below, above) < 0) {  // the root before this one
+        const Dyadic mid = Dyadic::middle(below, above);
+        (sturm.roots_in(mid, above) == 1 ? below : above) = mid;
+    }
+    Event result = x;
+    result.fine = static_cast<Index>(fine.size());
+    fine.push_back({below, above});
+    return result;
+}
+
+bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
+    const Form f = form(x);
+    return f.sign(lo) * f.sign(hi) < 0;
+}
+
+// Whether two angles are roots of one polynomial for a reason of identity.
+bool Predicates::same_polynomial(const Event& x, const Event& y) {
+    if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
+    const auto same = [&](const Feature& p, const Feature& q) { return same_feature(scene, p, q); };
+    if (same(x.first, y.first) && same(x.second, y.second)) return true;
+    if (x.second.kind != Kind::none) return same(x.first, y.second) && same(x.second, y.first);
+    if (x.first.kind != Kind::vertex_vertex || y.first.kind != Kind::vertex_vertex || y.second.kind != Kind::none)
+        return false;
+    // helices at one height above the surface's edge
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (surface.contact.kind == Kind::vertex_edge)
+        return A.point[x.first.robot] == A.point[y.first.robot] &&
+               is_parallel(O, surface.contact.obstacle, x.first.obstacle, y.first.obstacle, counters);
+    return O.point[x.first.obstacle] == O.point[y.first.obstacle] &&
+           is_parallel(A, surface.contact.robot, x.first.robot, y.first.robot, counters);
+}
+
+// Whether a root of a + b cos + c sin is the angle at which two edges are parallel: that of the direction d = (G.F, G x F),
+// so that a |d| = -(b, c).d.
+template <class T>
+std::optional<bool> Predicates::meets_parallel(const Event& parallel, const Event& x) const {
+    Trig<T> f;
+    if (parallel.first.kind != Kind::edge_edge) return false;
+    if (x.first.kind == Kind::vertex_vertex && x.second.kind == Kind::none) {
+        f = offset_trig<T>(x.first.robot, x.first.obstacle);
+    } else if (x.first.kind == Kind::vertex_vertex || x.second.kind == Kind::vertex_vertex) {
+        const bool first = x.first.kind == Kind::vertex_vertex;
+        const auto [n, d] = curve_trig<T>(first ? x.first : x.second);
+        const auto [N, D] = curve_trig<T>(first ? x.second : x.first);
+        f = combination(n, D, d, N);
+    } else {
+        return false;
+    }
+    const auto G = edge<T>(scene.robot, parallel.first.robot), F = edge<T>(scene.obstacles, parallel.first.obstacle);
+    const Vec<T> d{dot(G, F), cross(G, F)};
+    const T along = f.b * d.x + f.c * d.y;
+    // in the right half-plane of the chart
+    const auto half = certain_sign(d.x), sign = certain_sign(along), constant = certain_sign(f.a);
+    if (!half || !sign || !constant) return {};
+    if (*half * (kappa > 0 ? 1 : -1) * *sign != -*constant) return false;
+    if (*constant == 0) return true;
+    const auto difference = certain_sign(along * along - f.a * f.a * dot(d, d));
+    if (!difference) return {};
+    return *difference == 0;
+}
+
+bool Predicates::is_touch_of_quadratic(const Event& x) const {
+    const auto p = coefficients<Ball>(x.first, x.second);
+    const auto below = cfree::sign_at(p, x.lo), above = cfree::sign_at(p, x.hi);
+    return x.fine < 0 && p.count == 3 && below && above && *below == *above;
+}
+
+// A polynomial that changes sign at the root and nowhere else in its interval: of a touch, the quadratic's derivative.
+std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
+    if (x.fine >= 0) return {};
+    const auto p = coefficients<Ball>(x.first, x.second);
+    const auto below = cfree::sign_at(p, x.lo), above = cfree::sign_at(p, x.hi);
+    if (!below || !above) return {};
+    if (*below != *above) return p;
+    if (p.count > 3) return {};
+    return derivative(p);
+}
+
+// The root's bracket shrunk to about the precision of balls: certain, opposite signs at its ends.
+const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
+    constexpr std::size_t size = 256;
+    if (recent.empty()) recent.resize(size, {{{}, {}, 2, 2}, {}});
+    const auto mixed = [](const Feature& f) {
+        return 4 * (static_cast<std::size_t>(f.obstacle) * 31 + static_cast<std::size_t>(f.robot)) + static_cast<std::size_t>(f.kind);
+    };
+    const auto same = [](const Feature& f, const Feature& g) {
+        return f.kind == g.kind && f.robot == g.robot && f.obstacle == g.obstacle;
+    };
+    Narrowed& known = recent[(mixed(x.first) + 7 * mixed(x.second)) % size];
+    const Event& y = known.x;
+    if (!(same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine))
+        known = {x, found_narrowed(x)};
+    return known.bracket;
+}
+
+std::optional<Predicates::Bracket> Predicates::found_narrowed(const Event& x) const {
+    if (x.first.kind == Kind::none) return Bracket{Ball(x.lo), Ball(x.hi)};
+    const auto factor = simple(x);
+    if (!factor) return {};
+    const auto& p = *factor;
+    Ball t = 0.5 * (x.lo + x.hi);
+    double value = 0, slope = 1;
+    for (int k = 0; k < 3; ++k) {  // Newton's method; whether it succeeds is seen from the signs
+        Ball v = p.c[p.count - 1];
+        slope = 0;
+        for (int i = p.count - 1; i-- > 0;) slope = slope * t.hi + v.hi, v = v * t + p.c[i];
+        value = std::abs(v.hi) + v.radius;
+        if (k < 2) t = t - Ball(v.hi / slope), t.radius = 0;
+    }
+    double delta = 2 * value / std::abs(slope) + 0x1p-102;
+    for (int k = 0; k < 4 && delta < x.hi - x.lo; ++k, delta *= 256) {
+        Bracket b{t - Ball(delta), t + Ball(delta)};
+        b[0].radius = b[1].radius = 0;
+        if (is_below(b[0], x.lo)) b[0] = x.lo;
+        if (is_below(x.hi, b[1])) b[1] = x.hi;
+        const auto below = cfree::sign_at(p, b[0]), above = cfree::sign_at(p, b[1]);
+        if (below && above && *below * *above < 0) return b;
+    }
+    return {};
+}
+
+// Of two angles whose intervals overlap.
+int Predicates::order_of_close(const Event& x, const Event& y) {
+    const auto sign = [](double d) { return (d > 0) - (d < 0); };
+    if (double_only) return ++counters.filter, sign((x.lo + x.hi) - (y.lo + y.hi));
+    // One root in each of two overlapping intervals: of one polynomial, opposite signs around both mean one root in all.
+    // So does a touch of a quadratic, its only root.
+    const auto alone = [&](const Event& z) {
+        return changes_sign(z, std::min(x.lo, y.lo), std::max(x.hi, y.hi)) || is_touch_of_quadratic(z);
+    };
+    if (same_polynomial(x, y) && alone(x)) return ++counters.identity, 0;
+    if (x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge)
+        return settled(counters, [&]<class T>() { return parallel_order<T>(scene, x.first, y.first); });
+    if (x.first.kind == Kind::none) return -order(y, Sample{x.lo, {}});
+    if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        if constexpr (std::is_same_v<T, Ball>) {
+            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
+            if (p && q && is_below((*p)[1], (*q)[0])) return -1;
+            if (p && q && is_below((*q)[1], (*p)[0])) return 1;
+        }
+        const auto first = meets_parallel<T>(x, y), second = meets_parallel<T>(y, x);
+        if (!first || !second) return {};
+        if ((*first && alone(y)) || (*second && alone(x))) return 0;
+        if constexpr (std::is_same_v<T, Ball>) return {};
+        RealRoot p = root_of(x), q = root_of(y);
+        return cfree::compare(p, q);
+    });
+}
+
+int Predicates::order(const Event& x, const Sample& at) {
+    if (!at.fine && x.hi < at.tau) return -1;
+    if (!at.fine && x.lo > at.tau) return 1;
+    if (x.first.kind == Kind::none) return ++counters.exact, cfree::compare(Dyadic::from(x.lo), at.exact());
+    const auto sign = [](double d) { return (d > 0) - (d < 0); };
+    if (double_only) return ++counters.filter, sign(x.lo + x.hi - 2 * at.tau);
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        std::optional<int> here, below;
+        if constexpr (std::is_same_v<T, Ball>) {
+            if (at.fine && (at.tau < x.lo || at.tau >= x.hi)) return {};  // the sample is just above tau
+            const auto p = simple(x);
+            if (!p) return {};
+            here = cfree::sign_at(*p, at.ball()), below = cfree::sign_at(*p, x.lo);
+        } else {
+            const RealRoot root = root_of(x);
+            const Dyadic t = at.exact();
+            if (cfree::compare(t, root.lo) < 0) return 1;
+            if (cfree::compare(root.hi, t) < 0) return -1;
+            here = cfree::sign_at(root.p, t), below = cfree::sign_at(root.p, root.lo);
+        }
+        if (!here || !below) return {};
+        return *here == 0 ? 0 : *here == *below ? 1 : -1;
+    });
+}
+
+namespace {
+
+// The part of an interval after which a sample lies, over 2^16: 1/2, then the golden section again and again.
+unsigned part(int attempt) { return (32768u + 40503u * static_cast<unsigned>(attempt)) & 0xffffu; }
+
+Sample finely(const Dyadic& lo, const Dyadic& hi, int attempt) {
+    const unsigned k = std::max(lo.k, hi.k);
+    const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
+    const Dyadic at{(from << 16) + width * part(attempt), k + 16};
+    return {at.rounded_down(), at};
+}
+
+}  // namespace
+
+Sample Predicates::between(const Event& x, const Event& y, int attempt) {
+    if (x.hi < y.lo) return within(x.hi, y.lo, attempt);
+    // intervals that overlap: narrow them until they part
+    if (double_only) return {0.25 * (x.lo + x.hi + y.lo + y.hi), {}};
+    const auto [below, above] = settled(counters, [&]<class T>() -> std::optional<std::array<Dyadic, 2>> {
+        if constexpr (std::is_same_v<T, Ball>) {
+            const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
+            if (!p || !q || !is_below((*p)[1], (*q)[0])) return {};
+            return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
+        } else {
+            RealRoot p = root_of(x), q = root_of(y);
+            while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+            return {{p.hi, q.lo}};
+        }
+    });
+    const double lo = below.rounded_up(), hi = above.rounded_down();
+    return lo < hi ? within(lo, hi, attempt) : finely(below, above, attempt);
+}
+
+Sample Predicates::within(double lo, double hi, int attempt) {
+    if (!(hi - lo > std::max(0x1p-36 * std::max(std::abs(lo), std::abs(hi)), tiny))) {  // few doubles, or none
+        if (const double mid = 0.5 * (lo + hi); attempt == 0 && lo < mid && mid < hi) return {mid, {}};
+        return finely(Dyadic::from(lo), Dyadic::from(hi), attempt);
+    }
+    const double at = lo + part(attempt) * 0x1p-16 * (hi - lo);
+    if (attempt > 0) return {at, {}};
+    // |at| is below 2^36 (hi - lo), so that its leading digits fit a machine integer
+    const double scale = 32 * power_below(hi - lo), few = static_cast<double>(static_cast<std::int64_t>(at * scale)) / scale;
+    return {lo < few && few < hi ? few : at, {}};
+}
+
+Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f, bool is_start, Counters& counters) {
+    const ParallelAngle p = parallel_angle(scene, g, f, counters);  // antiparallel is half a turn further
+    if (p.side == 0) {
+        const bool quarter = !p.up;  // theta = pi/2, else -pi/2
+        if (is_start) return {quarter ? 1 : 0, wall_event(-1)};
+        return {quarter ? 0 : 1, wall_event(1)};
+    }
+    return {p.side < 0 ? 0 : 1, {{Kind::edge_edge, g, f}, {}, p.tau - p.half, p.tau + p.half}};
+}
+
+}  // namespace cfree

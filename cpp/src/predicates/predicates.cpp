@@ -1,0 +1,173 @@
+#include "predicates/form.hpp"
+
+namespace cfree {
+
+Code code(const Scene& scene, const Feature& f) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    Index i = 0, j = 0;
+    switch (f.kind) {
+        case Kind::none: return 0;
+        case Kind::vertex_edge: i = A.point[f.robot], j = O.line[f.obstacle]; break;
+        case Kind::edge_vertex: i = A.line[f.robot], j = O.point[f.obstacle]; break;
+        case Kind::vertex_vertex: i = A.point[f.robot], j = O.point[f.obstacle]; break;
+        case Kind::edge_edge: i = A.direction[f.robot], j = O.direction[f.obstacle]; break;
+    }
+    return static_cast<Code>(f.kind) << 61 | static_cast<Code>(i) << 31 | static_cast<Code>(j);
+}
+
+Feature end_helix(const Scene& scene, const Feature& contact, int end) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = contact.robot, j = contact.obstacle;
+    if (contact.kind == Kind::vertex_edge) return {Kind::vertex_vertex, i, end ? O.w[j] : O.v[j]};
+    return {Kind::vertex_vertex, end ? A.w[i] : A.v[i], j};
+}
+
+// --- the quadratics, one formula for every number type ---------------------------------------------------------------
+
+template <class T>
+Trig<T> Predicates::offset_trig(Index s, Index v) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    if (surface.contact.kind == Kind::vertex_edge) {  // E_j x (b_v - b_j - R (a_s - a_i))
+        const auto E = edge<T>(O, j), w = difference<T>(O, v, O.v[j]), d = difference<T>(A, s, i);
+        return {cross(E, w), -cross(E, d), -dot(E, d)};
+    }
+    // -R E_i x (b_v - b_j - R (a_s - a_i))
+    const auto E = edge<T>(A, i), w = difference<T>(O, v, j), d = difference<T>(A, s, A.v[i]);
+    return {cross(E, d), -cross(E, w), dot(E, w)};
+}
+
+template <class T>
+Trig<T> Predicates::parallel_trig(Index g, Index f) const {
+    const auto G = edge<T>(scene.robot, g), F = edge<T>(scene.obstacles, f);
+    return {T{}, cross(G, F), -dot(G, F)};
+}
+
+// The half-plane of a pillar's edge e cuts the surface's line P + t U, P = b_j - R a_i, where e's direction V and point Q give
+// V x (P - Q) + t (V x U) = 0, so t = N / D with N = -V x (P - Q), D = V x U.
+template <class T>
+std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
+    const auto E = on_edge ? edge<T>(O, j) : edge<T>(A, i);
+    if (f.kind == Kind::vertex_vertex) {  // t is where the vertex lies on the edge
+        const auto w = on_edge ? difference<T>(O, f.obstacle, b0) : difference<T>(A, f.robot, a0);
+        return {Trig<T>{dot(w, E), T{}, T{}}, Trig<T>{dot(E, E), T{}, T{}}};
+    }
+    if (f.kind == Kind::vertex_edge) {  // V = F, Q = b_f - R a_s
+        const auto F = edge<T>(O, f.obstacle), w = difference<T>(O, O.v[f.obstacle], b0), d = difference<T>(A, a0, f.robot);
+        const Trig<T> N{cross(F, w), cross(F, d), dot(F, d)};
+        if (on_edge) return {N, Trig<T>{cross(F, E), T{}, T{}}};
+        return {N, Trig<T>{T{}, -cross(F, E), -dot(F, E)}};
+    }
+    // V = -R G, Q = b_v - R a_g
+    const auto G = edge<T>(A, f.robot), w = difference<T>(O, b0, f.obstacle), d = difference<T>(A, A.v[f.robot], a0);
+    const Trig<T> N{cross(G, d), cross(G, w), -dot(G, w)};
+    if (on_edge) return {N, Trig<T>{T{}, -cross(G, E), dot(G, E)}};
+    return {N, Trig<T>{cross(G, E), T{}, T{}}};
+}
+
+Filtered Predicates::filtered(const Trig<Approx>& f) const {
+    return {f.a.v, kappa * f.b.v, kappa * f.c.v, double_only ? 0 : coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
+}
+Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
+Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
+Curve Predicates::curve(const Feature& f) const {
+    const auto [N, D] = curve_trig<Approx>(f);
+    const bool constant = f.kind == Kind::vertex_vertex;
+    return {f, code(scene, f), constant, constant || f.kind == surface.contact.kind, false, filtered(N), filtered(D)};
+}
+
+template Trig<Ball> Predicates::offset_trig(Index, Index) const;
+template Trig<Int> Predicates::offset_trig(Index, Index) const;
+template std::array<Trig<Ball>, 2> Predicates::curve_trig(const Feature&) const;
+template std::array<Trig<Int>, 2> Predicates::curve_trig(const Feature&) const;
+template Trig<Approx> Predicates::offset_trig(Index, Index) const;
+template Trig<Approx> Predicates::parallel_trig(Index, Index) const;
+template std::array<Trig<Approx>, 2> Predicates::curve_trig(const Feature&) const;
+
+Predicates::Form Predicates::form(const Curve& p, const Curve& q) const {
+    return {terms<Filtered>({p.constant, p.constant_D}, p.N, p.D, {q.constant, q.constant_D}, q.N, q.D)};
+}
+
+Predicates::Form Predicates::form(const Event& x) const {
+    if (x.second.kind != Kind::none) return form(curve(x.first), curve(x.second));
+    if (x.first.kind == Kind::edge_edge) return {{2, parallel(x.first.robot, x.first.obstacle), {}, {}, {}}};
+    return {{2, offset(x.first.robot, x.first.obstacle), {}, {}, {}}};
+}
+
+// --- signs -----------------------------------------------------------------------------------------------------------
+
+int Predicates::sign_on(const Filtered& f, double lo, double hi) {
+    const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
+    if (p > f.err && q > f.err && r > f.err) return 1;
+    if (p < -f.err && q < -f.err && r < -f.err) return -1;
+    return 0;
+}
+
+template <class T>
+Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {
+    if (kappa > 0) return {{f.a + f.b, f.c + f.c, f.a - f.b, {}, {}}, 3};
+    return {{f.a - f.b, -(f.c + f.c), f.a + f.b, {}, {}}, 3};
+}
+
+template <class T>
+Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& second) const {
+    if (second.kind == Kind::none) {
+        if (first.kind == Kind::edge_edge) return coefficients(parallel_trig<T>(first.robot, first.obstacle));
+        return coefficients(offset_trig<T>(first.robot, first.obstacle));
+    }
+    const auto constants = [&](const Feature& f) {
+        const bool constant = f.kind == Kind::vertex_vertex;
+        return Constants{constant, constant || f.kind == surface.contact.kind};
+    };
+    const auto [N1, D1] = curve_trig<T>(first);
+    const auto [N2, D2] = curve_trig<T>(second);
+    const auto all = terms<Trig<T>>(constants(first), N1, D1, constants(second), N2, D2);
+    if (all.degree == 2) return coefficients(all.p);
+    const auto p = coefficients(all.p), q = coefficients(all.q), r = coefficients(all.r), s = coefficients(all.s);
+    Coefficients<T> result{{}, 5};
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) result.c[i + j] = result.c[i + j] + (p.c[i] * q.c[j] - r.c[i] * s.c[j]);
+    return result;
+}
+template Coefficients<Int> Predicates::coefficients(const Trig<Int>&) const;
+template Coefficients<Ball> Predicates::coefficients(const Feature&, const Feature&) const;
+template Coefficients<Int> Predicates::coefficients(const Feature&, const Feature&) const;
+
+Poly Predicates::polynomial(const Feature& first, const Feature& second) const {
+    return Poly(coefficients<Int>(first, second));
+}
+
+int Predicates::sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at) {
+    if (double_only || (!at.fine && std::abs(value) > err)) return ++counters.filter, (value > 0) - (value < 0);
+    return settled(counters, [&]<class T>() -> std::optional<int> {
+        const auto p = coefficients<T>(first, second);
+        if constexpr (std::is_same_v<T, Ball>) return cfree::sign_at(p, at.ball());
+        else return cfree::sign_at(Poly(p), at.exact());
+    });
+}
+int Predicates::offset_sign(Index s, Index v, const Filtered& f, const Sample& at) {
+    return sign_at(f.polar(at.tau, at.tau), f.err, {Kind::vertex_vertex, s, v}, {}, at);
+}
+int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sample& at) {
+    return sign_at(value.polar(at.tau, at.tau), value.err, {Kind::edge_edge, g, f}, {}, at);
+}
+
+int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) const {
+    const Dyadic tau = at.exact();
+    const auto denominator = [&](const Feature& f) { return cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), tau); };
+    return cfree::sign_at(polynomial(p, q), tau) * denominator(p) * denominator(q);
+}
+
+int Predicates::cross_sign(const Shape& shape, Index e, Index f) {
+    if (shape.direction[e] == shape.direction[f]) return ++counters.identity, 0;
+    const Approx value = cross(edge<Approx>(shape, e), edge<Approx>(shape, f));
+    if (double_only || std::abs(value.v) > coefficient_error * value.m + tiny)
+        return ++counters.filter, (value.v > 0) - (value.v < 0);
+    return settled(counters, [&]<class T>() { return certain_sign(cross(edge<T>(shape, e), edge<T>(shape, f))); });
+}
+
+}  // namespace cfree

@@ -1,0 +1,393 @@
+#include <stdexcept>
+
+#include "predicates/form.hpp"
+
+namespace cfree {
+
+namespace {
+
+// None of these decides anything: signs at the ends of an interval do, and what they leave open goes to the next rung.
+constexpr double closest = 0x1p-51;          // false position stops here: two units in the last place of 1
+constexpr double nearby = 0x1p-30;           // the slope at a root is taken over this distance
+constexpr double margin = 0x1p-40;           // how far beyond the ends roots are sought, in case one is there
+constexpr double narrow = 0x1p-20;           // roots closer than this are left to balls
+constexpr double narrow_in_balls = 0x1p-46;  // and closer than this to exact integers
+
+enum class Found { none, one, unclear, hopeless };
+
+// How many roots inside: by the variations of certain signs, uncertain ones allowed only where they cannot add any.
+Found roots_inside(const int* sign, int degree) {
+    int changes = 0, last = 0, gap = 0;
+    bool ends = true;
+    for (int i = 0; i <= degree; ++i) {
+        if (sign[i] == 0) {
+            if (i == 0 || i == degree) ends = false;
+            gap = 1;
+            continue;
+        }
+        if (last != 0) {
+            if (sign[i] != last) ++changes;
+            else if (gap) ends = false;
+        }
+        last = sign[i], gap = 0;
+    }
+    if (last == 0) return Found::hopeless;
+    if (!ends) return Found::unclear;
+    return changes == 0 ? Found::none : changes == 1 ? Found::one : Found::unclear;
+}
+
+// Illinois method: false position that halves the value of an end that stays twice.
+template <class Form>
+double false_position(const Form& form, double a, double b, double fa, double fb) {
+    double t = a;
+    int stayed = 0;
+    for (int k = 0; k < 60 && b - a > closest; ++k) {
+        t = (a * fb - b * fa) / (fb - fa);
+        if (!(t > a && t < b)) t = 0.5 * (a + b);
+        const auto value = form.at(t);
+        if (std::abs(value.v) <= value.err) break;
+        if ((value.v > 0) == (fb > 0)) {
+            b = t, fb = value.v;
+            if (stayed == 1) fa *= 0.5;
+            stayed = 1;
+        } else {
+            a = t, fa = value.v;
+            if (stayed == 2) fb *= 0.5;
+            stayed = 2;
+        }
+    }
+    return t;
+}
+
+// An interval with certain, opposite signs at its ends and one root inside, shrunk around t: widened until the signs are
+// certain again.
+template <class Form>
+std::array<double, 2> around(const Form& form, double t, double delta, double lo, double hi) {
+    const int below = form.sign(lo), above = form.sign(hi);
+    if (!(delta < hi - lo)) delta = hi - lo;
+    for (int k = 0; k < 64; ++k, delta *= 2) {
+        const double x = std::max(lo, t - delta), y = std::min(hi, t + delta);
+        if ((x == lo || form.sign(x) == below) && (y == hi || form.sign(y) == above)) return {x, y};
+    }
+    return {lo, hi};
+}
+
+template <class Form>
+std::array<double, 2> refine(const Form& form, double lo, double hi) {
+    double t = lo, width;
+    if (form.degree == 2) {  // (a - b) tau^2 + 2 c tau + (a + b)
+        const double A = form.p.a - form.p.b, B = form.p.c, C = form.p.a + form.p.b;
+        const double s = std::sqrt(std::max(0.0, B * B - A * C)), q = B > 0 ? -(B + s) : s - B;
+        t = q / A;
+        if (!(t >= lo && t <= hi)) t = C / q;
+        if (!(t >= lo && t <= hi)) t = 0.5 * (lo + hi);
+        width = form.p.err / s;
+    } else {
+        t = false_position(form, lo, hi, form.at(lo).v, form.at(hi).v);
+        const double l = std::max(lo, t - nearby), r = std::min(hi, t + nearby);
+        width = 2 * form.at(t).err * (r - l) / std::abs(form.at(r).v - form.at(l).v);
+    }
+    return around(form, t, width + 2 * u, lo, hi);
+}
+
+// The same polynomial in balls.
+struct Balls {
+    Coefficients<Ball> p;
+    int degree;
+
+    explicit Balls(const Coefficients<Ball>& c) : p(c), degree(c.count - 1) {}
+    explicit Balls(const Poly& exact) : p{{}, exact.size() <= 3 ? 3 : 5}, degree(p.count - 1) {
+        int most = 0;
+        for (const Int& c : exact) most = std::max(most, c.is_zero() ? 0 : static_cast<int>(msb(abs(c))));
+        for (int i = 0; i < exact.size(); ++i) p.c[i] = ball(exact[i], most);
+    }
+    bool may_touch() const { return false; }
+    int sign(double t) const { return sign_at(p, t).value_or(0); }
+    // Bernstein coefficients, times 2 or 12, by the polar form: elementary symmetric functions of ends of the interval.
+    void signs(double lo, double hi, int* sign) const {
+        for (int i = 0; i <= degree; ++i) {
+            Ball e[5] = {1.0, {}, {}, {}, {}};
+            for (int k = 0; k < degree; ++k)
+                for (int j = k + 1; j > 0; --j) e[j] = e[j] + e[j - 1] * Ball(k < i ? hi : lo);
+            const double weight[2][5] = {{2, 1, 2, 0, 0}, {12, 3, 2, 3, 12}};  // over binomial coefficients
+            Ball sum;
+            for (int j = 0; j <= degree; ++j) sum = sum + Ball(weight[degree / 4][j]) * (p.c[j] * e[j]);
+            sign[i] = certain_sign(sum).value_or(0);
+        }
+    }
+};
+
+std::array<double, 2> refine(const Balls& form, double lo, double hi) {
+    double t = 0.5 * (lo + hi);
+    for (int k = 0; k < 8; ++k) {  // Newton's method; if it goes astray, halving
+        double value = form.p.c[form.degree].hi, slope = 0;
+        for (int i = form.degree; i-- > 0;) slope = slope * t + value, value = value * t + form.p.c[i].hi;
+        const double next = t - value / slope;
+        if (!(next > lo && next < hi) || next == t) break;
+        t = next;
+    }
+    const auto close = around(form, t, 2 * u, lo, hi);
+    if (close[1] - close[0] < narrow_in_balls) return close;
+    const int below = form.sign(lo);
+    for (;;) {
+        const double mid = 0.5 * (lo + hi);
+        if (!(lo < mid && mid < hi)) return {lo, hi};
+        const int s = form.sign(mid);
+        if (s == 0) return around(form, mid, (hi - lo) * 0x1p-40, lo, hi);
+        (s == below ? lo : hi) = mid;
+    }
+}
+
+struct Brackets {
+    static constexpr int enough = 8;
+    double at[enough][2];
+    int count = 0;
+};
+
+// Brackets of the roots in [lo, hi], in order; false if certain signs do not tell.
+template <class Form>
+bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brackets& found) {
+    struct Span {
+        double lo, hi;
+    };
+    Span stack[64];
+    int top = 0;
+    stack[top++] = {lo, hi};
+    int budget = 60;
+    found.count = 0;
+    while (top > 0) {
+        const Span s = stack[--top];
+        int sign[5];
+        form.signs(s.lo, s.hi, sign);
+        const Found inside = roots_inside(sign, form.degree);
+        if (inside == Found::none) continue;
+        if (inside == Found::hopeless) return false;
+        if (inside == Found::one) {
+            const auto bracket = refine(form, s.lo, s.hi);
+            found.at[found.count][0] = bracket[0], found.at[found.count][1] = bracket[1];
+            if (++found.count == Brackets::enough) return false;
+            continue;
+        }
+        if (--budget == 0 || s.hi - s.lo < least || top > 60 || form.may_touch()) return false;
+        double mid = 0.5 * (s.lo + s.hi);
+        if (form.sign(mid) == 0) mid = s.lo + 0.4375 * (s.hi - s.lo);
+        stack[top++] = {mid, s.hi};
+        stack[top++] = {s.lo, mid};
+    }
+    return true;
+}
+
+// A root may be one of the two ends: look a little beyond them.
+template <class Form>
+bool isolate_around(const Form& form, double lo, double hi, Brackets& found) {
+    return isolate_by_signs(form, lo - margin, hi + margin, narrow, found);
+}
+bool isolate_around(const Balls& form, double lo, double hi, Brackets& found) {
+    return isolate_by_signs(form, lo - margin, hi + margin, narrow_in_balls, found);
+}
+
+}  // namespace
+
+// Roots in the interval and a little beyond it.
+struct Predicates::Candidates {
+    Event at[Brackets::enough];
+    int count = 0;
+    bool all_zero = false;
+};
+
+// Of a quadratic, whose touch is the root of its derivative. Of a quartic multiple roots are divided out first, exactly.
+std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& first, const Feature& second, double lo,
+                                                                 double hi) const {
+    const auto p = coefficients<Ball>(first, second);
+    Candidates result;
+    result.all_zero = true;
+    for (int i = 0; i < p.count; ++i) result.all_zero &= certain_sign(p.c[i]) == 0;
+    if (result.all_zero) return result;
+    if (p.count > 3) return {};
+    const auto sign = certain_sign(p.c[1] * p.c[1] - Ball(4.0) * (p.c[0] * p.c[2]));
+    if (!sign) return {};
+    if (*sign < 0) return result;
+    Brackets found;
+    if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
+    for (; result.count < found.count; ++result.count)
+        result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1], -1, *sign == 0};
+    return result;
+}
+
+bool Predicates::isolates(const Event& x, int place) const {
+    if (place == 0 && x.lo < x.hi) {
+        const Form f = form(x);
+        int sign[5];
+        f.signs(x.lo, x.hi, sign);
+        if (roots_inside(sign, f.degree) == Found::one) return true;
+    }
+    const Poly p = polynomial(x.first, x.second);
+    if (p.size() < 2) return false;
+    const Sturm sturm(squarefree(p));
+    const Dyadic lo = Dyadic::from(x.lo), hi = Dyadic::from(x.hi);
+    const auto is_root = [&](const Dyadic& t) { return cfree::sign_at(sturm.polynomial(), t) == 0; };
+    if (place > 0) return sturm.roots_in(lo, hi) >= place;
+    return x.lo == x.hi ? is_root(lo) : !is_root(lo) && !is_root(hi) && sturm.roots_in(lo, hi) == 1;
+}
+
+Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Feature& second, double lo, double hi) {
+    Candidates result;
+    const Poly p = polynomial(first, second);
+    result.all_zero = p.empty();
+    if (p.empty() || (p.size() == 3 && p[1] * p[1] < 4 * p[0] * p[2])) return result;
+    const Poly simple = squarefree(p);
+    const auto is_touch = [&](const Dyadic& below, const Dyadic& above) {
+        if (simple.size() == p.size()) return false;
+        RealRoot root{simple, below, above};
+        return sign_before(p, root) == sign_after(p, root);
+    };
+    Brackets found;
+    if (isolate_around(Balls(simple), lo, hi, found)) {
+        for (; result.count < found.count; ++result.count) {
+            const auto [l, h] = found.at[result.count];
+            result.at[result.count] = {first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))};
+        }
+        return result;
+    }
+    const Sturm sturm(simple);
+    const Dyadic lowest = Dyadic::from(std::nextafter(lo, -2)), highest = Dyadic::from(std::nextafter(hi, 2));
+    for (auto [below, above] : isolate(sturm, lowest, highest, 56)) {
+        const auto sign = [&](const Dyadic& t) { return cfree::sign_at(sturm.polynomial(), t); };
+        while (sign(below) == 0) {  // the root before this one
+            const Dyadic mid = Dyadic::middle(below, above);
+            (sturm.roots_in(mid, above) == 1 ? below : above) = mid;
+        }
+        double l = below.rounded_down(), h = above.rounded_up();
+        if (sign(above) == 0) below = above;
+        // doubles around it, with no root at their ends; a finer interval if there is a second one between them
+        while (sign(Dyadic::from(l)) == 0) l = std::nextafter(l, -2);
+        while (sign(Dyadic::from(h)) == 0) h = std::nextafter(h, 2);
+        Event x{first, second, l, h, -1, is_touch(below, above)};
+        if (sturm.roots_in(Dyadic::from(l), Dyadic::from(h)) != 1) {
+            x.fine = static_cast<Index>(fine.size());
+            fine.push_back({below, above});
+        }
+        result.at[result.count++] = x;
+    }
+    return result;
+}
+
+Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const Feature& second, const Event& from,
+                                    const Event& to) {
+    Candidates all;
+    Brackets found;
+    if (isolate_around(f, from.lo, to.hi, found) || double_only) {
+        ++counters.filter;
+        for (; all.count < found.count; ++all.count)
+            all.at[all.count] = {first, second, found.at[all.count][0], found.at[all.count][1]};
+    } else {
+        all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
+            if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
+            else return roots_exactly(first, second, from.lo, to.hi);
+        });
+    }
+    Roots result;
+    result.all_zero = all.all_zero;
+    for (int k = 0; k < all.count; ++k) {
+        if (order(from, all.at[k]) >= 0 || order(all.at[k], to) >= 0) continue;
+        if (result.count == 4) throw std::logic_error("more roots than the degree");
+        result.at[result.count++] = all.at[k];
+    }
+    return result;
+}
+
+Predicates::Roots Predicates::offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to) {
+    return roots(Form{{2, f, {}, {}, {}}}, {Kind::vertex_vertex, s, v}, {}, from, to);
+}
+
+// Surfaces that share a helix cross where the helix meets the line, and where their own lines are parallel.
+Predicates::Roots Predicates::crossings(const Form& f, const Feature& p, const Feature& q, const Event& from,
+                                        const Event& to) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (p.kind == Kind::vertex_vertex || q.kind == Kind::vertex_vertex) return roots(f, p, q, from, to);
+    if (p.kind == Kind::edge_vertex && q.kind == Kind::vertex_edge) return crossings(f, q, p, from, to);
+    const auto end_of = [](const Shape& s, Index vertex, Index e) {
+        return s.point[vertex] == s.point[s.v[e]] || s.point[vertex] == s.point[s.w[e]];
+    };
+    const auto shared_end = [&](const Shape& s, Index e, Index g) {
+        return end_of(s, s.v[e], g) ? s.v[e] : end_of(s, s.w[e], g) ? s.w[e] : -1;
+    };
+    Index a = -1, b = -1;
+    if (p.kind != q.kind) {  // v-e and e-v
+        if (end_of(A, p.robot, q.robot) && end_of(O, q.obstacle, p.obstacle)) a = p.robot, b = q.obstacle;
+    } else if (p.kind == Kind::vertex_edge) {
+        if (A.point[p.robot] == A.point[q.robot]) a = p.robot, b = shared_end(O, p.obstacle, q.obstacle);
+    } else if (O.point[p.obstacle] == O.point[q.obstacle]) {
+        a = shared_end(A, p.robot, q.robot), b = p.obstacle;
+    }
+    if (a < 0 || b < 0) return roots(f, p, q, from, to);
+    // one line both ways is one curve
+    const bool on_one_line = p.kind == q.kind && (p.kind == Kind::vertex_edge ? O.direction[p.obstacle] == O.direction[q.obstacle]
+                                                                             : A.direction[p.robot] == A.direction[q.robot]);
+    if (on_one_line) return {0, true, {}};
+    Roots result = offset_roots(a, b, offset(a, b), from, to);
+    if (result.all_zero || p.kind == q.kind) return result;
+    const Roots parallel = parallel_roots(q.robot, p.obstacle, from, to);
+    for (int k = 0; k < parallel.count; ++k) {
+        int at = result.count;
+        while (at > 0 && order(parallel.at[k], result.at[at - 1]) < 0) --at;
+        if (at > 0 && order(parallel.at[k], result.at[at - 1]) == 0) continue;
+        for (int m = result.count++; m > at; --m) result.at[m] = result.at[m - 1];
+        result.at[at] = parallel.at[k];
+    }
+    return result;
+}
+
+Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Event& from, const Event& to) {
+    Order result;
+    const auto constant = [&](int s) {
+        result.sign[0] = s;
+        return result;
+    };
+    if (p.code == q.code) return ++counters.identity, constant(0);
+    const Form f = form(p, q);
+    const int everywhere = f.sign_on(from.lo, to.hi);
+    result.strict = everywhere != 0;
+    if (result.strict) return ++counters.filter, constant(everywhere);
+    const Roots r = crossings(f, p.feature, q.feature, from, to);
+    if (r.all_zero) return constant(0);
+    const int flip = p.flipped != q.flipped ? -1 : 1;
+    result.count = r.count;
+    for (int k = 0; k <= r.count; ++k) {
+        if (k < r.count) result.at[k] = r.at[k];
+        const Event &before = k == 0 ? from : r.at[k - 1], &after = k == r.count ? to : r.at[k];
+        result.sign[k] = 0;
+        for (int attempt = 0; result.sign[k] == 0; ++attempt) {  // a sample may be where the curves touch
+            if (attempt == most_attempts) throw std::logic_error("two different curves are equal at every sample");
+            const Sample at = between(before, after, attempt);
+            const auto value = f.at(at.tau);
+            result.sign[k] = flip * sign_at(flip * value.v, value.err, p.feature, q.feature, at);
+        }
+    }
+    return result;
+}
+
+bool Predicates::are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to) {
+    const Sample middle = between(from, to);
+    const auto limit = [&](const Feature& f) -> std::optional<Curve> {  // with D > 0
+        Curve result = curve(f);
+        const Feature& on = surface.contact;
+        if (f.kind != Kind::vertex_vertex && f.kind != on.kind) {
+            const bool on_edge = on.kind == Kind::vertex_edge;
+            if (parallel_roots(on_edge ? f.robot : on.robot, on_edge ? on.obstacle : f.obstacle, from, to).count > 0) return {};
+        }
+        const int sign = cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), middle.exact());
+        if (sign < 0) result.N = -result.N, result.D = -result.D, result.flipped = true;
+        return sign == 0 ? std::nullopt : std::optional(result);
+    };
+    const auto ordered = [&](const std::optional<Curve>& p, const std::optional<Curve>& q) {
+        if (!p || !q) return false;
+        const Order found = compare(*p, *q, from, to);
+        return std::all_of(found.sign, found.sign + found.count + 1, [](int s) { return s <= 0; });
+    };
+    const auto low = limit(lower), high = limit(upper);
+    return ordered(limit(end_helix(scene, surface.contact, 0)), low) && ordered(low, high) &&
+           ordered(high, limit(end_helix(scene, surface.contact, 1)));
+}
+
+}  // namespace cfree

@@ -1,0 +1,69 @@
+#include "cfree/search/configuration.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace cfree {
+
+using std::numbers::pi;
+
+Configuration Grid::exact(double px, double py, double theta) const {
+    Configuration q;
+    q.theta = std::remainder(theta, 2 * pi);
+    const bool beside = std::abs(q.theta) > 0.5 * pi;  // half the angle is nearer to the y axis
+    const double half = 0.5 * (beside ? q.theta - std::copysign(pi, q.theta) : q.theta);
+    const auto across = static_cast<long long>(std::llround(std::ldexp(std::tan(half), angle_bits)));
+    const long long one = 1LL << angle_bits;
+    q.hx = beside ? -across : one, q.hy = beside ? one : across;
+    q.theta = 2 * std::atan2(static_cast<double>(beside ? one : across), static_cast<double>(beside ? -across : one));
+    if (q.theta > pi) q.theta -= 2 * pi;
+    const double x = std::nearbyint(std::ldexp(px, place_bits)), y = std::nearbyint(std::ldexp(py, place_bits));
+    q.px = std::ldexp(x, -place_bits), q.py = std::ldexp(y, -place_bits);
+    const int by = shift - place_bits;
+    q.x = Int(x), q.y = Int(y), q.unit = 1;  // whole numbers
+    if (by >= 0) q.x <<= static_cast<unsigned>(by), q.y <<= static_cast<unsigned>(by);
+    else q.unit <<= static_cast<unsigned>(-by);
+    return q;
+}
+
+Motion motion_between(const Configuration& a, const Configuration& b) {
+    Motion m;
+    m.c = a.hx * a.hx - a.hy * a.hy, m.s = 2 * a.hx * a.hy, m.w = a.hx * a.hx + a.hy * a.hy;
+    Int q = b.hx * a.hx + b.hy * a.hy, p = b.hy * a.hx - b.hx * a.hy;
+    if (q < 0 || (q == 0 && p < 0)) q = -q, p = -p;
+    const bool same = a.unit == b.unit;
+    const Int unit = same ? a.unit : Int(a.unit * b.unit);
+    const Int ax = same ? a.x : Int(a.x * b.unit), ay = same ? a.y : Int(a.y * b.unit);
+    const Int bx = same ? b.x : Int(b.x * a.unit), by = same ? b.y : Int(b.y * a.unit);
+    m.turns = !p.is_zero();
+    if (!m.turns) {
+        m.x = ax, m.y = ay, m.unit = unit, m.vx = bx - ax, m.vy = by - ay, m.start = m.q = 1, m.p = 0;
+        return m;
+    }
+    const Int g = gcd(q, p);
+    q /= g, p /= g;
+    const Int twice = p < 0 ? Int(-2 * p) : Int(2 * p);  // the pole is ((a + b) p + q J (b - a)) / 2 p
+    m.unit = unit * twice, m.x = ax * twice, m.y = ay * twice;
+    m.vx = (ax + bx) * p - q * (by - ay), m.vy = (ay + by) * p + q * (bx - ax);
+    if (p < 0) m.vx = -m.vx, m.vy = -m.vy;
+    m.q = q, m.p = p, m.start = sqrt(Int(q * q + p * p));
+    return m;
+}
+
+double turn_between(const Configuration& a, const Configuration& b) { return std::remainder(b.theta - a.theta, 2 * pi); }
+
+double travel_between(const Configuration& a, const Configuration& b) {
+    const double half = 0.5 * std::abs(turn_between(a, b)), chord = std::hypot(b.px - a.px, b.py - a.py);
+    return half > 1e-6 ? chord * half / std::sin(half) : chord;
+}
+
+Place along(const Configuration& a, const Configuration& b, double share) {
+    const double turn = turn_between(a, b), half = 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;
+    if (std::abs(half) < 1e-9) return {a.px + share * dx, a.py + share * dy, a.theta + share * turn};
+    // from a: the chord of share * turn, which leaves the whole chord's direction by the rest's half
+    const double scale = std::sin(share * half) / std::sin(half), off = (share - 1) * half;
+    const double c = std::cos(off) * scale, s = std::sin(off) * scale;
+    return {a.px + c * dx - s * dy, a.py + s * dx + c * dy, a.theta + share * turn};
+}
+
+}  // namespace cfree

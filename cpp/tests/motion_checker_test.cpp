@@ -1,0 +1,44 @@
+#include "cfree/collision/motion_checker.hpp"
+
+#include "check.hpp"
+#include "shapes.hpp"
+
+using namespace cfree;
+
+// A square between a floor and two corners: corridors as wide as it meet, less by `missing` of 1000.
+static Shape junction(int missing) {
+    const int top = 2000 - missing;
+    return shape_of({{{-9000, -100}, {9000, -100}, {9000, 0}, {-9000, 0}},
+                     {{-9000, top}, {-1000, top}, {-1000, 9000}, {-9000, 9000}},
+                     {{1000, top}, {9000, top}, {9000, 9000}, {1000, 9000}}});
+}
+static Shape square() { return shape_of({{{-1000, -1000}, {1000, -1000}, {1000, 1000}, {-1000, 1000}}}); }
+
+static Motion translation(int x, int y, int dx, int dy) { return {1, 0, 1, x, y, 1, false, dx, dy, 1, 1, 0}; }
+static Motion turn(int x, int y, int q, int p) { return {1, 0, 1, x, y, 1, true, x, y, 1, q, p}; }
+
+static void touching_is_free() {
+    const MotionChecker checker(square(), junction(0), 0);
+    CHECK(checker.is_free(translation(-5000, 1000, 10000, 0)));
+    CHECK(!checker.is_free(translation(-5000, 1001, 4000, 0)));
+    CHECK(!checker.is_free(turn(0, 1000, 1000000, 1)));
+    const auto stopped = checker.first_collision(translation(0, 2000, 0, -2000));
+    CHECK(stopped && stopped->at.hi.rounded_up() >= 0.5 && stopped->at.lo.rounded_down() <= 0.5);
+}
+
+// A quarter turn: (x, y) = (2 t - 4 t^2 + 2 t^3, 2 t - 2 t^3) / (1 + t + t^2 + t^3), t = u, from (0, 1). One vertex stays on
+// the floor, and one edge on the right corner.
+static void two_contacts_slide() {
+    const Slide slide{1, 0, 1, 1, 1, {0, 2000, -4000, 2000, 0}, {1000, 3000, 1000, -1000, 0}, {1, 1, 1, 1, 0}};
+    CHECK(MotionChecker(square(), junction(0), 0).is_free(slide));
+    CHECK(!MotionChecker(square(), junction(1), 0).is_free(slide));
+    Slide lower = slide;
+    for (int k = 0; k < 4; ++k) lower.x[k] *= 1000000, lower.d[k] *= 1000000, lower.y[k] = lower.y[k] * 1000000 - 1;
+    CHECK(!MotionChecker(square(), junction(-10), 0).is_free(lower));
+}
+
+int main() {
+    touching_is_free();
+    two_contacts_slide();
+    return failures != 0;
+}
