@@ -29,7 +29,7 @@ from cfree import (
     load_boundary,
     load_scene,
 )
-from cfree.features import scene_features
+from cfree.scene.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
 from shapes import (
     KINDS,

@@ -135,7 +135,7 @@ double Junction::value(const Feature& line, const Spot& p) const {
         const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau), t = filtered(N).polar(tau, tau) / d;
         if (filtered(N).err + std::abs(t) * filtered(D).err < 0x1p-32 * std::abs(d)) return t;
     }
-    // as a ratio of integers at one end of an interval that shrinks until it is nearly that on all of it: equal ends are not enough
+    // as a ratio of integers at an end of an interval, once it is nearly that on all of it: equal ends are not enough
     const auto [N, D] = position<Int>(line, p);
     const Poly n = polynomial(N), d = polynomial(D);
     const auto at = [](const Poly& f, const Dyadic& tau) {
