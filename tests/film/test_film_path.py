@@ -43,7 +43,6 @@ def test_the_robot_moves_at_even_speed_and_rests_before_and_after(monkeypatch: p
     seen: list[float] = []
     monkeypatch.setattr(PathStage, "draw", lambda self, travel, share: seen.append(travel) or np.zeros(1))
     frames = frames_of(WAY, WALL, 4.0, 25)
-    seen.sort()  # frames are drawn side by side
     total = Track.of(WAY, WALL).pace.total
     before, after = (round(rest * 25) for rest in REST)
     assert len(frames) == before + 100 + after

@@ -22,9 +22,9 @@ from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene
 from cfree.exact.algebraic import Number, between, roots
 from cfree.verify.matching import matched
 from cfree.verify.missing import free_contacts
-from cfree.verify.polygons import convex_sum, tile
-from cfree.verify.section import Section, left_over
-from cfree.verify.surfaces import Line, Turn
+from cfree.verify.polygons import Ring, convex_sum, corners, roughly, tile
+from cfree.verify.section import Interval, Pillar, Section, crossing, left_over
+from cfree.verify.surfaces import Line, Turn, Vector, cross, minus
 from cfree.verify.trapezoids import Reader
 from cfree.verify.world import World
 from compared import plain_of, scene_of
@@ -251,16 +251,50 @@ def test_sums_are_the_oracles_hulls() -> None:
         assert area == sum(map(oracles.ring_area, hulls))
 
 
+def pillar(ring: Ring) -> Pillar:
+    return Pillar(ring, roughly(ring, 1))
+
+
 def test_what_squares_leave_of_a_line() -> None:
-    square = [(0, 0), (4, 0), (4, 4), (0, 4)]
-    beside = [(4, 0), (8, 0), (8, 4), (4, 4)]
+    square, beside = pillar([(0, 0), (4, 0), (4, 4), (0, 4)]), pillar([(4, 0), (8, 0), (8, 4), (4, 4)])
     half, third = Fraction(1, 2), Fraction(1, 3)
-    assert left_over([square], Line((-4, 1), (8, 0))) == [(0, half), (1, 1)]
-    assert left_over([square], Line((0, 0), (4, 0))) == [(0, 1)]  # along an edge
-    assert left_over([square], Line((-4, 1), (4, 0))) == [(0, 1)]  # up to it
-    assert left_over([square, beside], Line((-4, 1), (12, 0))) == [(0, third), (2 * third, 2 * third), (1, 1)]
-    assert left_over([square, beside], Line((1, 1), (7, 0))) == [(Fraction(3, 7), Fraction(3, 7)), (1, 1)]
+
+    def left(pillars: list[Pillar], start: Vector, along: Vector) -> list[Interval]:
+        line = Line(start, along)
+        return left_over(pillars, line, roughly([start, line.point(1)], 1))
+
+    assert left([square], (-4, 1), (8, 0)) == [(0, half), (1, 1)]
+    assert left([square], (0, 0), (4, 0)) == [(0, 1)]  # along an edge
+    assert left([square], (-4, 1), (4, 0)) == [(0, 1)]  # up to it
+    assert left([square, beside], (-4, 1), (12, 0)) == [(0, third), (2 * third, 2 * third), (1, 1)]
+    assert left([square, beside], (1, 1), (7, 0)) == [(Fraction(3, 7), Fraction(3, 7)), (1, 1)]
     assert Line((0, 1), (6, -3)).key == Line((4, -1), (-2, 1)).key == (-half, 1)
+
+
+def test_a_line_crosses_a_pillar_where_it_is_over_every_edge_whatever_the_doubles_say() -> None:
+    rng, found = random.Random(0), Counter[bool]()
+    for _ in range(2000):
+        points = [(Fraction(rng.randint(-3, 3)), Fraction(rng.randint(-3, 3))) for _ in range(rng.randint(3, 9))]
+        ring, start, along = list(oracles.exact_hull(points)), points[0], (rng.randint(-4, 4), rng.randint(-4, 4))
+        if len(ring) < 3 or not any(along):
+            continue
+        if rng.randrange(2):
+            start = Fraction(rng.randint(-5, 5)), Fraction(rng.randint(-5, 5))
+        line = Line(start, along)
+        lo, hi = Fraction(0), Fraction(1)  # as far as [0, 1]
+        for _, p, q in corners(ring):
+            height, slope = cross(minus(q, p), minus(start, p)), cross(minus(q, p), along)
+            if slope > 0:
+                lo = max(lo, -height / slope)
+            elif slope < 0:
+                hi = min(hi, -height / slope)
+            elif height <= 0:
+                hi = lo
+        rough = roughly(ring, 1) * rng.choice([1, 1, 0, 1j, -1])
+        passed = crossing(Pillar(ring, rough), line, roughly([start, line.point(1)], 1))
+        assert (passed and (max(passed[0], 0), min(passed[1], 1))) == ((lo, hi) if lo < hi else None)
+        found[passed is None] += 1
+    assert min(found.values()) > 200
 
 
 @pytest.mark.parametrize("name", ["sofa_corner", "flat", "degenerate_overlapping"])

@@ -10,6 +10,7 @@ from math import gcd
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.exact.algebraic import Exact
 from cfree.polygons.polygon import Polygon
 from cfree.verify.surfaces import Vector, cross, minus
 
@@ -69,22 +70,28 @@ def primitive(u: Vector) -> Vector:
 
 
 def convex_sum(first: Ring, second: Ring) -> Ring:
-    """Minkowski sum of two convex polygons: their edges merged by direction."""
-    p, q = (_turned_to_lowest(ring) for ring in (first, second))
-    u, v = ([minus(end, start) for _, start, end in corners(ring)] for ring in (p, q))
+    """Minkowski sum of two convex polygons."""
+    terms = ((first[i], second[j]) for i, j in summands(first, second))
+    return [(x[0] + y[0], x[1] + y[1]) for x, y in terms]
+
+
+def summands(first: Ring, second: Ring) -> list[tuple[int, int]]:
+    """Which vertices of two convex polygons make those of their sum: edges are merged by direction."""
+    (p, u), (q, v) = (_from_the_lowest(ring) for ring in (first, second))
     i = j = 0
     found = []
     while i < len(u) or j < len(v):
-        x, y = p[i % len(p)], q[j % len(q)]
-        found.append((x[0] + y[0], x[1] + y[1]))
+        found.append((p[i % len(p)], q[j % len(q)]))
         order = -1 if i == len(u) else 1 if j == len(v) else cross(u[i], v[j])
         i, j = i + (order >= 0), j + (order <= 0)
     return found
 
 
-def _turned_to_lowest(ring: Ring) -> Ring:
+def _from_the_lowest(ring: Ring) -> tuple[list[int], list[Vector]]:
+    """Vertices by number, and the edges that they begin."""
     k = min(range(len(ring)), key=lambda k: (ring[k][1], ring[k][0]))
-    return ring[k:] + ring[:k]
+    order = [*range(k, len(ring)), *range(k)]
+    return order, [minus(ring[(i + 1) % len(ring)], ring[i]) for i in order]
 
 
 # --- looking around, in doubles ---
@@ -96,6 +103,11 @@ def boxes(rings: Iterable[Ring], unit: int) -> Boxes:
     """Boxes around rings of integers, in a unit as large as the scene; larger by more than what is rounded."""
     found = [[of(p[k] / unit for p in ring) for of in (min, max) for k in (0, 1)] for ring in rings]
     return np.array(found, float).reshape(-1, 4) + 2.0**-40 * np.array([-1, -1, 1, 1])
+
+
+def roughly(ring: Iterable[Vector], unit: Exact) -> NDArray[np.complex128]:
+    """Points x + yi, rounded."""
+    return np.array([complex(x / unit, y / unit) for x, y in ring])
 
 
 def near(around: Boxes, box: Boxes) -> list[int]:

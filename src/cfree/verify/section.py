@@ -10,14 +10,32 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cfree.exact.algebraic import Exact, Number, ratio
-from cfree.verify.polygons import Ring, boxes, convex_sum, corners, near
+from cfree.verify.polygons import Ring, boxes, corners, near, roughly, summands
 from cfree.verify.surfaces import Line, Surface, Turn, Vector, cross, minus
 from cfree.verify.world import World
 
 Interval = tuple[Exact, Exact]
 ERROR = Fraction(1, 1 << 45)  # of a rounded point, in the world's unit; boxes are larger by 2^-40
+
+
+class Pillar:
+    """A convex polygon, times w, and its vertices x + yi, rounded, in the world's unit."""
+
+    def __init__(self, ring: Ring, rough: NDArray[np.complex128]) -> None:
+        self.ring, self._rough = ring, rough
+        u = np.concatenate([rough[1:], rough[:1]]) - rough
+        self._across = (u / np.maximum(abs(u), 1e-300)).conj()
+
+    def guess(self, start: np.complex128, end: np.complex128) -> tuple[int, int, int]:
+        """Edges that a line is outside of, or enters and leaves by."""
+        height, slope = (self._across * (start - self._rough)).imag, (self._across * (end - start)).imag
+        outside = np.maximum(height, height + slope).argmin()
+        with np.errstate(all="ignore"):
+            t = -height / slope
+        return int(outside), int(np.where(slope > 0, t, -np.inf).argmax()), int(np.where(slope < 0, t, np.inf).argmin())
 
 
 class Section:
@@ -27,40 +45,53 @@ class Section:
         self.world, self.turn = world, turn
         self._parts = [_mirrored(turn, part) for part in world.parts]
         rounded = turn.rounded
-        part_boxes = boxes((_mirrored(rounded, part) for part in world.parts), rounded.w * world.unit)
+        parts = [_mirrored(rounded, part) for part in world.parts]
+        part_boxes = boxes(parts, rounded.w * world.unit)
+        self._rough_parts = [roughly(part, rounded.w * world.unit) for part in parts]
         sums = (world.wall_boxes[:, None] + part_boxes[None]).reshape(-1, 4)
         self._boxes = np.concatenate([sums, boxes(world.beyond, world.unit)])
-        self._made: dict[int, Ring] = {}
+        self._made: dict[int, Pillar] = {}
 
-    def _pillar(self, k: int) -> Ring:
+    def _pillar(self, k: int) -> Pillar:
         if k not in self._made:
-            world = self.world
-            wall, part = divmod(k, len(world.parts))
-            if wall < len(world.walls):
-                self._made[k] = convex_sum([self.turn.fixed(p) for p in world.walls[wall]], self._parts[part])
-            else:
-                beyond = world.beyond[k - len(world.walls) * len(world.parts)]
-                self._made[k] = [self.turn.fixed(p) for p in beyond]
+            self._made[k] = self._sum(k)
         return self._made[k]
 
-    def _near(self, points: Ring, w: Exact) -> Iterator[Ring]:
+    def _sum(self, k: int) -> Pillar:
+        world = self.world
+        number, of = divmod(k, len(world.parts))
+        if number >= len(world.walls):
+            beyond = world.beyond[k - len(world.walls) * len(world.parts)]
+            return Pillar([self.turn.fixed(p) for p in beyond], roughly(beyond, world.unit))
+        wall, part = [self.turn.fixed(p) for p in world.walls[number]], self._parts[of]
+        i, j = zip(*(pairs := summands(wall, part)), strict=True)
+        rough = roughly(world.walls[number], world.unit)[list(i)] + self._rough_parts[of][list(j)]
+        return Pillar([(wall[i][0] + part[j][0], wall[i][1] + part[j][1]) for i, j in pairs], rough)
+
+    def _near(self, points: Ring, w: Exact) -> Iterator[Pillar]:
         (box,) = boxes([points], w * self.world.unit)
         return map(self._pillar, near(self._boxes, box))
+
+    def _left_over(self, rough: Ring, w: Exact, line: Line) -> list[Interval]:
+        """What pillars near two rounded points, times w, leave of a line from one to the other."""
+        return left_over(self._near(rough, w), line, roughly(rough, w * self.world.unit))
 
     def on_contact(self, surface: Surface) -> list[Interval]:
         """Closed intervals of t in [0, 1] that are free on a contact."""
         rounded = self.turn.rounded
         rough = rounded.line(surface)
-        return left_over(self._near([rough.start, rough.point(1)], rounded.w), self.turn.line(surface))
+        return self._left_over([rough.start, rough.point(1)], rounded.w, self.turn.line(surface))
 
     def on_segment(self, line: Line) -> list[Interval]:
         """The same from a line's start to start + along."""
-        return left_over(self._around(line.start, line.point(1)), line)
+        return self._left_over(*self._rounded(line.start, line.point(1)), line)
 
     def _around(self, *points: Vector) -> Iterator[Ring]:
+        return (pillar.ring for pillar in self._near(*self._rounded(*points)))
+
+    def _rounded(self, *points: Vector) -> tuple[Ring, Fraction]:
         error = ERROR * self.world.unit
-        rough = [(_rounded(x, error), _rounded(y, error)) for x, y in points]
-        return self._near(rough, _rounded(self.turn.w, ERROR))
+        return [(_rounded(x, error), _rounded(y, error)) for x, y in points], _rounded(self.turn.w, ERROR)
 
     def encloses(self, point: Vector, along: Vector | None = None) -> bool:
         """Is a point free, and from it every direction into an open pillar, but for those along a line?
@@ -102,26 +133,58 @@ def _rounded(x: Exact, error: Fraction) -> Fraction:
     return x.rounded(error) if isinstance(x, Number) else x
 
 
-def crossing(pillar: Ring, line: Line) -> Iterator[Interval]:
-    """The open interval of t, if any, at which a line is inside a convex polygon; cut off beyond [-1, 2]."""
-    lo, hi = -1, 2
-    for _, p, q in corners(pillar):
+def crossing(pillar: Pillar, line: Line, rough: NDArray[np.complex128]) -> Interval | None:
+    """The open interval of t at which a line is inside a pillar; None if that is nowhere in [0, 1].
+
+    Notes
+    -----
+    Doubles only say which edges to look at first. Decided exactly: that the line is outside of one edge from t = 0 to
+    1; or that it comes in through one and goes out through another.
+    """
+    ring, count = pillar.ring, len(pillar.ring)
+
+    def edge(k: int) -> tuple[Exact, Exact]:
+        """Height over an edge, inside positive, at t = 0, and how it grows."""
+        p, q = ring[k % count], ring[(k + 1) % count]
         u = minus(q, p)
-        height, slope = cross(u, minus(line.start, p)), cross(u, line.along)  # inside: height + t slope > 0
-        if height <= 0 and height + slope <= 0:
-            return  # nowhere in [0, 1]
-        if slope > 0:
-            lo = max(lo, ratio(-height, slope))
-        elif slope < 0:
-            hi = min(hi, ratio(-height, slope))
-    if lo < hi:
-        yield lo, hi
+        return cross(u, minus(line.start, p)), cross(u, line.along)
+
+    def passed(k: int, sign: int) -> int | None:
+        """The edge that leaves one side of the line, 1 for its left; None if all is on one side. Begin at edge k."""
+
+        def side(k: int) -> Exact:
+            return sign * cross(line.along, minus(ring[k % count], line.start))
+
+        a, b = side(k), side(k + 1)
+        for _ in range(2 * count):  # round a convex polygon `side` rises once and falls once
+            if a > 0 >= b:
+                return k
+            if a > b and a <= 0:
+                k, a, b = k - 1, side(k - 1), a
+                if a <= b:
+                    return None
+            else:
+                falls = a > b
+                k, a, b = k + 1, b, side(k + 2)
+                if falls and a <= b:
+                    return None
+        return None
+
+    outside, enter, leave = pillar.guess(*rough)
+    height, slope = edge(outside)
+    if height <= 0 and height + slope <= 0:
+        return None
+    first, last = passed(enter, 1), passed(leave, -1)
+    if first is None or last is None:
+        return None
+    lo, hi = (ratio(-height, slope) for height, slope in map(edge, (first, last)))
+    return (lo, hi) if lo < 1 and hi > 0 else None
 
 
-def left_over(pillars: Iterable[Ring], line: Line) -> list[Interval]:
+def left_over(pillars: Iterable[Pillar], line: Line, rough: NDArray[np.complex128]) -> list[Interval]:
     """[0, 1] without open intervals; some are points."""
     found, at = [], 0
-    for lo, hi in sorted(interval for pillar in pillars for interval in crossing(pillar, line)):
+    for lo, hi in sorted(filter(None, (crossing(pillar, line, rough) for pillar in pillars))):
         if at <= lo:
             found.append((at, lo))
         at = max(at, hi)
