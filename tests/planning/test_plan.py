@@ -414,3 +414,10 @@ def test_numbers_of_clear_paths_are_short() -> None:
     path = plan(Scene([robot], [one, other]), *ends, objective="clear", improve=0)
     assert isinstance(path, Path)
     assert max(c.denominator.bit_length() for q in path.poses for c in (q.x, q.y, q.tau or q.x)) < 200
+
+
+def test_a_ray_that_links_surfaces_may_be_along_a_level_edge() -> None:
+    diamonds = [[(x - 1, y), (x, y - 1), (x + 1, y), (x, y + 1)] for x, y in ((0, 0), (10, 2))]
+    scene = Scene([(0, 0), (2, 0), (0, 1)], diamonds)
+    way = free_space(boundary(scene)).planner.walker.walk(Pose(-9, 0), Pose(20, 0), 0)
+    assert (way[0], way[-1]) == (Pose(-9, 0), Pose(20, 0)) and MotionChecker(scene).joins(way)

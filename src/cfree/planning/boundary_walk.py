@@ -264,11 +264,12 @@ class Walker:
         while True:
             pose = self.off(f, f.middle(tau), tau)
             nearby = self.space.nearby(pose)
-            if nearby.generic and not nearby.on:
+            crossed = {self._crossing(face, pose) for face in nearby.crossed}
+            if nearby.generic and not nearby.on and None not in crossed:
                 break
             tau = between(tau, f.high)
-        crossed = sorted({self._crossing(face, pose) for face in nearby.crossed}, reverse=True)
-        middles = [Pose((x + other) / 2, pose.y, {"tau": pose.tau}) for x, other in pairwise([*crossed, self._far])]
+        xs = sorted((x for x in crossed if x is not None), reverse=True)
+        middles = [Pose((x + other) / 2, pose.y, {"tau": pose.tau}) for x, other in pairwise([*xs, self._far])]
         landing = Landing(f.face, (pose, f.pose(f.middle(tau), tau)))
         for found in self._landings(pose, -1, 0, cell)[:1]:
             yield Link((landing, found))
@@ -278,11 +279,11 @@ class Walker:
                 if right and left:
                     yield Link((right[0], left[0]))
 
-    def _crossing(self, face: int, pose: Pose) -> Fraction:
-        """Where the line of a trapezoid is at a pose's height and orientation."""
+    def _crossing(self, face: int, pose: Pose) -> Fraction | None:
+        """Where the line of a trapezoid is at a pose's height and orientation; None if it is level there."""
         f = self.sheet(face)
         (x, y), (u, v) = f.at(f.local(pose))
-        return x + (pose.y - y) / v * u
+        return x + (pose.y - y) / v * u if v else None
 
 
 def _nearer(tau: Fraction, end: Fraction, halvings: int) -> Fraction:
