@@ -80,7 +80,7 @@ class Corridors:
         a, b = cells.vertex[start], cells.vertex[stop]
         xy = np.stack((cells.x[a] + cells.x[b], cells.y[a] + cells.y[b]), axis=1) / 2
         low, high = table.theta_from[cells.face], table.theta_to[cells.face]
-        ends = [np.clip(_near(cells.theta[v], (low + high) / 2), low, high) for v in (a, b)]
+        ends = [np.clip(_within_half_turn(cells.theta[v], (low + high) / 2), low, high) for v in (a, b)]
         theta = np.where(cells.side == 0, low, np.where(cells.side == LAST, high, (ends[0] + ends[1]) / 2))
         on_curve = np.flatnonzero((cells.side == LOWER) | (cells.side == UPPER))
         lower, upper = walls.limits(cells.face[on_curve], theta[on_curve])
@@ -164,7 +164,7 @@ class Corridors:
         return math.hypot(b[0] - a[0], b[1] - a[1]) + self.angle_scale * abs(turn)
 
 
-def _near(theta: Floats, to: Floats) -> Floats:
+def _within_half_turn(theta: Floats, to: Floats) -> Floats:
     """The same angles within half a turn of others."""
     near: Floats = theta + math.tau * np.round((to - theta) / math.tau)
     return near

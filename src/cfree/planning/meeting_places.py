@@ -200,7 +200,9 @@ class Places:
 
     def _curves(self, meeting: Meeting) -> Iterator[Tail]:
         """What begins or ends at a meeting, if its orientation is irrational."""
-        if any(abs(math.remainder(pose.theta - meeting.theta, math.tau)) <= NEAR for pose in self._near(meeting)):
+        if any(
+            abs(math.remainder(pose.theta - meeting.theta, math.tau)) <= NEAR for pose in self._rational_poses(meeting)
+        ):
             return
         thin = (self.parts[k] for k in meeting.parts)
         parts: list[tuple[Sheet, Holder]] = [(part.sheet, Part(part.k)) for part in thin if part.is_curve]
@@ -211,7 +213,7 @@ class Places:
                 if abs(apart[last]) <= NEAR and not (isinstance(holder, Part) and side):
                     yield Tail(sheet, side, last, holder)
 
-    def _near(self, meeting: Meeting) -> Iterator[Pose]:
+    def _rational_poses(self, meeting: Meeting) -> Iterator[Pose]:
         """Rational poses of what meets."""
         yield from (pose for face in meeting.faces for pose in self._corners(face))
         yield from (pose for k in meeting.parts for pose in self.parts[k].ends if pose is not None)

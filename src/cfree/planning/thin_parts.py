@@ -58,8 +58,8 @@ class ThinPart:
     def box(self, margin: float) -> tuple[float, float, float, float]:
         """xmin, ymin, xmax, ymax of its positions, and a margin; of a curve by samples, to look near."""
         points = [end[:2] for end in self.rounded]
-        if self.inner is not None:
-            low, high = self._near
+        low, high = self.sheet.low, self.sheet.high
+        if self.is_curve and low < high:
             taus = (low + (high - low) * Fraction(k, SAMPLES) for k in range(1, SAMPLES))
             poses = [self.at(tau) for tau in taus]
             points += [(float(pose.x), float(pose.y)) for pose in poses]
@@ -83,12 +83,6 @@ class ThinPart:
         """The pose of a curve at an orientation."""
         return self.sheet.pose(self.sheet.limits(tau)[0], tau)
 
-    @cached_property
-    def inner(self) -> Pose | None:
-        """A pose well within a curve."""
-        sheet = self.sheet
-        return self.at(between(sheet.low, sheet.high)) if self.is_curve and sheet.low < sheet.high else None
-
     def local(self, pose: Pose) -> Fraction | None:
         """tau of a pose in its chart, None if it has none there."""
         chart, tau = pose.chart
@@ -99,7 +93,8 @@ class ThinPart:
         if (tau := self.local(pose)) is None:
             return False
         if self.is_curve:
-            low, high = (exact if exact is not None else near for exact, near in zip(self.tau, self._near, strict=True))
+            within = self.sheet.low, self.sheet.high
+            low, high = (near if exact is None else exact for exact, near in zip(self.tau, within, strict=True))
             return low <= tau <= high and self.at(tau) == pose
         first, last = self.ends
         if first is None or last is None or tau != self.tau[0]:
@@ -108,17 +103,13 @@ class ThinPart:
         to = minus((pose.x, pose.y), start)
         return cross(along, to) == 0 and 0 <= dot(along, to) <= dot(along, along)
 
-    @property
-    def _near(self) -> tuple[Fraction, Fraction]:
-        return self.sheet.low, self.sheet.high
-
     def crossing(self, other: ThinPart) -> Pose | None:
         """Where a segment or point meets another part at its orientation, if that is not a piece of both."""
         tau, first, last = self.tau[0], *self.ends
-        if tau is None or first is None or last is None:
+        if self.is_curve or tau is None or first is None or last is None:
             return None
         if other.is_curve:
-            if (there := other.local(first)) is None or not other._near[0] < there < other._near[1]:
+            if (there := other.local(first)) is None or not other.sheet.low < there < other.sheet.high:
                 return None
             pose = other.at(there)
             return pose if self.holds(pose) else None
