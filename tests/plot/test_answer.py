@@ -19,12 +19,14 @@ from cfree.collision.motion import Rotation, Translation, rotations
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
+from cfree.film.frame import caption
 from cfree.forbidden.boundary import Boundary, boundary
+from cfree.forbidden.patch import Contact, Place
 from cfree.formats.scene_file import load_scene
 from cfree.paths.path import Path
 from cfree.plot import unrolled as slab
 from cfree.plot.answer import picture, plot_path_space, surface_of
-from cfree.plot.boundary import save_figure
+from cfree.plot.boundary import plot_overview, save_figure
 from cfree.plot.depth_sort import CURVE, ON_TOP, OVER, WALL, Painting, patches_of
 from cfree.plot.path import GHOSTS, LIMIT, Track, plot_path, quantity
 from cfree.plot.strips import strips
@@ -333,3 +335,19 @@ def test_separations_by_bounds_and_workspace_are_marked() -> None:
     assert [text.get_text() for text in figure.texts] == [
         "hall: no path from start to goal", "parted by workspace, obstacle 0",
     ]  # fmt: skip
+
+
+def test_names_that_look_like_formulas_or_control_characters_are_shown_as_written(tmp_path: FilePath) -> None:
+    name = "$\\bad{$\x1b"
+    box = [(3, -9), (5, -9), (5, 9), (3, 9)]
+    scene = Scene(SQUARE, [box], obstacle_names=[name], bounds=(0, -3, 8, 3), name=name, units="$\\b")
+    blocked, path = cfree.plan(scene, (1, 1, 0), (6, 1, 0)), Path(Pose(1, 1), [Translation((0, -1))])
+    for answer in (blocked, path):
+        figure = picture(answer, scene)
+        save_figure(figure, tmp_path / "answer.svg")
+        assert figure.texts[0].get_text().startswith(r"\$\bad{\$\x1b: ")
+    whole = boundary(scene)
+    save_figure(plot_overview(whole), tmp_path / "boundary.svg")
+    cfree.film_path(path, scene, tmp_path / "path.gif", seconds=0.4, fps=5, size=(160, 90))
+    contact = Contact("e-v", Place(0, "robot", 0, 0, 1), Place(0, name, 0, 0))
+    assert caption(contact).endswith(r" of \$\bad{\$\x1b")

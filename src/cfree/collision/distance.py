@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.exact.pose import Poses
 from cfree.forbidden.mesh import robot_radius
 from cfree.scene.features import WORKSPACE
 
@@ -46,6 +47,10 @@ class Walls:
         # a power of two near their size, so that squares of tiny and of huge numbers are doubles
         self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
         self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments / self._unit))
+
+    def placed(self, rows: Floats) -> Floats:
+        """The robot's edges, (n, e, 2, 2), at rows x, y, theta."""
+        return Poses(rows[:, :2], rows[:, 2]).apply(self.robot.reshape(-1, 2)).reshape(len(rows), *self.robot.shape)
 
     def nearest(self, placed: Floats) -> tuple[Floats, Ints, Ints]:
         """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); between which edge and which wall they are.

@@ -22,7 +22,7 @@ from cfree.film.plane import TOUCH, Plane, edge_number
 from cfree.film.space import FREE, SOLID, Space
 from cfree.forbidden.mesh import COLOURS
 from cfree.forbidden.patch import Contact
-from cfree.plot.boundary import extent
+from cfree.plot.boundary import extent, plain, with_unit
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -80,7 +80,7 @@ class Stage:
         figure = Figure(figsize=(INCHES * width / height, INCHES), dpi=height / INCHES, facecolor="white")
         self.canvas: Any = FigureCanvasAgg(figure)
         window, units = extent(boundary), boundary.scene.units
-        names = (f"x ({units})", f"y ({units})") if units else ("x", "y")
+        names = with_unit("x", units), with_unit("y", units)
         self.plane = Plane(figure, boundary.scene, window, names)
         self.space = Space(figure, boundary, window, names)
         self.title = figure.text(0.03, 0.945, "", fontsize=18, weight="bold", color=INK, va="center")
@@ -122,8 +122,7 @@ def caption(contact: Contact | None) -> str:
     a, b = contact.robot, contact.obstacle
     first = f"vertex $a_{{{a.index}}}$" if a.end is None else f"edge $E_{{{edge_number(a)}}}^A$"
     second = f"vertex $b_{{{b.index}}}$" if b.end is None else f"edge $E_{{{edge_number(b)}}}^O$"
-    name = b.name.replace("$", r"\$")
-    return f"{contact.kind} contact: {first} on {second} of {name}"
+    return f"{contact.kind} contact: {first} on {second} of {plain(b.name)}"
 
 
 def _legend(figure: Figure) -> None:

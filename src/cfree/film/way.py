@@ -20,8 +20,8 @@ from cfree.film.frame import GREY, INCHES, MONO
 from cfree.film.painter import Eye
 from cfree.film.space import Space
 from cfree.forbidden.mesh import robot_radius
-from cfree.plot.boundary import extent, set_window, with_unit
-from cfree.plot.path import LIMIT, Track, placed, poses_of, quantity, statement
+from cfree.plot.boundary import extent, plain, set_window, with_unit
+from cfree.plot.path import LIMIT, Track, poses_of, quantity, statement
 from cfree.plot.workspace import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ class PathStage:
             self.space.point.axes.add_collection(self.dashes, autolim=False)
         if track.least is not None:
             self._draw_gauge(figure)
-        figure.text(0.03, 0.95, scene.name or "a free path", fontsize=18, weight="bold", color=INK, va="center")
+        figure.text(0.03, 0.95, plain(scene.name) or "a free path", fontsize=18, weight="bold", color=INK, va="center")
         figure.text(0.03, 0.9, statement(track), fontsize=12, color=GREY, va="center")
         self.pose = figure.text(0.985, 0.95, "", fontsize=11, color=INK, va="center", ha="right", family=MONO)
         lines = track.rows * (1, 1, 180 / math.pi)
@@ -149,7 +149,7 @@ class PathStage:
 
     def _point(self, row: Floats) -> None:
         """The clearance in words, on the bar, and where it is."""
-        edges = placed(row, self.walls)
+        edges = self.walls.placed(row)
         (distance,), (edge,), (wall,) = self.walls.nearest(edges)
         points = self.walls.between(edges[0, edge], int(wall))
         self.gap.set_data(*points.T)

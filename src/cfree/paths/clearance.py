@@ -12,7 +12,6 @@ from cfree.arguments import checked
 from cfree.collision.distance import Floats, Ints, Walls
 from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.exact.pose import Poses
 from cfree.paths.path import Clearance, Path
 from cfree.paths.travel import Pace, reach
 from cfree.scene.scene import Scene
@@ -120,9 +119,7 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
         whole = least_clearance(path, walls, None)
         return () if whole is None else (whole,)
     travel = np.linspace(0, pace.total, min(math.ceil(100 * pace.total / walls.radius) + 2, MOST_SAMPLES))
-    rows = pace.at(travel)
-    placed = Poses(rows[:, :2], rows[:, 2]).apply(walls.robot.reshape(-1, 2)).reshape(-1, *walls.robot.shape)
-    distance, _, _ = walls.nearest(placed)
+    distance, _, _ = walls.nearest(walls.placed(pace.at(travel)))
     around = np.concatenate(([np.inf], distance, [np.inf]))
     lows = np.where((distance <= around[:-2]) & (distance <= around[2:]), distance, np.inf)
     found: list[Clearance] = []

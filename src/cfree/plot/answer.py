@@ -17,7 +17,7 @@ from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.forbidden.mesh import robot_radius
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
-from cfree.plot.boundary import around, new_figure, new_space, set_window, with_unit
+from cfree.plot.boundary import around, new_figure, new_space, plain, set_window, with_unit
 from cfree.plot.depth_sort import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
 from cfree.plot.path import LIMIT, Track, draw_track, statement
 from cfree.plot.strips import strips
@@ -139,7 +139,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     if len(answer.pieces):
         _draw_surface(figure, ax, answer, scene)
     without = "path" if answer.of == "closed" else "path of positive clearance"
-    named = [NAMES.get(k) or scene.obstacle_names[k] for k in answer.obstacles]
+    named = [NAMES.get(k) or plain(scene.obstacle_names[k]) for k in answer.obstacles]
     named[6:] = ["..."] * (len(named) > 6)
     parted = "parted by " + ", ".join(named) if named else "the one or the other touches, and fits exactly"
     _head(figure, scene, f"no {without} from start to goal", parted)
@@ -342,7 +342,7 @@ def _right(figure: Figure) -> Any:
 
 
 def _head(figure: Figure, scene: Scene, headline: str, details: str) -> None:
-    title = f"{scene.name}: {headline}" if scene.name else headline
+    title = f"{plain(scene.name)}: {headline}" if scene.name else headline
     height = float(figure.get_size_inches()[1])
     figure.text(0.5, 1 - 0.32 / height, title, ha="center", va="center", weight="bold", fontsize=14)
     figure.text(0.5, 1 - 0.64 / height, details, ha="center", va="center", fontsize=11)

@@ -167,7 +167,7 @@ def plot_overview(boundary: Boundary) -> Figure:
         if pose is not None:
             ax.plot(float(pose.x), float(pose.y), "o", color=ROBOT, markersize=5)
     plot_boundary(boundary, new_space(figure, (0.46, 0.09, 0.53, 0.82)))
-    figure.suptitle(scene.name or "boundary of the forbidden space", weight="bold", fontsize=15)
+    figure.suptitle(plain(scene.name) or "boundary of the forbidden space", weight="bold", fontsize=15)
     counts = f"{s.live_patches:,} of {s.patches:,} contact patches bound the forbidden space"
     figure.text(0.5, 0.915, f"{counts}: {s.trapezoids:,} trapezoids", ha="center")
     return figure
@@ -248,7 +248,18 @@ def set_window(ax: Axes, window: Window, units: str) -> None:
 
 def with_unit(name: str, units: str) -> str:
     """A name of an axis, with the unit in brackets."""
-    return f"{name} ({units})" if units else name
+    return f"{name} ({plain(units)})" if units else name
+
+
+def plain(text: str) -> str:
+    """Text of a scene for a figure: as it is written, no formula, and what has no glyph escaped.
+
+    Examples
+    --------
+    >>> print(plain("$5\\t"))
+    \\$5\\t
+    """
+    return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text).replace("$", r"\$")
 
 
 def _line_colour(kind: int) -> str:

@@ -19,7 +19,7 @@ from cfree.forbidden.mesh import robot_radius
 from cfree.paths.clearance import least_clearance, walls_beside
 from cfree.paths.path import Clearance, Path
 from cfree.paths.travel import Pace
-from cfree.plot.boundary import around, new_axes, set_window, with_unit
+from cfree.plot.boundary import around, new_axes, plain, set_window, with_unit
 from cfree.plot.workspace import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
@@ -80,7 +80,7 @@ class Track:
         travel = np.linspace(0, pace.total, TRACE)
         rows = pace.at(travel)
         least = least_clearance(path, walls, None)
-        distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), placed(rows, walls)
+        distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), walls.placed(rows)
         if least is not None:
             distance, _, _ = walls.nearest(edges)
             closest = _closest(path, walls, least)
@@ -215,7 +215,7 @@ def quantity(value: float, units: str) -> str:
     ('0.123 m', '2346')
     """
     number = f"{value:.0f}" if 1000 <= value < 1_000_000 else f"{value:.3g}"
-    return f"{number} {units}" if 0 < len(units) <= 4 else number
+    return f"{number} {plain(units)}" if 0 < len(units) <= 4 else number
 
 
 def _draw_least(ax: Any, track: Track) -> None:
@@ -292,8 +292,3 @@ def _closest(path: Path, walls: Walls, least: Clearance) -> Floats:
 def poses_of(rows: Floats) -> Poses:
     """Poses of rows x, y, theta."""
     return Poses(rows[:, :2], rows[:, 2])
-
-
-def placed(rows: Floats, walls: Walls) -> Floats:
-    """The robot's edges in poses, (n, e, 2, 2)."""
-    return poses_of(rows).apply(walls.robot.reshape(-1, 2)).reshape(len(rows), *walls.robot.shape)
