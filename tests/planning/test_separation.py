@@ -65,6 +65,17 @@ def test_a_throat_that_is_wide_enough() -> None:
     assert separation(room(1 + Fraction(1, 10**30)), INSIDE, OUTSIDE) is None
 
 
+def test_a_pose_in_the_closure_of_two_cells_is_joined_with_both() -> None:
+    # a diagonal of five units stands upright in a corridor of five
+    space = free_space(boundary(Scene(box(-2, "-3/2", 2, "3/2")[0], [], workspace=box(0, 0, 30, 5)[0])))
+    upright, level, on_end = (Pose(15, "5/2", angle) for angle in ({"tau": "1/2"}, 0, "90deg"))
+    cells = space.locate([level, on_end]).tolist()
+    assert cells[0] != cells[1]
+    assert [space.common_cell(upright, q) for q in (level, on_end)] == cells
+    assert separation(space, upright, level) is separation(space, on_end, upright) is None
+    assert proved(space, level, on_end).of == "interior"
+
+
 def test_cages_and_what_forms_them() -> None:
     space = space_of(PlainScene([ROD], [box(20, 20, 30, 30), TIGHT]))
     proof = proved(space, Pose(0, 0), Pose(0, 0, "180deg"))

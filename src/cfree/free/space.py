@@ -358,11 +358,15 @@ class FreeSpace(Value):
 
     @checked
     def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
-        """The cell that both are in."""
-        start = to_pose(start, "start")
-        goal = to_pose(goal, "goal")
-        first, second = self._locate(start), self._locate(goal)
-        return first if first == second >= 0 else None
+        """The first cell that both are in or on the boundary of; None if there is none."""
+        first, second = (self._cells_at(to_pose(pose, name)) for pose, name in ((start, "start"), (goal, "goal")))
+        return min(first & second, default=None)
+
+    def _cells_at(self, pose: Pose) -> set[int]:
+        """The cell that a pose is in, or those on whose boundary it is."""
+        if (cell := self._locate(pose)) < 0:
+            return set()
+        return set(self.cell_of[self.component[self.nearby(pose).on]].tolist()) or {cell}
 
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:

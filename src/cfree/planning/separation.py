@@ -240,7 +240,7 @@ def separation(
     for name, pose, cell in zip(("start", "goal"), (start, goal), cells, strict=True):
         if cell == FORBIDDEN:
             raise InvalidPoseError(f"{name} ({float(pose.x):g}, {float(pose.y):g}, {pose.theta:g}) is forbidden")
-    if start == goal or cells[0] == cells[1] >= 0:
+    if start == goal or space.common_cell(start, goal) is not None:
         return None
     scene = space.boundary.scene
     found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
