@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 import shapely
-from test_cells import hollow
-from test_separated import INSIDE, OUTSIDE, room
+from test_separation import INSIDE, OUTSIDE, room
+from test_space import hollow
 
 import cfree.verify
 from cfree import (

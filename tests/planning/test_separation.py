@@ -8,7 +8,7 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from test_cells import ROD, TIGHT, hollow, space_of
+from test_space import ROD, TIGHT, hollow, space_of
 from typer.testing import CliRunner
 
 import cfree.verify

@@ -15,7 +15,7 @@ from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
-from test_cells import ROD, TIGHT, hollow
+from test_space import ROD, TIGHT, hollow
 
 import second_opinion
 from cfree import (

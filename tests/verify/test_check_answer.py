@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_cells import ROD, TIGHT
+from test_space import ROD, TIGHT
 
 from answer_mutations import corridor, separations, tee
 from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan

@@ -11,8 +11,8 @@ from pathlib import Path as FilePath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_cells import ROD, TIGHT
 from test_motion import motions, poses
+from test_space import ROD, TIGHT
 
 import cfree.verify
 import strategies
