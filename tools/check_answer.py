@@ -1485,7 +1485,12 @@ def main(names: list[str]) -> int:
         code, said = verdict(scene, answer)
     except (OSError, ValueError) as error:
         code, said = UNREADABLE, f"{error}; give two files, a scene and an answer"
-    print(said)
+    try:
+        print(said, flush=True)
+    except OSError as error:  # a closed pipe, a full disk: 1 would mean refuted
+        sys.stderr.write(f"standard output: {error}\n")
+        sys.stdout = None  # type: ignore[assignment]
+        return UNREADABLE
     return code
 
 if __name__ == "__main__":

@@ -48,6 +48,17 @@ def test_nothing_is_imported_but_the_standard_library() -> None:
     assert len(TOOL.read_text().splitlines()) < 1500
 
 
+@pytest.mark.skipif(not FilePath("/dev/full").exists(), reason="needs /dev/full")
+def test_a_line_that_cannot_be_written_refutes_nothing(tmp_path: FilePath) -> None:
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([sys.executable, str(TOOL)], stdout=full, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, len(done.stderr.splitlines())) == (2, 1)
+    with subprocess.Popen([sys.executable, str(TOOL)], stdout=subprocess.PIPE, stderr=subprocess.PIPE) as command:
+        assert command.stdout is not None
+        command.stdout.close()
+    assert command.returncode == 2
+
+
 def test_the_command_says_it_in_one_line_and_an_exit_code(tmp_path: FilePath) -> None:
     scene, path = corridor()
     scene.save(tmp_path / "scene.json")

@@ -90,6 +90,8 @@ def boundary(
 
     Raises
     ------
+    ValueError
+        If there are no threads, or a limit is negative.
     InvariantError
         If the computation contradicts itself: a fault of cfree. Its `state` is the smallest scene found that does.
     KeyboardInterrupt
@@ -108,6 +110,9 @@ def boundary(
     """
     if threads is not None and threads < 1:
         raise ValueError(f"threads: {threads}; give at least 1")
+    for name, limit in (("max_seconds", max_seconds), ("max_memory", max_memory)):
+        if limit is not None and not limit >= 0:
+            raise ValueError(f"{name}: {limit}; give 0 or more")
     try:
         return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
     except InvariantError as error:

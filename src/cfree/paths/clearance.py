@@ -98,7 +98,7 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     Raises
     ------
     ValueError
-        If the path is not free.
+        If the path is not free, or the count negative.
 
     Notes
     -----
@@ -114,6 +114,8 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     >>> [(place.found, place.obstacle[0]) for place in narrowest(Path(Pose(0, 0), [Translation((20, 0))]), scene)]
     [(1.0, 0), (1.5, 2), (2.0, 1)]
     """
+    if count < 0:
+        raise ValueError(f"count: {count}; give 0 or more")
     walls, pace = walls_beside(path, scene), Pace(path, scene)
     if not path.motions or not len(walls.segments):
         whole = least_clearance(path, walls, None)
