@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from itertools import permutations
 from typing import Any
 
 import pytest
@@ -184,3 +185,12 @@ def test_the_nearest_miss_of_a_sofa_whose_inset_vanishes_before_its_largest_disc
     scene = Scene(sofa, walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)])
     miss = nearest_miss(scene, Pose(0, 3), Pose(0, -7))
     assert miss is not None and 0.3 < miss.lo < miss.hi < 0.4
+
+
+def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
+    """The bounds end where the workspace begins: only on that line the reference point may be."""
+    obstacles = [[(1, 0), (1, 2), (0, 2)], [(2, 0), (2, 5), (0, 5)], [(0, 0), (2, 5), (0, 5)]]
+    room = [(0, 0), (6, 0), (6, 6), (0, 6)]
+    scene = Scene([(0, 0), (-1, 2), (-2, 0)], obstacles, workspace=room, bounds=(2, -3, 6, 0))
+    for start, goal in permutations([Pose(2, 0, "270deg"), Pose(5, 0, 0)]):
+        assert isinstance(plan(scene, start, goal, improve=0), Path)

@@ -127,8 +127,16 @@ class Walker:
         """From off the middle of one to off that of the other, over a critical angle; the first is at tau now."""
         cells = self.space.complex
         at_end = [bool(cells.side[k] == LAST) for k in (h, int(cells.twin[h]))]
-        aims = [tau, between(g.low, g.high)]
-        for k in range(MOST_HALVINGS):
+        found = self.across(f, g, at_end, [tau, between(g.low, g.high)])
+        if found is None:
+            raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=tau)
+        return found
+
+    def across(
+        self, f: Sheet, g: Sheet, at_end: Sequence[bool], aims: list[Fraction], most: int = MOST_HALVINGS
+    ) -> tuple[Fraction, Sequence[Pose], Fraction] | None:
+        """The same over the last or the first angle of each, nearer and nearer to it."""
+        for k in range(most):
             if k % REFINED == REFINED - 1:
                 f.refine(FINEST + 4 * k)
                 g.refine(FINEST + 4 * k)
@@ -149,7 +157,7 @@ class Walker:
                 tail = self.checker.first_free([[q, end], [q, D, g.pose(n, tau), end]])
                 assert head and tail
                 return sigma, [*head[1:-1], *way[:-1], *tail], tau
-        raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=aims)
+        return None
 
     # --- the whole way ---
 

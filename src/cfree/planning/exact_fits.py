@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from cfree.exact.pose import Pose
@@ -78,9 +79,10 @@ class Passages:
     def _slides(self) -> dict[Pose, Way]:
         """Through irrational orientations, both ways."""
         found: dict[Pose, Way] = {}
-        for a, b in self.places.slides():
-            found.setdefault(a, []).append(b)
-            found.setdefault(b, []).append(a)
+        for way in (*self.places.slides(), *self.places.turns()):
+            for a, b in pairwise(way):
+                found.setdefault(a, []).append(b)
+                found.setdefault(b, []).append(a)
         return found
 
 

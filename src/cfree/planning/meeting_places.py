@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import permutations, product
+from itertools import combinations, permutations, product
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,12 +20,14 @@ from cfree.exact.pose import Pose
 from cfree.forbidden.columns import Ints
 from cfree.planning.clusters import clusters
 from cfree.planning.exact_face import Sheet, between, common_tau, contact_of
+from cfree.planning.face_graph import LAST, LOWER, UPPER
 from cfree.planning.thin_parts import ThinPart
 
 if TYPE_CHECKING:
     from cfree.planning.boundary_walk import Walker
 
 NEAR = 1e-9  # of the scene's size: what doubles do not tell apart
+MOST_TURNS = 256  # attempts at one, nearer and nearer to the wall
 HALVINGS = (4, 16, 64)  # of the way to the other end: how near to an irrational orientation a slide begins
 
 
@@ -198,6 +200,19 @@ class Places:
                 if one.holder != other.holder and one.name == other.name:
                     yield from self._slid(one, other)
 
+    def turns(self) -> Iterator[list[Pose]]:
+        """Ways over walls along which cells or surfaces with slits touch: free turns near a place within the wall."""
+        for walker in filter(None, (self.walker, self.slits)):
+            cells = walker.space.complex
+            for edge in cells.pinched.tolist():
+                coedges = cells.at_edge(edge).tolist()
+                if cells.side[coedges[0]] in (LOWER, UPPER):
+                    continue
+                for h, k in combinations(coedges, 2):
+                    f, g = (int(cells.face[c]) for c in (h, k))
+                    if walker.cell_at(f) != walker.cell_at(g) and (way := _turn(walker, f, g, h, k)):
+                        yield way
+
     def _curves(self, meeting: Meeting) -> Iterator[Tail]:
         """What begins or ends at a meeting, if its orientation is irrational."""
         if any(
@@ -246,6 +261,18 @@ class Tail:
         share = (high - low) / 2**halvings
         tau = between(high - share, high) if self.is_last else between(low, low + share)
         return self.sheet.pose(self.sheet.limits(tau)[self.side], tau)
+
+
+def _turn(walker: Walker, face: int, other: int, h: int, k: int) -> list[Pose] | None:
+    """From one face to another, over sides of theirs that are on one wall."""
+    f, g = walker.sheet(face), walker.sheet(other)
+    at_end = [bool(walker.space.complex.side[c] == LAST) for c in (h, k)]
+    aims = [between(sheet.low, sheet.high) for sheet in (f, g)]
+    found = walker.across(f, g, at_end, aims, MOST_TURNS)
+    if found is None:
+        return None
+    sigma, poses, tau = found
+    return [f.pose(f.middle(sigma), sigma), walker.off(f, f.middle(sigma), sigma), *poses, g.pose(g.middle(tau), tau)]
 
 
 def _corners(walker: Walker, face: int) -> tuple[Pose, ...]:
