@@ -53,11 +53,11 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float
     robot, obstacles = pieces_of(features.robot), pieces_of(features.obstacles)
     calls = [uniform(scene, obstacles, seed) for seed in range(CALLS)]
     poses = calls[-1]
-    checker, by_numba, by_fcl = cfree.Checker(scene), numba_test(robot, obstacles), fcl_test(robot, obstacles)
-    (prepare,) = timed(lambda: cfree.Checker(scene).is_free(poses[:1], threads=1), rounds=3)
+    checker, by_numba, by_fcl = cfree.PoseChecker(scene), numba_test(robot, obstacles), fcl_test(robot, obstacles)
+    (prepare,) = timed(lambda: cfree.PoseChecker(scene).is_free(poses[:1], threads=1), rounds=3)
 
     def ask() -> None:
-        fresh = cfree.Checker(scene)
+        fresh = cfree.PoseChecker(scene)
         for new in calls:
             fresh.is_free(new, threads=1)
 

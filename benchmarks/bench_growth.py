@@ -17,6 +17,7 @@ from families import SIZES, convex
 from measure import Report, Times, checksum, measured
 
 import cfree
+from cfree import save
 from cfree.forbidden.columns import COLUMNS
 
 EXPONENT, BYTES = 1.1, 200
@@ -63,7 +64,7 @@ def child(size: int) -> dict[str, Any]:
     arrays = convex(size)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "scene.json")
-        cfree.Scene(arrays.robot, arrays.rings()).save(path)
+        save(cfree.Scene(arrays.robot, arrays.rings()), path)
         read: list[cfree.Scene] = []
         (reading,) = timed_reading(path, read, rounds)
     phases = []

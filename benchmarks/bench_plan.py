@@ -1,8 +1,8 @@
 """From start to goal: `cfree.plan` beside OMPL's RRTConnect with a motion test compiled by numba.
 
 OMPL's test looks at poses a step apart: a hundredth of the space's extent, its default, or a thousandth. Its paths are
-looked at again, by `Checker.sweep_is_free` and at a hundred times as many poses. CAP=5 in the environment gives it five
-seconds a run instead of thirty.
+looked at again, by `MotionChecker.sweep_is_free` and at a hundred times as many poses. CAP=5 in the environment gives
+it five seconds a run instead of thirty.
 """
 
 from __future__ import annotations
@@ -119,7 +119,7 @@ def first_answer(scene: cfree.Scene) -> object:
 def whole_answer(scene: cfree.Scene) -> object:
     space = cfree.free_space(cfree.boundary(scene))
     assert scene.start and scene.goal
-    return space.plan(scene.start, scene.goal, improve=0)
+    return cfree.plan(space, scene.start, scene.goal, improve=0)
 
 
 def seconds_of(call: Callable[[cfree.Scene], object], scene: cfree.Scene) -> float:
@@ -134,7 +134,7 @@ def rival(fresh: Callable[[], cfree.Scene], step: float, cap: float, runs: int) 
 
     util.setLogLevel(util.LogLevel.LOG_NONE)
     motion_kernel()
-    result, checker, radius = Runs(), cfree.Checker(fresh()), robot_radius(fresh())
+    result, checker, radius = Runs(), cfree.PoseChecker(fresh()), robot_radius(fresh())
     for _ in range(runs):
         scene = fresh()
         start = time.perf_counter()
@@ -213,7 +213,7 @@ def prepared(scene: cfree.Scene, step: float) -> Any:
     return setup
 
 
-def looked_at_again(checker: cfree.Checker, setup: Any, step: float) -> str:
+def looked_at_again(checker: cfree.PoseChecker, setup: Any, step: float) -> str:
     """Whether a path of OMPL is free, clips, or comes too close to an obstacle to tell."""
     from cfree.ompl import sweep_of
 

@@ -52,12 +52,12 @@ def compare(clearance: Fraction, report: Report) -> Times:
     assert scene.start and scene.goal
     decision, answering = timed(
         lambda: cfree.free_space(cfree.boundary(scene)).locate([scene.start, scene.goal]),
-        lambda: cfree.free_space(cfree.boundary(scene)).plan(scene.start, scene.goal),
+        lambda: cfree.plan(cfree.free_space(cfree.boundary(scene)), scene.start, scene.goal),
         rounds=5,
     )
-    answer = cfree.free_space(cfree.boundary(scene)).plan(scene.start, scene.goal)
+    answer = cfree.plan(cfree.free_space(cfree.boundary(scene)), scene.start, scene.goal)
     found = isinstance(answer, cfree.Path)
-    least = answer.clearance(scene) if found else None
+    least = cfree.clearance(answer, scene) if found else None
     report.rows.append((
         f"{float(clearance):g}", decision.text(), "path" if found else f"separated, {answer.of}", answering.text(),
         str(len(answer.motions)) if found else "0", f"{least.least:.2g}" if least else "–", rival(scene),

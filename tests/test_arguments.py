@@ -59,15 +59,16 @@ def pool() -> list[Any]:
     boundary = cfree.boundary(SCENE, threads=1)
     space = cfree.free_space(boundary)
     triangle = cfree.Polygon([(0, 0), (2, 0), (0, 1)])
-    contact, corner = cfree.VertexEdge(0, 0), cfree.VertexVertex(0, 1)
+    contact, corner = cfree.contact.VertexEdge(0, 0), cfree.contact.VertexVertex(0, 1)
     path = cfree.Path(Pose(0, 0), [Translation((1, 0))])
-    touch = cfree.Touch("vertex-edge", (0, 0), (0, 2))
+    touch = cfree.collision.Touch("vertex-edge", (0, 0), (0, 2))
     return [
         1, 0.5, (0, 0), (0, 0, 0), SCENE, boundary, space, triangle, contact, corner, path, Pose(0, 0), [], True,
-        Translation((1, 0)), (touch, touch), "1", b"", {}, len, [[0, 0, 0]], cfree.EdgeEdge(0, 0), np.zeros(3),
-        cfree.rational_surface(triangle, triangle, cfree.VertexEdge(1, 2)), boundary.mesh(1.0), space.complex,
-        cfree.Poses([[0, 0]], [0]), cfree.contact_surface(triangle, triangle, contact), cfree.MotionChecker(SCENE),
-        boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1), cfree.Surd(1),
+        Translation((1, 0)), (touch, touch), "1", b"", {}, len, [[0, 0, 0]], cfree.contact.EdgeEdge(0, 0), np.zeros(3),
+        cfree.rational.rational_surface(triangle, triangle, cfree.contact.VertexEdge(1, 2)), boundary.mesh(1.0),
+        space.complex, cfree.Poses([[0, 0]], [0]), cfree.contact.contact_surface(triangle, triangle, contact),
+        cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
+        cfree.exact.Surd(1),
     ]  # fmt: skip
 
 
@@ -128,7 +129,7 @@ def test_a_pose_is_what_a_scene_takes_for_one() -> None:
     space, checker = cfree.free_space(cfree.boundary(scene)), cfree.MotionChecker(scene)
     path = cfree.plan(scene, start, goal)
     assert path == cfree.plan(scene, *same) == cfree.plan(scene) == cfree.Planner(scene).plan(start, goal)
-    assert [path] == cfree.plan_many(space, [(start, goal)]) == [space.plan(start, goal)]
+    assert [path] == cfree.plan_many(space, [(start, goal)]) == [cfree.plan(space, start, goal)]
     assert space.locate(start) == space.reachable(start).index == space.common_cell(start, goal)
     assert space.locate([start, goal]).tolist() == [space.locate(pose) for pose in same]
     motion = cfree.motion_between(start, goal)
@@ -139,7 +140,7 @@ def test_a_pose_is_what_a_scene_takes_for_one() -> None:
     assert cfree.turn_in_place(scene, start) == cfree.turn_in_place(scene, same[0])
     assert cfree.free_nearby(scene, goal) == cfree.free_nearby(scene, same[1])
     cfree.require_free(scene, start)
-    assert cfree.is_contact(scene.robot[0], scene.obstacles[0], (2, 0, 0))
+    assert cfree.contact.is_contact(scene.robot[0], scene.obstacles[0], (2, 0, 0))
     assert cfree.max_margin(scene, tolerance=0.5) == cfree.max_margin(scene, start, goal, tolerance=0.5)
     assert cfree.max_scale(scene, tolerance=0.5) == cfree.max_scale(scene, *same, tolerance=0.5)
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import Checker, InvalidPoseError, MotionChecker, Pose, Rotation, Scene, Translation, load_scene
+from cfree import InvalidPoseError, MotionChecker, Pose, PoseChecker, Rotation, Scene, Translation, load_scene
 from compared import plain_of, scene_of
 from shapes import KINDS, box, random_scene
 
@@ -75,7 +75,7 @@ def test_what_planners_find_is_free(exact: Any, planner: str, kind: str) -> None
     else:
         setup.simplifySolution(1.0)
         states = path.getStates()
-        assert all(exact.linear_is_free(Checker(ROOM), p, q) for p, q in pairwise(states))
+        assert all(exact.linear_is_free(PoseChecker(ROOM), p, q) for p, q in pairwise(states))
         assert exact.to_path(path, ROOM).is_free(checker)
 
 
@@ -150,7 +150,7 @@ def test_half_turns_are_free_both_ways(exact: Any) -> None:
     rod = Scene(box(-3, 0, 0, "1/2")[0], [box(-1, -4, 1, -1)[0]])
     space = exact.state_space(rod)
     si = base.SpaceInformation(space)
-    si.setStateValidityChecker(exact.StateValidityChecker(si, Checker(rod)))
+    si.setStateValidityChecker(exact.StateValidityChecker(si, PoseChecker(rod)))
     left, right = space.allocState(), space.allocState()
     exact.set_pose(left, 0, 0, 0)
     exact.set_pose(right, 0, 0, math.pi)
@@ -167,7 +167,7 @@ def test_validity_is_exact(exact: Any) -> None:
     scene = Scene(box(0, 0, 1, 1)[0], [box(2, 0, 3, 1)[0]], bounds=(-5, -5, 5, 5))
     space = exact.state_space(scene)
     si = base.SpaceInformation(space)
-    valid, state = exact.StateValidityChecker(si, Checker(scene)), space.allocState()
+    valid, state = exact.StateValidityChecker(si, PoseChecker(scene)), space.allocState()
     for x, expected in ((1.0, True), (math.nextafter(1, 2), False), (6.0, False), (5.0, True)):
         exact.set_pose(state, x, 0.0, 0.0)
         assert valid.isValid(state) == expected
@@ -179,7 +179,7 @@ def test_even_motions_told_free_are_free(kind: str) -> None:
     for seed in range(4):
         plain = random_scene(seed, kind)
         scene = scene_of(plain)
-        checker = Checker(scene)
+        checker = PoseChecker(scene)
         xy = np.concatenate([polygon.vertices for polygon in scene.obstacles])
         size = float(np.ptp(xy, axis=0).max())
         for _ in range(60):
@@ -197,7 +197,7 @@ def test_even_motions_told_free_are_free(kind: str) -> None:
 
 def test_even_motions_with_room_are_told_free() -> None:
     wall = box(3, -50, 9, 50)[0]
-    checker = Checker(Scene(box(-1, -1, 1, 1)[0], [wall], bounds=(-9, -40, 99, 40)))
+    checker = PoseChecker(Scene(box(-1, -1, 1, 1)[0], [wall], bounds=(-9, -40, 99, 40)))
     reach = 3 - math.sqrt(2)
     for gap in (1, 1e-2, 1e-3):
         assert checker.sweep_is_free((reach - gap, -30, 0), (0, 60, 7))
@@ -205,4 +205,4 @@ def test_even_motions_with_room_are_told_free() -> None:
     assert not checker.sweep_is_free((2, -30, 0), (0, 60, 0))  # it touches all the way: too close to tell
     assert not checker.sweep_is_free((0, -30, 0), (0, 90, 0))  # out of the bounds
     assert checker.sweep_is_free((-9, -40, 0), (0, 80, 0))  # along the bounds, which are exact
-    assert Checker(Scene(box(-1, -1, 1, 1)[0], [wall])).sweep_is_free((-1e6, -1e6, 0), (0, 2e6, 100))
+    assert PoseChecker(Scene(box(-1, -1, 1, 1)[0], [wall])).sweep_is_free((-1e6, -1e6, 0), (0, 2e6, 100))

@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from cfree import clearance
+
 GALLERY = Path(__file__).parents[1] / "examples" / "gallery"
 
 
@@ -32,4 +34,4 @@ def test_from_start_to_goal(capsys: pytest.CaptureFixture[str], monkeypatch: pyt
     found = runpy.run_path(str(GALLERY / "plot_from_start_to_goal.py"))
     said = capsys.readouterr().out
     assert "free: True" in said and "not even one that touches. verified" in said
-    assert found["proof"].of == "closed" and found["clear"].clearance(found["scene"]).least > 0.01
+    assert found["proof"].of == "closed" and clearance(found["clear"], found["scene"]).least > 0.01

@@ -12,7 +12,10 @@ import pytest
 
 import cfree
 import cfree.verify
-from cfree import EdgeEdge, EdgeVertex, Pose, Rotation, Surd, Translation, VertexEdge, VertexVertex
+from cfree import Pose, Rotation, Translation
+from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
+from cfree.exact import Surd
+from cfree.rational import rational_helix, rational_range, rational_segment, rational_surface
 from cfree.rational.bezier import bezier_patches
 
 TRIANGLE, SQUARE = cfree.Polygon([(0, 0), (2, 0), (1, 1)]), cfree.Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
@@ -36,41 +39,43 @@ def samples(x: int) -> dict[str, Any]:
     path = cfree.Path(Pose(1, 1), [Translation((step, 0))])
     rod = cfree.Scene([(-5, -1), (5, -1), (5, 1), (-5, 1)], [[(-20, x), (20, x), (20, 9), (-20, 9)]])
     interval = cfree.turn_in_place(rod, Pose(0, 0))[0]
-    surface = cfree.rational_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (x, 2), (0, 2)]), VertexEdge(1, 2))
+    surface = rational_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (x, 2), (0, 2)]), VertexEdge(1, 2))
     ruled = boundary.ruled[:1] * x
     return {
         "AlgebraicAngle": interval.start,
         "AngleInterval": interval,
-        "AngleRange": cfree.AngleRange(float(step), 1.0, (1, 0), (0, x)),
+        "AngleRange": cfree.contact.AngleRange(float(step), 1.0, (1, 0), (0, x)),
         "BezierPatch": bezier_patches(surface, bits=8)[0],
         "Boundary": boundary,
         "Cell": space.cells[0],
         "CellComplex": boundary.complex,
-        "Checker": cfree.Checker(scene),
-        "Clearance": path.clearance(scene),
+        "PoseChecker": cfree.PoseChecker(scene),
+        "Clearance": cfree.clearance(path, scene),
         "EdgeEdge": EdgeEdge(0, x),
-        "EdgeEdgeSegment": cfree.contact_segment(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), EdgeEdge(0, 0)),
+        "EdgeEdgeSegment": cfree.contact.contact_segment(
+            TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), EdgeEdge(0, 0)
+        ),
         "EdgeVertex": EdgeVertex(0, x),
-        "ExactAngle": cfree.ExactAngle(1, x),
+        "ExactAngle": cfree.exact.ExactAngle(1, x),
         "FirstContact": cfree.first_contact(scene, Pose(1, 1), Translation((9, 0))),
         "Fit": cfree.fits(ROBOT, [*ROOM[:2], (x, 9)])[0],
         "FreeSpace": space,
-        "Helix": cfree.contact_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), VertexVertex(0, 1)),
+        "Helix": cfree.contact.contact_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), VertexVertex(0, 1)),
         "Interval": cfree.Interval(0.0, float(x)),
-        "LocalGeometry": cfree.local_geometry(ruled, [0.5], [0.1]),
+        "LocalGeometry": cfree.geometry.local_geometry(ruled, [0.5], [0.1]),
         "Mesh": boundary.mesh(1.0),
         "MotionChecker": cfree.MotionChecker(scene),
-        "NearestMiss": cfree.NearestMiss(0.0, float(x), (cfree.Pinch(None, (0, x)),)),
+        "NearestMiss": cfree.NearestMiss(0.0, float(x), (cfree.analysis.Pinch(None, (0, x)),)),
         "Path": path,
         "Pieces": separated.pieces,
-        "Pinch": cfree.Pinch(Pose(x, 0), (0, 1)),
+        "Pinch": cfree.analysis.Pinch(Pose(x, 0), (0, 1)),
         "Planner": cfree.Planner(scene),
         "Polygon": cfree.Polygon([(0, 0), (x, 0), (x + 1, 0), (0, 9)]),
         "Pose": Pose(x, 0, 1.5),
         "Poses": cfree.Poses([[x, 0], [0, 1]], [0.1, 3]),
-        "RationalHelix": cfree.rational_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexVertex(0, 1)),
-        "RationalRange": surface.Phi if x == 4 else cfree.rational_range(TRIANGLE, SQUARE, EdgeVertex(0, 2)),
-        "RationalSegment": cfree.rational_segment(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), EdgeEdge(0, 0)),
+        "RationalHelix": rational_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexVertex(0, 1)),
+        "RationalRange": surface.Phi if x == 4 else rational_range(TRIANGLE, SQUARE, EdgeVertex(0, 2)),
+        "RationalSegment": rational_segment(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), EdgeEdge(0, 0)),
         "RationalSurface": surface,
         "Rotation": Rotation((x, 0), "30deg"),
         "Scene": scene,
@@ -78,8 +83,8 @@ def samples(x: int) -> dict[str, Any]:
         "Slice": boundary.slice({"tau": step}),
         "Slide": cfree.Slide((TOUCH, TOUCH), [0, 0, x], [0, 2], [1, 0, 1], 1),
         "Surd": Surd(1, step, 2),
-        "Surface": cfree.contact_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexEdge(0, 0)),
-        "Touch": cfree.Touch("vertex-edge", (0, 0), (0, x)),
+        "Surface": cfree.contact.contact_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexEdge(0, 0)),
+        "Touch": cfree.collision.Touch("vertex-edge", (0, 0), (0, x)),
         "Translation": Translation((x, 0)),
         "VertexEdge": VertexEdge(0, x),
         "VertexVertex": VertexVertex(0, x),
@@ -93,7 +98,7 @@ def samples(x: int) -> dict[str, Any]:
     }
 
 
-TOUCH = cfree.Touch("vertex-edge", (0, 0), (0, 2))
+TOUCH = cfree.collision.Touch("vertex-edge", (0, 0), (0, 2))
 
 
 @pytest.fixture(scope="module")
@@ -162,7 +167,7 @@ def test_values_are_copied_and_pickled_whatever_was_asked_before(
 
 
 def test_what_was_pickled_answers_as_before(values: dict[str, Any]) -> None:
-    for name in ("Boundary", "FreeSpace", "Planner", "Checker", "MotionChecker"):
+    for name in ("Boundary", "FreeSpace", "Planner", "PoseChecker", "MotionChecker"):
         copied = pickle.loads(pickle.dumps(values[name]))
         ask(copied)
     boundary, space = (pickle.loads(pickle.dumps(values[name])) for name in ("Boundary", "FreeSpace"))

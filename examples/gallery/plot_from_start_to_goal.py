@@ -48,7 +48,7 @@ for place in cfree.narrowest(clear, scene):
 # On the left the table along its way, on the right its way among the contact patches: the door is the gap between them.
 
 space = cfree.free_space(cfree.boundary(scene))
-figure = cfree.picture(clear, scene, space.boundary)
+figure = cfree.plot.picture(clear, scene, space.boundary)
 
 # %%
 # How much room is left? The table may be so many times as large, and so far from everything all along:
@@ -68,7 +68,7 @@ too_wide = cfree.Scene(wide, wall, workspace=room, start=start, goal=goal, units
 proof = cfree.plan(too_wide)
 print(proof)
 print(cfree.nearest_miss(too_wide, start, goal))
-figure = cfree.picture(proof, too_wide)
+figure = cfree.plot.picture(proof, too_wide)
 
 # %%
 # Who does not believe it has it checked by other exact code, as ``cfree verify SCENE ANSWER.json`` does:
@@ -96,7 +96,7 @@ turned = cfree.plan(junction, cfree.Pose(-5, 1), cfree.Pose(5, 1, "90deg"))
 for motion in turned.motions:
     print(type(motion).__name__, f"{motion.turn:.4f}")
 print(cfree.verify.answer(junction, turned).verdict)
-figure = cfree.picture(turned, junction)
+figure = cfree.plot.picture(turned, junction)
 
 # %%
 # Many questions

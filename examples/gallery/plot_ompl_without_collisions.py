@@ -29,13 +29,13 @@ setup.simplifySolution(1.0)
 
 path = cfree.ompl.to_path(setup.getSolutionPath(), scene)
 print(len(path.motions), "motions, free:", path.is_free(cfree.MotionChecker(scene)))
-clearance = path.clearance(scene)
+clearance = cfree.clearance(path, scene)
 print(f"at least {clearance.least:.3g} from everything, nearest to obstacle {clearance.obstacle[0]}")
 
 # %%
 # The robot along it:
 
-axes = cfree.plot_workspace(scene)
+axes = cfree.plot.plot_workspace(scene)
 step = max(np.ptp(scene.robot[0].vertices, axis=0)) / 3
 for corners in path.sample(step).apply(scene.robot[0].vertices):
     axes.add_patch(plt.Polygon(corners, facecolor="#2a7ab8", alpha=0.12, edgecolor="none"))

@@ -45,7 +45,7 @@ figure = draw(2)
 # There are four types. Vertices on edges (v-e) and edges on vertices (e-v) make patches, vertices on vertices (v-v) and
 # edges on edges (e-e) the curves between them: of two triangles nine of each.
 
-every = [*cfree.contacts(robot, obstacle), *cfree.contact_curves(robot, obstacle)]
+every = [*cfree.contact.contacts(robot, obstacle), *cfree.contact.contact_curves(robot, obstacle)]
 print(Counter(type(contact).__name__ for contact in every))
 
 # %%
@@ -53,7 +53,7 @@ print(Counter(type(contact).__name__ for contact in every))
 # ------------------------------------------
 # Lemma 1: the poses that keep the robot's point a at a point P are q(phi) = (P - R(phi) a, phi), eq. (4).
 
-helix = cfree.rotation_about((3, 0), robot.exact_vertices[0])
+helix = cfree.contact.rotation_about((3, 0), robot.exact_vertices[0])
 q = helix(np.linspace(0, 2 * np.pi, 5))
 print(cfree.Poses(q[:, :2], q[:, 2]).apply(robot.vertices)[:, 0].round(6))  # vertex 0 does not move
 
@@ -63,8 +63,8 @@ print(cfree.Poses(q[:, :2], q[:, 2]).apply(robot.vertices)[:, 0].round(6))  # ve
 # Let the point P run along an edge: S(t, phi) = (b_j + t E_j - R(phi) a_i, phi). Its rulings are horizontal and all
 # parallel, its helices congruent: the surface is developable.
 
-on_edge = cfree.VertexEdge(0, 1)
-S = cfree.contact_surface(robot, obstacle, on_edge)
+on_edge = cfree.contact.VertexEdge(0, 1)
+S = cfree.contact.contact_surface(robot, obstacle, on_edge)
 print(S(t=[0, 0.5, 1], phi=0.3).round(4))
 figure = draw(7)
 
@@ -73,7 +73,7 @@ figure = draw(7)
 # from phi_min on, where E_i lies along the edge, over phi_range = pi - rho_i (section 3.1.1). No arccosine is needed:
 # the direction of phi_min is that of (-E_i . E_j, -E_i x E_j).
 
-Phi = cfree.angle_range(robot, obstacle, on_edge)
+Phi = cfree.contact.angle_range(robot, obstacle, on_edge)
 print(f"phi_min = {np.degrees(Phi.phi_min):.3f} degrees, phi_range = {np.degrees(Phi.phi_range):.3f} degrees")
 figure = draw(3)
 
@@ -83,8 +83,8 @@ figure = draw(3)
 # Now the point of contact runs along the robot's edge: S(t, phi) = (b_j - R(phi) (a_i + t E_i), phi). The rulings turn,
 # and the surface is a saddle.
 
-on_vertex = cfree.EdgeVertex(1, 0)
-S = cfree.contact_surface(robot, obstacle, on_vertex)
+on_vertex = cfree.contact.EdgeVertex(1, 0)
+S = cfree.contact.contact_surface(robot, obstacle, on_vertex)
 figure = draw(8)
 
 # %%
@@ -93,7 +93,7 @@ figure = draw(8)
 # What joins the patches has one dimension: arcs of helices C(phi), and horizontal segments C(t). The segment is longer
 # than the edge: t reaches from 0 to 1 + the length of E_i over that of E_j.
 
-print(cfree.edge_edge_range(robot, obstacle, cfree.EdgeEdge(0, 0)))
+print(cfree.contact.edge_edge_range(robot, obstacle, cfree.contact.EdgeEdge(0, 0)))
 figure = draw(6)
 
 # %%
@@ -104,10 +104,10 @@ figure = draw(6)
 # a helicoid (Lemma 3).
 
 t = np.linspace(0, 1, 5)
-at = cfree.local_geometry(S.ruled, t, phi=0.0)
+at = cfree.geometry.local_geometry(S.ruled, t, phi=0.0)
 print("K", at.gaussian_curvature.round(4))
 print("H", at.mean_curvature.round(4))
-print("t_*", cfree.striction_parameter(S), "minimal:", cfree.is_minimal(S))
+print("t_*", cfree.geometry.striction_parameter(S), "minimal:", cfree.geometry.is_minimal(S))
 figure = draw(10)
 
 # %%
@@ -143,13 +143,13 @@ scene = cfree.Scene(
 )
 boundary = cfree.boundary(scene)
 print(boundary, {rung: getattr(boundary.stats, f"decided_{rung}") for rung in ("by_identity", "by_filter", "exactly")})
-figure = cfree.plot_overview(boundary)
+figure = cfree.plot.plot_overview(boundary)
 
 # %%
 # A slice at any orientation is a look-up.
 
 cut = boundary.slice("30deg")
-figure = cfree.plot_slice(cut).figure
+figure = cfree.plot.plot_slice(cut).figure
 print(cut, cut.forbidden.area)
 
 # %%
@@ -157,9 +157,9 @@ print(cut, cut.forbidden.area)
 # ------------------------------
 # With tau = tan(theta / 2) the surface is a rational function, and a contact can be tested with ==.
 
-exact = cfree.rational_surface(robot, obstacle, on_vertex)
+exact = cfree.rational.rational_surface(robot, obstacle, on_vertex)
 x, y, tau = exact.point("1/3", "2/5")
 a = [(2 * p + q) / 3 for p, q in zip(*robot.exact_vertices[1:], strict=True)]  # a_1 + t E_1 at t = 1/3
 (contact,) = cfree.Pose(x, y, {"tau": tau}).apply_exact([a])
 print((x, y, tau), contact == obstacle.exact_vertices[0])
-figure = cfree.plot_models(robot, obstacle, on_vertex)
+figure = cfree.plot.plot_models(robot, obstacle, on_vertex)

@@ -3,6 +3,7 @@
     CfreeError
       InvalidPolygonError (ValueError)     not simple, too few vertices, no area; carries ring and edges
       InvalidPoseError    (ValueError)     not finite, not an angle, not free
+        ForbiddenPoseError                 not free; carries a free pose near by (cfree.collision.nearest_free)
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
       IncompleteError     (RuntimeError)   a question to a boundary whose computation was stopped by a limit
@@ -12,8 +13,6 @@ Messages give the place, the value and the remedy.
 """
 
 from __future__ import annotations
-
-import cfree  # annotations name what would be imported in a circle so: it is found when somebody asks for them
 
 
 class CfreeError(Exception):
@@ -45,14 +44,7 @@ class InvalidPolygonError(CfreeError, ValueError):
 
 
 class InvalidPoseError(CfreeError, ValueError):
-    """A position or an angle that is not a number of the kind documented in `cfree.Pose`, or a pose that is not free.
-
-    `free` is then a free pose near by, if one was found.
-    """
-
-    def __init__(self, message: str, *, free: cfree.Pose | None = None) -> None:
-        super().__init__(message)
-        self.free = free
+    """A position or an angle that is not a number as `cfree.Pose` takes them, or a pose that is not free."""
 
 
 class FormatError(CfreeError, ValueError):

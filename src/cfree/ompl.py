@@ -26,7 +26,7 @@ except ImportError as error:
 from cfree.collision.motion import Motion, motion_between
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.nearest_free import require_free
-from cfree.collision.pose_checker import Checker
+from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.rrt_connect import area
@@ -65,7 +65,7 @@ def state_space(scene: Scene) -> Any:
 class StateValidityChecker(ob.StateValidityChecker):
     """Whether states are within the space's bounds and free, exactly; touching is free."""
 
-    def __init__(self, si: Any, checker: Checker) -> None:
+    def __init__(self, si: Any, checker: PoseChecker) -> None:
         super().__init__(si)
         self._space, self._checker = si.getStateSpace(), checker
 
@@ -93,12 +93,12 @@ class MotionValidator(ob.MotionValidator):
 
 
 class LinearMotionValidator(ob.MotionValidator):
-    """Whether the motion of OMPL's SE2StateSpace between two states is certainly free; see `Checker.sweep_is_free`.
+    """Whether the motion of OMPL's SE2StateSpace between two states is certainly free; see `PoseChecker.sweep_is_free`.
 
     Never says so of a motion that is not. It may refuse one that comes very close to an obstacle.
     """
 
-    def __init__(self, si: Any, checker: Checker) -> None:
+    def __init__(self, si: Any, checker: PoseChecker) -> None:
         super().__init__(si)
         self._checker = checker
 
@@ -106,7 +106,7 @@ class LinearMotionValidator(ob.MotionValidator):
         return linear_is_free(self._checker, start, goal)
 
 
-def linear_is_free(checker: Checker, start: Any, goal: Any) -> bool:
+def linear_is_free(checker: PoseChecker, start: Any, goal: Any) -> bool:
     """Whether x, y and yaw may change evenly from one state to another, the yaw the shorter way round."""
     return checker.sweep_is_free(*sweep_of(start, goal))
 
@@ -123,7 +123,7 @@ def simple_setup(scene: Scene) -> Any:
     """
     if scene.start is None or scene.goal is None:
         raise ValueError(f"{scene.name or 'the scene'} has no start or no goal; give both")
-    checker = Checker(scene)
+    checker = PoseChecker(scene)
     space = state_space(scene)
     setup = og.SimpleSetup(space)
     si = setup.getSpaceInformation()

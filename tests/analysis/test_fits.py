@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import oracles
-from cfree import AngleInterval, Fit, Polygon, Pose, fits
+from cfree import Fit, Polygon, Pose, fits
+from cfree.exact import AngleInterval
 from shapes import Point, Shape, box, l_shape, mapped
 
 SQUARE = box(0, 0, 1, 1)[0]

@@ -13,22 +13,12 @@ from test_separation import INSIDE, OUTSIDE, room
 from test_space import hollow
 
 import cfree.verify
-from cfree import (
-    Pose,
-    Scene,
-    boundary,
-    free_space,
-    load_answer,
-    load_scene,
-    max_margin,
-    max_scale,
-    nearest_miss,
-    separation,
-)
+from cfree import Pose, Scene, boundary, free_space, load_scene, max_margin, max_scale, nearest_miss, separation
 from cfree.analysis.bottleneck import pinches
-from cfree.planning.inset import _is_inside, inset, with_robot
+from cfree.polygons.offset import _is_inside, inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, SIDES, _around_a_disc
+from cfree.scene.scene import with_robot
 from compared import scene_of
 from shapes import PlainScene, box
 
@@ -78,20 +68,17 @@ def test_two_gates_one_after_the_other() -> None:
     assert [sorted(pinch.obstacles) for pinch in miss.pinches] == [[2, 3]]
 
 
-def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends(tmp_path: Path) -> None:
+def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends() -> None:
     exact = separation(room(1), INSIDE, OUTSIDE)
-    assert exact is not None and exact.nearest_miss is not None
-    assert exact.nearest_miss.lo == 0 < exact.nearest_miss.hi < 1e-40 and exact.nearest_miss.pinches == ()
+    assert exact is not None and exact.of == "closed"
+    miss = nearest_miss(room(1).boundary.scene, INSIDE, OUTSIDE)
+    assert miss is not None and miss.lo == 0 < miss.hi < 1e-40 and miss.pinches == ()
     closed = scene_of(PlainScene([box(0, 0, 1, 1)], [hollow((-5, -5, 5, 5), (-4, -4, 4, 4))]))
     assert nearest_miss(closed, Pose(0, 0), Pose(9, 9)) is None
     with pytest.raises(ValueError, match="start and goal are joined"):
         nearest_miss(closed, Pose(0, 0), Pose(1, 1))
     with pytest.raises(ValueError, match="tolerance 0"):
         nearest_miss(corner("2.6", "0.2"), HERE, THERE, tolerance=0)
-    exact.save(tmp_path / "proof.json")
-    again = load_answer(tmp_path / "proof.json")
-    with pytest.raises(ValueError, match="the scene is not in a file"):
-        again.nearest_miss  # type: ignore[union-attr] # noqa: B018
 
 
 def test_scales() -> None:

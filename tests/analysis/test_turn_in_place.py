@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import cfree
-from cfree import AngleInterval, MotionChecker, Pose, Rotation, Scene, is_free, turn_in_place
+from cfree import MotionChecker, Pose, Rotation, Scene, is_free, turn_in_place
+from cfree.exact import AngleInterval
 from cfree.exact.angle_set import union_of_intersections, where_not_positive
 from compared import scene_of
 from shapes import KINDS, box, random_scene

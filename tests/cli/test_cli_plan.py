@@ -184,7 +184,7 @@ def test_an_interrupt_ends_improving_and_keeps_the_path(tmp_path: Path) -> None:
     answer = tmp_path / "way.json"
     code, _ = interrupted(4, "plan", PARKING, "-o", str(answer), "--improve", "60s")
     assert code == 0
-    found = cfree.load_answer(answer)
+    found = cfree.load(answer)
     assert isinstance(found, cfree.Path) and found.is_free(cfree.MotionChecker(cfree.load_scene(PARKING)))
 
 

@@ -9,15 +9,16 @@ import pytest
 
 import oracles
 from cfree import (
-    Checker,
     InvalidPoseError,
     Polygon,
     Pose,
+    PoseChecker,
     Scene,
     boundary,
     free_nearby,
     free_space,
     is_free,
+    largest_disc,
     load_scene,
     require_free,
 )
@@ -61,7 +62,7 @@ def test_suggestions_are_free_by_another_test_and_always_the_same(kind: str) -> 
                 require_free(scene, pose)
                 continue
             with pytest.raises(InvalidPoseError) as caught:
-                require_free(Checker(scene), pose)
+                require_free(PoseChecker(scene), pose)
             q = caught.value.free
             if q is not None:
                 suggested += 1
@@ -90,8 +91,8 @@ def test_reachable_cells() -> None:
     scene = load_scene(ROOT / "examples/scenes/flat.json")
     space = free_space(boundary(scene))
     for cell in space.cells:
-        assert cell.roomiest is not None
-        assert space.reachable(cell.roomiest[0]) is cell
+        assert largest_disc(cell) is not None
+        assert space.reachable(largest_disc(cell)[0]) is cell
     plain = plain_of(scene)
     corner = Pose(*map(float, plain.obstacles[0][0][0]))
     with pytest.raises(InvalidPoseError, match=r"start .* is forbidden"):

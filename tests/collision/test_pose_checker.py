@@ -15,8 +15,9 @@ from hypothesis import strategies as st
 import oracles
 import shapes
 import strategies
-from cfree import Checker, InvalidPoseError, Polygon, Pose, Poses, Scene, boundary, is_forbidden, is_free, load_scene
+from cfree import InvalidPoseError, Polygon, Pose, PoseChecker, Poses, Scene, boundary, is_free, load_scene
 from cfree.collision.pose_checker import UNCERTAIN
+from cfree.contact import is_forbidden
 from compared import plain_of, scene_of
 from shapes import PlainScene
 
@@ -60,9 +61,9 @@ def random_poses(scene: Scene, count: int, seed: int = 1) -> np.ndarray:
     return np.random.default_rng(seed).uniform((x0, y0, 0), (x1, y1, 2 * math.pi), (count, 3))
 
 
-def thrice(scene: Scene | Checker, poses: object) -> list[bool]:
+def thrice(scene: Scene | PoseChecker, poses: object) -> list[bool]:
     """By each pose itself, then by what has been found for the box of poses around it."""
-    checker = Checker(scene) if isinstance(scene, Scene) else scene
+    checker = PoseChecker(scene) if isinstance(scene, Scene) else scene
     answers = [checker.is_free(poses).tolist() for _ in range(3)]
     assert answers[0] == answers[1] == answers[2]
     return answers[0]
@@ -76,7 +77,7 @@ def thrice(scene: Scene | Checker, poses: object) -> list[bool]:
        poses=st.lists(strategies.poses(), min_size=1, max_size=6), seed=st.integers(0, 10**6))  # fmt: skip
 def test_degenerate_scenes_and_poses(plain: PlainScene, poses: list[tuple], seed: int) -> None:
     scene = scene_of(plain)
-    checker = Checker(scene)
+    checker = PoseChecker(scene)
     found = [Pose(x, y, {"tau": tau}) for x, y, tau in poses]
     if scene.obstacles:
         found += contact_poses(scene, random.Random(seed), 6)
@@ -102,7 +103,7 @@ def test_contacts_of_one_pair_and_one_hairline_off(seed: int) -> None:
     rng = random.Random(seed)
     robot, obstacle = (Polygon(*shapes.random_lattice_shape(rng)) for _ in range(2))
     scene = Scene(robot=robot, obstacles=obstacle)
-    checker, answers = Checker(scene), []
+    checker, answers = PoseChecker(scene), []
     for pose in contact_poses(scene, rng, 40):
         hair = Fraction(rng.choice([-1, 1]), 10**40)
         for moved in (
@@ -121,7 +122,7 @@ def test_what_doubles_are_certain_of_is_true() -> None:
     for kind in ("nonconvex", "holed", "regular", "touching"):
         plain = shapes.random_scene(1, kind)
         scene = scene_of(plain)
-        checker = Checker(scene)
+        checker = PoseChecker(scene)
         for pose in contact_poses(scene, rng, 60):
             off = 10.0 ** -rng.uniform(9, 18)
             row = Poses([[float(pose.x) + off * rng.uniform(-1, 1), float(pose.y) + off]], [pose.theta])
@@ -156,7 +157,7 @@ def test_shipped_scenes_beside_areas_of_shapely(path: Path) -> None:
 
 def test_a_slot_as_wide_as_the_robot() -> None:
     walls = [[(-1, -5), (0, -5), (0, 5), (-1, 5)], [(1, -5), (2, -5), (2, 5), (1, 5)]]
-    checker = Checker(Scene(robot=SQUARE, obstacles=walls))
+    checker = PoseChecker(Scene(robot=SQUARE, obstacles=walls))
     tiny = 5e-324
     rows = [(0, y, 0) for y in (-6, -1.5, 0, 4)] + [
         (tiny, 0, 0),
@@ -211,7 +212,7 @@ def test_outside_a_workspace_nothing_is_free_however_far() -> None:
 def test_any_size_and_place(size: str, far: str | int) -> None:
     a, x = Fraction(size), Fraction(far)
     square = [(p * a, q * a) for p, q in SQUARE]
-    checker = Checker(Scene(robot=square, obstacles=[[(x + p, q) for p, q in square]]))
+    checker = PoseChecker(Scene(robot=square, obstacles=[[(x + p, q) for p, q in square]]))
     assert [checker.is_free(Pose(x + k * a / 8, a / 3)) for k in range(-9, 10, 1)] == [
         True,
         True,
@@ -239,7 +240,7 @@ def test_arrays_mean_the_poses_they_hold() -> None:
     scene = load_scene("examples/scenes/five_convex.json")
     table = np.random.default_rng(2).uniform((0, 0, -20), (12, 9, 20), (300, 3))
     poses = Poses(table[:, :2], table[:, 2])
-    checker = Checker(scene)
+    checker = PoseChecker(scene)
     expected = [checker.is_free(pose) for pose in poses]
     assert is_free(scene, table).tolist() == expected == checker.is_free(poses).tolist()
     assert 0 < sum(expected) < len(expected)
@@ -258,14 +259,14 @@ def test_threads_and_a_boundary_change_nothing() -> None:
 def test_boxes_of_poses(name: str) -> None:
     """Where a box of poses is known to be free or forbidden, so is each pose in it."""
     scene = load_scene(f"examples/scenes/{name}.json")
-    warm = Checker(scene)
+    warm = PoseChecker(scene)
     x0, y0, x1, y1 = around(scene)
     corner, rng = (x0 + 0.4 * (x1 - x0), y0 + 0.4 * (y1 - y0), 1.0), np.random.default_rng(4)
     poses = rng.uniform(corner, (corner[0] + 0.1 * (x1 - x0), corner[1] + 0.1 * (y1 - y0), 1.5), (30000, 3))
     answers = [warm.is_free(poses) for _ in range(3)]
     exactly = [warm.is_free(pose) for pose in Poses(poses[:500, :2], poses[:500, 2])]
     assert (answers[0] == answers[2]).all() and answers[2][:500].tolist() == exactly
-    cold = np.concatenate([Checker(scene).is_free(part) for part in np.array_split(poses[:2000], 200)])
+    cold = np.concatenate([PoseChecker(scene).is_free(part) for part in np.array_split(poses[:2000], 200)])
     assert (cold == answers[2][:2000]).all()
 
 

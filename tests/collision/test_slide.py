@@ -22,10 +22,11 @@ from test_motion import box, poses
 
 import cfree.verify
 import strategies
-from cfree import FormatError, MotionChecker, Path, Pose, Rotation, Scene, Slide, Touch, Translation, is_free
-from cfree import load_answer as load
+from cfree import FormatError, MotionChecker, Path, Pose, Rotation, Scene, Slide, Translation, clearance, is_free, save
 from cfree.cli.report import answer_facts
+from cfree.collision import Touch
 from cfree.errors import InvalidPoseError, UnsupportedError
+from cfree.formats.answer_file import load_answer as load
 from cfree.paths.clearance import narrowest
 from cfree.planning.double_contact import slide as slide_along
 from cfree.planning.exact_face import contact_line, cross, positions
@@ -314,7 +315,7 @@ def test_the_reference_point_may_slide_on_bounds() -> None:
 @given(st.lists(curves, max_size=3), poses)
 def test_files_hold_slides_exactly(tmp_path_factory: pytest.TempPathFactory, moves: list[Slide], start: Pose) -> None:
     file, path = tmp_path_factory.mktemp("slides") / "way.json", Path(start, moves)
-    path.save(file, scene=TEE)
+    save(path, file, scene=TEE)
     again = load(file)
     assert again == path and again.poses == path.poses
 
@@ -345,7 +346,7 @@ def test_files_hold_slides_exactly(tmp_path_factory: pytest.TempPathFactory, mov
 )
 def test_faults_say_place_value_and_remedy(tmp_path: FilePath, place: str, value: Any, message: str) -> None:
     file = tmp_path / "way.json"
-    way().save(file, scene=TEE)
+    save(way(), file, scene=TEE)
     data = json.loads(file.read_text())
     *outer, last = place.split(".")
     target: Any = data["motions"][1]
@@ -364,7 +365,7 @@ def test_the_example_of_the_format_page_is_a_slide(request: pytest.FixtureReques
     page = (request.config.rootpath / "docs" / "answer-format.md").read_text()
     motion = page.split("**Slides.**")[1].split("```json\n")[1].split("```")[0]
     file = tmp_path / "way.json"
-    Path(START, [turning("1/2")]).save(file, scene=TEE)
+    save(Path(START, [turning("1/2")]), file, scene=TEE)
     written = file.read_text()
     assert '"decimals": "approximate"' in written  # they do not say where it goes
     file.write_text(written.split('"motions": [')[0] + f'"motions": [{motion}]}}')
@@ -380,7 +381,7 @@ def test_a_path_with_slides_is_of_use_everywhere(tmp_path: FilePath) -> None:
     assert cfree.verify.answer(TEE, path).verified
     assert answer_facts(path, TEE)["slides"] == 2 and answer_facts(path, TEE)["translations"] == 2
     for form in ("csv", "yaml", "geojson"):
-        path.save(tmp_path / f"way.{form}", step=0.1, scene=TEE)
+        save(path, tmp_path / f"way.{form}", step=0.1, scene=TEE)
     samples = path.sample(0.1)
     rows = [[*map(float, row.split(","))] for row in (tmp_path / "way.csv").read_text().splitlines()[1:]]
     assert np.allclose(rows, np.c_[samples.xy, samples.theta], rtol=0, atol=1e-15)
@@ -390,7 +391,7 @@ def test_a_path_with_slides_is_of_use_everywhere(tmp_path: FilePath) -> None:
     assert len(outlines) == len(samples) and trace["properties"]["length"] == path.length
     inside = cfree.Polygon(CORRIDORS).to_shapely().buffer(1e-9)
     assert all(inside.contains(cfree.Polygon(f["geometry"]["coordinates"][0]).to_shapely()) for f in outlines)
-    least = path.clearance(TEE)
+    least = clearance(path, TEE)
     assert least is not None and least.least == 0
     assert len(narrowest(path, TEE, 2)) >= 1
     half = path.after(path.length / 2)

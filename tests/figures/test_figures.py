@@ -18,7 +18,8 @@ from matplotlib.text import Text
 from mpl_toolkits.mplot3d import proj3d
 from mpl_toolkits.mplot3d.art3d import Text3D
 
-from cfree import Polygon, Pose, contact_features, is_contact, is_forbidden, load_scene
+from cfree import Polygon, Pose, load_scene
+from cfree.contact import contact_features, is_contact, is_forbidden
 from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range
 from cfree.contact.surface import contact_helix, contact_segment, contact_surface
 from cfree.figures import FIGURES, curves, draw, draw_all, plane, poses, ranges, scenes, surfaces

@@ -29,11 +29,10 @@ from cfree.film.reel import LATER, check_options, shots_of, views
 from cfree.film.route import Clearance, route
 from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
 from cfree.forbidden.boundary import Boundary, boundary
-from cfree.forbidden.mesh import robot_radius
 from cfree.formats.scene_file import load_scene
 from cfree.plot.boundary import extent
 from cfree.scene.features import WORKSPACE
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, robot_radius
 
 SCENES = Path("examples/scenes")
 FIG9, FIVE = SCENES / "paper_fig9.json", SCENES / "five_convex.json"
@@ -332,7 +331,7 @@ def test_orientations_without_contacts_are_left_out() -> None:
 
 def test_a_gif_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
     file, shares = tmp_path / "film.gif", []
-    cfree.save_film([fig9], file, seconds=2, fps=10, size=(320, 180), progress=shares.append)
+    cfree.film.save_film([fig9], file, seconds=2, fps=10, size=(320, 180), progress=shares.append)
     with Image.open(file) as film:
         assert film.size == (320, 180)
         assert film.n_frames == 20  # type: ignore[attr-defined]
@@ -343,7 +342,7 @@ def test_a_gif_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
 def test_an_mp4_is_read_back(fig9: Boundary, five: Boundary, tmp_path: Path) -> None:
     av = pytest.importorskip("av")
     file = tmp_path / "film.mp4"
-    cfree.save_film([fig9, five], file, seconds=2, fps=12, size=(320, 180))
+    cfree.film.save_film([fig9, five], file, seconds=2, fps=12, size=(320, 180))
     with av.open(str(file)) as film:
         (stream,) = film.streams.video
         frames = list(film.decode(stream))
@@ -355,7 +354,7 @@ def test_an_mp4_is_read_back(fig9: Boundary, five: Boundary, tmp_path: Path) -> 
 def test_without_pyav_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setitem(sys.modules, "av", None)
     with pytest.raises(UnsupportedError, match=r"pip install 'cfree\[video\]'"):
-        cfree.save_film([], tmp_path / "film.mp4")
+        cfree.film.save_film([], tmp_path / "film.mp4")
 
 
 @pytest.mark.parametrize(

@@ -93,7 +93,7 @@ def test_the_line_in_configuration_space_has_the_colours_of_the_trace(five: tupl
 
 def test_a_gif_is_read_back(tmp_path: FilePath) -> None:
     shares: list[float] = []
-    cfree.film_path(WAY, WALL, tmp_path / "way.gif", seconds=1, fps=5, size=SMALL, progress=shares.append)
+    cfree.film.film_path(WAY, WALL, tmp_path / "way.gif", seconds=1, fps=5, size=SMALL, progress=shares.append)
     with Image.open(tmp_path / "way.gif") as film:
         assert film.size == SMALL
         assert 2 < film.n_frames <= 5 + sum(round(5 * rest) for rest in REST)  # equal frames are one
@@ -104,7 +104,7 @@ def test_a_gif_is_read_back(tmp_path: FilePath) -> None:
 def test_an_mp4_with_its_configuration_space_is_read_back(five: tuple[Path, Boundary], tmp_path: FilePath) -> None:
     av = pytest.importorskip("av")
     path, found = five
-    cfree.film_path(path, found.scene, tmp_path / "way.mp4", boundary=found, seconds=1, fps=4, size=SMALL)
+    cfree.film.film_path(path, found.scene, tmp_path / "way.mp4", boundary=found, seconds=1, fps=4, size=SMALL)
     with av.open(str(tmp_path / "way.mp4")) as film:
         frames = [frame.to_ndarray(format="rgb24") for frame in film.decode(video=0)]
     assert len(frames) == 4 + sum(round(4 * rest) for rest in REST)
@@ -123,7 +123,7 @@ def test_an_interrupted_film_leaves_what_was_there(name: str, tmp_path: FilePath
         pytest.importorskip("av")
     (tmp_path / name).write_text("before")
     with pytest.raises(KeyboardInterrupt):
-        cfree.film_path(WAY, WALL, tmp_path / name, seconds=1, fps=5, size=SMALL, progress=interrupt)
+        cfree.film.film_path(WAY, WALL, tmp_path / name, seconds=1, fps=5, size=SMALL, progress=interrupt)
     assert [file.name for file in tmp_path.iterdir()] == [name] and (tmp_path / name).read_text() == "before"
 
 
@@ -141,7 +141,7 @@ def test_an_interrupted_film_leaves_what_was_there(name: str, tmp_path: FilePath
 )
 def test_options_without_sense_are_refused(change: dict[str, Any], message: str | None, tmp_path: FilePath) -> None:
     options: dict[str, Any] = {"path": WAY, "scene": WALL, "seconds": 1, "fps": 2, "size": SMALL, **change}
-    make: Callable[[], None] = lambda: cfree.film_path(file=tmp_path / "way.gif", **options)  # noqa: E731
+    make: Callable[[], None] = lambda: cfree.film.film_path(file=tmp_path / "way.gif", **options)  # noqa: E731
     if message is None:
         make()
         return
@@ -152,13 +152,13 @@ def test_options_without_sense_are_refused(change: dict[str, Any], message: str 
 
 def test_other_formats_are_refused(tmp_path: FilePath) -> None:
     with pytest.raises(UnsupportedError, match=r"name the file \.mp4 or \.gif"):
-        cfree.film_path(WAY, WALL, tmp_path / "way.avi")
+        cfree.film.film_path(WAY, WALL, tmp_path / "way.avi")
 
 
 @pytest.mark.parametrize("obstacles", [[], [[(4, 0), (5, 0), (5, 1)]]], ids=["nothing", "a triangle"])
 def test_films_of_full_turns_and_of_empty_scenes(obstacles: list[Any], tmp_path: FilePath) -> None:
     scene = Scene(robot=SQUARE, obstacles=obstacles)
     path = Path(Pose(0, 0, "350deg"), rotations((0, 0), "400deg"))
-    cfree.film_path(path, scene, tmp_path / "way.gif", boundary=boundary(scene), seconds=1, fps=3, size=SMALL)
+    cfree.film.film_path(path, scene, tmp_path / "way.gif", boundary=boundary(scene), seconds=1, fps=3, size=SMALL)
     still = Path(Pose(0, 0), [])
-    cfree.film_path(still, scene, tmp_path / "still.gif", seconds=1, fps=3, size=SMALL)
+    cfree.film.film_path(still, scene, tmp_path / "still.gif", seconds=1, fps=3, size=SMALL)

@@ -19,16 +19,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree import (
-    Boundary,
-    IncompleteError,
-    Polygon,
-    Scene,
-    _core,
-    boundary,
-    load_boundary,
-    load_scene,
-)
+from cfree import Boundary, IncompleteError, Polygon, Scene, _core, boundary, load_scene, save
+from cfree.formats.boundary_file import load_boundary
 from cfree.scene.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
 from shapes import (
@@ -358,7 +350,7 @@ def test_any_number_of_threads_gives_the_same_bytes(tmp_path: Path) -> None:
         texts = []
         for threads in (1, 2, 5):
             path = tmp_path / f"{threads}.npz"
-            boundary(scene, threads=threads).save(path)
+            save(boundary(scene, threads=threads), path)
             texts.append(path.read_bytes())
         assert texts[0] == texts[1] == texts[2], kind
 
@@ -457,7 +449,7 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
         for ask in questions:
             with pytest.raises(IncompleteError, match=r"of \d+ patches were trimmed"):
                 ask()
-        part.save(tmp_path / "part.npz")
+        save(part, tmp_path / "part.npz")
         loaded = load_boundary(tmp_path / "part.npz")
         assert not loaded.complete and np.array_equal(loaded.trimmed, part.trimmed)
     whole = boundary(scene)

@@ -14,10 +14,11 @@ import oracles
 import shapes
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden.boundary import Boundary, boundary
-from cfree.forbidden.mesh import COLOURS, MESH_SUFFIXES, Mesh, robot_radius, save_mesh
+from cfree.forbidden.mesh import COLOURS, Mesh
+from cfree.formats.mesh_file import MESH_SUFFIXES, save_mesh
 from cfree.formats.scene_file import load_scene
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, robot_radius
 
 ROOT = Path(__file__).parents[2]
 SCENES = ROOT / "examples/scenes"

@@ -16,7 +16,8 @@ from test_path import SQUARE
 from test_slide import TEE, way
 
 import cfree.verify
-from cfree import FormatError, Path, Pose, Rotation, Scene, Translation, load_answer
+from cfree import FormatError, Path, Pose, Rotation, Scene, Translation, save
+from cfree.formats.answer_file import load_answer
 from cfree.formats.effect import Effect
 from cfree.scene.digest import stamp_of
 from replay import deviation
@@ -36,7 +37,7 @@ def write(file: FilePath, data: Any) -> None:
 
 
 def file_of(path: Path, folder: FilePath, scene: Scene) -> FilePath:
-    path.save(folder / "way.json", scene=scene)
+    save(path, folder / "way.json", scene=scene)
     return folder / "way.json"
 
 

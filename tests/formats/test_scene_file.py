@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from cfree import save
 from cfree.errors import FormatError, UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.formats.findings import InvalidFileError
@@ -302,7 +303,7 @@ def test_numbers_are_written_exactly(value: Fraction) -> None:
 def test_poses_survive_saving(tmp_path_factory: pytest.TempPathFactory, theta: float, tau: Fraction) -> None:
     path = tmp_path_factory.mktemp("poses") / "scene.json"
     scene = Scene(robot=[(0, 0), (1, 0), (0, 1)], start=(0.1, 0, theta), goal=(0, 0, {"tau": tau}))
-    scene.save(path)
+    save(scene, path)
     again = load_scene(path)
     assert again == scene
     assert again.start is not None
@@ -325,16 +326,16 @@ def test_saving_keeps_everything(tmp_path: Path) -> None:
         source={"licence": "MIT"},
         check={"free": True, "clearance": 0.25, "list": [1, None, {"a": "b"}]},
     )
-    scene.save(tmp_path / "scene.json")
+    save(scene, tmp_path / "scene.json")
     assert load_scene(tmp_path / "scene.json") == scene
 
 
 def test_saving_is_all_or_nothing(tmp_path: Path) -> None:
     path = tmp_path / "scene.json"
-    Scene(robot=[(0, 0), (1, 0), (0, 1)]).save(path)
+    save(Scene(robot=[(0, 0), (1, 0), (0, 1)]), path)
     before = path.read_text()
     with pytest.raises(UnicodeEncodeError):
-        Scene(robot=[(0, 0), (1, 0), (0, 1)], name="\ud800").save(path)
+        save(Scene(robot=[(0, 0), (1, 0), (0, 1)], name="\ud800"), path)
     assert path.read_text() == before
     assert os.listdir(tmp_path) == ["scene.json"]
 
@@ -344,7 +345,7 @@ def test_saving_follows_links_and_keeps_permissions(tmp_path: Path) -> None:
     target.write_text("old")
     target.chmod(0o640)
     link.symlink_to(target)
-    Scene(robot=[(0, 0), (1, 0), (0, 1)]).save(link)
+    save(Scene(robot=[(0, 0), (1, 0), (0, 1)]), link)
     assert link.is_symlink()
     assert target.stat().st_mode & 0o777 == 0o640
     assert load_scene(target) == load_scene(link)
@@ -353,7 +354,7 @@ def test_saving_follows_links_and_keeps_permissions(tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["scene.wkt", "scene.GeoJSON"])
 def test_scenes_are_written_as_json_only(name: str, tmp_path: Path) -> None:
     with pytest.raises(UnsupportedError, match=r"name the file \.json"):
-        Scene(robot=[(0, 0), (1, 0), (0, 1)]).save(tmp_path / name)
+        save(Scene(robot=[(0, 0), (1, 0), (0, 1)]), tmp_path / name)
 
 
 # GeoJSON and WKT

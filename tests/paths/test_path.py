@@ -15,6 +15,7 @@ from test_motion import box, motions, pose_of
 
 import cfree
 import strategies
+from cfree import save
 from cfree.collision.motion import Rotation, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import FormatError, UnsupportedError
@@ -36,16 +37,16 @@ WAY = Path(Pose(0, 0), MOVES, "m", "map", SQUARE)
 @given(paths)
 def test_files_hold_paths_exactly(tmp_path_factory: pytest.TempPathFactory, path: Path) -> None:
     file = tmp_path_factory.mktemp("paths") / "way.json"
-    path.save(file, scene=SQUARE)
+    save(path, file, scene=SQUARE)
     again = load_answer(file)
     assert again == path and again.poses == path.poses
     text = file.read_text()
-    again.save(file)  # it does not know its scene any more, but whose it is
+    save(again, file)  # it does not know its scene any more, but whose it is
     assert again.scene is None and file.read_text() == text.replace('"free"', '"approximate"')
 
 
 def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
-    WAY.save(tmp_path / "way.json")
+    save(WAY, tmp_path / "way.json")
     data = json.loads((tmp_path / "way.json").read_text())
     assert data["answer"] == "path" and data["motions"][0]["vector"] == [2, 1 / 3]
     del data["exact"], data["decimals"]
@@ -87,7 +88,7 @@ def test_decimals_alone_are_read_as_well(tmp_path: FilePath) -> None:
 )
 def test_faults_of_files_say_place_value_and_remedy(tmp_path: FilePath, old: str, new: str, message: str) -> None:
     file = tmp_path / "way.json"
-    WAY.save(file)
+    save(WAY, file)
     text = file.read_text()
     assert old in text
     file.write_text(text.replace(old, new, 1))
@@ -125,7 +126,7 @@ def test_positions_count_motions() -> None:
 
 
 def test_exports_for_others(tmp_path: FilePath) -> None:
-    WAY.save(tmp_path / "way.csv", step=0.5)
+    save(WAY, tmp_path / "way.csv", step=0.5)
     header, *rows = (tmp_path / "way.csv").read_text().splitlines()
     samples = WAY.sample(0.5)
     assert header == "x,y,theta"
@@ -133,13 +134,13 @@ def test_exports_for_others(tmp_path: FilePath) -> None:
     assert np.array_equal(read[:, :2], samples.xy) and np.allclose(read[:, 2] % math.tau, samples.theta)
     assert (np.abs(np.diff(read[:, 2])) <= math.radians(5) + 1e-12).all() and read[-1, 2] == math.pi / 2
     with pytest.raises(UnsupportedError, match=r"way\.txt: paths are written as"):
-        WAY.save(tmp_path / "way.txt")
+        save(WAY, tmp_path / "way.txt")
     with pytest.raises(ValueError, match="no step"):
-        WAY.save(tmp_path / "way.csv")
+        save(WAY, tmp_path / "way.csv")
     with pytest.raises(ValueError, match="no scene"):
-        Path(Pose(0, 0), MOVES).save(tmp_path / "way.geojson", step=1)
+        save(Path(Pose(0, 0), MOVES), tmp_path / "way.geojson", step=1)
     with pytest.raises(ValueError, match=r"way\.json: no scene; give the one that it is an answer for"):
-        Path(Pose(0, 0), MOVES).save(tmp_path / "way.json")
+        save(Path(Pose(0, 0), MOVES), tmp_path / "way.json")
 
 
 @settings(max_examples=50, deadline=None)
@@ -147,7 +148,7 @@ def test_exports_for_others(tmp_path: FilePath) -> None:
 def test_yaml_is_the_message_of_ros(tmp_path_factory: pytest.TempPathFactory, path: Path, frame: str) -> None:
     """nav_msgs/Path: a header and stamped poses; each has a header and a pose of a Point and a Quaternion."""
     file = tmp_path_factory.mktemp("paths") / "way.yaml"
-    Path(path.start, path.motions, frame=frame).save(file, step=0.5, turn=0.5)
+    save(Path(path.start, path.motions, frame=frame), file, step=0.5, turn=0.5)
     message = yaml.safe_load(file.read_text(encoding="utf-8"))
     header = {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": frame}
     samples = path.sample(0.5, 0.5)
@@ -167,7 +168,7 @@ def test_yaml_is_the_message_of_ros(tmp_path_factory: pytest.TempPathFactory, pa
 
 
 def test_tiny_numbers_are_numbers_in_yaml(tmp_path: FilePath) -> None:
-    Path(Pose("1e-7", "-2e20"), [Translation(("1e-9", 0))]).save(tmp_path / "way.yaml", step=1)
+    save(Path(Pose("1e-7", "-2e20"), [Translation(("1e-9", 0))]), tmp_path / "way.yaml", step=1)
     (first, _) = yaml.safe_load((tmp_path / "way.yaml").read_text())["poses"]
     assert first["pose"]["position"] == {"x": 1e-7, "y": -2e20, "z": 0}
 
@@ -182,7 +183,7 @@ def test_geojson_has_the_way_and_the_outlines(
 ) -> None:
     file = tmp_path_factory.mktemp("paths") / "way.geojson"
     scene = Scene(robot=robot)
-    Path(path.start, path.motions, "m", "map").save(file, step=0.7, turn=0.5, scene=scene)
+    save(Path(path.start, path.motions, "m", "map"), file, step=0.7, turn=0.5, scene=scene)
     data = json.loads(file.read_text())
     assert (data["type"], data["units"], data["frame"]) == ("FeatureCollection", "m", "map")
     trace, *outlines = data["features"]
@@ -216,25 +217,25 @@ def test_clearance_is_known_beside_a_turning_rod(gap: Fraction) -> None:
     """The end of the rod runs on a circle of radius 5, and a wall is 5 + gap away."""
     scene = Scene(robot=[(-5, 0), (0, -1), (5, 0), (0, 1)], obstacles=box(5 + gap, -9, 7, 9))
     path = Path(Pose(0, 0, "30deg"), [Rotation((0, 0), "-60deg"), Translation((-1, 0))])
-    found = path.clearance(scene)
+    found = cfree.clearance(path, scene)
     assert found is not None
     assert found.least <= gap <= found.found + 1e-12
     assert found.least > gap - Fraction("0.0051")
     assert found.motion == 0 and found.obstacle == (0, 3)
     assert found.share == pytest.approx(0.5, abs=0.05)
-    assert path.clearance(Scene(robot=scene.robot, obstacles=[])) is None
+    assert cfree.clearance(path, Scene(robot=scene.robot, obstacles=[])) is None
 
 
 def test_a_path_that_touches_has_no_clearance() -> None:
     scene = Scene(robot=box(-1, -1, 1, 1), obstacles=box(-9, -3, 9, -1), workspace=box(-9, -9, 9, 9))
     path = Path(Pose(0, 4), [Translation((0, -4)), Translation((3, 0))])
     assert path.is_free(MotionChecker(scene))
-    found = path.clearance(scene)
+    found = cfree.clearance(path, scene)
     assert found is not None and (found.least, found.found, found.motion) == (0, 0, 1)
     with pytest.raises(ValueError, match="the path is not free"):
-        Path(Pose(0, 4), [Translation((0, -5))]).clearance(scene)
+        cfree.clearance(Path(Pose(0, 4), [Translation((0, -5))]), scene)
     with pytest.raises(ValueError, match="tolerance 0: give a positive one"):
-        path.clearance(scene, tolerance=0)
+        cfree.clearance(path, scene, tolerance=0)
     assert not Path(Pose(0, -2), []).is_free(MotionChecker(scene))
 
 
@@ -249,7 +250,7 @@ def test_no_sample_has_less_than_the_least_clearance(
     path = Path(start, moves)
     if not path.is_free(MotionChecker(scene)):
         return
-    found = path.clearance(scene, tolerance=0.05)
+    found = cfree.clearance(path, scene, tolerance=0.05)
     assert found is not None
     samples = path.sample(0.05, 0.02)
     rings = samples.apply(scene.robot[0].vertices)
@@ -263,7 +264,7 @@ def test_the_example_of_the_format_page_is_what_is_written(request: pytest.Fixtu
     page = (request.config.rootpath / "docs" / "answer-format.md").read_text()
     example = page.split("```json\n")[1].split("```")[0]
     file = tmp_path / "way.json"
-    Path(Pose(0, 0), MOVES[:2], units="m", scene=SQUARE).save(file)
+    save(Path(Pose(0, 0), MOVES[:2], units="m", scene=SQUARE), file)
     assert file.read_text() == example
     fault = page.split("```\nway.json:")[1].split("\n")[0]
     file.write_text(example.replace('"tau": "-1"}}', '"tau": "x"}}'))
@@ -319,4 +320,4 @@ def test_narrowest_places_are_those_of_dense_samples() -> None:
         (sample,) = path.motions[place.motion].sample(pose, [place.share])
         placed = shapely.Polygon(sample.apply(scene.robot[0].vertices))
         assert place.found == pytest.approx(placed.distance(gates[place.obstacle[0]].to_shapely()), abs=1e-9)
-    assert narrowest(path, scene, 1)[0].found == path.clearance(scene).found
+    assert narrowest(path, scene, 1)[0].found == cfree.clearance(path, scene).found

@@ -10,7 +10,7 @@ from pathlib import Path as FilePath
 import pytest
 
 import fuzz
-from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation
+from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, save
 from fuzz_answers import examined
 from laws import Law, broken, laws
 from questions import Question, question
@@ -77,7 +77,7 @@ def test_decimals_that_lead_astray_are_noticed(tmp_path: FilePath) -> None:
     scene = Scene([(0, 0), (2, 0), (2, 1)], [])
     path = Path(Pose(0, 0), [Translation((Fraction(1, 3), 1)), Rotation((5, "1/7"), {"tau": "1/3"})], scene=scene)
     file = tmp_path / "way.json"
-    path.save(file)
+    save(path, file)
     good = json.loads(file.read_text())
     assert deviation(scene, path, file) <= CLOSE
     for place, key in ((0, "vector"), (1, "pole"), (1, "to")):
@@ -92,6 +92,6 @@ def test_decimals_that_collide_are_noticed(tmp_path: FilePath) -> None:
     for x, hits in ((Fraction(9, 10), 0), (Fraction(5, 2), 2)):  # of three poses
         path = Path(Pose(0, 0), [Translation((x, 0))], scene=scene)
         file = tmp_path / "way.json"
-        path.save(file)
+        save(path, file)
         file.write_text(json.dumps(json.loads(file.read_text()) | {"decimals": "free"}))
         assert collisions(scene, file) == hits

@@ -26,6 +26,7 @@ from cfree import (
     Slide,
     Translation,
     boundary,
+    clearance,
     free_space,
     load_scene,
     motion_between,
@@ -140,14 +141,14 @@ def test_a_rectangle_round_an_upright_corner(sign: int) -> None:
 )
 def test_sizes_and_places_do_not_matter(size: Fraction, offset: int) -> None:
     """Neither for the decision nor for the evidence."""
-    for clearance in (Fraction(1, 1000), Fraction(0), Fraction(-1, 1000)):
-        scene, *ends = turned_corner(clearance)
+    for gap in (Fraction(1, 1000), Fraction(0), Fraction(-1, 1000)):
+        scene, *ends = turned_corner(gap)
         assert scene.workspace
         start, goal = (Pose(size * q.x + offset, size * q.y + offset, {"tau": q.tau}) for q in ends)
         corners = [(size * x + offset, size * y + offset) for x, y in scene.workspace.exact_vertices]
         robot = [(size * x, size * y) for x, y in scene.robot[0].exact_vertices]
         found = checked(Scene(robot, workspace=corners), start, goal)
-        assert isinstance(found, Path) == (clearance >= 0)
+        assert isinstance(found, Path) == (gap >= 0)
 
 
 # --- random scenes ---
@@ -164,7 +165,7 @@ def test_decisions_are_those_of_a_flood(kind: str) -> None:
         rng = np.random.default_rng(seed)
         for _ in range(6 if poses else 0):
             i, j = rng.integers(len(poses), size=2).tolist()
-            planned = space.plan(poses[i], poses[j])
+            planned = plan(space, poses[i], poses[j])
             if isinstance(planned, Path):
                 assert found.possible[i] == found.possible[j]
                 check_densely(scene, planned)
@@ -283,7 +284,7 @@ def test_many_queries_have_the_answers_of_single_ones() -> None:
     queries = list(pairwise(poses))
     answers = plan_many(space, queries, threads=2)
     for (start, goal), found in zip(queries, answers, strict=True):
-        single = space.plan(start, goal)
+        single = plan(space, start, goal)
         assert (type(found), found.start, found.goal) == (type(single), start, goal)
         if isinstance(single, Path):
             assert found == single
@@ -320,7 +321,7 @@ def test_a_square_turns_in_a_junction_of_corridors_as_wide_as_it(start: Pose, go
     assert isinstance(found, Path)
     turns = (goal.theta - start.theta) % math.tau > 0
     assert any(isinstance(motion, Slide) for motion in found.motions) == turns
-    assert found.clearance(scene).least == 0
+    assert clearance(found, scene).least == 0
     back = checked(scene, goal, start)
     assert isinstance(back, Path)
 

@@ -48,7 +48,8 @@ def walked(scene: Scene, start: Pose, goal: Pose) -> Path:
     space = free_space(boundary(scene))
     cell = space.common_cell(start, goal)
     assert cell is not None
-    return space.planner.path(space.planner.walker.walk(start, goal, cell))
+    planner = Planner(space.boundary.scene, space)
+    return planner.path(planner.walker.walk(start, goal, cell))
 
 
 def slot(gap: Fraction | int, tau: Fraction, offset: int, reference: int = 0) -> Scene:

@@ -15,6 +15,7 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 import cfree
+from cfree import save
 from cfree.collision.motion import Rotation, Translation, rotations
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UnsupportedError
@@ -305,8 +306,8 @@ def test_a_separation_shows_its_barrier_and_its_surface() -> None:
 def test_a_surface_is_made_of_contacts(tmp_path: FilePath) -> None:
     scene = Scene(robot=BOX, obstacles=ROOM, bounds=(-1, -1, 14, 7))
     answer = cfree.plan(scene, Pose(3, 3), Pose(11, 3, "90deg"))
-    answer.save(tmp_path / "answer.json")
-    for proof in (answer, cfree.load_answer(tmp_path / "answer.json")):
+    save(answer, tmp_path / "answer.json")
+    for proof in (answer, cfree.load(tmp_path / "answer.json")):
         assert isinstance(proof, cfree.Separated) and proof.of == "closed"
         surface = surface_of(proof, scene)
         rows = strips(surface, 0.5)

@@ -28,15 +28,16 @@ from cfree import (
     Scene,
     Separated,
     Slide,
-    Touch,
     Translation,
     boundary,
     free_space,
-    load_answer,
+    save,
     separation,
 )
+from cfree.collision import Touch
 from cfree.collision.motion import Motion
 from cfree.errors import InvalidPoseError
+from cfree.formats.answer_file import load_answer
 from compared import scene_of
 from shapes import PlainScene, box
 
@@ -95,7 +96,7 @@ def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
 
 def text_of(answer: Path | Separated) -> str:
     with tempfile.TemporaryDirectory() as folder:
-        answer.save(f"{folder}/answer.json")
+        save(answer, f"{folder}/answer.json")
         return FilePath(folder, "answer.json").read_text()
 
 

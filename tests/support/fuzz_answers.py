@@ -24,8 +24,9 @@ from typing import Any
 
 import fuzz
 import second_opinion
-from cfree import Path, Scene, Separated, load_answer, load_scene, plan
+from cfree import Path, Scene, Separated, load_scene, plan, save
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
+from cfree.formats.answer_file import load_answer
 from cfree.formats.scene_file import scene_text
 from laws import broken, laws
 from questions import FAMILIES, Question, question
@@ -93,7 +94,7 @@ def evidence(scene: Scene, found: Path | Separated) -> list[Fault]:
     """What is wrong with an answer in a file."""
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder) / "answer.json"
-        found.save(file)
+        save(found, file)
         faults = [] if load_answer(file) == found else [("another answer after loading", "")]
         result = second_opinion.verified(scene, file)
         if not result.verified:

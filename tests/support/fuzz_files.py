@@ -27,9 +27,9 @@ import numpy as np
 import cfree.verify
 import fuzz
 from answer_mutations import corridor, tee, text_of
-from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_boundary, load_scene, plan
+from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_scene, plan, save
 from cfree.errors import CfreeError
-from cfree.formats.boundary_file import signed
+from cfree.formats.boundary_file import load_boundary, load_space, signed
 from cfree.formats.scene_file import scene_text
 from cfree.geometry.area import trapezoid_areas
 from compared import scene_of
@@ -46,7 +46,7 @@ def saved(number: int) -> dict[str, Any]:
     """The arrays of a small scene's boundary, with its cells."""
     scene = scene_of(_plain(number))
     with tempfile.TemporaryDirectory() as folder:
-        free_space(boundary(scene, threads=1)).save(f"{folder}/cells.npz")
+        save(free_space(boundary(scene, threads=1)), f"{folder}/cells.npz")
         with np.load(f"{folder}/cells.npz") as archive:
             return dict(archive)
 
@@ -133,7 +133,7 @@ def _everything(file: FilePath, rng: random.Random) -> str:
         "cells": lambda: given.complex.euler,
         "areas": lambda: trapezoid_areas(given),
         "verify": lambda: cfree.verify.boundary(given, slices=2),
-        "space": lambda: _space(FreeSpace.load(file)),
+        "space": lambda: _space(load_space(file)),
         "glued": lambda: _space(free_space(given)),
     }
     names = rng.sample(list(ask), 3)
@@ -154,7 +154,7 @@ def _space(space: FreeSpace) -> None:
     cells = space.locate(poses).tolist()
     free = [pose for pose, cell in zip(poses, cells, strict=True) if cell >= 0]
     if len(free) > 1:
-        space.plan(free[0], free[1], improve=0)
+        plan(space, free[0], free[1], improve=0)
     assert all(cell.theta_range for cell in space.cells)
 
 

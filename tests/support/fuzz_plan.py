@@ -40,7 +40,7 @@ def questions(scene: Scene, rng: random.Random, count: int) -> tuple[Planner, li
     poses += [Pose(rng.randint(int(x0), int(x1)), rng.randint(int(y0), int(y1)), f"{90 * k}deg") for k in range(4)]
     cells = space.locate(poses).tolist()
     kept = [k for k, cell in enumerate(cells) if cell >= 0]
-    return space.planner, [poses[k] for k in kept], [cells[k] for k in kept]
+    return Planner(space.boundary.scene, space), [poses[k] for k in kept], [cells[k] for k in kept]
 
 
 def _box(scene: Scene) -> tuple[float, float, float, float]:

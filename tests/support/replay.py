@@ -15,7 +15,7 @@ from typing import Any
 from flint import arb, ctx, fmpq
 
 from cfree import Path, Pose, Scene
-from cfree.collision.pose_checker import Checker
+from cfree.collision.pose_checker import PoseChecker
 
 BITS = 900
 CLOSE = 1e-9  # of the robot's size: how far decimals may lead astray
@@ -46,7 +46,7 @@ def collisions(scene: Scene, file: FilePath) -> int:
     try:
         read = json.loads(file.read_text())
         poses = [_pose(*placed) for placed in _along(read)] if read.get("decimals") == "free" else []
-        checker = Checker(scene)
+        checker = PoseChecker(scene)
         return sum(not checker.is_free(pose) for pose in poses)
     finally:
         ctx.prec = old

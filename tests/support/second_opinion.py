@@ -9,7 +9,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import cfree.verify
-from cfree import FormatError, Path, Scene, Separated, UnsupportedError
+from cfree import FormatError, Path, Scene, Separated, UnsupportedError, save
 from cfree.formats.scene_file import scene_text
 from cfree.verify.result import Verification
 
@@ -54,5 +54,5 @@ def verified_in_a_file(scene: Scene, found: Path | Separated) -> Verification:
     known = Path(found.start, found.motions, scene=scene) if isinstance(found, Path) else found
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder, "answer.json")
-        known.save(file)
+        save(known, file)
         return verified(scene, file)

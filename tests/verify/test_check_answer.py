@@ -21,7 +21,7 @@ from hypothesis import strategies as st
 from test_space import ROD, TIGHT
 
 from answer_mutations import corridor, separations, tee
-from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan
+from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan, save
 from cfree.errors import InvalidPolygonError
 from cfree.polygons.polygon import Polygon
 from second_opinion import TOOL, check_answer, verified_in_a_file
@@ -61,13 +61,13 @@ def test_a_line_that_cannot_be_written_refutes_nothing(tmp_path: FilePath) -> No
 
 def test_the_command_says_it_in_one_line_and_an_exit_code(tmp_path: FilePath) -> None:
     scene, path = corridor()
-    scene.save(tmp_path / "scene.json")
-    Path(path.start, path.motions, scene=scene).save(tmp_path / "way.json")
+    save(scene, tmp_path / "scene.json")
+    save(Path(path.start, path.motions, scene=scene), tmp_path / "way.json")
     text = (tmp_path / "way.json").read_text()
     (tmp_path / "other.json").write_text(
         text.replace('"exact": {"vector": ["0", "3"]', '"exact": {"vector": ["0", "4"]')
     )
-    Scene(ROD[0], [TIGHT[0]]).save(tmp_path / "elsewhere.json")
+    save(Scene(ROD[0], [TIGHT[0]]), tmp_path / "elsewhere.json")
     (tmp_path / "map.json").write_text('{"type": "FeatureCollection", "features": []}')
     scene_file, way = tmp_path / "scene.json", tmp_path / "way.json"
     for arguments, code, said in (

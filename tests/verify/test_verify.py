@@ -18,7 +18,7 @@ from hypothesis import given, settings
 import cfree.verify
 import oracles
 import strategies
-from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene
+from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene, save
 from cfree.exact.algebraic import Number, between, roots
 from cfree.verify.matching import matched
 from cfree.verify.missing import free_contacts
@@ -98,7 +98,7 @@ def test_euler_numbers_of_random_scenes_are_those_of_the_cell_complex(kind: str)
 @pytest.fixture(scope="module")
 def flat(tmp_path_factory: pytest.TempPathFactory) -> Path:
     path = tmp_path_factory.mktemp("verify") / "flat.npz"
-    boundary(load_scene(FLAT)).save(path)
+    save(boundary(load_scene(FLAT)), path)
     return path
 
 
@@ -122,7 +122,7 @@ def test_the_core_is_not_used(flat: Path) -> None:
 def test_an_incomplete_boundary_is_not_verified(tmp_path: Path) -> None:
     part = boundary(load_scene(FLAT))
     part.trimmed = np.arange(len(part.trimmed)) > 0  # all but one
-    part.save(tmp_path / "part.npz")
+    save(part, tmp_path / "part.npz")
     for source in (part, tmp_path / "part.npz"):
         result = cfree.verify.boundary(source, part.scene)
         assert not result.verified and "REFUTED" in result.verdict

@@ -17,7 +17,7 @@ from test_space import ROD, TIGHT
 import cfree.verify
 import strategies
 from answer_mutations import corridor
-from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, load_scene
+from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, load_scene, save
 from cfree.verify.motions import _samples, is_nowhere_positive, touches
 from cfree.verify.world import World
 from compared import scene_of
@@ -109,8 +109,8 @@ def test_many_motions_among_many_obstacles() -> None:
 
 def test_neither_the_core_nor_the_planner_is_used(tmp_path: FilePath) -> None:
     scene, path = corridor()
-    scene.save(tmp_path / "scene.json")
-    path.save(tmp_path / "path.json", scene=scene)
+    save(scene, tmp_path / "scene.json")
+    save(path, tmp_path / "path.json", scene=scene)
     program = (
         "import sys; sys.modules['cfree._core'] = None\n"
         "import cfree.verify\n"

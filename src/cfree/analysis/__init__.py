@@ -1,1 +1,15 @@
 """Questions about a scene: margins, bottlenecks, fits, orientations at a position."""
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.analysis.bottleneck import Pinch as Pinch
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    {
+        "bottleneck": "Pinch",
+    },
+)

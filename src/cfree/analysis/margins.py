@@ -17,10 +17,11 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.pose import PoseLike
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace, free_space
-from cfree.planning.inset import inset, insets_of, size_power, with_robot
+from cfree.planning.separation import insets_of
+from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
-from cfree.scene.scene import Scene, required
+from cfree.scene.scene import Scene, required, size_power, with_robot
 
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried

@@ -146,12 +146,15 @@ def boundary(
         written = _check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
         result = _boundary_of(scene, threads, max_seconds, None if max_memory is None else read_size(max_memory))
         if output:
-            result.save(output)
+            from cfree.formats.boundary_file import save_boundary
+
+            save_boundary(result, output)
         if not result.complete:
             kept = f"; what was done is in {output}" if output else ""
             fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
         if mesh:
-            from cfree.forbidden.mesh import robot_radius, save_mesh
+            from cfree.formats.mesh_file import save_mesh
+            from cfree.scene.scene import robot_radius
 
             save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
         if picture:
@@ -214,8 +217,8 @@ def plan(
     with one_line_faults():
         from cfree.cli.report import answer_facts, answer_rows, print_rows
         from cfree.errors import IncompleteError
+        from cfree.formats.answer_file import form_of, save_path, save_separation
         from cfree.paths.path import Path as Motions
-        from cfree.paths.path import form_of
         from cfree.scene.scene import required
 
         written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
@@ -232,9 +235,9 @@ def plan(
             fail(str(error), INCOMPLETE)
         if output:
             if isinstance(answer, Motions):
-                answer.save(output, planner.angle_scale / 20, scene=planner.scene, form=kind)
+                save_path(answer, output, step=planner.angle_scale / 20, scene=planner.scene, form=kind)
             elif kind == "json":
-                answer.save(output)
+                save_separation(answer, output)
             else:
                 _leave_out(written, "answer", f"there is no path to write as {kind}; a proof is written as .json")
         if picture:
@@ -501,7 +504,7 @@ _CHECKS = {  # of the names of files
     "boundary": ("formats.boundary_file", "check_boundary_path"),
     "film": ("film.encode", "check_film_path"),
     "geojson": ("formats.slice_geojson", "check_slice_path"),
-    "mesh": ("forbidden.mesh", "check_mesh_path"),
+    "mesh": ("formats.mesh_file", "check_mesh_path"),
     "picture": ("plot.boundary", "check_picture_path"),
 }
 

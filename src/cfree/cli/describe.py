@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.collision.pose_checker import Checker
+from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
 from cfree.forbidden.mesh import KINDS
 from cfree.polygons.polygon import Polygon
@@ -41,7 +41,7 @@ def describe(scene: Scene) -> dict[str, Any]:
     {'x': 3.4, 'y': 2.2, 'degrees': 90.0, 'free': True}
     """
     features = scene_features(scene)
-    checker = Checker(scene, features) if scene.start or scene.goal else None
+    checker = PoseChecker(scene, features) if scene.start or scene.goal else None
     shapes = [
         *(("robot" if len(scene.robot) == 1 else f"robot[{k}]", part) for k, part in enumerate(scene.robot)),
         *zip(scene.obstacle_names, scene.obstacles, strict=True),
@@ -113,7 +113,7 @@ def _counts(shapes: Sequence[Polygon]) -> dict[str, int]:
     }
 
 
-def _pose_facts(checker: Checker | None, pose: Pose | None) -> dict[str, Any] | None:
+def _pose_facts(checker: PoseChecker | None, pose: Pose | None) -> dict[str, Any] | None:
     if pose is None or checker is None:
         return None
     degrees = float(np.degrees(pose.theta))

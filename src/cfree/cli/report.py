@@ -75,6 +75,7 @@ def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
 
 def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float | str]:
     """An answer in words and numbers."""
+    from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
 
     unit = f" {scene.units}" if scene.units else ""
@@ -92,7 +93,7 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
         "way of the reference point": f"{answer.length:.6g}{unit}",
         "turning": f"{math.degrees(answer.turning):.6g} degrees",
     }
-    if least := answer.clearance(scene):
+    if least := clearance(answer, scene):
         name = part_name(scene, least.obstacle[0])
         rows["least clearance"] = f"{least.found:.6g}{unit}, to {name} in motion {least.motion}"
         rows["proved, at least"] = f"{least.least:.6g}{unit}"
@@ -101,12 +102,13 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
 
 def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
     """The same as numbers, for machines: lengths in the scene's unit, radians."""
+    from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
 
     if not isinstance(answer, Path):
         facts = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
-    least = answer.clearance(scene)
+    least = clearance(answer, scene)
     return {
         "answer": "path",
         **motion_counts(answer),

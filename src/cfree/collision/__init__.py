@@ -1,1 +1,19 @@
 """Is a pose free, is a motion free, how far is it to the obstacles?"""
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.collision.motion import rotations as rotations
+    from cfree.collision.motion_checker import FirstContact as FirstContact
+    from cfree.collision.slide import Touch as Touch
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    {
+        "motion": "rotations",
+        "motion_checker": "FirstContact",
+        "slide": "Touch",
+    },
+)

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Poses
-from cfree.forbidden.mesh import robot_radius
 from cfree.scene.features import WORKSPACE
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.polygons.polygon import Polygon

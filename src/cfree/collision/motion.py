@@ -154,7 +154,9 @@ class Rotation:
         else:
             clockwise, most = _size(angle)
             if most > math.pi * (1 + 2**-51):
-                raise InvalidPoseError(f"angle {angle!r} is more than half a turn; divide it, as cfree.rotations does")
+                raise InvalidPoseError(
+                    f"angle {angle!r} is more than half a turn; divide it, as cfree.collision.rotations does"
+                )
         values = (_point("pole", pole), turned.tau, clockwise, turned.theta_error)
         for name, value in zip(("pole", "tau", "clockwise", "angle_error"), values, strict=True):
             object.__setattr__(self, name, value)

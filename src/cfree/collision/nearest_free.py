@@ -10,10 +10,9 @@ import numpy as np
 from cfree.arguments import checked
 from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.pose_checker import Checker
+from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import InvalidPoseError
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
-from cfree.forbidden.boundary import Boundary
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.scene import Scene
 
@@ -25,20 +24,28 @@ NEAREST, FARTHEST = 1e-6, 10.0  # these radii, in lengths of the robot
 TURNS = (0.0, 1.0, -1.0, 5.0, -5.0, 15.0, -15.0, 45.0, -45.0, 90.0, -90.0, 180.0)  # degrees
 
 
+class ForbiddenPoseError(InvalidPoseError):
+    """A pose that is not free; `free` is a free pose near by, if one was found."""
+
+    def __init__(self, message: str, *, free: Pose | None = None) -> None:
+        super().__init__(message)
+        self.free = free
+
+
 @checked
-def require_free(scene: Scene | Boundary | Checker, pose: PoseLike, name: str = "pose") -> None:
+def require_free(scene: Scene | PoseChecker, pose: PoseLike, name: str = "pose") -> None:
     """See that a pose is free, exactly.
 
     Parameters
     ----------
-    scene : Scene, Boundary or Checker
+    scene : Scene or PoseChecker
     pose : Pose or (x, y, theta)
     name : str, optional
         What the message calls it.
 
     Raises
     ------
-    InvalidPoseError
+    ForbiddenPoseError
         If it is forbidden. The message names a part of the robot and what it overlaps, and a free pose near by, which
         is the error's `free`, if one was found.
 
@@ -49,21 +56,21 @@ def require_free(scene: Scene | Boundary | Checker, pose: PoseLike, name: str = 
     >>> require_free(scene, Pose(1, 2))
     >>> require_free(scene, Pose(1.25, 2), "start")
     Traceback (most recent call last):
-    cfree.errors.InvalidPoseError: start (1.25, 2, 0 deg) is forbidden: robot part 0 overlaps obstacle 0; \
-(0.96, 2, 0 deg) is free and near by
+    cfree.collision.nearest_free.ForbiddenPoseError: start (1.25, 2, 0 deg) is forbidden: \
+robot part 0 overlaps obstacle 0; (0.96, 2, 0 deg) is free and near by
     """
     pose = to_pose(pose, "pose")
-    checker = scene if isinstance(scene, Checker) else scene.checker if isinstance(scene, Boundary) else Checker(scene)
+    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     if checker.is_free(pose):
         return
     free = free_nearby(checker, pose)
     advice = "no free pose was found near by; give another" if free is None else f"{_shown(free)} is free and near by"
     fault = _overlap(checker.scene, pose)
-    raise InvalidPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
+    raise ForbiddenPoseError(f"{name} {_shown(pose)} is forbidden: {fault}; {advice}", free=free)
 
 
 @checked
-def free_nearby(scene: Scene | Checker, pose: PoseLike) -> Pose | None:
+def free_nearby(scene: Scene | PoseChecker, pose: PoseLike) -> Pose | None:
     """A free pose that is near another one, of few digits; not the nearest.
 
     Returns
@@ -80,7 +87,7 @@ def free_nearby(scene: Scene | Checker, pose: PoseLike) -> Pose | None:
     (0.96, 2.0, Fraction(0, 1))
     """
     pose = to_pose(pose, "pose")
-    checker = scene if isinstance(scene, Checker) else Checker(scene)
+    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     length = max(float(np.ptp(part.vertices, axis=0).max()) for part in checker.scene.robot)
     offsets = [_circle(NEAREST * length * GROWTH**k, length) for k in range(_circles())]
     turns = np.array([(0.0, 0.0, turn, 0.0) for turn in TURNS[1:]])

@@ -19,7 +19,6 @@ from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import InvalidPoseError
 from cfree.exact.pose import Floats, OnePose, Pose, PoseLike, Poses, one_pose, to_pose
-from cfree.forbidden.boundary import Boundary
 from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
 from cfree.value import Value
@@ -32,21 +31,21 @@ Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | 
 
 
 @overload
-def is_free(scene: Scene | Boundary, poses: OnePose, *, threads: int | None = None) -> bool: ...
+def is_free(scene: Scene | PoseChecker, poses: OnePose, *, threads: int | None = None) -> bool: ...
 @overload
 def is_free(
-    scene: Scene | Boundary, poses: Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+    scene: Scene | PoseChecker, poses: Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
 ) -> NDArray[np.bool_]: ...
 @checked
 def is_free(
-    scene: Scene | Boundary, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+    scene: Scene | PoseChecker, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
 ) -> bool | NDArray[np.bool_]:
     """Are poses free? Exact; touching is free, because the forbidden space is open.
 
     Parameters
     ----------
-    scene : Scene or Boundary
-        A boundary is asked for its scene only; what has been prepared is kept with it. `Checker` keeps it for a scene.
+    scene : Scene or PoseChecker
+        A `PoseChecker` keeps what has been prepared for a scene.
     poses : Pose or (x, y, theta), Poses, sequence of the former, or (n, 3) float64
         Columns x, y, theta in radians. Row k means the exact pose ``Poses(...)[k]``: x and y are the numbers that the
         doubles are, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
@@ -79,12 +78,12 @@ def is_free(
     >>> is_free(scene, [[1, 0, 0], [1, 1, math.pi / 2], [1, 1, math.pi]])
     array([ True,  True, False])
     """
-    checker = scene.checker if isinstance(scene, Boundary) else Checker(scene)
+    checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     return checker.is_free(poses, threads=threads)
 
 
 @checked
-class Checker(Value):
+class PoseChecker(Value):
     """A scene prepared for many calls of `is_free`.
 
     Parameters
@@ -94,7 +93,7 @@ class Checker(Value):
     Examples
     --------
     >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    >>> checker = Checker(Scene(robot=square, obstacles=square))
+    >>> checker = PoseChecker(Scene(robot=square, obstacles=square))
     >>> [checker.is_free(Pose(x, 0, "45deg")) for x in (1, 2)]
     [False, True]
     """
@@ -169,7 +168,7 @@ class Checker(Value):
         Examples
         --------
         >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-        >>> checker = Checker(Scene(robot=square, obstacles=[(3, 0), (4, 0), (4, 3)]))
+        >>> checker = PoseChecker(Scene(robot=square, obstacles=[(3, 0), (4, 0), (4, 3)]))
         >>> checker.sweep_is_free((0, 0, 0), (1.5, 0, 0.5)), checker.sweep_is_free((0, 0, 0), (9, 0, 0.5))
         (True, False)
         """

@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.surface import Surface
 from cfree.exact.pose import Pose
-from cfree.forbidden.mesh import robot_radius
 from cfree.forbidden.patch import Contact, Patch, Place
 from cfree.plot.strips import strips
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import WORKSPACE
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary

@@ -14,9 +14,10 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.forbidden.mesh import COLOURS, robot_radius
+from cfree.forbidden.mesh import COLOURS
 from cfree.plot.depth_sort import Colours, shaded
 from cfree.plot.strips import Strips, step_for, strips
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from matplotlib.collections import PolyCollection

@@ -14,11 +14,12 @@ from cfree.exact.pose import Pose
 from cfree.film.box import INK
 from cfree.film.moves import Moment, shape_of
 from cfree.film.painter import HELIX
-from cfree.forbidden.mesh import COLOURS, robot_radius
+from cfree.forbidden.mesh import COLOURS
 from cfree.forbidden.patch import Contact, Place
 from cfree.plot.boundary import FORBIDDEN
 from cfree.plot.workspace import BOUNDS, OBSTACLE, ROBOT, Window, path_of, rings_of, rings_of_geometry
 from cfree.scene.features import WORKSPACE
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

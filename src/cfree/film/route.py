@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.forbidden.mesh import robot_radius
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary

@@ -26,8 +26,8 @@ from cfree.exact.pose import Pose
 from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
 from cfree.film.painter import AZIMUTHS, HELIX
 from cfree.film.route import Clearance, route
-from cfree.forbidden.mesh import robot_radius
 from cfree.plot.boundary import extent
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary

@@ -19,10 +19,10 @@ from cfree.film.box import INK
 from cfree.film.frame import GREY, INCHES, MONO
 from cfree.film.painter import Eye
 from cfree.film.space import Space
-from cfree.forbidden.mesh import robot_radius
 from cfree.plot.boundary import extent, plain, set_window, with_unit
 from cfree.plot.path import LIMIT, Track, poses_of, quantity, statement
 from cfree.plot.workspace import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary

@@ -10,55 +10,22 @@ import os
 import sys
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-from numpy.typing import ArrayLike, NDArray
-
-import cfree
 from cfree.arguments import checked
 from cfree.collector import collection_paused
-from cfree.errors import IncompleteError, InvariantError
-from cfree.exact.half_angle import Angle, tau_in
-from cfree.forbidden.columns import CODED, COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.collision.pose_checker import PoseChecker
+from cfree.errors import InvariantError
+from cfree.exact.half_angle import Angle
+from cfree.forbidden.cell_complex import CellComplex, glue
+from cfree.forbidden.columns import CODED, IsolatedParts, Trapezoids
+from cfree.forbidden.mesh import Mesh, triangulated
 from cfree.forbidden.patch import IsolatedPart, Patches, Trapezoid
-from cfree.scene.features import BOUNDS, SceneFeatures, scene_features
+from cfree.forbidden.record import BoundaryRecord, Stats
+from cfree.forbidden.slice import Slice
+from cfree.scene.features import scene_features
 from cfree.scene.scene import Scene
-from cfree.value import Value
-
-VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
-
-
-@dataclass(frozen=True, slots=True)
-class Stats:
-    """What was computed: counts, who decided, seconds per phase.
-
-    Attributes
-    ----------
-    patches, live_patches : int
-        Contact patches before trimming, and those of which something is left.
-    trapezoids : int
-    pairs : int
-        Pairs of a patch and a pillar near it.
-    decided_by_identity, decided_by_filter, decided_by_intervals, decided_exactly : int
-        Signs and orders, by the rung that decided them: equal features; doubles with an error bound; intervals in
-        twice their precision; exact integers.
-    seconds : dict of str to float
-        By phase: features, trim, collect, isolated, and total, of all. `intervals` and `exact` are the parts of
-        `trim` that those two rungs took, summed over threads. Empty for a boundary read from a file.
-    """
-
-    patches: int
-    live_patches: int
-    trapezoids: int
-    pairs: int
-    decided_by_identity: int
-    decided_by_filter: int
-    decided_by_intervals: int
-    decided_exactly: int
-    seconds: dict[str, float] = field(compare=False)
 
 
 @checked
@@ -93,7 +60,7 @@ def boundary(
     ValueError
         If there are no threads, or a limit is negative.
     InvariantError
-        If the computation contradicts itself: a fault of cfree. Its `state` is the smallest scene found that does.
+        If the computation contradicts itself: a fault of cfree. Its `state` is the scene.
     KeyboardInterrupt
         Within a second of Ctrl-C.
 
@@ -113,20 +80,7 @@ def boundary(
     for name, limit in (("max_seconds", max_seconds), ("max_memory", max_memory)):
         if limit is not None and not limit >= 0:
             raise ValueError(f"{name}: {limit}; give 0 or more")
-    try:
-        return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
-    except InvariantError as error:
-        from cfree.scene.reduction import smallest_scene
-
-        raise InvariantError(error.what, state=smallest_scene(scene, _contradicts_itself)) from error
-
-
-def _contradicts_itself(scene: Scene) -> bool:
-    try:
-        _computed(scene, False, 1)
-    except InvariantError:
-        return True
-    return False
+    return _computed(scene, False, threads or os.cpu_count() or 1, max_seconds, max_memory, progress)
 
 
 def _computed(
@@ -203,8 +157,8 @@ def _has_ended(job: Any, scene: Scene) -> bool:
         raise InvariantError(str(error), state=scene) from error
 
 
-class Boundary(Value):
-    """Boundary of the forbidden space of a scene; see `boundary` and `load_boundary`.
+class Boundary(BoundaryRecord):
+    """Boundary of the forbidden space of a scene; see `boundary` and `load`.
 
     Attributes
     ----------
@@ -223,62 +177,8 @@ class Boundary(Value):
         Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch.
     """
 
-    def __init__(
-        self,
-        scene: Scene,
-        features: SceneFeatures,
-        kind: NDArray[np.uint8],
-        robot: Ints,
-        obstacle: Ints,
-        trapezoids: Trapezoids,
-        isolated: IsolatedParts,
-        stats: Stats,
-        trimmed: NDArray[np.uint8],
-    ) -> None:
-        self.scene = scene
-        self.features = features
-        self.contact_kind = kind
-        self.contact_robot = robot
-        self.contact_obstacle = obstacle
-        self.trapezoids = trapezoids
-        self.isolated = isolated
-        self.stats = stats
-        self.trimmed = trimmed.astype(bool)
-        columns = [getattr(trapezoids, name) for name in COLUMNS]
-        columns += [getattr(isolated, name) for name in ISOLATED_COLUMNS]
-        for array in (kind, robot, obstacle, self.trimmed, *columns):
-            array.flags.writeable = False
-
-    @property
-    def _content(self) -> tuple[Any, ...]:
-        """Without what it took to compute it."""
-        patches = self.contact_kind, self.contact_robot, self.contact_obstacle
-        return self.scene, *patches, self.trapezoids, self.isolated, self.trimmed
-
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (*self._content, self.stats)
-
-    def __repr__(self) -> str:
-        s = self.stats
-        fits = f", {len(self.isolated)} isolated parts" if len(self.isolated) else ""
-        part = "" if self.complete else f"INCOMPLETE: {self.trimmed.sum()} of {s.patches} patches trimmed; "
-        return f"Boundary({part}{s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids{fits})"
-
-    @property
-    def complete(self) -> bool:
-        """Whether every patch has been trimmed. What is not complete answers no question about what is free."""
-        return bool(self.trimmed.all())
-
-    def require_complete(self) -> None:
-        """Raise `IncompleteError` if a limit stopped the computation."""
-        if not self.complete:
-            done = f"{self.trimmed.sum()} of {len(self.trimmed)} patches were trimmed"
-            raise IncompleteError(f"incomplete: {done} before a limit stopped it; compute it again with a higher limit")
-
-    @cached_property
-    def patch_kind(self) -> NDArray[np.uint8]:
-        polygon = self.features.obstacles.owner_polygon
-        return np.where(polygon[self.contact_obstacle] == BOUNDS, 3, self.contact_kind).astype(np.uint8)
 
     @cached_property
     def patches(self) -> Patches:
@@ -286,24 +186,15 @@ class Boundary(Value):
         return Patches(self)
 
     @cached_property
-    def patch_start(self) -> NDArray[np.int64]:
-        """Trapezoids of patch k are ``patch_start[k]`` up to ``patch_start[k + 1]``."""
-        return np.searchsorted(self.trapezoids.patch, np.arange(len(self.contact_kind) + 1))
-
-    @cached_property
-    def complex(self) -> cfree.CellComplex:
+    def complex(self) -> CellComplex:
         """The trapezoids glued into closed surfaces; computed when first asked for."""
-        from cfree.forbidden.cell_complex import glue
-
         self.require_complete()
         return glue(self)
 
     @cached_property
-    def checker(self) -> cfree.Checker:
+    def checker(self) -> PoseChecker:
         """The scene prepared for `cfree.is_free`; when first asked for."""
-        from cfree.collision.pose_checker import Checker
-
-        return Checker(self.scene, self.features)
+        return PoseChecker(self.scene, self.features)
 
     @cached_property
     def regularized(self) -> Boundary:
@@ -324,91 +215,8 @@ class Boundary(Value):
         """Trapezoid k with its curves and angles named."""
         return Trapezoid.of(self, range(len(self.trapezoids))[k])
 
-    @cached_property
-    def ruled(self) -> Floats:
-        ruled = self._ruled_near.copy()
-        ruled[:, 0:2] = self.features.obstacles.xy[self.contact_obstacle]
-        ruled[:, 4:6] = self.features.robot.xy[self.contact_robot]
-        ruled.flags.writeable = False
-        return ruled
-
-    @cached_property
-    def _ruled_near(self) -> Floats:
-        a, b = self.features.robot, self.features.obstacles
-        on_edge = self.contact_kind == VERTEX_EDGE
-        i, j = self.contact_robot, self.contact_obstacle
-        ruled = np.zeros((len(i), 8))
-        ruled[:, 0:2], ruled[:, 4:6] = b.near[j], a.near[i]
-        ruled[on_edge, 2:4] = (b.near[b.w] - b.near[b.v])[j[on_edge]]
-        ruled[~on_edge, 6:8] = (a.near[a.w] - a.near[a.v])[i[~on_edge]]
-        return ruled
-
-    @cached_property
-    def phi_min(self) -> Floats:
-        """(P,) radians in [0, 2 pi): where each patch begins (paper, 3.1.1 and 3.2.1)."""
-        a, b = self.features.robot, self.features.obstacles
-        on_edge = self.contact_kind == VERTEX_EDGE
-        f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
-        g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
-        cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
-        angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
-        return np.where(self.patch_kind == 3, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
-
-    @cached_property
-    def phi_range(self) -> Floats:
-        """(P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
-        at_robot = self.features.robot.turning[self.contact_robot]
-        at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
-        turning = np.where(self.contact_kind == VERTEX_EDGE, at_robot, at_obstacle)
-        return np.where(self.patch_kind == 3, 2 * np.pi, turning)
-
     @checked
-    def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
-        """Reference point S(t, theta) on patches, eqs. (5) and (8).
-
-        Parameters
-        ----------
-        patch : (k,) int
-        t : (k,) float, along the edge
-        theta : (k,) float, radians
-
-        Returns
-        -------
-        (k, 2) float64
-        """
-        return self.evaluate_near(patch, t, theta) + self.features.moved(theta)
-
-    @checked
-    def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
-        """The same from the features' frame, which keeps areas and has all digits in scenes that are far away."""
-        s, t, theta = self._ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
-        ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
-        c, n = np.cos(theta), np.sin(theta)
-        x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
-        return np.stack([x, y], axis=-1)
-
-    @checked
-    def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:
-        """Limits of t of trapezoids at orientations within them.
-
-        Parameters
-        ----------
-        trapezoid : (k,) int
-        theta : (k,) float, radians
-
-        Returns
-        -------
-        lower, upper : (k,) float64
-        """
-        chosen = np.ascontiguousarray(trapezoid, np.int32)
-        chart = self.trapezoids.chart[chosen]
-        tau = np.ascontiguousarray(tau_in(chart, theta))
-        lower, upper = np.empty(len(chosen)), np.empty(len(chosen))
-        self.slicer.limits(chosen, chart.astype(np.int32), tau, lower, upper)
-        return lower, upper
-
-    @checked
-    def slice(self, theta: Angle) -> cfree.Slice:
+    def slice(self, theta: Angle) -> Slice:
         """The contact segments at one orientation.
 
         Parameters
@@ -424,13 +232,11 @@ class Boundary(Value):
         -----
         Time is proportional to the output, after a look-up; nothing is trimmed again.
         """
-        from cfree.forbidden.slice import Slice
-
         self.require_complete()
         return Slice(self, theta)
 
     @checked
-    def mesh(self, error: float, *, angle_scale: float | None = None) -> cfree.Mesh:
+    def mesh(self, error: float, *, angle_scale: float | None = None) -> Mesh:
         """Closed triangle meshes within a stated distance of the boundary.
 
         Parameters
@@ -465,25 +271,5 @@ class Boundary(Value):
         >>> len(mesh.vertices) - len(mesh.seam) - len(mesh.triangles) // 2   # V - E + F of a torus
         0
         """
-        from cfree.forbidden.mesh import triangulated
-
         self.require_complete()
-        return triangulated(self, error, angle_scale)
-
-    @cached_property
-    def slicer(self) -> Any:
-        from cfree import _core
-
-        a, b, t = self.features.robot, self.features.obstacles, self.trapezoids
-        return _core.Slicer(
-            a.near_shape(), b.near_shape(), a.near.ravel(), b.near.ravel(),
-            self.contact_kind, self.contact_robot, self.contact_obstacle,
-            t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to, self.features.frame,
-        )  # fmt: skip
-
-    @checked
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write scene and boundary to one file, all of it or nothing; `load_boundary` reads it."""
-        from cfree.formats.boundary_file import save_boundary
-
-        save_boundary(self, path)
+        return triangulated(self, self.complex, error, angle_scale)

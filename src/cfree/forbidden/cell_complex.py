@@ -22,8 +22,7 @@ from cfree.forbidden.columns import COLUMNS, Floats, Ints
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.forbidden.boundary import Boundary
-    from cfree.scene.scene import Scene
+    from cfree.forbidden.record import BoundaryRecord
 
 SIDES = ("from", "upper", "to", "lower")
 
@@ -142,28 +141,18 @@ class CellComplex(Value):
         return order, np.searchsorted(self.edge[order], np.arange(self.edges + 1))
 
 
-def glue(boundary: Boundary) -> CellComplex:
+def glue(boundary: BoundaryRecord) -> CellComplex:
     """Match the sides of all trapezoids, exactly, by what they are.
 
     Raises
     ------
     InvariantError
-        If a side has no partner or a surface is not closed: a fault of cfree. Its `state` is the smallest scene found
-        that shows it.
+        If a side has no partner or a surface is not closed: a fault of cfree. Its `state` is the scene.
 
     Notes
     -----
     Time is about linear in the trapezoids.
     """
-    from cfree.scene.reduction import smallest_scene
-
-    try:
-        return _glued(boundary)
-    except InvariantError as error:
-        raise InvariantError(error.what, state=smallest_scene(boundary.scene, _cannot_be_glued)) from error
-
-
-def _glued(boundary: Boundary) -> CellComplex:
     from cfree import _core
 
     features = boundary.features
@@ -173,7 +162,7 @@ def _glued(boundary: Boundary) -> CellComplex:
     try:
         first, face, side, twin, edge, vertex, component, x, y, theta, *counts = _core.glue(*shapes, *columns)
     except RuntimeError as error:
-        raise InvariantError(f"the boundary is not closed: {error}") from error
+        raise InvariantError(f"the boundary is not closed: {error}", state=boundary.scene) from error
     near = np.column_stack((x, y)) * (2**features.robot.near_shift / features.scale)
     x, y = (near + features.moved(theta)).T.copy()
     arrays = (first, face, side, twin, edge, vertex, component, x, y, theta, near)
@@ -181,15 +170,6 @@ def _glued(boundary: Boundary) -> CellComplex:
         array.flags.writeable = False
     cells = CellComplex(*arrays, *counts)
     if np.any(cells.euler % 2 != 0) or np.any(cells.euler > 2):
-        raise InvariantError(f"Euler numbers {cells.euler.tolist()}; those of closed surfaces are even and at most 2")
+        wrong = f"Euler numbers {cells.euler.tolist()}; those of closed surfaces are even and at most 2"
+        raise InvariantError(wrong, state=boundary.scene)
     return cells
-
-
-def _cannot_be_glued(scene: Scene) -> bool:
-    from cfree.forbidden.boundary import boundary
-
-    try:
-        _glued(boundary(scene, threads=1))
-    except InvariantError:
-        return True
-    return False

@@ -12,7 +12,7 @@ from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import CURVE
 
 if TYPE_CHECKING:
-    from cfree.forbidden.boundary import Boundary
+    from cfree.forbidden.record import BoundaryRecord
 
 Floats = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ STEP = math.radians(2)
 SAME = 1e-9  # radians; for the eye only
 
 
-def isolated_lines(boundary: Boundary) -> list[Floats]:
+def isolated_lines(boundary: BoundaryRecord) -> list[Floats]:
     """Lines of all isolated parts, (k, 3) each: x, y and theta in degrees, in [0, 360].
 
     A curve across theta = 0 is cut there.
@@ -40,7 +40,7 @@ def isolated_lines(boundary: Boundary) -> list[Floats]:
     return lines
 
 
-def isolated_at(boundary: Boundary, theta: float) -> list[Floats]:
+def isolated_at(boundary: BoundaryRecord, theta: float) -> list[Floats]:
     """What of the isolated parts is at one orientation: points (1, 2) of curves, segments and points (2, 2)."""
     parts, found = boundary.isolated, []
     for k, (kind, first, last) in enumerate(zip(parts.kind, parts.theta_from, parts.theta_to, strict=True)):
@@ -55,7 +55,7 @@ def isolated_at(boundary: Boundary, theta: float) -> list[Floats]:
     return found
 
 
-def _on_curve(boundary: Boundary, k: int, theta: Floats) -> Floats:
+def _on_curve(boundary: BoundaryRecord, k: int, theta: Floats) -> Floats:
     """Points of the isolated curve k, (n, 2): where the curve that names it meets its patch's line."""
     from cfree import _core
 

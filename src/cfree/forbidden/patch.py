@@ -16,8 +16,8 @@ from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.value import Value
 
 if TYPE_CHECKING:
-    from cfree.forbidden.boundary import Boundary
     from cfree.forbidden.columns import Trapezoids
+    from cfree.forbidden.record import BoundaryRecord
 
 KINDS = {1: "v-e", 2: "e-v", 3: "v-v", 4: "e-e"}
 
@@ -97,7 +97,7 @@ class Trapezoid:
     stop: CriticalAngle
 
     @classmethod
-    def of(cls, boundary: Boundary, k: int) -> Trapezoid:
+    def of(cls, boundary: BoundaryRecord, k: int) -> Trapezoid:
         t = boundary.trapezoids
         return cls(
             index=k,
@@ -139,7 +139,7 @@ class IsolatedPart:
     ends: tuple[tuple[float, float, float], tuple[float, float, float]]
 
     @classmethod
-    def of(cls, boundary: Boundary, k: int) -> IsolatedPart:
+    def of(cls, boundary: BoundaryRecord, k: int) -> IsolatedPart:
         p = boundary.isolated
         theta = np.array([p.theta_from[k], p.theta_to[k]])
         patch, t = np.array([p.lower_patch[k], p.upper_patch[k]]), np.array([p.first_t[k], p.last_t[k]])
@@ -156,7 +156,7 @@ class IsolatedPart:
         )
 
 
-def _angle(boundary: Boundary, columns: Trapezoids, end: str, k: int) -> CriticalAngle:
+def _angle(boundary: BoundaryRecord, columns: Trapezoids, end: str, k: int) -> CriticalAngle:
     first, second = int(getattr(columns, f"{end}_first")[k]), int(getattr(columns, f"{end}_second")[k])
     lo, hi = float(getattr(columns, f"{end}_lo")[k]), float(getattr(columns, f"{end}_hi")[k])
     features = tuple(contact(boundary, code) for code in (first, second) if code)
@@ -170,21 +170,21 @@ def _angle(boundary: Boundary, columns: Trapezoids, end: str, k: int) -> Critica
     return CriticalAngle(kind, features, (lo, hi), place, float(theta_in(int(columns.chart[k]), 0.5 * (lo + hi))))
 
 
-def contact(boundary: Boundary, code: int) -> Contact:
+def contact(boundary: BoundaryRecord, code: int) -> Contact:
     """The contact that a packed pair of features names."""
     kind, i, j = unpacked(code)
     robot_edge, obstacle_edge = kind in (2, 4), kind in (1, 4)
     return Contact(KINDS[kind], robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge))
 
 
-def robot_place(boundary: Boundary, feature: int, is_edge: bool) -> Place:
+def robot_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
     polygon, index, end = _owner(boundary.features.robot, feature, is_edge)
     if polygon == BOUNDS:
         return Place(polygon, "reference point", 0, 0)
     return Place(polygon, "robot", _ring(boundary.scene.robot[polygon].ring_offsets, index), index, end)
 
 
-def obstacle_place(boundary: Boundary, feature: int, is_edge: bool) -> Place:
+def obstacle_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
     scene = boundary.scene
     polygon, index, end = _owner(boundary.features.obstacles, feature, is_edge)
     if polygon == BOUNDS:
@@ -248,11 +248,11 @@ class Patch:
 class Patches(Value, Sequence[Patch]):
     """Patches of a boundary, made when asked for."""
 
-    def __init__(self, boundary: Boundary) -> None:
+    def __init__(self, boundary: BoundaryRecord) -> None:
         self._boundary = boundary
 
     @property
-    def _content(self) -> tuple[Boundary]:
+    def _content(self) -> tuple[BoundaryRecord]:
         return (self._boundary,)
 
     def __len__(self) -> int:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from shapely.geometry.base import BaseGeometry
 
 from cfree.exact.half_angle import Angle, place_of
-from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.record import BoundaryRecord
 from cfree.value import Value
 
 
@@ -28,7 +28,7 @@ class Slice(Value):
         Whose segments they are.
     """
 
-    def __init__(self, boundary: Boundary, theta: Angle) -> None:
+    def __init__(self, boundary: BoundaryRecord, theta: Angle) -> None:
         self.theta, chart, tau = place_of(theta)
         self.boundary, self._asked = boundary, theta
         self._place = chart, tau

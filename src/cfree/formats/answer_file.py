@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+import math
 from os import PathLike
 from pathlib import Path as FilePath
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
+from cfree.errors import UnsupportedError
+from cfree.formats.atomic import replacing
+from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
+from cfree.scene.digest import stamp_for
+from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
+
+
+FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files with paths
 
 
 @checked
@@ -31,7 +40,7 @@ def load_answer(path: str | PathLike[str]) -> Path | Separated:
     >>> square = Scene([(0, 0), (1, 0), (1, 1), (0, 1)])
     >>> way = Path(Pose(0, 0, {"tau": "1/3"}), [Translation(("1/3", 2))], scene=square)
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     way.save(f"{folder}/way.json")
+    ...     save_path(way, f"{folder}/way.json")
     ...     load_answer(f"{folder}/way.json") == way
     True
     """
@@ -47,3 +56,88 @@ def read_answer(path: str | PathLike[str]) -> Read:
     file = FilePath(path)
     findings = Findings(str(file), read_text(file))
     return answer_from_json(findings, read_json(findings))
+
+
+def save_path(
+    path: Path,
+    file: str | PathLike[str],
+    *,
+    step: float | None = None,
+    turn: float = math.radians(5),
+    scene: Scene | None = None,
+    form: str | None = None,
+) -> None:
+    """Write a path to a file, whole or not at all.
+
+    Parameters
+    ----------
+    path : Path
+    file : path
+        ``.json`` holds the motions, exactly. ``.csv`` holds poses x, y, theta, which is not wrapped, and ``.yaml``
+        the same as a ROS nav_msgs/Path. ``.geojson`` holds the way of the reference point, and the robot's outlines
+        at these poses.
+    step, turn : float
+        As in `Path.sample`; step is needed for all but ``.json``.
+    scene : Scene, optional
+        That of the path, if it does not know it; needed for ``.json`` and ``.geojson``.
+    form : "json", "csv", "ros" or "geojson", optional
+        Instead of what the file's name says.
+
+    Raises
+    ------
+    UnsupportedError
+        If the file's name ends otherwise, or there is no such form.
+    ValueError
+        If step or scene is missing.
+    """
+    from cfree.formats.path_format import path_text
+    from cfree.formats.poses_text import csv_text, geojson_text, ros_text
+
+    kind, scene = form_of(file, form), scene or path.scene
+    if kind == "json":
+        stamp = stamp_for(file, scene, path.stamp)
+        text = path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
+    elif step is None:
+        raise ValueError(f"{file}: no step; give the longest distance between poses")
+    elif kind == "csv":
+        text = csv_text(path, step, turn)
+    elif kind == "ros":
+        text = ros_text(path, step, turn)
+    elif scene is None:
+        raise ValueError(f"{file}: no scene; give the one whose robot moves")
+    else:
+        text = geojson_text(path, scene, step, turn)
+    with replacing(file) as unfinished:
+        unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def save_separation(proof: Separated, file: str | PathLike[str]) -> None:
+    """Write a separation to a ``.json`` file, exactly, whole or not at all.
+
+    Raises
+    ------
+    UnsupportedError
+        If the file's name ends otherwise.
+    ValueError
+        If there is no scene.
+    """
+    from cfree.formats.separation_format import separation_text
+
+    if FilePath(file).suffix.lower() != ".json":
+        raise UnsupportedError(f"{file}: separations are written as .json; name the file so")
+    text = separation_text(proof, stamp_for(file, proof.scene, proof.stamp))
+    with replacing(file) as unfinished:
+        unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def form_of(file: str | PathLike[str], form: str | None) -> str:
+    """Of the forms a path may be written in, the one asked for, or that of the file's name."""
+    names = " or ".join(f'"{name}"' for name in FORMS.values())
+    if form is not None:
+        if form not in FORMS.values():
+            raise UnsupportedError(f"{form!r} is no form of a path; give {names}")
+        return form
+    suffix = FilePath(file).suffix.lower()
+    if suffix not in FORMS:
+        raise UnsupportedError(f"{file}: paths are written as {', '.join(FORMS)}; name the file so, or give the form")
+    return FORMS[suffix]

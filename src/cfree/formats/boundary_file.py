@@ -17,9 +17,11 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.errors import FormatError
-from cfree.forbidden.boundary import Boundary, Stats
+from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
+from cfree.forbidden.record import Stats
 from cfree.formats.atomic import checked_suffix, replacing
+from cfree.free.space import FreeSpace
 from cfree.scene.features import SceneFeatures, scene_features, unpacked
 
 CELL_COLUMNS = ("component", "parent", "free_inside", "turns", "lift")
@@ -70,7 +72,7 @@ def signed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> dic
 
 @checked
 def load_boundary(path: str | os.PathLike[str]) -> Boundary:
-    """Read a boundary written by `Boundary.save`.
+    """Read a boundary written by `save`.
 
     Raises
     ------
@@ -85,15 +87,42 @@ def read_boundary(path: str | os.PathLike[str]) -> Boundary:
     return _read(os.fspath(path))[0]
 
 
-def load_cells(path: str | os.PathLike[str]) -> tuple[Boundary, dict[str, NDArray[Any]]]:
-    """Read a boundary and the columns of its cells, written by `FreeSpace.save`; errors as of `load_boundary`."""
+def save_space(space: FreeSpace, path: str | os.PathLike[str]) -> None:
+    """Write scene, boundary and nesting to one file; `load_space` reads it, `load_boundary` too."""
+    save_boundary(space.boundary, path, {f"cells_{name}": getattr(space, name) for name in CELL_COLUMNS})
+
+
+@checked
+def load_space(path: str | os.PathLike[str]) -> FreeSpace:
+    """Read a free space written by `save`.
+
+    Raises
+    ------
+    FormatError
+        If the file is missing, truncated, not of this format and version, or of a boundary without its cells.
+    """
     name = os.fspath(path)
     boundary, arrays = _load(name)
-    columns = {column: arrays[f"cells_{column}"] for column in CELL_COLUMNS if f"cells_{column}" in arrays}
-    wrong = "no cells are in it" if len(columns) < len(CELL_COLUMNS) else _cells_misfit(boundary, **columns)
-    if wrong:
-        raise FormatError(f"{name}: {wrong}; make it again with `FreeSpace.save`", path=name)
-    return boundary, columns
+    columns = _cells(arrays)
+    wrong = _cells_misfit(boundary, **columns) if columns else "no cells are in it"
+    if not wrong:
+        space = FreeSpace(boundary, **columns)
+        if len(space.component) == len(space.walls.trapezoids):
+            return space
+        wrong = "cells_component does not fit the rest"
+    raise FormatError(f"{name}: {wrong}; make it again with `cfree.save`", path=name)
+
+
+def load_archive(path: str | os.PathLike[str]) -> Boundary | FreeSpace:
+    """Whichever of the two is in the file."""
+    boundary, arrays = _load(os.fspath(path))
+    return load_space(path) if _cells(arrays) else boundary
+
+
+def _cells(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """The columns of cells; none unless all are there."""
+    names = {f"cells_{column}": column for column in CELL_COLUMNS}
+    return {names[key]: arrays[key] for key in names} if names.keys() <= arrays.keys() else {}
 
 
 def _load(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:

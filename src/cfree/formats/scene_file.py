@@ -58,10 +58,11 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     """
     findings = _open(path)
     with collection_paused():
-        return _scene(findings)
+        return scene_from(findings)
 
 
-def _scene(findings: Findings) -> Scene:
+def scene_from(findings: Findings) -> Scene:
+    """The scene that a file in one of the three formats holds."""
     if _is_wkt(findings):
         from cfree.formats.shapes import scene_from_shapes
         from cfree.formats.wkt import wkt_shapes

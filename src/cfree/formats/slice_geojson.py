@@ -19,7 +19,8 @@ from typing import TYPE_CHECKING, Any
 from cfree.formats.atomic import checked_suffix, replacing
 
 if TYPE_CHECKING:
-    from cfree.forbidden.slice import Slice
+    from cfree.forbidden.patch import Patches
+from cfree.forbidden.slice import Slice
 
 
 def slice_geojson(cut: Slice) -> dict[str, Any]:
@@ -38,7 +39,7 @@ def slice_geojson(cut: Slice) -> dict[str, Any]:
 
     region = shapely.geometry.mapping(shapely.orient_polygons(cut.forbidden))
     features = [_feature(region, role="forbidden", theta=cut.theta)]
-    patches = cut.boundary.patches
+    patches = Patches(cut.boundary)
     for ends, k in zip(cut.segments.tolist(), cut.patches.tolist(), strict=True):
         patch = patches[k]
         features.append(

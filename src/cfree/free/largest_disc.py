@@ -3,22 +3,37 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
 import shapely
 
+from cfree.arguments import checked
 from cfree.exact.pose import Pose
-
-if TYPE_CHECKING:
-    from cfree.free.space import Cell
+from cfree.free.space import Cell
 
 ORIENTATIONS = 9
 PRECISION = 1e-3  # of a disc's radius, relative to its slice's extent
 
 
-def roomiest(cell: Cell) -> tuple[Pose, float] | None:
-    """The centre of the largest disc found, and its radius; see `Cell.roomiest`."""
+@checked
+def largest_disc(cell: Cell) -> tuple[Pose, float] | None:
+    """A pose in a cell, and the radius of a disc in which it may be put at that orientation without a collision.
+
+    Returns
+    -------
+    (Pose, float) or None
+        The largest found at nine orientations of the cell; None if it is too narrow there for one of more than
+        rounding. Of an unbounded cell the largest near the obstacles; infinite if there are none.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> room = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], workspace=room)
+    >>> pose, radius = largest_disc(cfree.free_space(cfree.boundary(scene)).cells[0])
+    >>> 1.2 < radius < 1.5
+    True
+    """
     boundary = cell.free_space.walls
     start, stop = cell.theta_range
     if len(boundary.trapezoids) == 0:

@@ -19,17 +19,15 @@ import numpy as np
 from flint import fmpz_poly
 from numpy.typing import NDArray
 
-import cfree
 from cfree.arguments import checked
 from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
-from cfree.errors import FormatError, InvalidPoseError, InvariantError
+from cfree.errors import InvalidPoseError, InvariantError
 from cfree.exact.half_angle import chart_of, tau_in_chart
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.columns import COLUMNS, Floats, Ints, Trapezoids
-from cfree.formats.boundary_file import CELL_COLUMNS, load_cells, save_boundary
 from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.paths.path import Objective, Path
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.value import Value
 
@@ -77,17 +75,6 @@ class Cell(Value):
     def volume(self) -> float:
         """In length^2 radians, infinite if unbounded; see `FreeSpace.volumes`."""
         return float(self.free_space.volumes[self.index])
-
-    @cached_property
-    def roomiest(self) -> tuple[Pose, float] | None:
-        """A pose in it, and the radius of a disc in which it may be put at that orientation without a collision.
-
-        The largest found at nine orientations of it; None if it is too narrow there for one of more than rounding. Of
-        an unbounded cell the largest near the obstacles; infinite if there are none.
-        """
-        from cfree.free.largest_disc import roomiest
-
-        return roomiest(self)
 
 
 @dataclass(frozen=True)
@@ -172,7 +159,7 @@ class FreeSpace(Value):
         return f"FreeSpace({n} cell{'s' * (n != 1)}, {caged} caged, {len(self.parent)} closed surfaces)"
 
     @property
-    def complex(self) -> cfree.CellComplex:
+    def complex(self) -> CellComplex:
         """The closed surfaces, of `walls`."""
         return self.walls.complex
 
@@ -245,28 +232,6 @@ class FreeSpace(Value):
 
         return trapezoid_integrals(walls, along_t)
 
-    @checked
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write scene, boundary and nesting to one file, all of it or nothing; `load` reads it, `load_boundary` too."""
-        save_boundary(self.boundary, path, {f"cells_{name}": getattr(self, name) for name in CELL_COLUMNS})
-
-    @classmethod
-    @checked
-    def load(cls, path: str | os.PathLike[str]) -> FreeSpace:
-        """Read what `save` has written.
-
-        Raises
-        ------
-        FormatError
-            If the file is missing, truncated, not of this format and version, or of a boundary without its cells.
-        """
-        boundary, columns = load_cells(path)
-        space = cls(boundary, **columns)
-        if len(space.component) != len(space.walls.trapezoids):
-            fault = "cells_component does not fit the rest; make it again with `FreeSpace.save`"
-            raise FormatError(f"{os.fspath(path)}: {fault}", path=str(path))
-        return space
-
     @overload
     def locate(self, poses: OnePose, *, threads: int | None = None) -> int: ...
     @overload
@@ -315,27 +280,6 @@ class FreeSpace(Value):
                     cell[m] = NO_CELL
             found[k + asked] = cell
         return found
-
-    @checked
-    def plan(
-        self, start: PoseLike, goal: PoseLike, *, improve: float | None = None, objective: Objective = "short"
-    ) -> Path | cfree.Separated:
-        """A path from start to goal, or a proof that there is none: `cfree.plan` with the free space known.
-
-        Notes
-        -----
-        Which of the two it is takes two calls of `locate`, unless exact fits join cells.
-        """
-        start = to_pose(start, "start")
-        goal = to_pose(goal, "goal")
-        return self.planner.plan(start, goal, improve=improve, objective=objective)
-
-    @cached_property
-    def planner(self) -> cfree.Planner:
-        """What has been prepared for `plan`."""
-        from cfree.planning.planner import Planner
-
-        return Planner(self.boundary.scene, self)
 
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
@@ -417,7 +361,7 @@ class FreeSpace(Value):
         start = to_pose(start, "start")
         from cfree.collision.nearest_free import require_free
 
-        require_free(self.boundary, start, "start")
+        require_free(self.boundary.checker, start, "start")
         cell = self.locate(start)
         if cell == NO_CELL:
             raise InvalidPoseError("start is free, but an exact fit, in the closure of no cell; see Boundary.isolated")
@@ -437,11 +381,6 @@ class FreeSpace(Value):
             depth += above >= 0
             above = np.where(above >= 0, self.parent[above], -1)
         return depth
-
-    @cached_property
-    def insets(self) -> dict[int, FreeSpace | None]:
-        """Free spaces of smaller robots, as far as they were needed; see `cfree.planning.inset.inset_space`."""
-        return {}
 
 
 @checked

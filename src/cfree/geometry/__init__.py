@@ -2,5 +2,40 @@
 
 `local` has forms, curvatures and directions at a point; `rulings` what the lines on a surface say of it; `area` areas;
 `development` unrolls v-e surfaces, with `elliptic` integrals; `congruence` finds equal helices, surfaces and patches;
-`ruled` reads the eight numbers of a surface. The public names are in `cfree`.
+`ruled` reads the eight numbers of a surface.
 """
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.geometry.area import patch_areas as patch_areas
+    from cfree.geometry.area import trapezoid_areas as trapezoid_areas
+    from cfree.geometry.congruence import arc_classes as arc_classes
+    from cfree.geometry.congruence import helix_classes as helix_classes
+    from cfree.geometry.congruence import patch_classes as patch_classes
+    from cfree.geometry.congruence import surface_classes as surface_classes
+    from cfree.geometry.development import develop as develop
+    from cfree.geometry.local import LocalGeometry as LocalGeometry
+    from cfree.geometry.local import local_geometry as local_geometry
+    from cfree.geometry.rulings import distribution_parameters as distribution_parameters
+    from cfree.geometry.rulings import is_developable as is_developable
+    from cfree.geometry.rulings import is_helicoid as is_helicoid
+    from cfree.geometry.rulings import is_minimal as is_minimal
+    from cfree.geometry.rulings import striction_curve as striction_curve
+    from cfree.geometry.rulings import striction_is_on_patch as striction_is_on_patch
+    from cfree.geometry.rulings import striction_parameter as striction_parameter
+    from cfree.geometry.rulings import striction_parameters as striction_parameters
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    {
+        "area": "patch_areas trapezoid_areas",
+        "congruence": "arc_classes helix_classes patch_classes surface_classes",
+        "development": "develop",
+        "local": "LocalGeometry local_geometry",
+        "rulings": "distribution_parameters is_developable is_helicoid is_minimal "
+        "striction_curve striction_is_on_patch striction_parameter striction_parameters",
+    },
+)

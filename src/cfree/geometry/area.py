@@ -52,7 +52,8 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
 
     Examples
     --------
-    >>> from cfree import EdgeVertex, Polygon, angle_range, contact_surface
+    >>> from cfree.contact import EdgeVertex, angle_range, contact_surface
+    >>> from cfree import Polygon
     >>> square = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)])
     >>> S, Phi = contact_surface(square, square, EdgeVertex(0, 0)), angle_range(square, square, EdgeVertex(0, 0))
     >>> float(patch_areas(S.ruled, Phi.phi_min, Phi.phi_range) / (np.pi / 4 * (np.sqrt(2) + np.arcsinh(1))))

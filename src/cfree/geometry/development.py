@@ -48,7 +48,8 @@ def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: floa
 
     Examples
     --------
-    >>> from cfree import Polygon, VertexEdge, contact_surface
+    >>> from cfree import Polygon
+    >>> from cfree.contact import VertexEdge, contact_surface
     >>> S = contact_surface(Polygon([(0, 0), (1, 0), (0, 1)]), Polygon([(3, 1), (5, 1), (3, 4)]), VertexEdge(0, 0))
     >>> develop(S.ruled, [0, 1], [0, 0.5])
     array([[0. , 3. ],

@@ -159,7 +159,8 @@ def local_geometry(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scal
 
     Examples
     --------
-    >>> from cfree import EdgeVertex, Polygon, contact_surface
+    >>> from cfree.contact import EdgeVertex, contact_surface
+    >>> from cfree import Polygon
     >>> square = Polygon([(-1, -1), (1, -1), (1, 1), (-1, 1)])
     >>> S = contact_surface(square, square, EdgeVertex(0, 2))
     >>> at = local_geometry(S.ruled, [0, 0.5, 1], 0)

@@ -24,7 +24,8 @@ def is_developable(surface: Surface) -> bool:
 
     Examples
     --------
-    >>> from cfree import EdgeVertex, Polygon, VertexEdge, contact_surface
+    >>> from cfree.contact import EdgeVertex, VertexEdge, contact_surface
+    >>> from cfree import Polygon
     >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     >>> [is_developable(contact_surface(square, square, contact)) for contact in (VertexEdge(0, 0), EdgeVertex(0, 0))]
     [True, False]
@@ -56,7 +57,8 @@ def is_minimal(surface: Surface) -> bool:
 
     Examples
     --------
-    >>> from cfree import EdgeVertex, Polygon, VertexEdge, contact_surface
+    >>> from cfree.contact import EdgeVertex, VertexEdge, contact_surface
+    >>> from cfree import Polygon
     >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     >>> [is_minimal(contact_surface(square, square, EdgeVertex(i, 0))) for i in range(4)]
     [True, False, False, True]
@@ -77,7 +79,8 @@ def striction_parameter(surface: Surface) -> Fraction | None:
 
     Examples
     --------
-    >>> from cfree import EdgeVertex, Polygon, contact_surface
+    >>> from cfree.contact import EdgeVertex, contact_surface
+    >>> from cfree import Polygon
     >>> triangle = Polygon([(1, -1), (4, 2), (0, 1)])
     >>> striction_parameter(contact_surface(triangle, triangle, EdgeVertex(0, 0)))
     Fraction(0, 1)

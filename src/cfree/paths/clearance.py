@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 import numpy as np
@@ -12,13 +12,79 @@ from cfree.arguments import checked
 from cfree.collision.distance import Floats, Ints, Walls
 from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.paths.path import Clearance, Path
+from cfree.paths.path import Path
 from cfree.paths.travel import Pace, reach
 from cfree.scene.scene import Scene
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
 MOST = 1 << 12  # parts of motions looked at together: where more would be needed, what is known is the bound
 ROUNDING = 2.0**-40  # relative to the coordinates: a thousand times what placing and measuring round away
+
+
+@dataclass(frozen=True)
+class Clearance:
+    """The least distance between robot and obstacles along a path.
+
+    Attributes
+    ----------
+    least : float
+        Certified: no pose of the path has less. 0 if the path touches, or comes closer than the tolerance.
+    found : float
+        The distance at the pose found, correct but for rounding.
+    motion : int
+    share : float
+        Where: the share of that motion.
+    robot : (polygon, edge)
+    obstacle : (obstacle, edge)
+        The two closest edges there; -2 stands for the workspace.
+    """
+
+    least: float
+    found: float
+    motion: int
+    share: float
+    robot: tuple[int, int]
+    obstacle: tuple[int, int]
+
+
+@checked
+def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clearance | None:
+    """The least distance of a path from obstacles and workspace, with a certified lower bound.
+
+    Parameters
+    ----------
+    path : Path
+    scene : Scene
+        In which the path is free; bounds are no bodies and have no distance.
+    tolerance : float, optional
+        How far `least` may be below the truth, if that does not take too many steps. Unless given, a thousandth of
+        the robot's radius, or a quarter of what is found where that is less.
+
+    Returns
+    -------
+    Clearance, or None if there is nothing to be near to
+
+    Raises
+    ------
+    ValueError
+        If the path is not free, or the tolerance not positive.
+
+    Notes
+    -----
+    Every motion is halved until no part of it can hold a distance smaller, by more than the tolerance, than the
+    least one found: a pose is at most as much closer as the robot's farthest vertex travels. The time is that of
+    about (length / tolerance) distances for a path that keeps its distance from a wall, and mostly much less.
+
+    Examples
+    --------
+    >>> from cfree import Pose, Scene
+    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    >>> scene = Scene(robot=square, obstacles=[(2, "1.25"), (5, "1.25"), (5, 3), (2, 3)])
+    >>> found = clearance(Path(Pose(0, 0), [Translation((7, 0))]), scene, tolerance=1e-3)
+    >>> found.found, found.least > 0.249, found.obstacle
+    (0.25, True, (0, 0))
+    """
+    return least_clearance(path, walls_beside(path, scene), tolerance)
 
 
 def walls_beside(path: Path, scene: Scene) -> Walls:
@@ -35,7 +101,7 @@ def walls_beside(path: Path, scene: Scene) -> Walls:
 
 
 def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Clearance | None:
-    """See `Path.clearance`."""
+    """Of a free path; see `clearance`."""
     if tolerance is None:
         found = least_clearance(path, walls, 1e-3 * walls.radius)
         if found is None or found.least > 0 or found.found == 0:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import UnsupportedError
 from cfree.paths.path import Path
-from cfree.planning.inset import with_robot
 from cfree.scene.dilation import grown_by_square
+from cfree.scene.scene import with_robot
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene

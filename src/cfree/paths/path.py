@@ -10,8 +10,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from os import PathLike
-from pathlib import Path as FilePath
 from typing import Literal
 
 import numpy as np
@@ -21,42 +19,13 @@ from cfree.arguments import checked
 from cfree.collision.motion import Motion, Rotation, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.slide import Slide
-from cfree.errors import UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
-from cfree.formats.atomic import replacing
-from cfree.scene.digest import Stamp, stamp_for
+from cfree.scene.digest import Stamp
 from cfree.scene.scene import Scene
 
 Objective = Literal["short", "clear"]
 Floats = NDArray[np.float64]
-FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files
-
-
-@dataclass(frozen=True)
-class Clearance:
-    """The least distance between robot and obstacles along a path.
-
-    Attributes
-    ----------
-    least : float
-        Certified: no pose of the path has less. 0 if the path touches, or comes closer than the tolerance.
-    found : float
-        The distance at the pose found, correct but for rounding.
-    motion : int
-    share : float
-        Where: the share of that motion.
-    robot : (polygon, edge)
-    obstacle : (obstacle, edge)
-        The two closest edges there; -2 stands for the workspace.
-    """
-
-    least: float
-    found: float
-    motion: int
-    share: float
-    robot: tuple[int, int]
-    obstacle: tuple[int, int]
 
 
 @checked
@@ -244,112 +213,6 @@ class Path:
         """
         motions = self.motions or (Translation((0, 0)),)
         return all(checker.is_free(pose, motion) for pose, motion in zip(self.poses, motions, strict=False))
-
-    @checked
-    def clearance(self, scene: Scene, tolerance: float | None = None) -> Clearance | None:
-        """The least distance to obstacles and workspace, with a certified lower bound.
-
-        Parameters
-        ----------
-        scene : Scene
-            In which the path is free; bounds are no bodies and have no distance.
-        tolerance : float, optional
-            How far `least` may be below the truth, if that does not take too many steps. Unless given, a thousandth of
-            the robot's radius, or a quarter of what is found where that is less.
-
-        Returns
-        -------
-        Clearance, or None if there is nothing to be near to
-
-        Raises
-        ------
-        ValueError
-            If the path is not free, or the tolerance not positive.
-
-        Notes
-        -----
-        Every motion is halved until no part of it can hold a distance smaller, by more than the tolerance, than the
-        least one found: a pose is at most as much closer as the robot's farthest vertex travels. The time is that of
-        about (length / tolerance) distances for a path that keeps its distance from a wall, and mostly much less.
-
-        Examples
-        --------
-        >>> from cfree.scene.scene import Scene
-        >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-        >>> scene = Scene(robot=square, obstacles=[(2, "1.25"), (5, "1.25"), (5, 3), (2, 3)])
-        >>> found = Path(Pose(0, 0), [Translation((7, 0))]).clearance(scene, tolerance=1e-3)
-        >>> found.found, found.least > 0.249, found.obstacle
-        (0.25, True, (0, 0))
-        """
-        from cfree.paths.clearance import least_clearance, walls_beside
-
-        return least_clearance(self, walls_beside(self, scene), tolerance)
-
-    @checked
-    def save(
-        self,
-        path: str | PathLike[str],
-        step: float | None = None,
-        turn: float = math.radians(5),
-        *,
-        scene: Scene | None = None,
-        form: str | None = None,
-    ) -> None:
-        """Write the path to a file, whole or not at all.
-
-        Parameters
-        ----------
-        path : path
-            ``.json`` holds the motions, exactly. ``.csv`` holds poses x, y, theta, which is not wrapped, and ``.yaml``
-            the same as a ROS nav_msgs/Path. ``.geojson`` holds the way of the reference point, and the robot's outlines
-            at these poses.
-        step, turn : float
-            As in `sample`; step is needed for all but ``.json``.
-        scene : Scene, optional
-            That of the path, if it does not know it; needed for ``.json`` and ``.geojson``.
-        form : "json", "csv", "ros" or "geojson", optional
-            Instead of what the file's name says.
-
-        Raises
-        ------
-        UnsupportedError
-            If the file's name ends otherwise, or there is no such form.
-        ValueError
-            If step or scene is missing.
-        """
-        from cfree.formats.path_format import path_text
-        from cfree.formats.poses_text import csv_text, geojson_text, ros_text
-        from cfree.paths.leeway import keeps_leeway
-
-        kind, scene = form_of(path, form), scene or self.scene
-        if kind == "json":
-            stamp = stamp_for(path, scene, self.stamp)
-            text = path_text(self, stamp, lambda leeway: scene is not None and keeps_leeway(self, scene, leeway))
-        elif step is None:
-            raise ValueError(f"{path}: no step; give the longest distance between poses")
-        elif kind == "csv":
-            text = csv_text(self, step, turn)
-        elif kind == "ros":
-            text = ros_text(self, step, turn)
-        elif scene is None:
-            raise ValueError(f"{path}: no scene; give the one whose robot moves")
-        else:
-            text = geojson_text(self, scene, step, turn)
-        with replacing(path) as unfinished:
-            unfinished.write_text(text, encoding="utf-8", newline="\n")
-
-
-def form_of(path: str | PathLike[str], form: str | None) -> str:
-    """Of the forms a path may be written in, the one asked for, or that of the file's name."""
-    names = " or ".join(f'"{name}"' for name in FORMS.values())
-    if form is not None:
-        if form not in FORMS.values():
-            raise UnsupportedError(f"{form!r} is no form of a path; give {names}")
-        return form
-    suffix = FilePath(path).suffix.lower()
-    if suffix not in FORMS:
-        raise UnsupportedError(f"{path}: paths are written as {', '.join(FORMS)}; name the file so, or give the form")
-    return FORMS[suffix]
 
 
 def _distance(pose: Pose, motion: Motion) -> float:

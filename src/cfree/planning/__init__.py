@@ -4,3 +4,17 @@
 (`exact_face` is one), `exact_fits` knows poses without room around them. Nothing but a check of
 `cfree.collision.motion_checker` says that a motion is free.
 """
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.planning.separation import Pieces as Pieces
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    {
+        "separation": "Pieces",
+    },
+)

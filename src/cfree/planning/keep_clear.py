@@ -16,12 +16,11 @@ import numpy as np
 
 from cfree.collision.motion import motion_between
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.pose_checker import Checker
+from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose, Poses
-from cfree.planning.inset import with_robot
 from cfree.scene.dilation import grown
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, with_robot
 
 WayOf = Callable[[Scene, Pose, Pose], Sequence[Pose] | None]
 HALVINGS = 10  # of the margin, from the robot's radius on
@@ -47,12 +46,12 @@ def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: f
     grid = Fraction(2) ** (GRID_BITS - math.frexp(radius)[1])
 
     @cache
-    def larger(level: int) -> tuple[Scene, Checker] | None:
+    def larger(level: int) -> tuple[Scene, PoseChecker] | None:
         try:
             grown_scene = with_robot(scene, grown(scene, Fraction(radius) / 2**level), scene.bounds)
         except UnsupportedError:  # coordinates beyond what is allowed
             return None
-        return grown_scene, Checker(grown_scene)
+        return grown_scene, PoseChecker(grown_scene)
 
     def cleared(poses: Sequence[Pose], level: int) -> Sequence[Pose]:
         if level == HALVINGS or len(poses) < 2:

@@ -25,16 +25,14 @@ from cfree.collision.slide import Slide
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import boundary
-from cfree.forbidden.mesh import robot_radius
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.planning.boundary_walk import Walker
-from cfree.planning.inset import insets_of
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
-from cfree.planning.separation import Separated
+from cfree.planning.separation import InsetSpaces, Separated, insets_of, separation
 from cfree.scene.coordinate_range import LARGEST
-from cfree.scene.scene import Scene, required
+from cfree.scene.scene import Scene, required, robot_radius
 from cfree.value import Value
 
 if TYPE_CHECKING:
@@ -50,7 +48,7 @@ BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 
 @checked
 def plan(
-    scene: Scene,
+    scene: Scene | FreeSpace,
     start: PoseLike | None = None,
     goal: PoseLike | None = None,
     *,
@@ -63,7 +61,8 @@ def plan(
 
     Parameters
     ----------
-    scene : Scene
+    scene : Scene or FreeSpace
+        With its free space known, which of the two it is takes two calls of `locate`, unless exact fits join cells.
     start, goal : Pose or (x, y, theta), optional
         Those of the scene unless given.
     improve : float, seconds, optional
@@ -102,7 +101,9 @@ def plan(
     >>> path.is_free(cfree.MotionChecker(scene)), path.goal == cfree.Pose(4, 0)
     (True, True)
     """
-    planner = Planner(scene, max_seconds=max_seconds, progress=progress)
+    space = scene if isinstance(scene, FreeSpace) else None
+    scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
+    planner = Planner(scene, space, max_seconds=max_seconds, progress=progress)
     return planner.plan(*required(scene, start, goal), improve=improve, objective=objective)
 
 
@@ -155,6 +156,10 @@ class Planner(Value):
         from cfree.planning.boundary_walk import Walker
 
         return Walker(self.free_space, self.checker, self.angle_scale, self._slides)
+
+    @cached_property
+    def _insets(self) -> InsetSpaces:
+        return InsetSpaces(self.scene)
 
     @cached_property
     def _passages(self) -> Passages:
@@ -227,22 +232,20 @@ class Planner(Value):
 
     def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """What the free space says: poses of a path, or a proof."""
-        from cfree.planning.separation import separation
-
         space = self.free_space
         with self.phase("path in a cell"):
             if (cell := space.common_cell(start, goal)) is not None:
                 return self.walker.walk(start, goal, cell)
         quick, *others = insets_of(self.scene)
         with self.phase("proof"):
-            proof = separation(space, start, goal, [quick])
+            proof = separation(space, start, goal, [quick], self._insets)
         if proof is not None and proof.of == "closed":
             return proof
         with self.phase("exact fits"):
             if (way := self._passages.path(start, goal)) is not None:
                 return way
         with self.phase("closer proofs"):
-            proof = separation(space, start, goal, others)
+            proof = separation(space, start, goal, others, self._insets)
         assert proof is not None, "not in one cell"
         if proof.of == "closed":
             return proof
@@ -411,13 +414,14 @@ def plan_many(
         raise ValueError(f"threads: {threads}; give at least 1")
     space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
     asked = list(queries)
-    planner, answers = space.planner, []
+    planner, answers = Planner(space.boundary.scene, space), []
 
     def answer_to(number: int) -> Path | Separated:
         try:
             return planner.plan(*asked[number], improve=improve, objective=objective)
         except InvalidPoseError as error:
-            raise InvalidPoseError(f"query {number}: {error}", free=error.free) from None
+            error.args = (f"query {number}: {error}",)
+            raise
 
     with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
         try:

@@ -14,7 +14,7 @@ import numpy as np
 
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
-from cfree.forbidden.mesh import robot_radius
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene

@@ -6,35 +6,35 @@ without what is used here.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from os import PathLike
-from pathlib import Path as FilePath
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-import cfree
 from cfree.arguments import checked
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, to_pose
-from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import CODED, COLUMNS, Ints, Trapezoids
-from cfree.formats.atomic import replacing
-from cfree.free.space import FORBIDDEN, FreeSpace
-from cfree.planning.inset import inset_space, insets_of, size_power
+from cfree.free.space import FORBIDDEN, FreeSpace, free_space
+from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
-from cfree.scene.digest import Stamp, stamp_for
+from cfree.scene.digest import Stamp
 from cfree.scene.features import unpacked
-from cfree.scene.scene import Bounds, Scene
+from cfree.scene.scene import Bounds, Scene, size_power, with_robot
 from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.scene.features import SceneFeatures
+
+
+FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 
 
 @dataclass(frozen=True)
@@ -160,45 +160,61 @@ class Separated:
     def obstacles(self) -> tuple[int, ...]:
         return tuple(np.unique(self.pieces.obstacle[:, 0]).tolist())
 
-    @cached_property
-    def nearest_miss(self) -> cfree.NearestMiss | None:
-        """The smallest inset of the robot that would join start and goal, and where: `cfree.nearest_miss`.
-
-        Computed when first asked for; None if there is none. Needs `scene`.
-        """
-        from cfree.analysis.margins import nearest_miss
-
-        if self.scene is None:
-            raise ValueError("the scene is not in a file: call cfree.nearest_miss(scene, start, goal)")
-        return nearest_miss(self.scene, self.start, self.goal)
-
     def reversed(self) -> Separated:
         """The same proof for the way back."""
         return replace(self, start=self.goal, goal=self.start, cells=self.cells[::-1])
 
-    @checked
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the proof to a ``.json`` file, exactly, whole or not at all.
 
-        Raises
-        ------
-        UnsupportedError
-            If the file's name ends otherwise.
-        ValueError
-            If there is no scene.
-        """
-        from cfree.formats.separation_format import separation_text
+class InsetSpaces:
+    """Free spaces of robots a little smaller, in bounds as much larger; each is computed when first asked for.
 
-        if FilePath(path).suffix.lower() != ".json":
-            raise UnsupportedError(f"{path}: separations are written as .json; name the file so")
-        text = separation_text(self, stamp_for(path, self.scene, self.stamp))
-        with replacing(path) as unfinished:
-            unfinished.write_text(text, encoding="utf-8", newline="\n")
+    A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. docs/theory.md,
+    "Separations", says what that proves.
+
+    Parameters
+    ----------
+    scene : Scene
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self._size = size_power(scene)
+        self._known: dict[int, FreeSpace | None] = {}
+
+    def at(self, power: int) -> FreeSpace | None:
+        """That of an inset by 2**power of the robot's size; None if nothing is left of the robot."""
+        if power not in self._known:
+            self._known[power] = self._space(Fraction(2) ** (self._size + power))
+        return self._known[power]
+
+    def _space(self, by: Fraction) -> FreeSpace | None:
+        robot = [smaller for part in self.scene.robot for smaller in inset(part, by)]
+        x0, y0, x1, y1 = self.scene.bounds or (by, by, -by, -by)
+        bounds = self.scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
+        try:
+            return free_space(boundary(with_robot(self.scene, robot, bounds))) if robot else None
+        except UnsupportedError:  # coordinates beyond what is allowed
+            return None
+
+
+def insets_of(scene: Scene) -> list[int]:
+    """Insets that a proof may need, as powers of two of the robot's size: each is half as many digits as the next.
+
+    The narrowest gap may be as narrow as the scene's coordinates have digits, and some times that.
+    """
+    polygons = [*scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])]
+    scale = math.lcm(*(polygon.denominator for polygon in polygons), *(b.denominator for b in scene.bounds or ()))
+    deepest = ENOUGH + 4 * scale.bit_length()
+    return [-(FIRST << k) for k in range(deepest.bit_length()) if FIRST << k <= deepest]
 
 
 @checked
 def separation(
-    space: FreeSpace, start: PoseLike, goal: PoseLike, powers: Sequence[int] | None = None
+    space: FreeSpace,
+    start: PoseLike,
+    goal: PoseLike,
+    powers: Sequence[int] | None = None,
+    insets: InsetSpaces | None = None,
 ) -> Separated | None:
     """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
 
@@ -210,6 +226,8 @@ def separation(
     powers : sequence of int, optional
         Of two, of the robot's size: the insets to be tried for "closed", one after the other. From -20 on, each time
         twice as deep, as long as the digits of the scene suggest that a gap may be that narrow, unless given.
+    insets : InsetSpaces, optional
+        Of the space's scene: kept from one call to the next they are computed once.
 
     Returns
     -------
@@ -223,7 +241,7 @@ def separation(
 
     Notes
     -----
-    The first proof in a space takes about as long as the space itself took: that of the smaller robot is kept.
+    Takes about as long as the space itself took: that of the smaller robot is computed.
 
     Examples
     --------
@@ -243,10 +261,11 @@ def separation(
     if start == goal or space.common_cell(start, goal) is not None:
         return None
     scene = space.boundary.scene
+    insets = insets or InsetSpaces(scene)
     found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
     found = replace(found, units=scene.units, scene=scene)
     for power in insets_of(scene) if powers is None else powers:
-        smaller = inset_space(space, size_power(scene) + power)
+        smaller = insets.at(power)
         if smaller is None:
             continue
         there = smaller.locate([start, goal]).tolist()

@@ -1,1 +1,27 @@
 """Pictures: boundaries, paths, answers, and how they are drawn from back to front."""
+
+from typing import TYPE_CHECKING
+
+from cfree.lazy import lazy_names
+
+if TYPE_CHECKING:
+    from cfree.plot.answer import picture as picture
+    from cfree.plot.answer import plot_path_space as plot_path_space
+    from cfree.plot.boundary import plot_boundary as plot_boundary
+    from cfree.plot.boundary import plot_overview as plot_overview
+    from cfree.plot.boundary import plot_slice as plot_slice
+    from cfree.plot.boundary import plot_workspace as plot_workspace
+    from cfree.plot.development import plot_development as plot_development
+    from cfree.plot.path import plot_path as plot_path
+    from cfree.plot.rational import plot_models as plot_models
+
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    {
+        "answer": "picture plot_path_space",
+        "boundary": "plot_boundary plot_overview plot_slice plot_workspace",
+        "development": "plot_development",
+        "path": "plot_path",
+        "rational": "plot_models",
+    },
+)

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
-from cfree.forbidden.mesh import robot_radius
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.plot.boundary import around, new_figure, new_space, plain, set_window, with_unit
@@ -24,7 +23,7 @@ from cfree.plot.strips import strips
 from cfree.plot.unrolled import Range, chosen, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 
@@ -162,7 +161,8 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene) -> N
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
     """The surface of a separation, as a boundary of its trapezoids alone: to be drawn, it answers no questions."""
-    from cfree.forbidden.boundary import Boundary, Stats
+    from cfree.forbidden.boundary import Boundary
+    from cfree.forbidden.record import Stats
 
     if answer.of == "closed":
         scene = Scene(answer.robot, scene.obstacles, bounds=answer.bounds, workspace=scene.workspace, units=scene.units)

@@ -22,6 +22,7 @@ from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.forbidden.mesh import COLOURS, KINDS
+from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
 from cfree.formats.atomic import checked_suffix, replacing
 from cfree.plot.strips import THIN, strips
@@ -173,7 +174,7 @@ def plot_overview(boundary: Boundary) -> Figure:
     return figure
 
 
-def extent(boundary: Boundary) -> Window:
+def extent(boundary: BoundaryRecord) -> Window:
     """Rectangle around everything there is to see of a boundary: the bounds if given."""
     if boundary.scene.bounds is not None:
         x0, y0, x1, y1 = map(float, boundary.scene.bounds)

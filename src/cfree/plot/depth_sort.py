@@ -17,8 +17,9 @@ from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d import proj3d
 from numpy.typing import NDArray
 
-from cfree.forbidden.mesh import COLOURS, robot_radius
+from cfree.forbidden.mesh import COLOURS
 from cfree.plot.strips import Strips, step_for, strips
+from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry

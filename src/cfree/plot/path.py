@@ -15,14 +15,13 @@ from cfree.arguments import checked
 from cfree.collision.distance import Walls
 from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
-from cfree.forbidden.mesh import robot_radius
-from cfree.paths.clearance import least_clearance, walls_beside
-from cfree.paths.path import Clearance, Path
+from cfree.paths.clearance import Clearance, least_clearance, walls_beside
+from cfree.paths.path import Path
 from cfree.paths.travel import Pace
 from cfree.plot.boundary import around, new_axes, plain, set_window, with_unit
 from cfree.plot.workspace import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 

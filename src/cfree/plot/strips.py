@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from cfree.forbidden.boundary import Boundary
+    from cfree.forbidden.record import BoundaryRecord
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -53,7 +53,7 @@ class Strips:
     joined: Ints
 
 
-def strips(boundary: Boundary, step: float) -> Strips:
+def strips(boundary: BoundaryRecord, step: float) -> Strips:
     """Rows at most `step` radians apart.
 
     Notes
@@ -87,7 +87,7 @@ def strips(boundary: Boundary, step: float) -> Strips:
     return Strips(ids, part, theta + turn[part], np.stack(limits, axis=1), points, joined)
 
 
-def step_for(boundary: Boundary, rows: int, limits: tuple[float, float]) -> float:
+def step_for(boundary: BoundaryRecord, rows: int, limits: tuple[float, float]) -> float:
     """Step, in radians and within limits, that makes about so many rows besides one for each trapezoid."""
     heights = float((boundary.trapezoids.theta_to - boundary.trapezoids.theta_from).sum())
     return min(max(heights / rows, limits[0]), limits[1])

@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 
 from cfree.exact.number import ExactPoint
+from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
 
@@ -47,7 +48,5 @@ def _around_a_disc() -> list[ExactPoint]:
 
 def _sums(polygon: Polygon, ring: list[ExactPoint]) -> list[Polygon]:
     """Convex polygons that cover the Minkowski sum of a polygon and a convex ring."""
-    from cfree.verify.polygons import convex_sum
-
     vertices = polygon.exact_vertices
     return [Polygon(convex_sum([vertices[k] for k in piece], ring)) for piece in polygon.pieces]

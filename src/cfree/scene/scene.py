@@ -6,11 +6,11 @@ stands in the world. Shapes are closures of their interiors: a segment or a poin
 
 from __future__ import annotations
 
+import math
 import reprlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -149,22 +149,21 @@ class Scene:
         obstacles = f"{count} obstacle{'' if count == 1 else 's'}{f': {m} vertices' if count else ''}"
         return f"Scene({title}robot: {robot}{n} vertices; {obstacles})"
 
-    @checked
-    def save(self, path: str | PathLike[str]) -> None:
-        """Write the scene to a JSON file: all of it or nothing, and exactly.
 
-        Parameters
-        ----------
-        path : path
-            A file there is replaced once the new one is complete.
+def robot_radius(scene: Scene) -> float:
+    """Distance of the robot's farthest vertex from its reference point."""
+    return max(math.hypot(x, y) for part in scene.robot for x, y in part.vertices.tolist())
 
-        See Also
-        --------
-        cfree.load_scene : the inverse.
-        """
-        from cfree.formats.scene_file import save_scene
 
-        save_scene(self, path)
+def size_power(scene: Scene) -> int:
+    """The power of two that is about as large as the robot."""
+    boxes = np.array([part.bounds for part in scene.robot])
+    return math.frexp(float((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).max()))[1]
+
+
+def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
+    """A scene with another robot, in other bounds."""
+    return Scene(robot, scene.obstacles, bounds=bounds, workspace=scene.workspace)
 
 
 def default_name(index: int) -> str:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from copy import copy
 from fractions import Fraction
 
-from cfree.verify.polygons import Ring, convex_sum, rectangle
+from cfree.polygons.minkowski import convex_sum
+from cfree.verify.polygons import Ring, rectangle
 from cfree.verify.world import World
 
 

@@ -69,31 +69,6 @@ def primitive(u: Vector) -> Vector:
     return u[0] // k, u[1] // k
 
 
-def convex_sum(first: Ring, second: Ring) -> Ring:
-    """Minkowski sum of two convex polygons."""
-    terms = ((first[i], second[j]) for i, j in summands(first, second))
-    return [(x[0] + y[0], x[1] + y[1]) for x, y in terms]
-
-
-def summands(first: Ring, second: Ring) -> list[tuple[int, int]]:
-    """Which vertices of two convex polygons make those of their sum: edges are merged by direction."""
-    (p, u), (q, v) = (_from_the_lowest(ring) for ring in (first, second))
-    i = j = 0
-    found = []
-    while i < len(u) or j < len(v):
-        found.append((p[i % len(p)], q[j % len(q)]))
-        order = -1 if i == len(u) else 1 if j == len(v) else cross(u[i], v[j])
-        i, j = i + (order >= 0), j + (order <= 0)
-    return found
-
-
-def _from_the_lowest(ring: Ring) -> tuple[list[int], list[Vector]]:
-    """Vertices by number, and the edges that they begin."""
-    k = min(range(len(ring)), key=lambda k: (ring[k][1], ring[k][0]))
-    order = [*range(k, len(ring)), *range(k)]
-    return order, [minus(ring[(i + 1) % len(ring)], ring[i]) for i in order]
-
-
 # --- looking around, in doubles ---
 
 Boxes = NDArray[np.float64]  # (n, 4): xmin, ymin, xmax, ymax

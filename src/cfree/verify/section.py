@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.exact.algebraic import Exact, Number, ratio
-from cfree.verify.polygons import Ring, boxes, corners, near, roughly, summands
+from cfree.polygons.minkowski import summands
+from cfree.verify.polygons import Ring, boxes, corners, near, roughly
 from cfree.verify.surfaces import Line, Surface, Turn, Vector, cross, minus
 from cfree.verify.world import World
 

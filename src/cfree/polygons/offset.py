@@ -1,8 +1,4 @@
-"""Robots a little smaller: polygons strictly inside the robot's, by exact tests, and the free space they have.
-
-A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. docs/theory.md,
-"Separations", says what that proves.
-"""
+"""Polygons strictly inside others, by exact tests: edges moved inwards."""
 
 from __future__ import annotations
 
@@ -10,40 +6,17 @@ import math
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import shapely
 
-from cfree.errors import UnsupportedError
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
 from cfree.polygons.rings import containers, doubled_area
 from cfree.polygons.segment_sweep import EdgesMeet, sweep
-from cfree.scene.scene import Scene
 
-if TYPE_CHECKING:
-    from cfree.free.space import FreeSpace
-
-FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 FINER = 12  # bits of an inset that survive the rounding of its polygons
-
-
-def size_power(scene: Scene) -> int:
-    """The power of two that is about as large as the robot."""
-    x0, y0, x1, y1 = shapely.union_all([part.to_shapely() for part in scene.robot]).bounds
-    return math.frexp(max(x1 - x0, y1 - y0))[1]
-
-
-def insets_of(scene: Scene) -> list[int]:
-    """Insets that a proof may need, as powers of two of the robot's size: each is half as many digits as the next.
-
-    The narrowest gap may be as narrow as the scene's coordinates have digits, and some times that.
-    """
-    polygons = [*scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])]
-    scale = math.lcm(*(polygon.denominator for polygon in polygons), *(b.denominator for b in scene.bounds or ()))
-    deepest = ENOUGH + 4 * scale.bit_length()
-    return [-(FIRST << k) for k in range(deepest.bit_length()) if FIRST << k <= deepest]
 
 
 def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
@@ -120,29 +93,3 @@ def _is_inside(inner: Polygon, outer: Polygon) -> bool:
     mine, its = 0, len(inner.ring_offsets) - 1  # outer rings
     # holes of the outer polygon are outside the inner one, or in holes of it
     return around[mine] == its and all(around[hole] != mine for hole in range(its + 1, len(rings)))
-
-
-def inset_space(space: FreeSpace, power: int) -> FreeSpace | None:
-    """Free space of a robot smaller by 2**power in bounds as much larger; None if nothing is left of the robot."""
-    from cfree.forbidden.boundary import boundary
-    from cfree.free.space import free_space
-
-    if power not in space.insets:
-        scene, by = space.boundary.scene, Fraction(2) ** power
-        robot = [smaller for part in scene.robot for smaller in inset(part, by)]
-        x0, y0, x1, y1 = scene.bounds or (by, by, -by, -by)
-        bounds = scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
-        try:
-            space.insets[power] = free_space(boundary(with_robot(scene, robot, bounds))) if robot else None
-        except UnsupportedError:  # coordinates beyond what is allowed
-            space.insets[power] = None
-    return space.insets[power]
-
-
-def with_robot(
-    scene: Scene,
-    robot: list[Polygon] | tuple[Polygon, ...],
-    bounds: tuple[Fraction, Fraction, Fraction, Fraction] | None,
-) -> Scene:
-    """A scene with another robot, in other bounds."""
-    return Scene(robot, scene.obstacles, bounds=bounds, workspace=scene.workspace)

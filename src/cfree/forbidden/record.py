@@ -1,0 +1,227 @@
+"""What the boundary of the forbidden space is made of: its scene, features and columns, and poses on it.
+
+`cfree.forbidden.boundary` computes it; slices, meshes and the cell complex take it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.arguments import checked
+from cfree.errors import IncompleteError
+from cfree.exact.half_angle import tau_in
+from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.scene.features import BOUNDS, SceneFeatures
+from cfree.scene.scene import Scene
+from cfree.value import Value
+
+VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
+
+
+@dataclass(frozen=True, slots=True)
+class Stats:
+    """What was computed: counts, who decided, seconds per phase.
+
+    Attributes
+    ----------
+    patches, live_patches : int
+        Contact patches before trimming, and those of which something is left.
+    trapezoids : int
+    pairs : int
+        Pairs of a patch and a pillar near it.
+    decided_by_identity, decided_by_filter, decided_by_intervals, decided_exactly : int
+        Signs and orders, by the rung that decided them: equal features; doubles with an error bound; intervals in
+        twice their precision; exact integers.
+    seconds : dict of str to float
+        By phase: features, trim, collect, isolated, and total, of all. `intervals` and `exact` are the parts of
+        `trim` that those two rungs took, summed over threads. Empty for a boundary read from a file.
+    """
+
+    patches: int
+    live_patches: int
+    trapezoids: int
+    pairs: int
+    decided_by_identity: int
+    decided_by_filter: int
+    decided_by_intervals: int
+    decided_exactly: int
+    seconds: dict[str, float] = field(compare=False)
+
+
+class BoundaryRecord(Value):
+    """The trimmed patches of a scene.
+
+    Attributes
+    ----------
+    scene : Scene
+    trapezoids : Trapezoids
+        The trimmed patches, as arrays.
+    isolated : IsolatedParts
+        Free poses that no trapezoid reaches: curves, segments at one orientation, and points, where the robot fits
+        exactly.
+    stats : Stats
+    trimmed : (P,) bool
+        Which patches have been trimmed: all of them, unless a limit of time or memory stopped the computation.
+    patch_kind : (P,) uint8
+        1 v-e, 2 e-v, 3 the wall of the bounds.
+    ruled : (P, 8) float64
+        Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch.
+    """
+
+    def __init__(
+        self,
+        scene: Scene,
+        features: SceneFeatures,
+        kind: NDArray[np.uint8],
+        robot: Ints,
+        obstacle: Ints,
+        trapezoids: Trapezoids,
+        isolated: IsolatedParts,
+        stats: Stats,
+        trimmed: NDArray[np.uint8],
+    ) -> None:
+        self.scene = scene
+        self.features = features
+        self.contact_kind = kind
+        self.contact_robot = robot
+        self.contact_obstacle = obstacle
+        self.trapezoids = trapezoids
+        self.isolated = isolated
+        self.stats = stats
+        self.trimmed = trimmed.astype(bool)
+        columns = [getattr(trapezoids, name) for name in COLUMNS]
+        columns += [getattr(isolated, name) for name in ISOLATED_COLUMNS]
+        for array in (kind, robot, obstacle, self.trimmed, *columns):
+            array.flags.writeable = False
+
+    @property
+    def _content(self) -> tuple[Any, ...]:
+        """Without what it took to compute it."""
+        patches = self.contact_kind, self.contact_robot, self.contact_obstacle
+        return self.scene, *patches, self.trapezoids, self.isolated, self.trimmed
+
+    def __repr__(self) -> str:
+        s = self.stats
+        fits = f", {len(self.isolated)} isolated parts" if len(self.isolated) else ""
+        part = "" if self.complete else f"INCOMPLETE: {self.trimmed.sum()} of {s.patches} patches trimmed; "
+        return f"Boundary({part}{s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids{fits})"
+
+    @property
+    def complete(self) -> bool:
+        """Whether every patch has been trimmed. What is not complete answers no question about what is free."""
+        return bool(self.trimmed.all())
+
+    def require_complete(self) -> None:
+        """Raise `IncompleteError` if a limit stopped the computation."""
+        if not self.complete:
+            done = f"{self.trimmed.sum()} of {len(self.trimmed)} patches were trimmed"
+            raise IncompleteError(f"incomplete: {done} before a limit stopped it; compute it again with a higher limit")
+
+    @cached_property
+    def patch_kind(self) -> NDArray[np.uint8]:
+        polygon = self.features.obstacles.owner_polygon
+        return np.where(polygon[self.contact_obstacle] == BOUNDS, 3, self.contact_kind).astype(np.uint8)
+
+    @cached_property
+    def patch_start(self) -> NDArray[np.int64]:
+        """Trapezoids of patch k are ``patch_start[k]`` up to ``patch_start[k + 1]``."""
+        return np.searchsorted(self.trapezoids.patch, np.arange(len(self.contact_kind) + 1))
+
+    @cached_property
+    def ruled(self) -> Floats:
+        ruled = self._ruled_near.copy()
+        ruled[:, 0:2] = self.features.obstacles.xy[self.contact_obstacle]
+        ruled[:, 4:6] = self.features.robot.xy[self.contact_robot]
+        ruled.flags.writeable = False
+        return ruled
+
+    @cached_property
+    def _ruled_near(self) -> Floats:
+        a, b = self.features.robot, self.features.obstacles
+        on_edge = self.contact_kind == VERTEX_EDGE
+        i, j = self.contact_robot, self.contact_obstacle
+        ruled = np.zeros((len(i), 8))
+        ruled[:, 0:2], ruled[:, 4:6] = b.near[j], a.near[i]
+        ruled[on_edge, 2:4] = (b.near[b.w] - b.near[b.v])[j[on_edge]]
+        ruled[~on_edge, 6:8] = (a.near[a.w] - a.near[a.v])[i[~on_edge]]
+        return ruled
+
+    @cached_property
+    def phi_min(self) -> Floats:
+        """(P,) radians in [0, 2 pi): where each patch begins (paper, 3.1.1 and 3.2.1)."""
+        a, b = self.features.robot, self.features.obstacles
+        on_edge = self.contact_kind == VERTEX_EDGE
+        f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
+        g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
+        cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
+        angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
+        return np.where(self.patch_kind == 3, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
+
+    @cached_property
+    def phi_range(self) -> Floats:
+        """(P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
+        at_robot = self.features.robot.turning[self.contact_robot]
+        at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
+        turning = np.where(self.contact_kind == VERTEX_EDGE, at_robot, at_obstacle)
+        return np.where(self.patch_kind == 3, 2 * np.pi, turning)
+
+    @checked
+    def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
+        """Reference point S(t, theta) on patches, eqs. (5) and (8).
+
+        Parameters
+        ----------
+        patch : (k,) int
+        t : (k,) float, along the edge
+        theta : (k,) float, radians
+
+        Returns
+        -------
+        (k, 2) float64
+        """
+        return self.evaluate_near(patch, t, theta) + self.features.moved(theta)
+
+    @checked
+    def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
+        """The same from the features' frame, which keeps areas and has all digits in scenes that are far away."""
+        s, t, theta = self._ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
+        ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
+        c, n = np.cos(theta), np.sin(theta)
+        x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)
+        return np.stack([x, y], axis=-1)
+
+    @checked
+    def limits(self, trapezoid: ArrayLike, theta: ArrayLike) -> tuple[Floats, Floats]:
+        """Limits of t of trapezoids at orientations within them.
+
+        Parameters
+        ----------
+        trapezoid : (k,) int
+        theta : (k,) float, radians
+
+        Returns
+        -------
+        lower, upper : (k,) float64
+        """
+        chosen = np.ascontiguousarray(trapezoid, np.int32)
+        chart = self.trapezoids.chart[chosen]
+        tau = np.ascontiguousarray(tau_in(chart, theta))
+        lower, upper = np.empty(len(chosen)), np.empty(len(chosen))
+        self.slicer.limits(chosen, chart.astype(np.int32), tau, lower, upper)
+        return lower, upper
+
+    @cached_property
+    def slicer(self) -> Any:
+        from cfree import _core
+
+        a, b, t = self.features.robot, self.features.obstacles, self.trapezoids
+        return _core.Slicer(
+            a.near_shape(), b.near_shape(), a.near.ravel(), b.near.ravel(),
+            self.contact_kind, self.contact_robot, self.contact_obstacle,
+            t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to, self.features.frame,
+        )  # fmt: skip

@@ -1,0 +1,121 @@
+"""Every value in a file of its own kind: `save` by the type of the value, `load` by what is in the file."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from os import PathLike, fspath
+from pathlib import Path as FilePath
+
+from cfree.arguments import checked
+from cfree.collector import collection_paused
+from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.mesh import Mesh
+from cfree.forbidden.slice import Slice
+from cfree.formats.answer_file import save_path, save_separation
+from cfree.formats.boundary_file import load_archive, save_boundary, save_space
+from cfree.formats.findings import Findings, read_text
+from cfree.formats.json_text import read_json
+from cfree.formats.mesh_file import save_mesh
+from cfree.formats.scene_file import save_scene, scene_from
+from cfree.formats.slice_geojson import save_slice
+from cfree.free.space import FreeSpace
+from cfree.paths.path import Path
+from cfree.planning.separation import Separated
+from cfree.scene.scene import Scene
+
+ARCHIVE = b"PK\x03\x04"  # how a file of a boundary begins
+
+
+@checked
+def save(
+    value: Scene | Boundary | FreeSpace | Path | Separated | Mesh | Slice,
+    path: str | PathLike[str],
+    *,
+    step: float | None = None,
+    turn: float = math.radians(5),
+    scene: Scene | None = None,
+    form: str | None = None,
+) -> None:
+    """Write a value to a file, all of it or nothing.
+
+    Parameters
+    ----------
+    value : Scene, Boundary, FreeSpace, Path, Separated, Mesh or Slice
+    path : path
+        ``.json`` for scenes, paths and separations, ``.npz`` for boundaries and free spaces, ``.glb``, ``.ply``,
+        ``.obj`` or ``.stl`` for meshes, ``.geojson`` for slices. Poses of paths also as ``.csv``, ``.yaml`` (a ROS
+        nav_msgs/Path) or ``.geojson`` with the robot's outlines.
+    step, turn : float
+        Of paths, as in `Path.sample`: needed for poses.
+    scene : Scene, optional
+        Of paths that were read from a file: needed for ``.geojson``, and for ``.json`` if the file did not say it.
+    form : "json", "csv", "ros" or "geojson", optional
+        Of paths, instead of what the file's name says.
+
+    Raises
+    ------
+    UnsupportedError
+        If the file's name ends otherwise.
+    ValueError
+        If step or scene is missing, or given for what is no path.
+    OSError
+        If the file cannot be written.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> scene = Scene(robot=[(0, 0), (1, 0), (0, 1)])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     save(scene, f"{folder}/scene.json")
+    ...     load(f"{folder}/scene.json") == scene
+    True
+    """
+    if isinstance(value, Path):
+        return save_path(value, path, step=step, turn=turn, scene=scene, form=form)
+    given = {"step": step, "scene": scene, "form": form}
+    if wrong := next((name for name, option in given.items() if option is not None), None):
+        raise ValueError(f"{wrong}: a {type(value).__name__} is no path; leave it out")
+    match value:
+        case Scene():
+            save_scene(value, path)
+        case Boundary():
+            save_boundary(value, path)
+        case FreeSpace():
+            save_space(value, path)
+        case Separated():
+            save_separation(value, path)
+        case Mesh():
+            save_mesh(value, path)
+        case Slice():
+            save_slice(value, path)
+
+
+@checked
+def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated:
+    """Read a scene, a boundary, a free space, a path or a separation: what is in the file decides.
+
+    Raises
+    ------
+    FormatError
+        If the file cannot be read: place, value and remedy of every fault, ``file:line:column`` first.
+    """
+    with collection_paused():
+        if _starts(path) == ARCHIVE:
+            return load_archive(path)
+        findings = Findings(fspath(path), read_text(FilePath(path)))
+        if '"answer"' in findings.text:
+            from cfree.formats.answer_format import answer_from_json
+
+            data = read_json(findings)
+            if isinstance(data, Mapping) and "answer" in data:
+                return answer_from_json(findings, data).answer
+        return scene_from(findings)
+
+
+def _starts(path: str | PathLike[str]) -> bytes:
+    try:
+        with open(path, "rb") as file:
+            return file.read(len(ARCHIVE))
+    except OSError:
+        return b""  # reading it says what is wrong
