@@ -15,6 +15,7 @@ import cfree.figures
 import cfree.verify
 from cfree import Pose, Rotation, Translation
 from cfree.arguments import checked, fits
+from public import NAMES, PACKAGES
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 SCENE = cfree.Scene(SQUARE, [[(3, 0), (4, 0), (4, 1)]], bounds=(-2, -2, 6, 6), start=(0, 0, 0), goal=(1, 2, "90deg"))
@@ -28,8 +29,7 @@ RESULTS = """
 
 def callables() -> Iterator[tuple[str, Callable[..., Any]]]:
     """Of the package by name: functions, constructors, methods."""
-    modules = {"": cfree, "verify.": cfree.verify}
-    for prefix, module in modules.items():
+    for prefix, module in PACKAGES.items():
         for name in module.__all__:
             value = getattr(module, name)
             if inspect.isfunction(value):
@@ -63,7 +63,8 @@ def pool() -> list[Any]:
     path = cfree.Path(Pose(0, 0), [Translation((1, 0))])
     touch = cfree.collision.Touch("vertex-edge", (0, 0), (0, 2))
     return [
-        1, 0.5, (0, 0), (0, 0, 0), SCENE, boundary, space, triangle, contact, corner, path, Pose(0, 0), [], True,
+        1, 0.5, (0, 0), (0, 0, 0), SCENE, boundary, space, space.cells[0], triangle, contact, corner, path, Pose(0, 0),
+        [], True,
         Translation((1, 0)), (touch, touch), "1", b"", {}, len, [[0, 0, 0]], cfree.contact.EdgeEdge(0, 0), np.zeros(3),
         cfree.rational.rational_surface(triangle, triangle, cfree.contact.VertexEdge(1, 2)), boundary.mesh(1.0),
         space.complex, cfree.Poses([[0, 0]], [0]), cfree.contact.contact_surface(triangle, triangle, contact),
@@ -80,8 +81,8 @@ def test_an_argument_of_a_wrong_type_is_named(
     arguments: dict[str, Any] = {}
     for other in inspect.signature(function).parameters.values():
         if other.name == "self":
-            owner = getattr(cfree, name.split(".")[0])
-            arguments["self"] = object.__new__(owner) if "." not in name else owner.__new__(owner)
+            owner = NAMES.get(name) or NAMES[name.rpartition(".")[0]]
+            arguments["self"] = owner.__new__(owner)
         elif other.default is inspect.Parameter.empty:
             hint = hints.get(other.name, Any)
             arguments[other.name] = SQUARE if hint is Any else next(value for value in pool if fits(hint, value))
@@ -95,7 +96,7 @@ def test_an_argument_of_a_wrong_type_is_named(
 @pytest.mark.parametrize(
     ("ask", "said"),
     [
-        (lambda: cfree.plan("scene.json"), "scene: 'scene.json' is a str; give a Scene"),
+        (lambda: cfree.plan("scene.json"), "scene: 'scene.json' is a str; give a Scene or a FreeSpace"),
         (lambda: cfree.plan(SCENE, improve="2s"), "improve: '2s' is a str; give a number or None"),
         (lambda: cfree.boundary(SCENE, threads="2"), "threads: '2' is a str; give an int or None"),
         (lambda: cfree.boundary(SCENE, threads=True), "threads: True is a bool; give an int or None"),
@@ -177,16 +178,16 @@ def test_the_decorated_are_what_they_were() -> None:
 
 
 def test_only_what_is_public_is_listed() -> None:
-    assert dir(cfree) == sorted([*cfree.__all__, "figures", "ompl", "verify"])
+    assert dir(cfree) == sorted({*cfree.__all__, *cfree._PACKAGES.split()} - {"__version__"})
 
 
 def test_no_module_hides_a_name() -> None:
     assert not set(cfree.__all__) & {module.name for module in pkgutil.iter_modules(cfree.__path__)}
 
 
-@pytest.mark.parametrize("name", cfree.__all__)
+@pytest.mark.parametrize("name", NAMES)
 def test_type_hints_resolve(name: str) -> None:
-    value = getattr(cfree, name)
+    value = NAMES[name]
     if not callable(value):
         return
     get_type_hints(value)

@@ -17,6 +17,7 @@ from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
 from cfree.exact import Surd
 from cfree.rational import rational_helix, rational_range, rational_segment, rational_surface
 from cfree.rational.bezier import bezier_patches
+from public import NAMES
 
 TRIANGLE, SQUARE = cfree.Polygon([(0, 0), (2, 0), (1, 1)]), cfree.Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
 ROOM = [(0, 0), (9, 0), (9, 9), (0, 9)]
@@ -131,9 +132,9 @@ def ask(value: Any) -> None:
 
 
 CLASSES = [
-    name
-    for name in cfree.__all__
-    if inspect.isclass(kind := getattr(cfree, name)) and not issubclass(kind, cfree.CfreeError)
+    name.split(".")[-1]
+    for name, kind in NAMES.items()
+    if inspect.isclass(kind) and not issubclass(kind, cfree.CfreeError) and not name.startswith("verify.")
 ]
 
 
@@ -190,7 +191,7 @@ def test_a_value_is_shown_in_one_line(name: str, values: dict[str, Any]) -> None
     [
         cfree.CfreeError("a"),
         cfree.InvalidPolygonError("a", ring=1, edges=(2, 3)),
-        cfree.InvalidPoseError("a", free=Pose(1, 2)),
+        cfree.ForbiddenPoseError("a", free=Pose(1, 2)),
         cfree.FormatError("a", path="b", line=3, column=4),
         cfree.UnsupportedError("a"),
         cfree.IncompleteError("a"),

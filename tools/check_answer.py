@@ -1488,8 +1488,9 @@ def main(names: list[str]) -> int:
     try:
         print(said, flush=True)
     except OSError as error:  # a closed pipe, a full disk: 1 would mean refuted
-        sys.stderr.write(f"standard output: {error}\n")
-        sys.stdout = None  # type: ignore[assignment]
+        with contextlib.suppress(OSError):
+            sys.stderr.write(f"standard output: {error}\n")
+        sys.stdout = sys.stderr = None
         return UNREADABLE
     return code
 

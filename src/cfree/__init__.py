@@ -88,6 +88,6 @@ _HOMES = {
     "formats.files": "load save",
     "formats.scene_file": "load_polygons load_scene",
 }
-_PACKAGES = "analysis collision contact exact figures film forbidden geometry ompl planning plot rational verify"
+_PACKAGES = "analysis collision contact exact figures film geometry ompl planning plot rational verify"
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)
 __all__ = ["__version__", *_NAMES]

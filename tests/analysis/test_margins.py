@@ -9,8 +9,6 @@ from pathlib import Path
 
 import pytest
 import shapely
-from test_separation import INSIDE, OUTSIDE, room
-from test_space import hollow
 
 import cfree.verify
 from cfree import Pose, Scene, boundary, free_space, load_scene, max_margin, max_scale, nearest_miss, separation
@@ -21,6 +19,7 @@ from cfree.scene.dilation import FARTHEST_OUT, SIDES, _around_a_disc
 from cfree.scene.scene import with_robot
 from compared import scene_of
 from shapes import PlainScene, box
+from spaces import INSIDE, OUTSIDE, hollow, room
 
 ROOT = Path(__file__).parents[2]
 

@@ -20,27 +20,10 @@ from cfree.exact.surd import Surd
 from cfree.formats.scene_file import load_scene
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
+from moving import box, motions, poses
 
 BITS = 200  # two different critical parameters of small numbers are farther apart
 F = Fraction
-
-
-def box(x0: object, y0: object, x1: object, y1: object) -> Polygon:
-    return Polygon([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])  # type: ignore[list-item]
-
-
-def pose_of(values: tuple[Fraction, Fraction, Fraction | None]) -> Pose:
-    x, y, tau = values
-    return Pose(x, y, {"tau": tau})
-
-
-small = st.fractions(-6, 6, max_denominator=3)
-points = st.tuples(small, small)
-turns = st.one_of(
-    st.sampled_from(["90deg", "-90deg", "180deg", "-180deg", "0deg"]), st.builds(lambda t: {"tau": t}, small)
-)
-motions = st.one_of(st.builds(Translation, points), st.builds(Rotation, points, turns))
-poses = st.builds(pose_of, strategies.poses(6))
 
 
 def roots(f: list[Fraction]) -> list[Surd]:
@@ -242,7 +225,7 @@ def test_long_turns_are_divided(angle: float) -> None:
 
 
 def test_faults_of_motions_name_the_remedy() -> None:
-    with pytest.raises(InvalidPoseError, match=r"more than half a turn; divide it, as cfree\.rotations does"):
+    with pytest.raises(InvalidPoseError, match=r"half a turn; divide it, as cfree\.collision\.rotations does"):
         Rotation((0, 0), "181deg")
     with pytest.raises(InvalidPoseError, match=r"vector: .*; give two finite numbers"):
         Translation((1, math.inf))

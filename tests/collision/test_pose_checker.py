@@ -246,13 +246,13 @@ def test_arrays_mean_the_poses_they_hold() -> None:
     assert 0 < sum(expected) < len(expected)
 
 
-def test_threads_and_a_boundary_change_nothing() -> None:
+def test_threads_and_what_was_prepared_change_nothing() -> None:
     scene = load_scene("examples/scenes/nest_shirts.json")
     poses = random_poses(scene, 20000)
     one = is_free(scene, poses, threads=1)
     built = boundary(load_scene("examples/scenes/five_convex.json"))
     assert (is_free(scene, poses, threads=3) == one).all() and 0 < one.sum() < len(one)
-    assert (is_free(built, poses) == is_free(built.scene, poses)).all()
+    assert (is_free(built.checker, poses) == is_free(built.scene, poses)).all()
 
 
 @pytest.mark.parametrize("name", ["sofa_corner", "degenerate_island", "nest_swim"])

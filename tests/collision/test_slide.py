@@ -18,11 +18,10 @@ import yaml
 from flint import fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_motion import box, poses
 
 import cfree.verify
 import strategies
-from cfree import FormatError, MotionChecker, Path, Pose, Rotation, Scene, Slide, Translation, clearance, is_free, save
+from cfree import FormatError, MotionChecker, Path, Pose, Rotation, Scene, Slide, clearance, is_free, save
 from cfree.cli.report import answer_facts
 from cfree.collision import Touch
 from cfree.errors import InvalidPoseError, UnsupportedError
@@ -34,24 +33,11 @@ from cfree.scene.features import SceneFeatures
 from cfree.verify.course import Course, place_of
 from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, is_nowhere_positive, positive
 from compared import scene_of
+from moving import CORRIDORS, CURVE, ON_CORNER, ON_FLOOR, SQUARE, TEE, box, poses, turning, way
 from shapes import PlainScene
 
 F = Fraction
-SQUARE = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
-CORRIDORS = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
-TEE = Scene(SQUARE, workspace=CORRIDORS)
-ON_FLOOR, ON_CORNER = Touch("vertex-edge", (0, 0), (-2, 1)), Touch("edge-vertex", (0, 2), (-2, 6))
 START = Pose(0, 1)
-CURVE = [0, 0, -2, 2], [0, 2, -2], [1, 0, 1]
-
-
-def turning(tau: object = 1) -> Slide:
-    """From one corridor as wide as the square into the other: by up to a quarter turn."""
-    return Slide((ON_FLOOR, ON_CORNER), *CURVE, tau)  # type: ignore[arg-type]
-
-
-def way() -> Path:
-    return Path(Pose(-5, 1), [Translation((5, 0)), turning("1/3"), turning(1).between("1/3", 1), Translation((0, 6))])
 
 
 small, shares = st.fractions(-3, 3, max_denominator=4), st.fractions(0, 1, max_denominator=9)

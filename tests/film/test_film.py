@@ -79,7 +79,7 @@ def places(moments: list[Moment]) -> np.ndarray:
 def test_every_pose_is_free(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     for shot in shots:
-        assert all(is_free(result, moment.pose) for moment in shot.moments)
+        assert all(is_free(result.checker, moment.pose) for moment in shot.moments)
 
 
 @pytest.mark.parametrize("name", PAPER)
@@ -224,7 +224,7 @@ def test_columns_tile_the_patches(five: Boundary) -> None:
     for column in found[::17]:
         angles = np.linspace(column.angles[0] + 1e-4, column.angles[-1] - 1e-4, 5)
         for moment in over_column(five, column, np.linspace(0, 1, 5), angles):
-            assert is_free(five, moment.pose)
+            assert is_free(five.checker, moment.pose)
 
 
 def test_outward_is_away_from_the_forbidden_space(five: Boundary) -> None:
@@ -235,7 +235,7 @@ def test_outward_is_away_from_the_forbidden_space(five: Boundary) -> None:
         dx, dy = 1e-6 * outward(five, column.patch, moment.pose.theta)
         turn = {"inf": "inf"} if moment.pose.tau is None else moment.pose.tau
         inside = Pose(x - dx, y - dy, {"tau": turn})
-        assert not is_free(five, inside)
+        assert not is_free(five.checker, inside)
 
 
 # free motions
@@ -258,7 +258,7 @@ def test_routes_are_free_between_their_points(five: Boundary) -> None:
     assert space.are_free(way, space.measured(way))
     for a, b in itertools.pairwise(way[:: len(way) // 60]):
         for s in (0.25, 0.5, 0.75):
-            assert is_free(five, Pose(*((1 - s) * a + s * b).tolist())) or np.linalg.norm(a - b) > 0.5
+            assert is_free(five.checker, Pose(*((1 - s) * a + s * b).tolist())) or np.linalg.norm(a - b) > 0.5
 
 
 def test_no_route_leads_through_a_wall() -> None:

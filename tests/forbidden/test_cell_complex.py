@@ -13,8 +13,8 @@ import numpy as np
 import pytest
 
 import fuzz
-from cfree import Boundary, InvariantError, Scene, boundary, load_scene
-from cfree.forbidden.cell_complex import CellComplex, _glued
+from cfree import Boundary, Scene, boundary, load_scene
+from cfree.forbidden.cell_complex import CellComplex, glue
 from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
 
@@ -115,7 +115,7 @@ def test_a_signal_ends_long_work(work: str, name: str) -> None:
     def run(result: Boundary) -> float:
         start = time.process_time()
         with contextlib.suppress(TimeoutError):
-            _glued(result) if work == "complex" else result.mesh(0.003)
+            glue(result) if work == "complex" else result.mesh(0.003)
         return time.process_time() - start
 
     result = boundary(load_scene(ROOT / f"examples/scenes/{name}.json"))
@@ -154,26 +154,6 @@ def test_walkers_go_round() -> None:
         loop = cells.loop(face)
         assert [cells.before(h) for h in loop] == [loop[-1], *loop[:-1]]
         assert [int(f) for f in cells.neighbours(face)] == [int(cells.face[cells.twin[h]]) for h in loop]
-
-
-def test_a_side_without_a_partner_is_an_error_with_its_smallest_scene(monkeypatch: pytest.MonkeyPatch) -> None:
-    from cfree.forbidden import cell_complex
-
-    scene = scene_of(random_scene(3, "convex"))
-    result = boundary(scene)
-    original = cell_complex._glued
-
-    def broken(built: Boundary) -> CellComplex:
-        if len(built.scene.obstacles) >= 2:  # stands for a fault of the core
-            raise InvariantError("the boundary is not closed: test")
-        return original(built)
-
-    monkeypatch.setattr(cell_complex, "_glued", broken)
-    with pytest.raises(InvariantError, match="not closed") as raised:
-        cell_complex.glue(result)
-    smallest = raised.value.state
-    assert isinstance(smallest, Scene) and len(smallest.obstacles) == 2
-    assert all(len(p) == 3 for p in smallest.obstacles)
 
 
 def test_a_lost_trapezoid_is_noticed() -> None:

@@ -68,7 +68,7 @@ def check(plain: PlainScene, result: Boundary, part: IsolatedPart) -> None:
 
 def crossing(result: Boundary, part: IsolatedPart, chart: int, tau: Fraction) -> tuple[Fraction, Fraction]:
     """The exact place of a curve at tau: where its patch's line meets the one that it is named by."""
-    from test_patch import own_contact
+    from compared import own_contact
 
     turn = rotation(chart, tau)
     point, direction = placed(result.scene, own_contact(result.patches[part.patch]), turn)

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from cfree import Boundary, Scene, boundary, load_scene
-from cfree.forbidden.patch import Contact, CriticalAngle, Patch, contact
-from compared import cross, edge, minus, placed, rotation, scene_of, vertex
+from cfree.forbidden.patch import Contact, CriticalAngle, contact
+from compared import cross, edge, minus, own_contact, placed, rotation, scene_of, vertex
 from shapes import PlainScene, box, frame, random_scene
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
@@ -28,10 +28,6 @@ NAMED = (
     "integer_grid",
     "bounds",
 )
-
-
-def own_contact(patch: Patch) -> Contact:
-    return Contact("v-e" if patch.kind == "bound" else patch.kind, patch.robot, patch.obstacle)
 
 
 def results(kinds=NAMED, seeds=range(4)) -> list[Boundary]:

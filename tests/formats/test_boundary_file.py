@@ -39,7 +39,7 @@ def saved(result: Boundary, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("kind", KINDS)
 def test_saving_and_loading_changes_nothing(kind: str, tmp_path: Path) -> None:
     first, path = boundary(scene_of(random_scene(11, kind)), threads=1), tmp_path / "b.npz"
-    first.save(path)
+    save(first, path)
     again = load_boundary(path)
     assert again.scene == first.scene
     for column in COLUMNS:

@@ -11,15 +11,14 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_motion import motions, poses
-from test_path import SQUARE
-from test_slide import TEE, way
 
 import cfree.verify
 from cfree import FormatError, Path, Pose, Rotation, Scene, Translation, save
 from cfree.formats.answer_file import load_answer
 from cfree.formats.effect import Effect
 from cfree.scene.digest import stamp_of
+from moving import TEE, motions, poses, way
+from moving import UNIT_SQUARE as SQUARE
 from replay import deviation
 from shapes import box
 

@@ -31,23 +31,10 @@ from cfree.free.space import _parents
 from compared import plain_of, scene_of
 from flood import flood
 from shapes import KINDS, PlainScene, box, mapped, random_scene
+from spaces import ROD, TIGHT, hollow, space_of
 
 ROOT = Path(__file__).parents[2]
 SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 6_000)
-
-
-def space_of(plain: PlainScene) -> FreeSpace:
-    return free_space(boundary(scene_of(plain), threads=1))
-
-
-def hollow(
-    outer: tuple[int, int, int, int], inner: tuple[int, int, int, int]
-) -> tuple[list[tuple[int, int]], list[list[tuple[int, int]]]]:
-    return box(*outer)[0], [box(*inner)[0][::-1]]
-
-
-ROD = box(-3, -1, 3, 1)
-TIGHT = hollow((-5, -3, 5, 3), (-4, -2, 4, 2))  # the rod turns a little, but not round
 
 
 def check_against_flood(plain: PlainScene, space: FreeSpace, steps: int) -> int:

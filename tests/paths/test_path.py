@@ -11,7 +11,6 @@ import shapely
 import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_motion import box, motions, pose_of
 
 import cfree
 import strategies
@@ -25,10 +24,10 @@ from cfree.paths.clearance import narrowest
 from cfree.paths.path import Path
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
+from moving import UNIT_SQUARE as SQUARE
+from moving import box, motions, paths, pose_of
 
 poses = st.builds(pose_of, strategies.poses(6))
-paths = st.builds(Path, poses, st.lists(motions, max_size=4))
-SQUARE = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)])
 MOVES = [Translation((2, "1/3")), Rotation((2, 1), "-90deg"), Rotation((0, 0), "180deg")]
 WAY = Path(Pose(0, 0), MOVES, "m", "map", SQUARE)
 

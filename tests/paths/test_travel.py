@@ -7,7 +7,6 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_path import paths
 
 from cfree.collision.distance import Walls
 from cfree.collision.motion import Rotation, Translation
@@ -15,6 +14,7 @@ from cfree.exact.pose import Pose, Poses
 from cfree.paths.path import Path
 from cfree.paths.travel import Pace
 from cfree.scene.scene import Scene
+from moving import paths
 
 ROBOT = [(0, 0), (3, 0), (3, 1), (1, 2)]
 

@@ -8,7 +8,6 @@ from fractions import Fraction
 from pathlib import Path
 
 import pytest
-from test_space import ROD, TIGHT, hollow, space_of
 from typer.testing import CliRunner
 
 import cfree.verify
@@ -29,8 +28,10 @@ from cfree import (
 )
 from cfree.cli.app import app
 from cfree.formats.answer_file import load_answer
+from cfree.planning.separation import InsetSpaces
 from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
+from spaces import INSIDE, OUTSIDE, ROD, TIGHT, hollow, room, space_of
 
 ROOT = Path(__file__).parents[2]
 
@@ -41,16 +42,6 @@ def proved(space: FreeSpace, start: Pose, goal: Pose) -> Separated:
     result = cfree.verify.answer(space.boundary.scene, proof)
     assert result.verified, result
     return proof
-
-
-def room(opening: Fraction | int | str) -> FreeSpace:
-    """A unit square's room of width 4 with an opening to the right, and what is around it."""
-    half = Fraction(opening) / 2
-    wall = [(-3, -3), (3, -3), (3, -half), (2, -half), (2, -2), (-2, -2), (-2, 2), (2, 2), (2, half), (3, half)]
-    return free_space(boundary(Scene(box("-1/2", "-1/2", "1/2", "1/2")[0], [[*wall, (3, 3), (-3, 3)]])))
-
-
-INSIDE, OUTSIDE = Pose(0, 0), Pose(9, "1/3", "30deg")
 
 
 @pytest.mark.parametrize("gap", [Fraction(1, 10**9), Fraction(1, 2), *(1 - Fraction(1, 10**k) for k in (5, 9, 15, 40))])
@@ -146,10 +137,11 @@ def test_one_cell_and_forbidden_poses() -> None:
 
 def test_the_second_proof_is_quick() -> None:
     space = room("1/9")
-    separation(space, INSIDE, OUTSIDE)
-    (kept,) = space.insets.values()
-    separation(space, INSIDE, Pose(-9, 0))
-    assert list(space.insets.values()) == [kept]
+    insets = InsetSpaces(space.boundary.scene)
+    separation(space, INSIDE, OUTSIDE, insets=insets)
+    (kept,) = insets._known.values()
+    separation(space, INSIDE, Pose(-9, 0), insets=insets)
+    assert list(insets._known.values()) == [kept]
 
 
 @pytest.mark.parametrize(("name", "obstacles"), [("nest_swim", (0, 26)), ("street_Berlin", (-1, 0, 1))])

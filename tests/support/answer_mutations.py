@@ -15,8 +15,6 @@ from functools import cache
 from pathlib import Path as FilePath
 from typing import Any
 
-from test_space import ROD, TIGHT, hollow
-
 import second_opinion
 from cfree import (
     FormatError,
@@ -40,6 +38,7 @@ from cfree.errors import InvalidPoseError
 from cfree.formats.answer_file import load_answer
 from compared import scene_of
 from shapes import PlainScene, box
+from spaces import ROD, TIGHT, hollow
 
 Answer = dict[str, Any]
 # changes an answer; False if there is nothing to change

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 import oracles
 from cfree import Boundary, Polygon, Scene, boundary, load_scene
-from cfree.forbidden.patch import Contact, Place
+from cfree.forbidden.patch import Contact, Patch, Place
 from shapes import PlainScene, Shape
 
 Point = tuple[Fraction, Fraction]
@@ -168,3 +168,7 @@ def main(path: Path) -> None:
 
 if __name__ == "__main__":
     main(Path(sys.argv[1]))
+
+
+def own_contact(patch: Patch) -> Contact:
+    return Contact("v-e" if patch.kind == "bound" else patch.kind, patch.robot, patch.obstacle)

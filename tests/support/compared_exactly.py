@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from cfree import Boundary
-from cfree.forbidden.boundary import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.patch import contact
+from cfree.forbidden.record import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
 from cfree.scene.features import ShapeFeatures, unpacked
 from compared import Point, cross, minus, plain_of, rotation, turned
 from exact_slices import Segments, both, common, ends, exact_slice, on_some, oriented, united, without

@@ -18,7 +18,6 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_space import ROD, TIGHT
 
 from answer_mutations import corridor, separations, tee
 from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan, save
@@ -26,6 +25,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.polygons.polygon import Polygon
 from second_opinion import TOOL, check_answer, verified_in_a_file
 from shapes import box
+from spaces import ROD, TIGHT
 
 ROOT = FilePath(__file__).parents[2]
 SQUARE = box("-1/2", "-1/2", "1/2", "1/2")[0]

@@ -11,8 +11,6 @@ from pathlib import Path as FilePath
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from test_motion import motions, poses
-from test_space import ROD, TIGHT
 
 import cfree.verify
 import strategies
@@ -21,7 +19,9 @@ from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, load_
 from cfree.verify.motions import _samples, is_nowhere_positive, touches
 from cfree.verify.world import World
 from compared import scene_of
+from moving import motions, poses
 from shapes import PlainScene, box
+from spaces import ROD, TIGHT
 
 ROOT = FilePath(__file__).parents[2]
 SQUARE = box("-1/2", "-1/2", "1/2", "1/2")[0]

@@ -18,11 +18,14 @@ import sys
 import traceback
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import typer
 
 from cfree.cli.terminal import printable
+
+if TYPE_CHECKING:
+    from cfree.scene.scene import Scene
 
 REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
@@ -59,8 +62,10 @@ def one_line_faults() -> Iterator[None]:
 
         if isinstance(error.state, Scene):
             from cfree.formats.scene_file import scene_text
+            from cfree.scene.reduction import smallest_scene
 
-            fail(f"{error}, with this scene:\n{scene_text(error.state)}", BUG)
+            smallest = smallest_scene(error.state, _contradicts_itself)
+            fail(f"{error}, with this scene:\n{scene_text(smallest)}", BUG)
         fail(str(error), BUG)
     except (CfreeError, ValueError) as error:
         fail(str(error), BAD_INPUT)
@@ -75,6 +80,16 @@ def one_line_faults() -> Iterator[None]:
     except Exception as error:  # no answer: not to be taken for one
         _say("".join(traceback.format_exception(error)))
         fail("this is a bug in cfree, please report it", BUG)
+
+
+def _contradicts_itself(scene: Scene) -> bool:
+    from cfree.errors import InvariantError
+    from cfree.forbidden.boundary import boundary
+
+    try:
+        return not boundary(scene, threads=1).complex
+    except InvariantError:
+        return True
 
 
 def fail(message: str, code: int) -> NoReturn:

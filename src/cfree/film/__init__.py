@@ -10,6 +10,8 @@ from cfree.forbidden.boundary import Boundary
 from cfree.paths.path import Path
 from cfree.scene.scene import Scene
 
+__all__ = ["film_path", "save_film"]
+
 MOST = 60.0  # seconds of motion
 
 

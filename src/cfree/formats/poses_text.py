@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 from cfree.exact.pose import Poses
 from cfree.paths.path import Path
-from cfree.plot.workspace import rings_of
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
@@ -44,7 +43,7 @@ def geojson_text(path: Path, scene: Scene, step: float, turn: float) -> str:
     roles = ["start", *["pose"] * (len(places) - 2), "goal"]
     way = {"type": "LineString", "coordinates": poses.xy.tolist()}
     features = [_feature(way, role="trace", length=path.length, turning=path.turning)]
-    outlines = [poses.apply(ring).tolist() for ring in rings_of(scene.robot)]
+    outlines = [poses.apply(ring).tolist() for part in scene.robot for ring in part.rings]
     parts = [len(part.ring_offsets) - 1 for part in scene.robot]
     for n, (role, (motion, share)) in enumerate(zip(roles, places, strict=True)):
         rings = iter([*outline[n], outline[n][0]] for outline in outlines)

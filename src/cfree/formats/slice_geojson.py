@@ -14,13 +14,11 @@ from __future__ import annotations
 
 import json
 from os import PathLike
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from cfree.formats.atomic import checked_suffix, replacing
-
-if TYPE_CHECKING:
-    from cfree.forbidden.patch import Patches
+from cfree.forbidden.patch import Patches
 from cfree.forbidden.slice import Slice
+from cfree.formats.atomic import checked_suffix, replacing
 
 
 def slice_geojson(cut: Slice) -> dict[str, Any]:

@@ -31,8 +31,8 @@ def largest_disc(cell: Cell) -> tuple[Pose, float] | None:
     >>> room = [(0, 0), (4, 0), (4, 4), (0, 4)]
     >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], workspace=room)
     >>> pose, radius = largest_disc(cfree.free_space(cfree.boundary(scene)).cells[0])
-    >>> 1.2 < radius < 1.5
-    True
+    >>> round(radius, 3)
+    1.5
     """
     boundary = cell.free_space.walls
     start, stop = cell.theta_range

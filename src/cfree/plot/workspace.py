@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,7 +71,7 @@ def _mark(ax: Axes, pose: Pose, name: str, rings: list[Floats]) -> None:
 
 def rings_of(polygons: Iterable[Any]) -> list[Floats]:
     """Rings of polygons, the interior on the left."""
-    return [p.vertices[i:j] for p in polygons for i, j in pairwise(p.ring_offsets)]
+    return [ring for polygon in polygons for ring in polygon.rings]
 
 
 def rings_of_geometry(geometry: Any) -> list[Floats]:

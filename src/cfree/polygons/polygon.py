@@ -119,6 +119,11 @@ class Polygon:
         """Vertices rounded to the nearest doubles, (n, 2)."""
         return _read_only(_rounded(self.numerators, self.denominator))
 
+    @property
+    def rings(self) -> list[Floats]:
+        """The vertices by ring, rounded; the interior on the left."""
+        return [self.vertices[i:j] for i, j in pairwise(self.ring_offsets)]
+
     @cached_property
     def exact_vertices(self) -> tuple[ExactPoint, ...]:
         """Vertices as they are."""
