@@ -73,9 +73,9 @@ def main() -> None:
 
 def _print_version(wanted: bool) -> None:
     if wanted:
-        from cfree import __version__
+        from importlib.metadata import version
 
-        print(f"cfree {__version__}")
+        print(f"cfree {version('cfree')}")
         raise typer.Exit
 
 
@@ -384,16 +384,17 @@ def verify(
 ) -> None:
     """Check a boundary or an answer by independent exact code, and say what is proved and what is sampled."""
     with one_line_faults():
-        import cfree.verify
         from cfree.formats.scene_file import load_scene
+        from cfree.verify.answers import answer as verified_answer
+        from cfree.verify.driver import boundary as verified_boundary
 
         given = load_scene(scene)
         with _bar("verify") as progress:
             if _is_archive(file):
                 options = {"sample": sample, "slices": slices, "seed": seed}
-                result = cfree.verify.boundary(file, given, progress=progress, **options)  # type: ignore[arg-type]
+                result = verified_boundary(file, given, progress=progress, **options)  # type: ignore[arg-type]
             else:
-                result = cfree.verify.answer(given, file, progress=progress)
+                result = verified_answer(given, file, progress=progress)
         if as_json:
             _print_json({"file": str(file), "verified": result.verified, **asdict(result)})
         else:

@@ -10,20 +10,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
 from typing import TYPE_CHECKING
 
-import numpy as np
-
-from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.slide import Slide
 from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.free.space import surfaces_with_slits
-from cfree.planning.departures import Exits
-from cfree.planning.exact_face import FINEST, Sheet, Vector, between, common_part, common_tau, rotated
-from cfree.planning.face_graph import FAR, LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
+from cfree.planning.departures import Departures
+from cfree.planning.exact_face import FAR, FINEST, Faces, Sheet, between, common_part, common_tau, rotated
+from cfree.planning.face_graph import LAST, LOWER, UPPER, Corridors, Landing, Link, place_of
+from cfree.planning.landing import Landings
 
 if TYPE_CHECKING:
     from cfree.free.space import FreeSpace
@@ -31,7 +28,6 @@ if TYPE_CHECKING:
 MOST_HALVINGS = 4096  # more than any scene needs
 SLID = 48  # halvings after which slides along a trapezoid's curves are tried as well
 REFINED = 8  # steps towards a critical angle before it is known better
-DIRECTIONS = ((1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1))
 
 
 class Walker:
@@ -48,39 +44,18 @@ class Walker:
     ) -> None:
         self.space = space
         self.checker = checker
-        self.slides = slides
         self.corridors = Corridors(space, angle_scale)
-        self.reach = Fraction(angle_scale)
-        self.exits = Exits(self)
-        self._links: dict[int, list[Link]] = {}
-
-    def room(self, pose: Pose, direction: Vector) -> Fraction:
-        """A share of the direction, at most 1, as far as a translation is free."""
-        found = self.checker.first_contact(pose, Translation(direction))
-        return Fraction(1) if found is None else found.at.p
+        self.faces = Faces(space)
+        self.departures = Departures(self.faces, checker, slides)
+        self.landings = Landings(self.departures, Fraction(angle_scale))
 
     @cached_property
     def with_slits(self) -> Walker | None:
         """On closed surfaces with slits of no width, where bounds leave such."""
         space = surfaces_with_slits(self.space.boundary)
-        return Walker(space, self.checker, self.corridors.angle_scale, self.slides) if space else None
-
-    def sheet(self, face: int) -> Sheet:
-        return Sheet.of(self.space.walls, face, self.space.angle)
-
-    def cell_at(self, face: int) -> int:
-        return self.space.outside if face == FAR else int(self.space.cell_of[self.space.component[face]])
+        return Walker(space, self.checker, self.corridors.angle_scale, self.departures.slides) if space else None
 
     # --- on one sheet ---
-
-    def off(self, sheet: Sheet, t: Fraction, tau: Fraction) -> Pose:
-        """Half way from the contact at (t, tau) to the next."""
-        pose, (x, y) = sheet.pose(t, tau), sheet.away(tau)
-        longest = self.reach / (abs(x) + abs(y))
-        direction = x * longest, y * longest
-        room = self.room(pose, direction)
-        share = between(room / 4, 3 * room / 4) if room else room
-        return Pose(pose.x + share * direction[0], pose.y + share * direction[1], {"tau": pose.tau})
 
     def along(self, sheet: Sheet, first: Fraction, last: Fraction) -> Iterator[Pose]:
         """From off the middle at one orientation to the same at another; without the first pose."""
@@ -88,7 +63,7 @@ class Walker:
         while stack:
             tau, to, depth = stack.pop()
             t, end = sheet.middle(tau), sheet.middle(to)
-            p, q = self.off(sheet, t, tau), self.off(sheet, end, to)
+            p, q = self.landings.off(sheet, t, tau), self.landings.off(sheet, end, to)
             C, D = sheet.pose(t, tau), sheet.pose(end, to)
             turned, slid = sheet.turned(t, tau, to), sheet.pose(end, tau)
             ways = [[p, q], [p, C, turned, D, q], [p, C, slid, sheet.turned(end, tau, to), q]]
@@ -105,9 +80,10 @@ class Walker:
         """The same by a slide: always on the trapezoid."""
         for code, t, end in zip(sheet.codes, sheet.limits(tau), sheet.limits(to), strict=True):
             on, last = sheet.pose(t, tau), sheet.pose(end, to)
-            if self.exits.along_curve(on, last, sheet, code):
+            if self.departures.along_curve(on, last, sheet, code):
                 p, q = sheet.middle(tau), sheet.middle(to)
-                head, tail = (self.off(sheet, p, tau), sheet.pose(p, tau)), (sheet.pose(q, to), self.off(sheet, q, to))
+                head = self.landings.off(sheet, p, tau), sheet.pose(p, tau)
+                tail = sheet.pose(q, to), self.landings.off(sheet, q, to)
                 return [*head, on, last, *tail]
         return None
 
@@ -116,7 +92,7 @@ class Walker:
     def over_curve(self, f: Sheet, g: Sheet, tau: Fraction, side: int) -> Sequence[Pose]:
         """From off the middle of one to off the middle of the other, over a curve that they share."""
         t, end = f.middle(tau), g.middle(tau)
-        p, q = self.off(f, t, tau), self.off(g, end, tau)
+        p, q = self.landings.off(f, t, tau), self.landings.off(g, end, tau)
         corner = f.pose(f.limits(tau)[side], tau)
         way = self.checker.first_free([[p, q], [p, f.pose(t, tau), corner, g.pose(end, tau), q]])
         if way is None:
@@ -147,12 +123,12 @@ class Walker:
                 continue
             t, s = places
             C, D = f.pose(t, sigma), g.pose(s, tau)
-            p, q = self.off(f, t, sigma), self.off(g, s, tau)
+            p, q = self.landings.off(f, t, sigma), self.landings.off(g, s, tau)
             turned = rotated(C, f.contact_point(t), D.tau)
             way = self.checker.first_free([[p, q], [p, C, turned, D, q], [p, C, turned, q], [p, C, D, q]])
             if way is not None:
                 m, n = f.middle(sigma), g.middle(tau)
-                begin, end = self.off(f, m, sigma), self.off(g, n, tau)
+                begin, end = self.landings.off(f, m, sigma), self.landings.off(g, n, tau)
                 head = self.checker.first_free([[begin, p], [begin, f.pose(m, sigma), C, p]])
                 tail = self.checker.first_free([[q, end], [q, D, g.pose(n, tau), end]])
                 assert head and tail
@@ -171,8 +147,8 @@ class Walker:
         """
         if len(self.space.component) == 0:
             return [start, _turned(start, goal), goal]
-        landings, takeoffs = self.landings(start, cell), self.landings(goal, cell)
-        links = self.links(cell)
+        landings, takeoffs = self.landings.of(start, cell), self.landings.of(goal, cell)
+        links = self.landings.links(cell)
         way = self.corridors.shortest(place_of(start), landings, place_of(goal), takeoffs, links)
         if way is None:
             raise InvariantError(f"no way in cell {cell}", state=(start, goal))
@@ -195,15 +171,15 @@ class Walker:
                 assert entered and left
                 yield _turned(entered.pose, left.pose)
             else:
-                f = self.sheet(face)
+                f = self.faces.sheet(face)
                 if entered:
                     tau = entered.pose.chart[1]
-                    yield from (f.pose(f.middle(tau), tau), self.off(f, f.middle(tau), tau))
+                    yield from (f.pose(f.middle(tau), tau), self.landings.off(f, f.middle(tau), tau))
                 if left:
                     end = left.pose.chart[1]
                     yield from (*self.along(f, tau, end), f.pose(f.middle(end), end))
                 else:
-                    end, steps, after = self._over(f, self.sheet(way[k + 1][0]), h, tau)
+                    end, steps, after = self._over(f, self.faces.sheet(way[k + 1][0]), h, tau)
                     yield from (*self.along(f, tau, end), *steps)
                     tau = after
             if left:
@@ -217,81 +193,6 @@ class Walker:
             end = common_tau(f, g)
             return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
         return self.over_wall(f, g, h, tau)
-
-    def landings(self, pose: Pose, cell: int) -> list[Landing]:
-        """Ways from a pose, in a cell or on its boundary, to the boundary."""
-        if here := self.exits.of(pose).get(cell):
-            return here
-        return [landing for x, y in DIRECTIONS for landing in self._landings(pose, x, y, cell)]
-
-    def _landings(self, pose: Pose, x: int, y: int, cell: int) -> list[Landing]:
-        """What a straight way leads to; a way far away is one to the left."""
-        far = Pose(self._far, pose.y, {"tau": pose.tau})
-        is_left = x < 0 and y == 0
-        length = max(self._extent, pose.x - far.x) if is_left else self._extent
-        contact = self.checker.first_contact(pose, Translation((x * length, y * length)))
-        if contact is None:
-            return [Landing(FAR, (pose, far))] if is_left and self.checker.joins([pose, far]) else []
-        share = contact.at.p * length
-        there = Pose(pose.x + share * x, pose.y + share * y, {"tau": pose.tau})
-        return [Landing(landing.face, (pose, *landing.way)) for landing in self.exits.of(there).get(cell, ())]
-
-    @cached_property
-    def _extent(self) -> Fraction:
-        xs, ys = self.space.complex.x, self.space.complex.y
-        return Fraction(float(2 * (np.ptp(xs) + np.ptp(ys)))) + 2 * self.reach + self._rounding
-
-    @cached_property
-    def _far(self) -> Fraction:
-        return Fraction(float(self.space.complex.x.min())) - 2 * self.reach - self._rounding
-
-    @cached_property
-    def _rounding(self) -> Fraction:
-        """More than doubles are off, of positions on the boundary."""
-        return Fraction(float(np.abs([self.space.complex.x, self.space.complex.y]).max())) / 2**40
-
-    def links(self, cell: int) -> list[Link]:
-        """Free segments that link all closed surfaces of a cell, and `FAR` if it is unbounded.
-
-        Notes
-        -----
-        All that lie on one ray towards -x, for each surface but the outer one. The ray leaves the cell and comes back
-        over the same surface, as no other bounds that part of the forbidden space from there: so they link its ends.
-        """
-        if cell not in self._links:
-            bounded = self.space.cells[cell].bounded
-            components = self.space.cells[cell].components[bounded:]
-            self._links[cell] = [link for component in components for link in self._links_of(component, cell)]
-        return self._links[cell]
-
-    def _links_of(self, component: int, cell: int) -> Iterator[Link]:
-        table = self.space.walls.trapezoids
-        faces = np.flatnonzero(self.space.component == component)
-        f = self.sheet(int(faces[np.argmax((table.tau_to - table.tau_from)[faces])]))
-        tau = between(f.low, f.high)
-        while True:
-            pose = self.off(f, f.middle(tau), tau)
-            nearby = self.space.nearby(pose)
-            crossed = {self._crossing(face, pose) for face in nearby.crossed}
-            if nearby.generic and not nearby.on and None not in crossed:
-                break
-            tau = between(tau, f.high)
-        xs = sorted((x for x in crossed if x is not None), reverse=True)
-        middles = [Pose((x + other) / 2, pose.y, {"tau": pose.tau}) for x, other in pairwise([*xs, self._far])]
-        landing = Landing(f.face, (pose, f.pose(f.middle(tau), tau)))
-        for found in self._landings(pose, -1, 0, cell)[:1]:
-            yield Link((landing, found))
-        for middle in middles:
-            if self.space.locate(middle) == cell:
-                right, left = (self._landings(middle, x, 0, cell) for x in (1, -1))
-                if right and left:
-                    yield Link((right[0], left[0]))
-
-    def _crossing(self, face: int, pose: Pose) -> Fraction | None:
-        """Where the line of a trapezoid is at a pose's height and orientation; None if it is level there."""
-        f = self.sheet(face)
-        (x, y), (u, v) = f.at(f.local(pose))
-        return x + (pose.y - y) / v * u if v else None
 
 
 def _nearer(tau: Fraction, end: Fraction, halvings: int) -> Fraction:

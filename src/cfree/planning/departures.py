@@ -13,31 +13,40 @@ from typing import TYPE_CHECKING
 from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.planning.double_contact import same_line, slide
-from cfree.planning.exact_face import HELIX, Sheet, between
+from cfree.planning.exact_face import HELIX, Faces, Sheet, between
 from cfree.planning.face_graph import Landing
 from cfree.scene.features import unpacked
 
 if TYPE_CHECKING:
-    from cfree.planning.boundary_walk import Walker
+    from cfree.collision.motion_checker import MotionChecker
+    from cfree.collision.slide import Slide
 
 MOST_HALVINGS = 4096  # of the way to the other end of a trapezoid: more than any scene needs
 
 
-class Exits:
-    """Ways off poses in the free space of a walker."""
+class Departures:
+    """Ways off poses.
 
-    def __init__(self, walker: Walker) -> None:
-        self.walker = walker
+    Parameters
+    ----------
+    slides : dict
+        The slides found are added to it, by the poses that they join; `motion_between` joins all others.
+    """
+
+    def __init__(self, faces: Faces, checker: MotionChecker, slides: dict[tuple[Pose, Pose], Slide]) -> None:
+        self.faces = faces
+        self.checker = checker
+        self.slides = slides
         self._known: dict[Pose, dict[int, list[Landing]]] = {}
 
     def of(self, pose: Pose) -> dict[int, list[Landing]]:
         """Cells on whose boundary a free pose is, with the trapezoids there."""
         if pose not in self._known:
             found: dict[int, list[Landing]] = {}
-            nearby = self.walker.space.nearby(pose)
+            nearby = self.faces.space.nearby(pose)
             for face, end in zip(nearby.on, nearby.end, strict=True):
-                way = self._inwards(self.walker.sheet(face), pose, end)
-                found.setdefault(self.walker.cell_at(face), []).append(Landing(face, way))
+                way = self._inwards(self.faces.sheet(face), pose, end)
+                found.setdefault(self.faces.cell_at(face), []).append(Landing(face, way))
             self._known[pose] = found
         return self._known[pose]
 
@@ -49,15 +58,15 @@ class Exits:
         kind, i, j = map(int, unpacked(code))
         for other in same_line(sheet.features, (kind, i, j)):
             found = slide(sheet.features, pose, sheet.contact, other, turn)
-            if found is not None and found.apply(pose) == goal and self.walker.checker.is_free(pose, found):
-                self.walker.slides[pose, goal] = found
+            if found is not None and found.apply(pose) == goal and self.checker.is_free(pose, found):
+                self.slides[pose, goal] = found
                 return True
         return False
 
     def along_curve(self, pose: Pose, goal: Pose, sheet: Sheet, code: int) -> bool:
         """Is there one free motion to another pose on the same curve of a sheet?"""
         if int(unpacked(code)[0]) == HELIX:
-            return self.walker.checker.joins([pose, goal])
+            return self.checker.joins([pose, goal])
         return self.slid(pose, goal, sheet, code)
 
     def _inwards(self, sheet: Sheet, pose: Pose, end: int) -> tuple[Pose, ...]:
@@ -87,7 +96,7 @@ class Exits:
         """Turned about the point of contact, if that stays on the trapezoid."""
         lower, upper = sheet.limits(to)
         begin, end = sheet.pose(t, tau), sheet.turned(t, tau, to)
-        return end if lower <= t <= upper and self.walker.checker.joins([begin, end]) else None
+        return end if lower <= t <= upper and self.checker.joins([begin, end]) else None
 
     def _along(self, sheet: Sheet, begin: Pose, to: Fraction) -> Pose | None:
         """Along one of its curves."""

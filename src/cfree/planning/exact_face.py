@@ -16,6 +16,7 @@ from cfree.scene.features import SceneFeatures, ShapeFeatures, unpacked
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
+    from cfree.free.space import FreeSpace
 
 FINEST = 32  # bits of tau that doubles are trusted with
 AngleOf = Callable[[int, bool, int], tuple[Fraction, Fraction]]
@@ -277,3 +278,25 @@ def common_part(f: Sheet, sigma: Fraction, g: Sheet, tau: Fraction) -> tuple[Fra
     s = g.t_of(f.pose(t, sigma), tau)
     least, most = g.limits(tau)
     return (t, s) if least < s < most else None
+
+
+FAR = -1  # in place of a face: to the left of everything
+
+
+class Faces:
+    """The trapezoids that bound the cells of a free space.
+
+    Parameters
+    ----------
+    space : FreeSpace
+    """
+
+    def __init__(self, space: FreeSpace) -> None:
+        self.space = space
+
+    def sheet(self, face: int) -> Sheet:
+        return Sheet.of(self.space.walls, face, self.space.angle)
+
+    def cell_at(self, face: int) -> int:
+        """The cell that a face bounds; at `FAR` the one that is unbounded."""
+        return self.space.outside if face == FAR else int(self.space.cell_of[self.space.component[face]])

@@ -16,6 +16,7 @@ import numpy as np
 
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import Floats
+from cfree.planning.exact_face import FAR
 
 if TYPE_CHECKING:
     from cfree.free.space import FreeSpace
@@ -24,7 +25,6 @@ UPPER, LAST, LOWER = 1, 2, 3
 
 
 Place = tuple[float, float, float]
-FAR = -1  # in place of a face: to the left of everything
 
 
 def place_of(pose: Pose) -> Place:
