@@ -21,8 +21,8 @@ SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 SCENE = cfree.Scene(SQUARE, [[(3, 0), (4, 0), (4, 1)]], bounds=(-2, -2, 6, 6), start=(0, 0, 0), goal=(1, 2, "90deg"))
 # made by cfree, and not by users
 RESULTS = """
-    AlgebraicAngle AngleInterval AngleRange BezierPatch Boundary Cell CellComplex Clearance EdgeEdgeSegment
-    FirstContact Fit FreeSpace Helix Interval LocalGeometry Mesh NearestMiss Pieces Pinch RationalHelix RationalRange
+    AlgebraicAngle AngleInterval AngleRange BezierPatch Bottleneck Boundary Cell CellComplex Clearance EdgeEdgeSegment
+    FirstContact Fit FreeSpace Helix Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
     RationalSegment RationalSurface Separated Slice Surface
 """.split()  # noqa: SIM905
 

@@ -12,7 +12,7 @@ import shapely
 
 import cfree.verify
 from cfree import Pose, Scene, boundary, free_space, load_scene, max_margin, max_scale, nearest_miss, separation
-from cfree.analysis.bottleneck import pinches
+from cfree.analysis.bottleneck import bottlenecks
 from cfree.polygons.offset import _is_inside, inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, SIDES, _around_a_disc
@@ -38,9 +38,10 @@ def test_the_nearest_miss_of_a_rod_in_a_corner() -> None:
     expected = (2.6 + 2 * 0.2 - 2 * 2**0.5) / 6  # both length and width shrink by twice the inset
     miss = nearest_miss(corner("2.6", "0.2"), HERE, THERE)
     assert miss is not None and miss.lo <= expected <= miss.hi <= 1.01 * miss.lo
-    (pinch,) = miss.pinches
-    assert sorted(pinch.obstacles) == [0, 1] and math.degrees(pinch.pose.theta) % 180 == pytest.approx(135, abs=5)
-    assert max(abs(float(c) - 0.95) for c in (pinch.pose.x, pinch.pose.y)) < 0.1
+    (bottleneck,) = miss.bottlenecks
+    assert sorted(bottleneck.obstacles) == [0, 1]
+    assert math.degrees(bottleneck.pose.theta) % 180 == pytest.approx(135, abs=5)
+    assert max(abs(float(c) - 0.95) for c in (bottleneck.pose.x, bottleneck.pose.y)) < 0.1
     assert str(miss).startswith("an inset of 0.02") and "between obstacle 1 and obstacle 0 at" in str(miss)
 
 
@@ -64,14 +65,14 @@ def test_two_gates_one_after_the_other() -> None:
     scene = scene_of(PlainScene([box(-half, -half, half, half)], gates, workspace=box(-7, -7, 7, 7)))
     miss = nearest_miss(scene, Pose(0, 6), Pose(0, -6))
     assert miss is not None and miss.lo <= 0.05 <= miss.hi
-    assert [sorted(pinch.obstacles) for pinch in miss.pinches] == [[2, 3]]
+    assert [sorted(bottleneck.obstacles) for bottleneck in miss.bottlenecks] == [[2, 3]]
 
 
 def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends() -> None:
     exact = separation(room(1), INSIDE, OUTSIDE)
     assert exact is not None and exact.of == "closed"
     miss = nearest_miss(room(1).boundary.scene, INSIDE, OUTSIDE)
-    assert miss is not None and miss.lo == 0 < miss.hi < 1e-40 and miss.pinches == ()
+    assert miss is not None and miss.lo == 0 < miss.hi < 1e-40 and miss.bottlenecks == ()
     closed = scene_of(PlainScene([box(0, 0, 1, 1)], [hollow((-5, -5, 5, 5), (-4, -4, 4, 4))]))
     assert nearest_miss(closed, Pose(0, 0), Pose(9, 9)) is None
     with pytest.raises(ValueError, match="start and goal are joined"):
@@ -144,8 +145,8 @@ def test_where_the_nest_opens() -> None:
         free_space(boundary(with_robot(scene, inset(scene.robot[0], by), scene.bounds)))
         for by in (Fraction(700, 1000), Fraction(715, 1000))
     )
-    (pinch,) = pinches(larger, smaller, start, goal)
-    assert sorted(pinch.obstacles) == [0, 26]
-    robot = shapely.Polygon(pinch.pose.apply(smaller.boundary.scene.robot[0].vertices))
-    assert all(robot.distance(scene.obstacles[k].to_shapely()) < 1 for k in pinch.obstacles)  # it is 460 long
-    assert pinches(larger, larger, start, start) == ()
+    (bottleneck,) = bottlenecks(larger, smaller, start, goal)
+    assert sorted(bottleneck.obstacles) == [0, 26]
+    robot = shapely.Polygon(bottleneck.pose.apply(smaller.boundary.scene.robot[0].vertices))
+    assert all(robot.distance(scene.obstacles[k].to_shapely()) < 1 for k in bottleneck.obstacles)  # it is 460 long
+    assert bottlenecks(larger, larger, start, start) == ()

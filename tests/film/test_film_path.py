@@ -43,7 +43,7 @@ def test_the_robot_moves_at_even_speed_and_rests_before_and_after(monkeypatch: p
     seen: list[float] = []
     monkeypatch.setattr(PathStage, "draw", lambda self, travel, share: seen.append(travel) or np.zeros(1))
     frames = frames_of(WAY, WALL, 4.0, 25)
-    total = Track.of(WAY, WALL).pace.total
+    total = Track.of(WAY, WALL).travel.total
     before, after = (round(rest * 25) for rest in REST)
     assert len(frames) == before + 100 + after
     assert seen[: before + 1] == [0] * (before + 1) and seen[-1] == total
@@ -72,7 +72,7 @@ def test_a_frame_shows_the_robot_its_trace_and_its_clearance() -> None:
         assert stage.value.get_text() == f"clearance {distance:.3g} m"
         assert stage.pointer.get_xdata() == pytest.approx([min(distance, track.most)])
         assert all(path.vertices[:, 0].min() <= travel for path in stage.ghosts.get_paths())
-    stage.draw(track.pace.total, 1.0)
+    stage.draw(track.travel.total, 1.0)
     assert stage.origin.get_xydata()[0] == pytest.approx([6, -2])
     assert len(stage.ghosts.get_paths()) == len(track.ghosts)
 
@@ -84,11 +84,11 @@ def test_the_line_in_configuration_space_has_the_colours_of_the_trace(five: tupl
     assert stage.space is not None
     lines: list[Any] = []
     stage.space.draw = lambda *arguments: lines.extend(arguments[-1])  # type: ignore[method-assign]
-    stage.draw(track.pace.total / 2, 0.5)
+    stage.draw(track.travel.total / 2, 0.5)
     assert len({colour for colour, _ in lines}) > 1
     joined = [np.array_equal(before[-1], after[0]) for (_, before), (_, after) in pairwise(lines)]
     assert all(joined) and lines[0][1][0] == pytest.approx(stage.line[0])
-    assert lines[-1][1][-1, :2] == pytest.approx(track.pace.at([track.pace.total / 2])[0, :2])
+    assert lines[-1][1][-1, :2] == pytest.approx(track.travel.at([track.travel.total / 2])[0, :2])
 
 
 def test_a_gif_is_read_back(tmp_path: FilePath) -> None:

@@ -189,7 +189,7 @@ def test_volumes_agree_with_random_poses(kind: str) -> None:
         assert np.all(np.abs(share - expected) <= 5 * np.sqrt(expected / n) + 5 / n)
 
 
-def test_roomiest_poses_are_in_their_cells_and_have_that_room() -> None:
+def test_largest_discs_are_in_their_cells_and_have_that_room() -> None:
     scene = load_scene(ROOT / "examples/scenes/flat.json")
     space = free_space(boundary(scene))
     plain = plain_of(scene)

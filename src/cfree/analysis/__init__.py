@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from cfree.analysis.bottleneck import Pinch as Pinch
+    from cfree.analysis.bottleneck import Bottleneck as Bottleneck
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
-        "bottleneck": "Pinch",
+        "bottleneck": "Bottleneck",
     },
 )

@@ -1,7 +1,7 @@
 """Where does free space open when the robot gets a little smaller? A search by samples on the closed surfaces.
 
 A sample of the smaller robot's boundary has the same contact, t and theta on the larger one's: there it bounds a cell,
-or it is covered. Where neighbours bound different cells, or what is covered between them is connected, is a pinch.
+or it is covered. Where neighbours bound different cells, or what is covered between them is connected, is a bottleneck.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from cfree.scene.scene import default_name
 if TYPE_CHECKING:
     from cfree.free.space import FreeSpace
 
-COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a pinch
-MOST = 100  # samples of a pinch that are pushed
+COARSE, FINE = 3, 25  # samples along each side of a trapezoid: of all, and of those at a bottleneck
+MOST = 100  # samples of a bottleneck that are pushed
 NUDGE = 1e-9  # of the robot's size: off what a sample touches
 COVERED = -1
 
 
 @dataclass(frozen=True)
-class Pinch:
+class Bottleneck:
     """A narrow place.
 
     Attributes
@@ -64,12 +64,12 @@ class Samples:
     other: Ints
 
 
-def pinches(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> tuple[Pinch, ...]:
+def bottlenecks(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> tuple[Bottleneck, ...]:
     """Pinches on a way from start to goal, apart for the larger robot and joined for the smaller; () if not found.
 
     Notes
     -----
-    Nothing is proved: samples may miss a pinch. It is found only if both robots have the same vertices.
+    Nothing is proved: samples may miss a bottleneck. It is found only if both robots have the same vertices.
     """
     if len(larger.boundary.features.robot.vertices) != len(smaller.boundary.features.robot.vertices):
         return ()
@@ -87,8 +87,8 @@ def pinches(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) -> t
         route = _route(its_label, its_group, closer, cells)
         chosen = np.flatnonzero(np.isin(its_group, route) if route else its_group >= 0)
         some = chosen[:: -(-len(chosen) // MOST) or 1].astype(np.int32)
-        pinch = _narrowest(smaller, closer, some, checker)
-        found += [] if pinch is None else [pinch]
+        bottleneck = _narrowest(smaller, closer, some, checker)
+        found += [] if bottleneck is None else [bottleneck]
     return tuple(found)
 
 
@@ -161,8 +161,8 @@ def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list
     links = np.concatenate([links, np.column_stack([group, label])])
     around: dict[tuple[str, int], list[tuple[str, int]]] = defaultdict(list)
     for number, cell in np.unique(links[(links >= 0).all(axis=1)], axis=0).tolist():
-        around["pinch", number].append(("cell", cell))
-        around["cell", cell].append(("pinch", number))
+        around["bottleneck", number].append(("cell", cell))
+        around["cell", cell].append(("bottleneck", number))
     first, last = ("cell", cells[0]), ("cell", cells[1])
     came, todo = {first: first}, deque([first])
     while todo and last not in came:
@@ -173,19 +173,19 @@ def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list
                 todo.append(following)
     route, place = [], last if last in came else first
     while place != first:
-        route += [place[1]] if place[0] == "pinch" else []
+        route += [place[1]] if place[0] == "bottleneck" else []
         place = came[place]
     return route[::-1]
 
 
-def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: MotionChecker) -> Pinch | None:
+def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: MotionChecker) -> Bottleneck | None:
     """Where a sample pushed into the free side comes to a stop first, halfway."""
     walls, theta = space.walls, samples.theta[chosen]
     patch = walls.trapezoids.patch[samples.face[chosen]]
     xy = walls.evaluate(patch, samples.t[chosen], theta)
     u, v = (walls.evaluate(patch, np.ones(len(patch)), theta) - walls.evaluate(patch, np.zeros(len(patch)), theta)).T
     owner = walls.features.obstacles.owner_polygon[walls.contact_obstacle[patch]]
-    best: tuple[float, Pinch] | None = None
+    best: tuple[float, Bottleneck] | None = None
     push = np.column_stack([v, -u]) * float(np.ptp(walls.features.robot.xy, axis=0).max()) / np.hypot(u, v)[:, None]
     rows = zip(xy.tolist(), theta.tolist(), push.tolist(), owner.tolist(), strict=True)
     for (x, y), angle, (dx, dy), obstacle in rows:
@@ -193,5 +193,5 @@ def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: Motion
         if met is None or not (share := float(met.at)) > 0:
             continue
         if best is None or share < best[0]:
-            best = share, Pinch(Pose(x + share / 2 * dx, y + share / 2 * dy, angle), (obstacle, met.obstacle))
+            best = share, Bottleneck(Pose(x + share / 2 * dx, y + share / 2 * dy, angle), (obstacle, met.obstacle))
     return best and best[1]

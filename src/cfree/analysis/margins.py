@@ -11,13 +11,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cfree.analysis.bottleneck import Pinch, pinches
+from cfree.analysis.bottleneck import Bottleneck, bottlenecks
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import PoseLike
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace, free_space
-from cfree.planning.separation import insets_of
+from cfree.planning.separation import inset_powers
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
@@ -46,20 +46,20 @@ class NearestMiss:
     lo, hi : float
         With an inset of `lo` there is still no path that keeps a distance, with one of `hi` there is; `lo` is 0 if no
         inset that was tried is too small.
-    pinches : tuple of Pinch
+    bottlenecks : tuple of Bottleneck
         Where space opens between the two, in order from start to goal. Empty if that was not found: an inset is an
         exact decision, its place is a search by samples.
     """
 
     lo: float
     hi: float
-    pinches: tuple[Pinch, ...]
+    bottlenecks: tuple[Bottleneck, ...]
 
     def __str__(self) -> str:
         size = f"an inset of {self.lo:.4g} to {self.hi:.4g} would do"
-        if not self.pinches:
+        if not self.bottlenecks:
             return size
-        places = "; ".join(f"between {pinch}" for pinch in self.pinches)
+        places = "; ".join(f"between {place}" for place in self.bottlenecks)
         return f"{size}: about {2 * self.hi:.2g} too wide {places}"
 
 
@@ -104,7 +104,7 @@ def nearest_miss(
     >>> square = [(-1.25, -1.25), (1.25, -1.25), (1.25, 1.25), (-1.25, 1.25)]
     >>> scene = Scene(square, walls, workspace=box)
     >>> miss = nearest_miss(scene, (0, 5, 0), (0, -5, 0))
-    >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.pinches[0].obstacles)
+    >>> miss.lo <= 0.25 <= miss.hi <= 1.01 * miss.lo, sorted(miss.bottlenecks[0].obstacles)
     (True, [0, 1])
     """
     start, goal = required(scene, start, goal)
@@ -125,7 +125,7 @@ def nearest_miss(
     most = _deepest(smaller_robot, Fraction(2) ** size_power(scene))
     if not most or separated(most):
         return None
-    insets = [by for k in insets_of(scene) if (by := Fraction(2) ** (size_power(scene) + k)) < most]
+    insets = [by for k in inset_powers(scene) if (by := Fraction(2) ** (size_power(scene) + k)) < most]
     least = next(filter(separated, insets), None)
     if least is None:
         return NearestMiss(0.0, float(min([*insets, most])), ())
@@ -133,7 +133,7 @@ def nearest_miss(
     one, other = spaces[lo], spaces[hi]
     if one is None or other is None:
         return NearestMiss(0.0, float(hi), ())
-    return NearestMiss(float(lo), float(hi), pinches(one, other, start, goal))
+    return NearestMiss(float(lo), float(hi), bottlenecks(one, other, start, goal))
 
 
 @checked

@@ -21,7 +21,7 @@ Ints = NDArray[np.int64]
 Name = tuple[int, int]  # polygon and edge
 
 
-class Walls:
+class EdgeDistances:
     """The edges of obstacles and workspace, and those of the robot; prepared once.
 
     Attributes
@@ -32,7 +32,7 @@ class Walls:
     radius : float
         Of the robot about its reference point.
     segments : (w, 2, 2) float64
-        Ends of the walls.
+        Ends of the others.
     names : list of (obstacle, edge)
         -2 stands for the workspace.
     """
@@ -40,10 +40,10 @@ class Walls:
     def __init__(self, scene: Scene) -> None:
         import shapely
 
-        walls = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
+        shapes = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
         self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
         self.radius = robot_radius(scene)
-        self.segments, self.names = _edges(walls)
+        self.segments, self.names = _edges(shapes)
         # a power of two near their size, so that squares of tiny and of huge numbers are doubles
         self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
         self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments / self._unit))
@@ -53,24 +53,24 @@ class Walls:
         return Poses(rows[:, :2], rows[:, 2]).apply(self.robot.reshape(-1, 2)).reshape(len(rows), *self.robot.shape)
 
     def nearest(self, placed: Floats) -> tuple[Floats, Ints, Ints]:
-        """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); between which edge and which wall they are.
+        """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); and between which two edges they are.
 
-        The robot's inside must be free of walls. There must be one wall at least.
+        The robot's inside must be free of edges, and there must be one at least.
         """
         import shapely
 
         lines = shapely.linestrings(placed.reshape(-1, 2, 2) / self._unit)
-        (_, wall), distance = self._tree.query_nearest(lines, return_distance=True, all_matches=False)
+        (_, other), distance = self._tree.query_nearest(lines, return_distance=True, all_matches=False)
         table = self._unit * distance.reshape(len(placed), -1)
         edge = table.argmin(axis=1)
         rows = np.arange(len(placed))
-        return table[rows, edge], edge, wall.reshape(table.shape)[rows, edge]
+        return table[rows, edge], edge, other.reshape(table.shape)[rows, edge]
 
-    def between(self, edge: Floats, wall: int) -> Floats:
-        """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of a wall."""
+    def between(self, edge: Floats, other: int) -> Floats:
+        """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of an edge of `segments`."""
         import shapely
 
-        pair = (shapely.linestrings(ends / self._unit) for ends in (edge, self.segments[wall]))
+        pair = (shapely.linestrings(ends / self._unit) for ends in (edge, self.segments[other]))
         return self._unit * np.asarray(shapely.get_coordinates(shapely.shortest_line(*pair)))
 
 

@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
 from numpy.typing import NDArray
 
-from cfree.collision.distance import Walls
+from cfree.collision.distance import EdgeDistances
 from cfree.film.box import INK
 from cfree.film.frame import GREY, INCHES, MONO
 from cfree.film.painter import Eye
@@ -73,7 +73,7 @@ class PathStage:
         lines = track.rows * (1, 1, 180 / math.pi)
         self.line = np.column_stack((lines[:, :2], lines[:, 2] % 360))
         self.shade = _shades(track)
-        self.walls = Walls(scene)
+        self.distances = EdgeDistances(scene)
 
     def _draw_plane(self, figure: Figure) -> None:
         """What is in the workspace, and artists of what moves."""
@@ -108,13 +108,13 @@ class PathStage:
     def draw(self, travel: float, share: float) -> Image:
         """The frame after so much travel as (height, width, 3) bytes; share of the film that is over."""
         track = self.track
-        row = track.pace.at([travel])
+        row = track.travel.at([travel])
         (pose,) = poses_of(row)
         outline = path_of(pose.apply(ring) for ring in rings_of(track.scene.robot))
         self.body.set_path(outline)
         self.rim.set_path(outline)
         self.origin.set_data(row[:, 0], row[:, 1])
-        done = int(np.searchsorted(track.travel, travel, side="right"))
+        done = int(np.searchsorted(track.steps, travel, side="right"))
         ends = np.concatenate((track.rows[:done, :2], row[:, :2]))
         self.trace.set_segments(list(np.stack((ends[:-1], ends[1:]), axis=1)))
         colours = track.colour(track.distance[:done])
@@ -149,9 +149,9 @@ class PathStage:
 
     def _point(self, row: Floats) -> None:
         """The clearance in words, on the bar, and where it is."""
-        edges = self.walls.placed(row)
-        (distance,), (edge,), (wall,) = self.walls.nearest(edges)
-        points = self.walls.between(edges[0, edge], int(wall))
+        edges = self.distances.placed(row)
+        (distance,), (edge,), (other,) = self.distances.nearest(edges)
+        points = self.distances.between(edges[0, edge], int(other))
         self.gap.set_data(*points.T)
         self.pointer.set_data([min(distance, self.track.most)], [1.6])
         self.value.set_text(f"clearance {quantity(float(distance), self.track.scene.units)}")
@@ -163,10 +163,10 @@ def path_frames(
 ) -> Iterator[Image]:  # fmt: skip
     """All frames: the robot rests, moves at even speed, and rests."""
     if seconds is None:
-        seconds = float(np.clip(track.pace.total / robot_radius(track.scene), *SECONDS))
+        seconds = float(np.clip(track.travel.total / robot_radius(track.scene), *SECONDS))
     before, after = (round(rest * fps) for rest in REST)
     moving = max(2, round(seconds * fps))
-    travel = np.concatenate((np.zeros(before), np.linspace(0, track.pace.total, moving)))
+    travel = np.concatenate((np.zeros(before), np.linspace(0, track.travel.total, moving)))
     stage = PathStage(track, boundary, size)
     total = len(travel) + after
     for k, s in enumerate(travel.tolist()):

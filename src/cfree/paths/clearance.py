@@ -9,11 +9,11 @@ from fractions import Fraction
 import numpy as np
 
 from cfree.arguments import checked
-from cfree.collision.distance import Floats, Ints, Walls
+from cfree.collision.distance import EdgeDistances, Floats, Ints
 from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.paths.path import Path
-from cfree.paths.travel import Pace, reach
+from cfree.paths.travel import Travel, reach
 from cfree.scene.scene import Scene
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
@@ -84,10 +84,10 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
     >>> found.found, found.least > 0.249, found.obstacle
     (0.25, True, (0, 0))
     """
-    return least_clearance(path, walls_beside(path, scene), tolerance)
+    return least_clearance(path, distances_beside(path, scene), tolerance)
 
 
-def walls_beside(path: Path, scene: Scene) -> Walls:
+def distances_beside(path: Path, scene: Scene) -> EdgeDistances:
     """What a free path keeps away from.
 
     Raises
@@ -97,17 +97,17 @@ def walls_beside(path: Path, scene: Scene) -> Walls:
     """
     if not path.is_free(MotionChecker(scene)):
         raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-    return Walls(scene)
+    return EdgeDistances(scene)
 
 
-def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Clearance | None:
+def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | None) -> Clearance | None:
     """Of a free path; see `clearance`."""
     if tolerance is None:
-        found = least_clearance(path, walls, 1e-3 * walls.radius)
+        found = least_clearance(path, distances, 1e-3 * distances.radius)
         if found is None or found.least > 0 or found.found == 0:
             return found
-        return least_clearance(path, walls, found.found / 4)
-    segments, robot = walls.segments, walls.robot
+        return least_clearance(path, distances, found.found / 4)
+    segments, robot = distances.segments, distances.robot
     if not len(segments):
         return None
     if not tolerance > 0:
@@ -115,7 +115,7 @@ def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Cleara
     motions = path.motions or (Translation((0, 0)),)
     travel = np.array([reach(q, m, robot) for q, m in zip(path.poses, motions, strict=False)])
     places = max(abs(float(c)) for q in path.poses for c in (q.x, q.y))
-    size = max(float(np.abs(segments).max()), places + walls.radius + float(travel.max()))
+    size = max(float(np.abs(segments).max()), places + distances.radius + float(travel.max()))
     motion, low, high = np.arange(len(motions)), np.zeros(len(motions)), np.ones(len(motions))
     least, best = math.inf, (math.inf, 0, 0.0, 0, 0)
     while len(motion):
@@ -128,10 +128,10 @@ def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Cleara
                 .apply(robot.reshape(-1, 2))
                 .reshape(-1, *robot.shape)
             )
-        nearest, edge, wall = walls.nearest(placed)
+        nearest, edge, other = distances.nearest(placed)
         k = int(nearest.argmin())
         if nearest[k] < best[0]:
-            best = float(nearest[k]), int(motion[k]), float(middle[k]), int(edge[k]), int(wall[k])
+            best = float(nearest[k]), int(motion[k]), float(middle[k]), int(edge[k]), int(other[k])
         bound = nearest - travel[motion] * (high - low) / 2
         open_ = bound < best[0] - tolerance
         if open_.sum() > MOST:
@@ -140,7 +140,7 @@ def least_clearance(path: Path, walls: Walls, tolerance: float | None) -> Cleara
         motion, low, middle, high = motion[open_], low[open_], middle[open_], high[open_]
         motion, low, high = np.tile(motion, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
     value, at, share, i, j = best
-    return Clearance(max(0.0, least - ROUNDING * size), value, at, share, walls.robot_names[i], walls.names[j])
+    return Clearance(max(0.0, least - ROUNDING * size), value, at, share, distances.robot_names[i], distances.names[j])
 
 
 @checked
@@ -182,34 +182,34 @@ def narrowest(path: Path, scene: Scene, count: int = 3) -> tuple[Clearance, ...]
     """
     if count < 0:
         raise ValueError(f"count: {count}; give 0 or more")
-    walls, pace = walls_beside(path, scene), Pace(path, scene)
-    if not path.motions or not len(walls.segments):
-        whole = least_clearance(path, walls, None)
+    distances, travel = distances_beside(path, scene), Travel(path, scene)
+    if not path.motions or not len(distances.segments):
+        whole = least_clearance(path, distances, None)
         return () if whole is None else (whole,)
-    travel = np.linspace(0, pace.total, min(math.ceil(100 * pace.total / walls.radius) + 2, MOST_SAMPLES))
-    distance, _, _ = walls.nearest(walls.placed(pace.at(travel)))
+    steps = np.linspace(0, travel.total, min(math.ceil(100 * travel.total / distances.radius) + 2, MOST_SAMPLES))
+    distance, _, _ = distances.nearest(distances.placed(travel.at(steps)))
     around = np.concatenate(([np.inf], distance, [np.inf]))
     lows = np.where((distance <= around[:-2]) & (distance <= around[2:]), distance, np.inf)
     found: list[Clearance] = []
-    taken = np.zeros(len(travel), bool)
+    taken = np.zeros(len(steps), bool)
     while len(found) < count and np.isfinite(lows).any():
         k = int(lows.argmin())
-        wide = np.flatnonzero(taken | (distance >= max(2 * distance[k], walls.radius / 100)))
-        first, last = wide[wide < k].max(initial=0), wide[wide > k].min(initial=len(travel) - 1)
+        wide = np.flatnonzero(taken | (distance >= max(2 * distance[k], distances.radius / 100)))
+        first, last = wide[wide < k].max(initial=0), wide[wide > k].min(initial=len(steps) - 1)
         first, last = first + int(distance[first : k + 1].argmax()), k + int(distance[k : last + 1].argmax())
-        if place := _least_between(path, walls, *pace.places(travel[[first, last]])):
+        if place := _least_between(path, distances, *travel.places(steps[[first, last]])):
             found.append(place)
         taken[first : last + 1], lows[first : last + 1] = True, np.inf
     return tuple(sorted(found, key=lambda place: place.found))
 
 
-def _least_between(path: Path, walls: Walls, motion: Ints, share: Floats) -> Clearance | None:
+def _least_between(path: Path, distances: EdgeDistances, motion: Ints, share: Floats) -> Clearance | None:
     """The least clearance between two places of a path; the place found is one of the whole path."""
     (i, j), (u, v) = motion.tolist(), map(Fraction, share.tolist())
     ends = [(u if k == i else Fraction(0), v if k == j else Fraction(1)) for k in range(i, j + 1)]
     start = path.motions[i].at(path.poses[i], u)
     part = Path(start, [path.motions[i + k].between(*both) for k, both in enumerate(ends)])
-    place = least_clearance(part, walls, None)
+    place = least_clearance(part, distances, None)
     if place is None:
         return None
     k, s = i + place.motion, place.share

@@ -19,7 +19,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
-class Pace:
+class Travel:
     """Places on a path by the travel of the robot: in each motion that of its farthest moving point.
 
     Parameters
@@ -40,10 +40,10 @@ class Pace:
     >>> from cfree.scene.scene import Scene
     >>> rod = Scene(robot=[(0, 0), (4, 0), (4, 1)])
     >>> path = Path(Pose(0, 0), [Translation((5, 0)), Rotation((9, 1), "90deg")])  # (4, 1) is the pole, then
-    >>> pace = Pace(path, rod)
-    >>> round(pace.total - 5, 6), round(float(np.hypot(4, 1) * np.pi / 2), 6)
+    >>> travel = Travel(path, rod)
+    >>> round(travel.total - 5, 6), round(float(np.hypot(4, 1) * np.pi / 2), 6)
     (6.476559, 6.476559)
-    >>> pace.at([0.0, 2.5, pace.total]).round(6).tolist()
+    >>> travel.at([0.0, 2.5, travel.total]).round(6).tolist()
     [[0.0, 0.0, 0.0], [2.5, 0.0, 0.0], [10.0, -3.0, 1.570796]]
     """
 

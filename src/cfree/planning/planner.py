@@ -30,7 +30,7 @@ from cfree.paths.path import Objective, Path
 from cfree.planning.boundary_walk import Walker
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
-from cfree.planning.separation import InsetSpaces, Separated, insets_of, separation
+from cfree.planning.separation import InsetSpaces, Separated, inset_powers, separation
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.scene import Scene, required, robot_radius
 from cfree.value import Value
@@ -236,7 +236,7 @@ class Planner(Value):
         with self.phase("path in a cell"):
             if (cell := space.common_cell(start, goal)) is not None:
                 return self.walker.walk(start, goal, cell)
-        quick, *others = insets_of(self.scene)
+        quick, *others = inset_powers(self.scene)
         with self.phase("proof"):
             proof = separation(space, start, goal, [quick], self._insets)
         if proof is not None and proof.of == "closed":

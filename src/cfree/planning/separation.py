@@ -197,7 +197,7 @@ class InsetSpaces:
             return None
 
 
-def insets_of(scene: Scene) -> list[int]:
+def inset_powers(scene: Scene) -> list[int]:
     """Insets that a proof may need, as powers of two of the robot's size: each is half as many digits as the next.
 
     The narrowest gap may be as narrow as the scene's coordinates have digits, and some times that.
@@ -264,7 +264,7 @@ def separation(
     insets = insets or InsetSpaces(scene)
     found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
     found = replace(found, units=scene.units, scene=scene)
-    for power in insets_of(scene) if powers is None else powers:
+    for power in inset_powers(scene) if powers is None else powers:
         smaller = insets.at(power)
         if smaller is None:
             continue

@@ -12,12 +12,12 @@ from matplotlib.cm import ScalarMappable
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.collision.distance import Walls
+from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
-from cfree.paths.clearance import Clearance, least_clearance, walls_beside
+from cfree.paths.clearance import Clearance, distances_beside, least_clearance
 from cfree.paths.path import Path
-from cfree.paths.travel import Pace
+from cfree.paths.travel import Travel
 from cfree.plot.boundary import around, new_axes, plain, set_window, with_unit
 from cfree.plot.workspace import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
@@ -40,15 +40,15 @@ class Track:
 
     Attributes
     ----------
-    travel : (TRACE,) float64
-        Of the robot, at even steps.
+    steps : (TRACE,) float64
+        Travel of the robot, at even steps.
     rows : (TRACE, 3) float64
         x, y and theta, unrolled, after so much travel.
     distance : (TRACE,) float64
-        Distances from the nearest wall there, or NaN if there is none.
+        Distances from what is nearest there, or NaN if there is nothing.
     least : Clearance, optional
     closest : (2, 2) float64
-        The two points of robot and wall between which the least clearance is, if there is one.
+        The two points of robot and obstacle between which the least clearance is, if there is one.
     window : four floats
         x0, y0, x1, y1: what there is to see of the workspace near the path.
     most : float
@@ -59,8 +59,8 @@ class Track:
 
     path: Path
     scene: Scene
-    pace: Pace
-    travel: Floats
+    travel: Travel
+    steps: Floats
     rows: Floats
     distance: Floats
     least: Clearance | None
@@ -75,19 +75,19 @@ class Track:
         from matplotlib.cm import ScalarMappable
         from matplotlib.colors import Normalize
 
-        pace, walls = Pace(path, scene), walls_beside(path, scene)
-        travel = np.linspace(0, pace.total, TRACE)
-        rows = pace.at(travel)
-        least = least_clearance(path, walls, None)
-        distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), walls.placed(rows)
+        travel, distances = Travel(path, scene), distances_beside(path, scene)
+        steps = np.linspace(0, travel.total, TRACE)
+        rows = travel.at(steps)
+        least = least_clearance(path, distances, None)
+        distance, closest, edges = np.full(TRACE, math.nan), np.empty((0, 2)), distances.placed(rows)
         if least is not None:
-            distance, _, _ = walls.nearest(edges)
-            closest = _closest(path, walls, least)
+            distance, _, _ = distances.nearest(edges)
+            closest = _closest(path, distances, least)
         farthest = float(np.nanmax(distance, initial=0.0))
         # beyond the robot's own size, clearances need not be told apart
-        most = min(farthest, 2 * walls.radius) if farthest > SAME * walls.radius else walls.radius
+        most = min(farthest, 2 * distances.radius) if farthest > SAME * distances.radius else distances.radius
         colours = ScalarMappable(Normalize(0.0, most), colormaps[SCALE])
-        return cls(path, scene, pace, travel, rows, distance, least, closest, _window(scene, edges), most, colours)
+        return cls(path, scene, travel, steps, rows, distance, least, closest, _window(scene, edges), most, colours)
 
     def colour(self, distance: Floats) -> Floats:
         """(n, 4) colours of distances; one colour if there is nothing to be near to."""
@@ -101,7 +101,7 @@ class Track:
     def ghosts(self) -> NDArray[np.int64]:
         """Rows between start and goal at which the robot is drawn."""
         apart = APART * robot_radius(self.scene)
-        count = int(min(GHOSTS, max(2, self.pace.total / apart))) if self.pace.total else 0
+        count = int(min(GHOSTS, max(2, self.travel.total / apart))) if self.travel.total else 0
         return np.rint(np.linspace(0, TRACE - 1, count + 1)[1:-1]).astype(np.int64)
 
 
@@ -271,9 +271,9 @@ def _limiting(scene: Scene, pose: Pose, reach: float) -> list[Polygon]:
     import shapely
 
     bodies = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
-    walls = [shapely.boundary(body.to_shapely()) for body in bodies]
+    outlines = [shapely.boundary(body.to_shapely()) for body in bodies]
     robot = shapely.multilinestrings([shapely.linearrings(pose.apply(ring)) for ring in rings_of(scene.robot)])
-    near = shapely.distance(robot, walls) <= reach + SAME * robot_radius(scene)
+    near = shapely.distance(robot, outlines) <= reach + SAME * robot_radius(scene)
     return [bodies[k] for k in np.flatnonzero(near)]
 
 
@@ -282,10 +282,10 @@ def _pose_of_least(path: Path, least: Clearance) -> Pose:
     return motions[least.motion].sample(path.poses[least.motion], [least.share])[0]
 
 
-def _closest(path: Path, walls: Walls, least: Clearance) -> Floats:
-    """Points of robot and wall, (2, 2), between which the least clearance is."""
-    edge = _pose_of_least(path, least).apply(walls.robot[walls.robot_names.index(least.robot)])
-    return walls.between(edge, walls.names.index(least.obstacle))
+def _closest(path: Path, distances: EdgeDistances, least: Clearance) -> Floats:
+    """Points of robot and obstacle, (2, 2), between which the least clearance is."""
+    edge = _pose_of_least(path, least).apply(distances.robot[distances.robot_names.index(least.robot)])
+    return distances.between(edge, distances.names.index(least.obstacle))
 
 
 def poses_of(rows: Floats) -> Poses:
