@@ -195,3 +195,20 @@ def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
     scene = Scene([(0, 0), (-1, 2), (-2, 0)], obstacles, workspace=room, bounds=(2, -3, 6, 0))
     for start, goal in permutations([Pose(2, 0, "270deg"), Pose(5, 0, 0)]):
         assert isinstance(plan(scene, start, goal, improve=0), Path)
+
+
+def test_slides_keep_no_vertex_of_the_robot_on_the_bounds() -> None:
+    """Though one is at the reference point, which alone is kept in them, and an obstacle's edge is on their line."""
+    turn = F(46940192103, 183994963916)
+    robot = [
+        [(1, 2), (0, 2), (0, 0)],
+        [(-1, 0), (-1, 2), (-2, 2), (-2, 0)],
+        [(1, -1), (3, -1), (3, 0), (1, 0)],
+    ]
+    posed = Pose(0, 0, {"tau": turn})
+    parts = [[(q.x, q.y) for q in (posed @ Pose(x, y) for x, y in part)] for part in robot]
+    obstacles = [[(3, 0), (1, 0), (1, -3)], [(2, 2), (2, 3), (0, 3), (0, 2)]]
+    scene = Scene(parts, obstacles, bounds=(-3, 0, 5, 3))
+    for start, goal in permutations([Pose(-3, 3, "270deg") @ posed.inverse(), Pose(5, 1) @ posed.inverse()]):
+        answer = plan(scene, start, goal, improve=0)
+        assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified

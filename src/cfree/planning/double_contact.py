@@ -48,13 +48,16 @@ def same_line(features: SceneFeatures, contact: Contact) -> Iterator[Contact]:
 
 
 def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
-    """A contact as files name it; None if no vertex of the scene is there."""
+    """A contact as files name it; None if no vertex of the scene is there, or the two never touch."""
 
     def feature(shape: ShapeFeatures, k: int) -> tuple[int, int]:
         return int(shape.owner_polygon[k]), int(shape.owner_vertex[k])
 
     robot, obstacle = feature(features.robot, i), feature(features.obstacles, j)
-    if min(robot[1], obstacle[1]) < 0:
+    together = (
+        features.robot.core["layer"][i] == features.obstacles.core["layer"][j]
+    )  # only the reference point has bounds
+    if not together or min(robot[1], obstacle[1]) < 0:
         return None
     return Touch("vertex-edge" if kind == 1 else "edge-vertex", robot, obstacle)
 
