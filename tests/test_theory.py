@@ -1,4 +1,4 @@
-"""The examples of docs/theory.md, and the names of code it mentions."""
+"""The examples of docs/theory, and the names of code that its pages mention."""
 
 from __future__ import annotations
 
@@ -6,20 +6,41 @@ import doctest
 import importlib
 import importlib.util
 import re
+from pathlib import Path
 
 import pytest
 
 import cfree
 
 
-def test_the_examples_of_the_theory_page_hold(request: pytest.FixtureRequest) -> None:
-    result = doctest.testfile(str(request.config.rootpath / "docs" / "theory.md"), module_relative=False)
-    assert result.attempted > 30
-    assert result.failed == 0
+def pages(root: Path) -> list[Path]:
+    """The pages in the order in which their examples follow each other: the first names the others."""
+    first = root / "docs" / "theory" / "index.md"
+    listed = first.read_text().split(":hidden:")[1].split("```")[0].split()
+    return [first, *(first.with_name(f"{name}.md") for name in listed)]
 
 
-def test_names_on_the_theory_page_exist(request: pytest.FixtureRequest) -> None:
-    text = (request.config.rootpath / "docs" / "theory.md").read_text()
+def test_the_examples_of_the_theory_pages_hold(request: pytest.FixtureRequest) -> None:
+    session: dict[str, object] = {"__name__": "__main__"}
+    attempted = 0
+    for page in pages(request.config.rootpath):
+        examples = doctest.DocTestParser().get_doctest(page.read_text(), session, page.name, str(page), 0)
+        result = doctest.DocTestRunner().run(examples, clear_globs=False)
+        assert result.failed == 0, page.name
+        session = examples.globs
+        attempted += result.attempted
+    assert attempted >= 144
+
+
+def test_the_first_theory_page_lists_all_others(request: pytest.FixtureRequest) -> None:
+    first, *others = pages(request.config.rootpath)
+    assert {*first.parent.glob("*.md")} == {first, *others}
+    links = re.findall(r"^\| \[.*\]\((.*)\) \|", first.read_text(), re.M)
+    assert links == [page.name for page in others]
+
+
+def test_names_on_the_theory_pages_exist(request: pytest.FixtureRequest) -> None:
+    text = " ".join(page.read_text() for page in pages(request.config.rootpath))
     for module, name in re.findall(r"`(cfree\.[a-z_]+)\.(\w+)`", text):
         if importlib.util.find_spec(module):
             assert hasattr(importlib.import_module(module), name), f"{module} has no {name}"
@@ -27,8 +48,8 @@ def test_names_on_the_theory_page_exist(request: pytest.FixtureRequest) -> None:
 
 def test_the_paper_is_covered_by_code_and_tests_that_exist(request: pytest.FixtureRequest) -> None:
     root = request.config.rootpath
-    section = (root / "docs" / "theory.md").read_text().split("## 3.")[1].split("###")[0]
-    rows = [row.split(" | ") for row in re.findall(r"^\| (.*) \|$", section, re.M)[1:]]
+    page = (root / "docs" / "theory" / "paper.md").read_text()
+    rows = [row.split(" | ") for row in re.findall(r"^\| (.*) \|$", page, re.M)[1:]]
     listed = " ".join(row[0] for row in rows)
     for number in (*range(1, 11), *(f"Lemma {k}" for k in (1, 2, 3)), *(f"Remark {k}" for k in range(1, 7))):
         name = f"({number})" if isinstance(number, int) else number

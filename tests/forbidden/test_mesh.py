@@ -322,7 +322,7 @@ def test_volume_inside_is_that_of_theory(triangles: Boundary, scale: float) -> N
 
 
 def test_areas_of_edge_vertex_patches_are_those_of_theory(triangles: Boundary) -> None:
-    # docs/theory.md: area = phi_range * integral of sqrt(1 + s^2) ds along the robot's edge, angle_scale 1
+    # docs/theory/errata.md: area = phi_range * integral of sqrt(1 + s^2) ds along the robot's edge, angle_scale 1
     mesh = triangles.mesh(2e-4, angle_scale=1)
     area = np.bincount(mesh.patch, 0.5 * np.linalg.norm(normals(mesh), axis=1))
     robot = triangles.scene.robot[0]

@@ -1,8 +1,9 @@
 """The core's predicates again, in plain Python: the second opinion that the core is compared with.
 
-Written from sections 5 and 6 of ``docs/theory.md``, with the names of ``cfree/predicates/predicates.hpp``. Numbers are
-integers, fractions and polynomials in tau (python-flint); a critical angle is a root of an irreducible polynomial, so
-that two are equal exactly if polynomial and place among its roots are. No float decides anything.
+Written from ``docs/theory/lines.md`` and ``docs/theory/degrees.md``, with the names of
+``cfree/predicates/predicates.hpp``. Numbers are integers, fractions and polynomials in tau (python-flint); a critical
+angle is a root of an irreducible polynomial, so that two are equal exactly if polynomial and place among its roots
+are. No float decides anything.
 
 In chart k, tau = tan((theta - k pi) / 2) is in [-1, 1], and everything is multiplied by w = 1 + tau^2 > 0:
 w R = (-1)^k (1 - tau^2, -2 tau; 2 tau, 1 - tau^2).

@@ -3,7 +3,7 @@
 Turned about a fixed point P, a point a of the robot is at P + R a. Whether it is beyond the line of an obstacle's edge,
 and whether a vertex of an obstacle is beyond the line of an edge of the robot, is the sign of A + B cos + C sin. Two
 convex polygons are apart where for an edge of one all vertices of the other are beyond its line or on it: where these
-are at most 0. See docs/theory.md, "Turning in place".
+are at most 0. See docs/theory/motions.md, "Turning in place".
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Is a whole motion free? Decided exactly, in closed form and without steps: theory, section 14.
+"""Is a whole motion free? Decided exactly, in closed form and without steps: docs/theory/motions.md.
 
 The core decides; here motions become integers, and its answers objects.
 """

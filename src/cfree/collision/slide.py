@@ -1,7 +1,7 @@
 """Motions along two contacts: for exact fits, where free space is too thin for translations and rotations.
 
 As the robot turns by 2 atan(t), its reference point moves by (x(t), y(t)) / d(t), to where the lines of two contacts
-meet: polynomials of degree at most 4 (theory, section 14). The parameter u in [0, 1] of a slide is t / tau.
+meet: polynomials of degree at most 4 (docs/theory/motions.md). The parameter u in [0, 1] of a slide is t / tau.
 """
 
 from __future__ import annotations

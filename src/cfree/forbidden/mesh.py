@@ -4,7 +4,7 @@ Every closed surface of the boundary becomes a closed mesh: faces of the cell co
 edges. Angles become heights: z = angle_scale * theta, theta from -pi/2 to 3 pi/2, where the charts end; there the
 mesh is cut, and `Mesh.seam` lists which vertices at the bottom and at the top are one pose.
 
-The bound and the choice of the points are in docs/theory.md, "Meshes"; the work is done in `mesh.cpp`.
+The bound and the choice of the points are in docs/theory/meshes.md; the work is done in `mesh.cpp`.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Cells of the free space: what the closed surfaces of a boundary bound, and which cell a pose is in.
 
 Cells are the components of the interior of C_free. The components of `Boundary.complex` are closed surfaces; each has
-an inside, and which are inside which is found by rays, exactly. docs/theory.md, "Cells", has the proofs.
+an inside, and which are inside which is found by rays, exactly. docs/theory/cells.md has the proofs.
 """
 
 from __future__ import annotations

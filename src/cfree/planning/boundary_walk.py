@@ -2,7 +2,7 @@
 
 A trapezoid's lines of constant theta are translations, its lines of constant t rotations about the point of contact;
 steps along them are free because the trapezoid is part of the boundary. They are taken where nothing better is: poses
-off the contact, by half of the room there, are joined by one motion where that is free. docs/theory.md, "Paths".
+off the contact, by half of the room there, are joined by one motion where that is free. docs/theory/paths.md.
 """
 
 from __future__ import annotations

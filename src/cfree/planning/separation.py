@@ -1,6 +1,6 @@
 """Separations: closed surfaces in C that prove that no motion leads from one pose to another.
 
-docs/theory.md, "Separations", has the proofs, docs/answer-format.md the files, and `cfree.verify.answer` checks them
+docs/theory/separations.md has the proofs, docs/answer-format.md the files, and `cfree.verify.answer` checks them
 without what is used here.
 """
 
@@ -168,8 +168,8 @@ class Separated:
 class InsetSpaces:
     """Free spaces of robots a little smaller, in bounds as much larger; each is computed when first asked for.
 
-    A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. docs/theory.md,
-    "Separations", says what that proves.
+    A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. What that proves
+    is in docs/theory/separations.md.
 
     Parameters
     ----------

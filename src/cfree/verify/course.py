@@ -1,7 +1,7 @@
 """A motion from a pose, as quotients of polynomials in its parameter u, 0 <= u <= 1.
 
 With half-angle vectors h(u) that run straight from one to the other, translations and rotations need quadratics; a
-slide has degree 6 (theory, section 14). On an interval of u a polynomial is between its Bernstein coefficients.
+slide has degree 6 (docs/theory/motions.md). On an interval of u a polynomial is between its Bernstein coefficients.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-// Triangles within a stated distance of the boundary; docs/theory.md, "Meshes", has the proof of the bounds.
+// Triangles within a stated distance of the boundary; docs/theory/meshes.md has the proof of the bounds.
 //
 // Edges of the cell complex are sampled once, for all faces at them; each face is then triangulated by itself, with points
 // inside where the bounds ask for them.

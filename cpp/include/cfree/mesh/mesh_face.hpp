@@ -1,7 +1,7 @@
 // A face of the boundary as a mesh sees it: the contact surface, the two curves, and the bounds of a triangle's distance.
 //
 // At each angle the surface is a line; s is the position along it: of an e-v surface from the foot of the perpendicular from
-// the reference point, of a v-e surface from the origin. Letters as in docs/theory.md, "Meshes".
+// the reference point, of a v-e surface from the origin. Letters as in docs/theory/meshes.md.
 #pragma once
 #include <array>
 #include <utility>
