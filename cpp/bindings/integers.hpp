@@ -2,7 +2,9 @@
 #pragma once
 #include <nanobind/nanobind.h>
 
-#include "cfree/exact/number.hpp"
+#include <vector>
+
+#include "cfree/exact/algebraic.hpp"
 
 inline cfree::Int integer(const nanobind::int_& n) {
     int overflow;
@@ -13,4 +15,10 @@ inline cfree::Int integer(const nanobind::int_& n) {
 inline nanobind::int_ integer(const cfree::Int& n) {
     const auto digits = cfree::Int(abs(n)).str(0, std::ios_base::hex);
     return nanobind::steal<nanobind::int_>(PyLong_FromString(((n.sign() < 0 ? "-" : "") + digits).c_str(), nullptr, 16));
+}
+
+inline std::vector<nanobind::int_> integers(const cfree::Poly& p) {
+    std::vector<nanobind::int_> result;
+    for (const cfree::Int& c : p) result.push_back(integer(c));
+    return result;
 }

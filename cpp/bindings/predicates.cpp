@@ -1,16 +1,17 @@
-// The predicates and the polynomials under them, flat, for tests: they are compared with references in Python. Features are
+// The predicates, flat, for tests: they are compared with references in Python. Features are
 // packed; an event is (first, second, lo, hi, fine), a sample (tau, None or (n, k) for n / 2^k).
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/forbidden/curve_hash.hpp"
 #include "cfree/predicates/junction.hpp"
-#include "integers.hpp"
+#include "polynomials.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
@@ -18,32 +19,9 @@ using cfree::Code;
 using cfree::Index;
 
 using EventTuple = std::tuple<Code, Code, double, double, Index>;
-using DyadicPair = std::pair<nb::int_, unsigned>;
 using SampleTuple = std::tuple<double, std::optional<DyadicPair>>;
 using FilteredTuple = std::array<double, 4>;  // a, b, c, err
-using Coefficients = std::vector<nb::int_>;
-using RootTuple = std::tuple<Coefficients, DyadicPair, DyadicPair>;  // the only root of a polynomial in [lo, hi]
 
-static cfree::Dyadic dyadic(const DyadicPair& d) { return {integer(d.first), d.second}; }
-static DyadicPair dyadic(const cfree::Dyadic& d) { return {integer(d.n), d.k}; }
-
-static cfree::Poly polynomial(const Coefficients& c) {
-    if (c.size() > 5) throw std::invalid_argument("the degree is at most 4");
-    cfree::Poly p;
-    for (const auto& x : c) p.push_back(integer(x));
-    p.trim();
-    return p;
-}
-static Coefficients polynomial(const cfree::Poly& p) {
-    Coefficients c;
-    for (const auto& x : p) c.push_back(integer(x));
-    return c;
-}
-
-static cfree::RealRoot root(const RootTuple& x) {
-    const auto& [p, lo, hi] = x;
-    return {polynomial(p), dyadic(lo), dyadic(hi)};
-}
 static cfree::Event event(const EventTuple& x) {
     const auto& [first, second, lo, hi, fine] = x;
     return {cfree::unpacked(first), cfree::unpacked(second), lo, hi, fine};
@@ -71,12 +49,13 @@ static std::pair<std::vector<EventTuple>, bool> roots(const cfree::Predicates::R
 
 namespace {
 
-struct OnScene {  // owns what it decides about
-    cfree::Scene scene;
+struct OnScene {  // keeps what it decides about
+    std::shared_ptr<const cfree::Scene> shared;
+    const cfree::Scene& scene;
     cfree::Surface surface;
     cfree::Predicates decide;
-    OnScene(const cfree::Shape& robot, const cfree::Shape& obstacles, const cfree::Surface& on)
-        : scene{robot, obstacles}, surface(on), decide(scene, surface) {}
+    OnScene(std::shared_ptr<const cfree::Scene> s, const cfree::Surface& on)
+        : shared(std::move(s)), scene(*shared), surface(on), decide(scene, surface) {}
     OnScene(const OnScene&) = delete;
     cfree::CriticalAngle angle(const EventTuple& x) const {
         const cfree::Event e = event(x);
@@ -109,11 +88,11 @@ public:
 
 }  // namespace
 
-void bind_predicates(nb::module_& m) {
+static void bind_signs(nb::module_& m) {
     nb::class_<OnScene>(m, "Predicates")
-        .def("__init__", [](OnScene* p, const cfree::Shape& robot, const cfree::Shape& obstacles, Code contact, int chart) {
-            new (p) OnScene(robot, obstacles, {cfree::unpacked(contact), chart});
-        }, "robot"_a, "obstacles"_a, "contact"_a, "chart"_a)
+        .def("__init__", [](OnScene* p, std::shared_ptr<const cfree::Scene> scene, Code contact, int chart) {
+            new (p) OnScene(std::move(scene), {cfree::unpacked(contact), chart});
+        }, "scene"_a, "contact"_a, "chart"_a)
         .def("code", [](const OnScene& p, Code f) { return cfree::code(p.scene, cfree::unpacked(f)); }, "feature"_a)
         .def("offset", [](const OnScene& p, Index s, Index v) { return filtered(p.decide.offset(s, v)); }, "s"_a, "v"_a)
         .def("parallel", [](const OnScene& p, Index g, Index f) { return filtered(p.decide.parallel(g, f)); }, "g"_a, "f"_a)
@@ -170,6 +149,9 @@ void bind_predicates(nb::module_& m) {
         .def("counters", [](const OnScene& p) {
             return std::pair(p.decide.counters.filter, p.decide.counters.exact);
         });
+}
+
+static void bind_junction(nb::module_& m) {
     nb::class_<AtAngle>(m, "Junction")
         .def("__init__", [](AtAngle* j, const OnScene& on, const EventTuple& x, bool knows) {
             new (j) AtAngle(on, x, knows);
@@ -195,6 +177,9 @@ void bind_predicates(nb::module_& m) {
         .def("value", [](AtAngle& j, Code line, const PlaceTuple& p) {
             return j.at.value(cfree::unpacked(line), j.spot(p));
         }, "line"_a, "place"_a);
+}
+
+static void bind_curves(nb::module_& m) {
     m.def("order", [](const OnScene& on_x, const EventTuple& x, const OnScene& on_y, const EventTuple& y) {
         return cfree::order(on_x.scene, on_x.angle(x), on_y.angle(y));
     }, "on_x"_a, "x"_a, "on_y"_a, "y"_a);
@@ -205,33 +190,10 @@ void bind_predicates(nb::module_& m) {
         return cfree::is_same_curve(p.scene, {cfree::unpacked(x.first), cfree::unpacked(x.second)},
                                     {cfree::unpacked(y.first), cfree::unpacked(y.second)});
     }, "on"_a, "x"_a, "y"_a);
-    m.def("sign_at", [](const Coefficients& p, const DyadicPair& at) {
-        return cfree::sign_at(polynomial(p), dyadic(at));
-    }, "p"_a, "at"_a);
-    m.def("sign_at", [](const Coefficients& p, const RootTuple& at) {
-        auto x = root(at);
-        return cfree::sign_at(polynomial(p), x);
-    }, "p"_a, "at"_a);
-    m.def("sign_before", [](const Coefficients& p, const RootTuple& at) {
-        auto x = root(at);
-        return cfree::sign_before(polynomial(p), x);
-    }, "p"_a, "at"_a);
-    m.def("sign_after", [](const Coefficients& p, const RootTuple& at) {
-        auto x = root(at);
-        return cfree::sign_after(polynomial(p), x);
-    }, "p"_a, "at"_a);
-    m.def("compare", [](const RootTuple& p, const RootTuple& q) {
-        auto x = root(p), y = root(q);
-        return cfree::compare(x, y);
-    }, "x"_a, "y"_a);
-    m.def("greatest_common_divisor", [](const Coefficients& p, const Coefficients& q) {
-        return polynomial(cfree::greatest_common_divisor(polynomial(p), polynomial(q)));
-    }, "p"_a, "q"_a);
-    m.def("squarefree", [](const Coefficients& p) { return polynomial(cfree::squarefree(polynomial(p))); }, "p"_a);
-    m.def("isolate", [](const Coefficients& squarefree, const DyadicPair& lo, const DyadicPair& hi, unsigned bits) {
-        std::vector<std::pair<DyadicPair, DyadicPair>> found;
-        for (const auto& [l, h] : cfree::isolate(cfree::Sturm(polynomial(squarefree)), dyadic(lo), dyadic(hi), bits))
-            found.emplace_back(dyadic(l), dyadic(h));
-        return found;
-    }, "squarefree"_a, "lo"_a, "hi"_a, "bits"_a);
+}
+
+void bind_predicates(nb::module_& m) {
+    bind_signs(m);
+    bind_junction(m);
+    bind_curves(m);
 }

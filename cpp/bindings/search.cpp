@@ -1,6 +1,8 @@
 // The search for paths, flat: poses are (hx, hy, x, y, unit), integers; see configuration.hpp.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include "cfree/search/rrt_connect.hpp"
 #include "integers.hpp"
@@ -14,10 +16,11 @@ static cfree::Configuration configuration(const PoseIntegers& n, const std::arra
     return {integer(n[0]), integer(n[1]), integer(n[2]), integer(n[3]), integer(n[4]), place[0], place[1], place[2]};
 }
 
-static nb::list list_of(const cfree::Route& route) {
-    nb::list poses;
-    for (const auto& q : route)
-        poses.append(nb::make_tuple(integer(q.hx), integer(q.hy), integer(q.x), integer(q.y), integer(q.unit)));
+using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
+
+static std::vector<PoseTuple> list_of(const cfree::Route& route) {
+    std::vector<PoseTuple> poses;
+    for (const auto& q : route) poses.emplace_back(integer(q.hx), integer(q.hy), integer(q.x), integer(q.y), integer(q.unit));
     return poses;
 }
 
@@ -41,10 +44,9 @@ void bind_search(nb::module_& m) {
         }, "checks"_a);
     nb::class_<cfree::Shortener>(m, "Shortener")
         .def("__init__", [](cfree::Shortener* s, const cfree::MotionChecker& checker, std::array<int, 3> grid, double weight,
-                            const nb::list& poses, const nb::list& places, std::uint64_t seed) {
+                            const std::vector<PoseIntegers>& poses, const std::vector<Numbers>& places, std::uint64_t seed) {
             cfree::Route route;
-            for (std::size_t k = 0; k < nb::len(poses); ++k)
-                route.push_back(configuration(nb::cast<PoseIntegers>(poses[k]), nb::cast<Numbers>(places[k])));
+            for (std::size_t k = 0; k < poses.size(); ++k) route.push_back(configuration(poses[k], places.at(k)));
             new (s) cfree::Shortener(checker, {grid[0], grid[1], grid[2]}, weight, std::move(route), seed);
         }, "checker"_a, "grid"_a, "weight"_a, "poses"_a, "places"_a, "seed"_a, nb::keep_alive<1, 2>())
         .def("run", &cfree::Shortener::run, "checks"_a, nb::call_guard<nb::gil_scoped_release>())

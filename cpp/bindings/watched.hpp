@@ -1,30 +1,42 @@
-// A long call without the lock, on a thread of its own, while this one looks for Ctrl-C.
+// A long call without the lock; now and then it looks for Ctrl-C.
 #pragma once
 #include <nanobind/nanobind.h>
 
-#include <chrono>
-#include <future>
+#include <optional>
 
 #include "cfree/support/stop.hpp"
 
+// What Python raised while the core was at work, to be thrown when that has ended.
+class Raised {
+public:
+    // With the lock: whether there is a signal to end the call for.
+    bool is_signalled() {
+        if (!error && PyErr_CheckSignals() != 0) error.emplace();
+        return error.has_value();
+    }
+    void keep(nanobind::python_error&& what) { error.emplace(std::move(what)); }
+    void rethrow() {
+        if (error) throw nanobind::python_error(std::move(*error));
+    }
+
+private:
+    std::optional<nanobind::python_error> error;
+};
+
 template <class Work>
 auto watched(Work&& work) {
-    using namespace std::chrono_literals;
     std::atomic<bool> stop = false;
-    auto result = std::async(std::launch::async, [&] {
-        cfree::stop_flag = &stop;
-        return work();
-    });
-    const auto wait = [&] {
-        const nanobind::gil_scoped_release release;
-        return result.wait_for(50ms) == std::future_status::ready;
+    Raised raised;
+    const auto look = [&] {
+        const nanobind::gil_scoped_acquire lock;
+        if (raised.is_signalled()) stop = true;
     };
-    while (!wait()) {
-        if (PyErr_CheckSignals() == 0) continue;
-        stop = true;
-        const nanobind::python_error interrupted;
-        while (!wait()) {}
-        throw interrupted;
+    try {
+        const nanobind::gil_scoped_release release;
+        const cfree::Lookout watching(stop, look);
+        return work();
+    } catch (const cfree::Stopped&) {
     }
-    return result.get();
+    raised.rethrow();
+    throw cfree::Stopped();
 }

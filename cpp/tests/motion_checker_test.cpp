@@ -6,19 +6,19 @@
 using namespace cfree;
 
 // A square between a floor and two corners: corridors as wide as it meet, less by `missing` of 1000.
-static Shape junction(int missing) {
+static std::shared_ptr<const Scene> junction(int missing) {
     const int top = 2000 - missing;
-    return shape_of({{{-9000, -100}, {9000, -100}, {9000, 0}, {-9000, 0}},
+    return scene_of({{{-1000, -1000}, {1000, -1000}, {1000, 1000}, {-1000, 1000}}},
+                    {{{-9000, -100}, {9000, -100}, {9000, 0}, {-9000, 0}},
                      {{-9000, top}, {-1000, top}, {-1000, 9000}, {-9000, 9000}},
                      {{1000, top}, {9000, top}, {9000, 9000}, {1000, 9000}}});
 }
-static Shape square() { return shape_of({{{-1000, -1000}, {1000, -1000}, {1000, 1000}, {-1000, 1000}}}); }
 
 static Motion translation(int x, int y, int dx, int dy) { return {1, 0, 1, x, y, 1, false, dx, dy, 1, 1, 0}; }
 static Motion turn(int x, int y, int q, int p) { return {1, 0, 1, x, y, 1, true, x, y, 1, q, p}; }
 
 static void touching_is_free() {
-    const MotionChecker checker(square(), junction(0), 0);
+    const MotionChecker checker(junction(0));
     CHECK(checker.is_free(translation(-5000, 1000, 10000, 0)));
     CHECK(!checker.is_free(translation(-5000, 1001, 4000, 0)));
     CHECK(!checker.is_free(turn(0, 1000, 1000000, 1)));
@@ -30,11 +30,11 @@ static void touching_is_free() {
 // the floor, and one edge on the right corner.
 static void two_contacts_slide() {
     const Slide slide{1, 0, 1, 1, 1, {0, 2000, -4000, 2000, 0}, {1000, 3000, 1000, -1000, 0}, {1, 1, 1, 1, 0}};
-    CHECK(MotionChecker(square(), junction(0), 0).is_free(slide));
-    CHECK(!MotionChecker(square(), junction(1), 0).is_free(slide));
+    CHECK(MotionChecker(junction(0)).is_free(slide));
+    CHECK(!MotionChecker(junction(1)).is_free(slide));
     Slide lower = slide;
     for (int k = 0; k < 4; ++k) lower.x[k] *= 1000000, lower.d[k] *= 1000000, lower.y[k] = lower.y[k] * 1000000 - 1;
-    CHECK(!MotionChecker(square(), junction(-10), 0).is_free(lower));
+    CHECK(!MotionChecker(junction(-10)).is_free(lower));
 }
 
 int main() {

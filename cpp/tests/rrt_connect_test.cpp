@@ -51,9 +51,8 @@ static void one_motion_leads_from_one_to_the_other() {
 }
 
 static void a_search_finds_a_way_and_shortening_keeps_it_free() {
-    const Shape robot = shape_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}});
-    const Shape walls = shape_of({{{5, -20}, {6, -20}, {6, 0}, {5, 0}}, {{5, 4}, {6, 4}, {6, 20}, {5, 20}}});
-    const MotionChecker checker(robot, walls, 0);
+    const MotionChecker checker(scene_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}},
+                                         {{{5, -20}, {6, -20}, {6, 0}, {5, 0}}, {{5, 4}, {6, 4}, {6, 20}, {5, 20}}}));
     const Configuration start = grid.exact(0, -8, 0), goal = grid.exact(9, 8, pi / 2);
     Search search(checker, grid, {-10, -15, 20, 15}, 2, start, goal, 7);
     Route route;
@@ -74,9 +73,7 @@ static void a_search_finds_a_way_and_shortening_keeps_it_free() {
 }
 
 static void no_way_is_found_where_there_is_none() {
-    const Shape robot = shape_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}});
-    const Shape wall = shape_of({{{5, -50}, {6, -50}, {6, 50}, {5, 50}}});
-    const MotionChecker checker(robot, wall, 0);
+    const MotionChecker checker(scene_of({{{0, 0}, {2, 0}, {2, 1}, {0, 1}}}, {{{5, -50}, {6, -50}, {6, 50}, {5, 50}}}));
     Search search(checker, grid, {-10, -15, 20, 15}, 2, grid.exact(0, 0, 0), grid.exact(9, 0, 0), 7);
     CHECK(search.run(2000).empty());
 }

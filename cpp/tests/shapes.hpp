@@ -1,5 +1,6 @@
 // Scenes of convex polygons with small integer coordinates; identities found by comparing all with all.
 #pragma once
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -45,4 +46,8 @@ inline cfree::Shape shape_of(const std::vector<Ring>& rings) {
     std::iota(s.vertex_rank.begin(), s.vertex_rank.end(), 0);
     s.edge_rank = s.vertex_rank;
     return s;
+}
+
+inline std::shared_ptr<const cfree::Scene> scene_of(const std::vector<Ring>& robot, const std::vector<Ring>& obstacles) {
+    return std::make_shared<const cfree::Scene>(cfree::Scene{shape_of(robot), shape_of(obstacles)});
 }

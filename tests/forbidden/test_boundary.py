@@ -425,14 +425,8 @@ def test_repr_and_types() -> None:
 def test_a_limit_after_the_last_patch_leaves_no_isolated_part_out() -> None:
     squares = [[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] for x in range(0, 12, 2) for y in range(0, 12, 2)]
     features = scene_features(Scene(squares[0], squares))
-    job = _core.Job(features.robot.near_shape(), features.obstacles.near_shape(), threads=1, regularized=False)
-    while job.progress() < 1:
-        time.sleep(0)
-    job.finish_early()
-    while not job.wait(1):
-        pass
-    (patch, *_), *_ = job.isolated()
-    assert job.trimmed().all() and len(patch) == 40
+    found = _core.compute_boundary(features.core, 1, False, lambda share: share < 1)
+    assert found.trimmed.all() and len(found.isolated.parts.patch) == 40
 
 
 def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:

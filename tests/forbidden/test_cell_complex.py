@@ -158,15 +158,15 @@ def test_walkers_go_round() -> None:
 
 def test_a_lost_trapezoid_is_noticed() -> None:
     from cfree import _core
-    from cfree.forbidden.columns import COLUMNS
+    from cfree.forbidden.columns import COLUMNS, Trapezoids
 
     result = boundary(load_scene(ROOT / "examples/scenes/five_convex.json"))
-    shapes = result.features.robot.core_shape(), result.features.obstacles.core_shape()
-    patches = result.contact_kind, result.contact_robot, result.contact_obstacle
+    contacts = result.contact_kind, result.contact_robot, result.contact_obstacle
     for lost in range(0, len(result.trapezoids), 37):
-        columns = [np.delete(getattr(result.trapezoids, name), lost) for name in COLUMNS]
+        rest = Trapezoids(*(np.delete(getattr(result.trapezoids, name), lost) for name in COLUMNS))
+        part = Boundary(result.scene, result.features, *contacts, rest, result.isolated, result.stats, result.trimmed)
         with pytest.raises(RuntimeError, match=r"partner|alternate"):
-            _core.glue(*shapes, *patches, *columns)
+            _core.glue(part.core)
 
 
 def test_euler_numbers_do_not_depend_on_the_robots_frame() -> None:

@@ -15,7 +15,6 @@ import oracles
 from cfree import (
     FormatError,
     FreeSpace,
-    InvariantError,
     Pose,
     Poses,
     Scene,
@@ -27,7 +26,6 @@ from cfree import (
 )
 from cfree.exact.half_angle import tau_in_chart
 from cfree.formats.boundary_file import CELL_COLUMNS, load_boundary, load_space, save_boundary
-from cfree.free.space import _parents
 from compared import plain_of, scene_of
 from flood import flood
 from shapes import KINDS, PlainScene, box, mapped, random_scene
@@ -293,21 +291,6 @@ def test_cells_in_a_file(tmp_path: Path) -> None:
         save_boundary(space.boundary, path, columns)
         with pytest.raises(FormatError, match=f"cells_{name}"):
             load_space(path)
-
-
-def test_nesting_that_cannot_be_is_an_error() -> None:
-    def parents(sets: list[list[int]], free_inside: list[int]) -> list[int]:
-        start = np.cumsum([0, *map(len, sets)], dtype=np.int32)
-        around = np.array([x for each in sets for x in each], np.int32)
-        return _parents(start, around, np.array(free_inside, np.uint8), True).tolist()
-
-    assert parents([[], [0], [0, 1]], [0, 1, 0]) == [-1, 0, 1]
-    with pytest.raises(InvariantError, match="not inside each other"):
-        parents([[], [], [0, 1]], [0, 0, 1])
-    with pytest.raises(InvariantError, match="wrong side"):
-        parents([[], [0]], [0, 0])
-    with pytest.raises(InvariantError, match="wrong side"):
-        parents([[]], [1])
 
 
 def test_slits_of_bounds_are_in_no_cell() -> None:

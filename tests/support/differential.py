@@ -13,7 +13,7 @@ from typing import Any
 
 from cfree import _core
 from cfree.exact.number import to_fraction
-from cfree.scene.features import LARGEST_BITS, ShapeFeatures, unpacked
+from cfree.scene.features import LARGEST_BITS, SceneFeatures, ShapeFeatures, unpacked
 from hard_scenes import Rings
 from reference import (
     EDGE_EDGE,
@@ -72,7 +72,7 @@ class Surface:
         self.rings, self.contact, self.chart = rings, contact, chart
         robot, obstacles = prepared(rings)
         self.shift = robot.shift
-        self.core = _core.Predicates(robot.core_shape(), obstacles.core_shape(), pack(contact), chart)
+        self.core = _core.Predicates(SceneFeatures(robot, obstacles, robot.scale, None).core, pack(contact), chart)
         self.shapes = [
             Shape(s.vertices, list(zip(s.v.tolist(), s.w.tolist(), strict=True))) for s in (robot, obstacles)
         ]

@@ -54,7 +54,7 @@ def live_surfaces(result: Boundary) -> dict[str, int]:
         for column in (result.contact_kind, result.contact_robot, result.contact_obstacle)
     )
     codes = kind << np.uint64(61) | i << np.uint64(31) | j
-    result.features.use_names(codes)
+    codes = result.features.core.named(codes)
     found = {(KINDS[int(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)}
     return {name: sum(kind == name for kind, _ in found) for name in KINDS.values()}
 

@@ -198,8 +198,8 @@ template <int N>
 class MotionChecker::Run {
 public:
     Run(const MotionChecker& on_checker, const Frames<N>& frames, bool only_whether)
-        : checker(on_checker), A(on_checker.scene.robot), O(on_checker.scene.obstacles), stops(only_whether),
-          exact(frames), shift(on_checker.shift), robot(rounded(exact.robot, shift)),
+        : checker(on_checker), A(on_checker.scene->robot), O(on_checker.scene->obstacles), stops(only_whether),
+          exact(frames), shift(on_checker.scene->shift), robot(rounded(exact.robot, shift)),
           obstacles(rounded(exact.obstacles, shift)) {}
 
     void run() {
@@ -395,8 +395,8 @@ private:
     double horizon = 1;          // nothing after it matters
 };
 
-MotionChecker::MotionChecker(const Shape& robot, const Shape& obstacles, int by)
-    : scene{robot, obstacles}, shift(by), boxes(piece_boxes(scene.obstacles)), tree(std::make_unique<BoxTree>(boxes)) {}
+MotionChecker::MotionChecker(std::shared_ptr<const Scene> s)
+    : scene(std::move(s)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)) {}
 MotionChecker::~MotionChecker() = default;
 
 bool MotionChecker::is_free(const Motion& motion) const {

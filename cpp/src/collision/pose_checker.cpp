@@ -46,7 +46,8 @@ Vec<double> middle_of_direction(std::size_t k) {
 }
 }  // namespace
 
-Checker::Pieces Checker::pieces_of(const Shape& shape, const double* xy) {
+PoseChecker::Pieces PoseChecker::pieces_of(const Shape& shape) {
+    const auto& xy = shape.xy;
     Pieces p;
     p.first.push_back(0);
     for (Index k = 0; k < shape.pieces(); ++k) {
@@ -71,10 +72,8 @@ Checker::Pieces Checker::pieces_of(const Shape& shape, const double* xy) {
     return p;
 }
 
-Checker::Checker(std::shared_ptr<const Scene> s, Int unit, const double* robot_xy, const double* obstacle_xy,
-                 std::array<double, 4> bounds)
-    : scene(std::move(s)), scale(std::move(unit)), limits(bounds), robot(pieces_of(scene->robot, robot_xy)),
-      obstacles(pieces_of(scene->obstacles, obstacle_xy)) {
+PoseChecker::PoseChecker(std::shared_ptr<const Scene> s, std::array<double, 4> bounds)
+    : scene(std::move(s)), limits(bounds), robot(pieces_of(scene->robot)), obstacles(pieces_of(scene->obstacles)) {
     double largest = 0;
     for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, std::hypot(robot.x[k], robot.y[k]));
     for (std::size_t k = 0; k < obstacles.x.size(); ++k)
@@ -89,7 +88,7 @@ Checker::Checker(std::shared_ptr<const Scene> s, Int unit, const double* robot_x
 }
 
 // The robot in a pose, in doubles; memory is kept from one pose to the next. Vertices of a piece are placed when asked for.
-struct Checker::Placed {
+struct PoseChecker::Placed {
     const Pieces& at_rest;
     Placement at{};
     std::vector<double> x, y;
@@ -152,7 +151,7 @@ static Verdict beyond(const Vec<double>& n, double h, double margin, const doubl
 
 // A vertex of each piece that reaches far towards the other is on the inner side of most edges: they do not separate. If it
 // is inside the whole piece, the interiors meet.
-Verdict Checker::meet(Placed& placed, Index i, Index j, const Range& range) const {
+Verdict PoseChecker::meet(Placed& placed, Index i, Index j, const Range& range) const {
     const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
     const Vec<double> towards{0.5 * (box[j].x0 + box[j].x1) - placed.at.x, 0.5 * (box[j].y0 + box[j].y1) - placed.at.y};
     double slack = margin + range.shift + range.turn * reach;
@@ -195,7 +194,7 @@ Verdict Checker::meet(Placed& placed, Index i, Index j, const Range& range) cons
 // All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
 // uncertain.
 template <class F>
-Verdict Checker::against(Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
+Verdict PoseChecker::against(Placed& placed, const Index* list, std::size_t count, const Range& range, F&& decide) const {
     Verdict all = Verdict::free;
     const double slack = range.shift + range.turn * reach;
     for (Index i = 0; i < robot.count(); ++i) {
@@ -216,7 +215,7 @@ Verdict Checker::against(Placed& placed, const Index* list, std::size_t count, c
 
 // Of a point from a piece, within the margin; 0 inside. Thin pieces are why the margin decides which edges count: ahead of
 // the tip of one, the distances of lines are small, and may have any sign.
-double Checker::distance(const Pieces& p, Index piece, double x, double y) const {
+double PoseChecker::distance(const Pieces& p, Index piece, double x, double y) const {
     const Index begin = p.first[piece], end = p.first[piece + 1];
     double least = std::numeric_limits<double>::infinity();
     bool inside = true;
@@ -232,7 +231,7 @@ double Checker::distance(const Pieces& p, Index piece, double x, double y) const
     return inside ? 0 : least;
 }
 
-void Checker::fill(Grid& g) const {
+void PoseChecker::fill(Grid& g) const {
     Ranges around{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                   -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const Ranges& b : box) {
@@ -296,13 +295,13 @@ void Checker::fill(Grid& g) const {
             std::fill_n(&g.known[c * sectors], sectors, blocked[c] ? State::forbidden : State::free);
 }
 
-Checker::Grid& Checker::near() const {
+PoseChecker::Grid& PoseChecker::near() const {
     std::call_once(once, [this] { fill(grid); });
     return grid;
 }
 
 // Box of a pose in the grid: its cell times `sectors`, and its sector.
-std::size_t Checker::Grid::slot(double x, double y, double theta) const {
+std::size_t PoseChecker::Grid::slot(double x, double y, double theta) const {
     const double column = (x - x0) * per_unit, row = (y - y0) * per_unit;
     if (!(column >= 0 && column < nx && row >= 0 && row < ny)) return outside;
     const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(column);
@@ -324,7 +323,7 @@ static Vec<double> direction(double theta, std::size_t sector) {
 }
 
 // What is known of the other poses in its box: that they have the same verdict, or nothing.
-Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
+Verdict PoseChecker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
     const std::size_t cell = slot / sectors, sector = slot % sectors, width = static_cast<std::size_t>(g.nx);
     const Index* list = &g.member[g.start[cell]];
     const auto count = static_cast<std::size_t>(g.start[cell + 1] - g.start[cell]);
@@ -349,7 +348,7 @@ Verdict Checker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& 
     return found;
 }
 
-void Checker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
+void PoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
     Grid& g = near();
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
@@ -384,7 +383,7 @@ void Checker::check(const double* poses, std::size_t count, int threads, Verdict
 
 // Halved until all poses of a part, which are around its middle, have one verdict. The middle's roundings, and those of
 // distances from where the robot is farther away than `margin` allows for, are within the slack.
-bool Checker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {
+bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {
     constexpr double rounding = 0x1p-44;
     constexpr int deepest = 20;
     const auto within = [&](double x, double y) { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; };
@@ -410,7 +409,7 @@ bool Checker::sweep_is_free(const std::array<double, 3>& from, const std::array<
     return true;
 }
 
-bool Checker::is_free(const Placement& at, const ExactPlacement& exact) const {
+bool PoseChecker::is_free(const Placement& at, const ExactPlacement& exact) const {
     Placed placed(robot);
     placed.place(at);
     std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
@@ -421,7 +420,7 @@ bool Checker::is_free(const Placement& at, const ExactPlacement& exact) const {
 }
 
 // Everything times scale * w * unit.
-bool Checker::overlap(const ExactPlacement& at, Index i, Index j) const {
+bool PoseChecker::overlap(const ExactPlacement& at, Index i, Index j) const {
     using Ring = std::vector<Vec<Int>>;
     const auto ring = [](const Shape& shape, Index piece, auto&& place) {
         Ring r;
@@ -429,7 +428,7 @@ bool Checker::overlap(const ExactPlacement& at, Index i, Index j) const {
             r.push_back(place(shape.X[shape.piece_vertex[m]], shape.Y[shape.piece_vertex[m]]));
         return r;
     };
-    const Int dx = at.x * scale * at.w, dy = at.y * scale * at.w, unit = at.w * at.unit;
+    const Int dx = at.x * scene->scale * at.w, dy = at.y * scene->scale * at.w, unit = at.w * at.unit;
     const Ring a = ring(scene->robot, robot.number[i], [&](const Int& x, const Int& y) {
         return Vec<Int>{(at.c * x - at.s * y) * at.unit + dx, (at.s * x + at.c * y) * at.unit + dy};
     });

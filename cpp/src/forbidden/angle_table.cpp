@@ -77,15 +77,9 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, int chart) 
     }
 }
 
-const RealRoot& AngleTable::exact(Index rank, int chart) {
-    const std::size_t at = place(rank, chart);
-    if (!recent || recent->first != at) recent = {at, critical(angles[at])};
-    return recent->second.exact(scene);
-}
-
-Sample AngleTable::between(Index first, Index second, int chart) {
+Sample AngleTable::between(Index first, Index second, int chart) const {
     if (hi(first, chart) < lo(second, chart)) return Predicates::within(hi(first, chart), lo(second, chart));
-    RealRoot p = exact(first, chart), q = exact(second, chart);
+    RealRoot p = critical(first, chart).exact(scene), q = critical(second, chart).exact(scene);
     while (compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
     const Dyadic at = Dyadic::middle(p.hi, q.lo);
     return {at.rounded_down(), at};

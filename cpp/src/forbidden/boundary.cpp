@@ -1,3 +1,4 @@
+// The driver: patches listed, trimmed by the pillars near them, gathered, their features named; theory, "The trimmed boundary".
 #include "cfree/forbidden/boundary.hpp"
 
 #include <algorithm>
@@ -41,94 +42,75 @@ Patches list_patches(const Scene& scene) {
     return list;
 }
 
-// What all threads read.
-struct Job::Plan {
-    Neighbours neighbours;
-    Owners owners;
+namespace {
+
+// All patches of a scene, one after another, by any number of threads.
+class Trimming {
+public:
+    Trimming(const Scene& s, bool regularized) : scene(s), neighbours(s), owners(s, regularized), patches(list_patches(s)) {
+        first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
+        for (const Index j : patches.obstacle) ++first_patch[j + 1];
+        std::partial_sum(first_patch.begin(), first_patch.end(), first_patch.begin());
+        found.resize(first_patch.size() - 1), found_thin.resize(first_patch.size() - 1);
+        trimmed.assign(patches.kind.size(), 0);
+    }
+
+    // What one thread does: all patches of one obstacle feature after another.
+    void run(const std::atomic<bool>& stop) {
+        Tally mine;
+        std::vector<Index> near;
+        const auto count = static_cast<Index>(found.size());
+        for (Index j = next++; j < count && !stop; j = next++) {
+            if (first_patch[j] == first_patch[j + 1]) continue;
+            neighbours.near(j, near);
+            try {
+                for (Index id = first_patch[j]; id < first_patch[j + 1] && !stop; ++id, ++done) trim(id, near, mine);
+            } catch (const Stopped&) {  // in the midst of a patch
+            }
+        }
+        const std::lock_guard lock(mutex);
+        tally.pairs += mine.pairs, tally.live_patches += mine.live_patches, tally.decisions += mine.decisions;
+    }
+
+    double share() const { return trimmed.empty() ? 0.0 : static_cast<double>(done) / static_cast<double>(trimmed.size()); }
+    bool is_complete() const { return std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end(); }
+
+private:
+    void trim(Index id, const std::vector<Index>& near, Tally& mine);
+
+    const Scene& scene;
+    const Neighbours neighbours;
+    const Owners owners;
+    std::vector<Index> first_patch;  // of each obstacle ring vertex and the edge that starts there
+    std::atomic<Index> next{0};
+    std::atomic<std::int64_t> done{0};
+    std::mutex mutex;
+
+public:
+    Patches patches;
+    std::vector<std::uint8_t> trimmed;
+    std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
+    Tally tally;
 };
 
-Job::Job(std::shared_ptr<const Scene> s, int threads, bool regularized)
-    : scene(std::move(s)), plan(std::make_unique<Plan>(Plan{Neighbours(*scene), Owners(*scene, regularized)})) {
-    patches = list_patches(*scene);
-    first_patch.assign(static_cast<std::size_t>(scene->obstacles.ring_vertices) + 1, 0);
-    for (const Index j : patches.obstacle) ++first_patch[j + 1];
-    std::partial_sum(first_patch.begin(), first_patch.end(), first_patch.begin());
-    found.resize(first_patch.size() - 1), found_thin.resize(first_patch.size() - 1);
-    trimmed.assign(patches.kind.size(), 0);
-    runner = std::thread([this, threads] { run(threads); });
-}
-
-Job::~Job() {
-    cancel();
-    runner.join();
-}
-
-bool Job::wait(double seconds) {
-    std::unique_lock lock(mutex);
-    ended_signal.wait_for(lock, std::chrono::duration<double>(seconds), [&] { return ended; });
-    if (ended && error) std::rethrow_exception(error);
-    return ended;
-}
-
-double Job::progress() const { return trimmed.empty() ? 0.0 : static_cast<double>(done) / static_cast<double>(trimmed.size()); }
-
-void Job::run(int threads) {
-    using Clock = std::chrono::steady_clock;
-    auto start = Clock::now();
-    const auto lap = [&] { return std::chrono::duration<double>(Clock::now() - std::exchange(start, Clock::now())).count(); };
-    try {
-        stop_flag = &stop;
-        in_parallel(threads, stop, [this] { trim_patches(); });
-        tally.trim_seconds = lap();
-        Trapezoids thin;
-        if (!cancelled) gather(found, trapezoids), gather(found_thin, thin);
-        tally.collect_seconds = lap();
-        stop_flag = &cancelled;
-        const bool is_complete = std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end();
-        if (is_complete && !cancelled) isolated = isolated_parts(*scene, patches, trapezoids, thin, threads, cancelled);
-        tally.isolated_seconds = lap();
-    } catch (...) {
-        error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
-    ended = true;
-    ended_signal.notify_all();
-}
-
-// What one thread does: all patches of one obstacle feature after another.
-void Job::trim_patches() {
-    Tally mine;
-    std::vector<Index> near;
-    const auto count = static_cast<Index>(found.size());
-    for (Index j = next++; j < count && !stop; j = next++) {
-        if (first_patch[j] == first_patch[j + 1]) continue;
-        plan->neighbours.near(j, near);
-        try {
-            for (Index id = first_patch[j]; id < first_patch[j + 1] && !stop; ++id, ++done) trim_patch(id, near, mine);
-        } catch (const Stopped&) {  // in the midst of a patch
-        }
-    }
-    const std::lock_guard lock(mutex);
-    tally.pairs += mine.pairs, tally.live_patches += mine.live_patches, tally.decisions += mine.decisions;
-}
-
-void Job::trim_patch(Index id, const std::vector<Index>& near, Tally& mine) {
-    const Shape &A = scene->robot, &O = scene->obstacles;
-    const Feature contact{static_cast<Kind>(patches.kind[id]), patches.robot[id], patches.obstacle[id]};
-    const std::vector<Feature> owners = plan->owners.before(contact);
-    const Range range = range_of(*scene, contact, mine.decisions);
+void Trimming::trim(Index id, const std::vector<Index>& near, Tally& mine) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature contact = patches.contact(id);
+    const std::vector<Feature> before_it = owners.before(contact);
+    const Range range = range_of(scene, contact, mine.decisions);
     const std::size_t before = found[contact.obstacle].size();
     for (int r = 0; r < range.count; ++r) {
-        Trimmer trimmer(*scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
-        for (const Feature& owner : owners) {
-            const Range shared = range_of(*scene, owner, mine.decisions);
+        Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
+        for (const Feature& owner : before_it) {
+            const Range shared = range_of(scene, owner, mine.decisions);
             for (int s = 0; s < shared.count; ++s)
                 if (shared.chart[s] == range.chart[r]) trimmer.cede(owner, shared.from[s], shared.to[s]);
         }
         for (Index p = 0; p < A.pieces() && !trimmer.empty(); ++p) {
-            const Box reachable = plan->neighbours.swept(contact, p, range.chart[r], range.from[r].lo, range.to[r].hi);
+            const Box reachable = neighbours.swept(contact, p, range.chart[r], range.from[r].lo, range.to[r].hi);
             for (const Index k : near) {
-                if (A.piece_layer[p] != O.piece_layer[k] || !reachable.meets(plan->neighbours.box(k))) continue;
+                if (A.piece_layer[p] != O.piece_layer[k] || !reachable.meets(neighbours.box(k))) continue;
+                heed_stop();
                 ++mine.pairs;
                 trimmer.cover(p, k);
                 if (trimmer.empty()) break;
@@ -139,6 +121,55 @@ void Job::trim_patch(Index id, const std::vector<Index>& near, Tally& mine) {
     }
     mine.live_patches += found[contact.obstacle].size() > before;
     trimmed[id] = 1;
+}
+
+}  // namespace
+
+Boundary::Boundary(std::shared_ptr<const Scene> s, Patches p, std::vector<std::uint8_t> done, Trapezoids t, IsolatedParts i,
+                   const Tally& counted)
+    : scene(std::move(s)), patches(std::move(p)), trimmed(std::move(done)), trapezoids(std::move(t)), isolated(std::move(i)),
+      tally(counted) {}
+
+bool Boundary::is_complete() const { return std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end(); }
+
+const AngleTable& Boundary::angles() const {
+    std::call_once(ordered, [&] { table = std::make_unique<const AngleTable>(scene->near(), patches, trapezoids); });
+    return *table;
+}
+
+SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, const Task& task) {
+    using Clock = std::chrono::steady_clock;
+    auto start = Clock::now();
+    const auto lap = [&] { return std::chrono::duration<double>(Clock::now() - std::exchange(start, Clock::now())).count(); };
+    const Scene& scene = shared->near();
+    Trimming work(scene, task.regularized);
+    std::atomic<bool> stop{false}, cancelled{false};
+    const auto ask = [&] {
+        const Wish wish = task.watch(work.share());
+        if (wish == Wish::cancel) cancelled = true;
+        if (wish != Wish::go_on) stop = true;
+    };
+    const auto look = task.watch ? std::function<void()>(ask) : nullptr;
+    {
+        const Lookout trimming(stop, look);
+        in_parallel(task.threads, stop, [&] { work.run(stop); });
+    }
+    Tally tally = work.tally;
+    tally.trim_seconds = lap();
+    const Lookout afterwards(cancelled, look);
+    heed_stop();
+    Trapezoids trapezoids, thin;
+    gather(work.found, trapezoids), gather(work.found_thin, thin);
+    tally.collect_seconds = lap();
+    IsolatedParts isolated;
+    if (work.is_complete() && !task.regularized)
+        isolated = isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
+    heed_stop();
+    use_names(scene, trapezoids.features());
+    use_names(scene, isolated.parts.features());
+    tally.isolated_seconds = lap();
+    return std::make_shared<const Boundary>(shared, std::move(work.patches), std::move(work.trimmed), std::move(trapezoids),
+                                            std::move(isolated), tally);
 }
 
 }  // namespace cfree

@@ -1,12 +1,15 @@
+// Sides of trapezoids matched by what they are: along curves, then along walls; theory, "Closed surfaces".
 #include "cfree/forbidden/cell_complex.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "cfree/contact/contact_line.hpp"
 #include "cfree/forbidden/curve_hash.hpp"
 #include "cfree/predicates/junction.hpp"
 #include "cfree/support/stop.hpp"
@@ -28,7 +31,8 @@ struct Part {
 
 class Gluer {
 public:
-    Gluer(const Scene& s, const Patches& p, const Trapezoids& t) : scene(s), patches(p), trapezoids(t), angles(s, p, t) {}
+    explicit Gluer(const Boundary& b)
+        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()) {}
 
     CellComplex run() {
         glue_curves();
@@ -47,7 +51,11 @@ private:
     }
     Junction junction(Index rank, int chart) {
         return {scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
-                [this, rank, chart] { return angles.exact(rank, chart); }};
+                [this, rank, chart] { return exact(rank, chart); }};
+    }
+    RealRoot exact(Index rank, int chart) {
+        if (!recent || recent->first != std::pair(rank, chart)) recent = {{rank, chart}, angles.critical(rank, chart)};
+        return recent->second.exact(scene);
     }
     Feature contact(Index trapezoid) const { return surface_of(patches, trapezoids, trapezoid).contact; }
     NamedCurve curve(Index k, bool upper) const {
@@ -90,7 +98,8 @@ private:
     const Scene& scene;
     const Patches& patches;
     const Trapezoids& trapezoids;
-    AngleTable angles;
+    const AngleTable& angles;
+    std::optional<std::pair<std::pair<Index, int>, CriticalAngle>> recent;  // the last that was asked for exactly
     std::vector<Part> parts;
     Index edges = 0;
 };
@@ -148,8 +157,7 @@ void Gluer::glue_curve(CurveSide* begin, CurveSide* end) {
 void Gluer::pair_around_point(Index from, Index to, const std::vector<Index>& live) {
     const int chart = trapezoids.chart[parts[live[0]].trapezoid];
     const Dyadic tau = angles.between(from, to, chart).exact();
-    const Int q = Int(1) << tau.k, sign = chart ? -1 : 1;
-    const Int c = sign * (q * q - tau.n * tau.n), s = sign * 2 * tau.n * q, w = q * q + tau.n * tau.n;
+    const auto R = rotation_by(chart, tau.n, Int(1) << tau.k);
     struct Ray {
         Vec<Int> d;
         bool arrives;
@@ -159,14 +167,7 @@ void Gluer::pair_around_point(Index from, Index to, const std::vector<Index>& li
     std::vector<Ray> rays;
     for (const Index k : live) {
         const Feature f = contact(parts[k].trapezoid);
-        Vec<Int> d;
-        if (f.kind == Kind::vertex_edge) {
-            const auto E = edge<Int>(scene.obstacles, f.obstacle);
-            d = {w * E.x, w * E.y};
-        } else {
-            const auto G = edge<Int>(scene.robot, f.robot);
-            d = {s * G.y - c * G.x, -(s * G.x) - c * G.y};
-        }
+        const auto d = ContactLine<Int>(scene, f, CoreUnits<Int>{}).direction(R);
         const bool arrives = parts[k].side == Side::upper;
         rays.push_back({arrives ? -d : d, arrives, k});
     }
@@ -315,14 +316,14 @@ Gluer::Start Gluer::start_of(const Part& part) {
 void Gluer::place_vertex(const Start& start, CellComplex& result) const {
     const Surface on = surface_of(patches, trapezoids, start.trapezoid);
     const double tau = start.tau, t = start.t;
-    const double w = (on.chart ? -1 : 1) / (1 + tau * tau), c = (1 - tau * tau) * w, n = 2 * tau * w;
+    const auto R = rotation_by(on.chart, tau);
     const Shape &A = scene.robot, &O = scene.obstacles;
     const auto placed = [&](Index a, Index b) {
-        return Vec<double>{O.x[b] - (c * A.x[a] - n * A.y[a]), O.y[b] - (n * A.x[a] + c * A.y[a])};
+        return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]});
     };
     const Feature first = end_helix(scene, on.contact, 0), last = end_helix(scene, on.contact, 1);
     const auto p = placed(first.robot, first.obstacle), q = placed(last.robot, last.obstacle);
-    result.x.push_back(p.x + t * (q.x - p.x)), result.y.push_back(p.y + t * (q.y - p.y));
+    result.xy.push_back(p.x + t * (q.x - p.x)), result.xy.push_back(p.y + t * (q.y - p.y));
     result.theta.push_back(2 * std::atan(tau) + on.chart * std::numbers::pi);
 }
 
@@ -390,8 +391,12 @@ CellComplex Gluer::build() {
 
 }  // namespace
 
-CellComplex glue(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids) {
-    return Gluer(scene, patches, trapezoids).run();
+std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary) {
+    auto result = std::make_shared<CellComplex>(Gluer(*boundary).run());
+    result->boundary = boundary;
+    const double unit = boundary->scene->near().unit();
+    for (double& c : result->xy) c *= unit;
+    return result;
 }
 
 }  // namespace cfree

@@ -1,3 +1,4 @@
+// Trapezoids as columns, their features under one name each; theory, "Surfaces that coincide".
 #include "cfree/forbidden/columns.hpp"
 
 namespace cfree {
@@ -18,6 +19,21 @@ void Trapezoids::push_back(const Trapezoid& x) {
     to_lo.push_back(x.to.lo), to_hi.push_back(x.to.hi);
     from_place.push_back(static_cast<std::uint8_t>(x.from_place));
     to_place.push_back(static_cast<std::uint8_t>(x.to_place));
+}
+
+std::uint64_t named(const Representatives& names, std::uint64_t feature) {
+    Feature f = unpacked(feature);
+    const bool helix = f.kind == Kind::vertex_vertex;
+    if (f.kind == Kind::none) return feature;
+    f.robot = helix || f.kind == Kind::vertex_edge ? names.vertex(true, f.robot) : names.edge(true, f.robot);
+    f.obstacle = helix || f.kind == Kind::edge_vertex ? names.vertex(false, f.obstacle) : names.edge(false, f.obstacle);
+    return packed(f);
+}
+
+void use_names(const Scene& scene, const std::array<std::vector<std::uint64_t>*, 6>& columns) {
+    const Representatives names(scene);
+    for (auto* column : columns)
+        for (std::uint64_t& feature : *column) feature = named(names, feature);
 }
 
 }  // namespace cfree

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "cfree/forbidden/boundary.hpp"
 #include "cfree/forbidden/critical_angle.hpp"
 #include "support/parallel.hpp"
 
@@ -85,9 +84,7 @@ std::optional<Index> first_impossible(const Scene& scene, const Patches& patches
 }
 
 std::optional<Index> first_impossible(const Scene& scene, const Patches& patches, const IsolatedParts& x) {
-    const auto on = [&](Index patch, Index k) {
-        return Surface{{static_cast<Kind>(patches.kind[patch]), patches.robot[patch], patches.obstacle[patch]}, x.parts.chart[k]};
-    };
+    const auto on = [&](Index patch, Index k) { return Surface{patches.contact(patch), x.parts.chart[k]}; };
     for (Index k = 0; k < static_cast<Index>(x.parts.patch.size()); ++k) {
         heed_stop();
         const auto angle = [&](Index patch, std::uint64_t first, std::uint64_t second, double lo, double hi, int place) {
@@ -100,6 +97,14 @@ std::optional<Index> first_impossible(const Scene& scene, const Patches& patches
             !is_curve(scene, on(x.upper_patch[k], k), unpacked(p.upper[k])) || order(scene, from, to) > 0)
             return k;
     }
+    return {};
+}
+
+std::string misfit(const Boundary& b, int threads) {
+    const Scene& scene = *b.scene;
+    if (!are_patches_of(scene, b.patches)) return "contact";
+    if (const auto k = first_impossible(scene, b.patches, b.trapezoids, threads)) return "trapezoid " + std::to_string(*k);
+    if (const auto k = first_impossible(scene, b.patches, b.isolated)) return "isolated part " + std::to_string(*k);
     return {};
 }
 

@@ -51,8 +51,7 @@ int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
 }
 
 Surface surface_of(const Patches& patches, const Trapezoids& t, Index k) {
-    const Index patch = t.patch[k];
-    return {{static_cast<Kind>(patches.kind[patch]), patches.robot[patch], patches.obstacle[patch]}, t.chart[k]};
+    return {patches.contact(t.patch[k]), t.chart[k]};
 }
 
 CriticalAngle angle_from(const Patches& patches, const Trapezoids& t, Index k) {

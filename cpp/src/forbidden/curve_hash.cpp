@@ -38,7 +38,8 @@ bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
 
 }  // namespace
 
-Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve) : scene(sc) {
+Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve)
+    : scene(sc), reduced{&sc, {}, {}} {
     prints.reserve(count);
     for (unsigned attempt = 0; prints.size() < count; ++attempt) {
         choose(attempt);
@@ -55,6 +56,7 @@ Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::functi
 
 // Primes and orientations without any pattern: coordinates have patterns, and are short modulo 2^61 - 1.
 void Fingerprints::choose(unsigned attempt) {
+    using Word = Residues::Word;
     Word seed = attempt;
     const auto next = [&] {  // splitmix64
         Word z = seed += 0x9e3779b97f4a7c15u;
@@ -64,47 +66,38 @@ void Fingerprints::choose(unsigned attempt) {
     Word prime = next() >> 3 | Word(1) << 61 | 1;
     while (!boost::multiprecision::miller_rabin_test(Int(prime), 25)) prime += 2;
     in = Residues(prime);
-    robot = reduced(scene.robot), obstacles = reduced(scene.obstacles);
-    const Word unit = in.of(1), tau = in.of(next() >> 3), q = in.times(tau, tau), w = in.inverse(in.plus(unit, q));
-    c = in.times(in.minus(unit, q), w), s = in.times(in.plus(tau, tau), w);
+    const auto table = [&](const Shape& shape) {
+        std::vector<Vec<Residue>> result;
+        for (std::size_t k = 0; k < shape.X.size(); ++k) result.push_back({{in.of(shape.X[k]), &in}, {in.of(shape.Y[k]), &in}});
+        return result;
+    };
+    reduced.robot = table(scene.robot), reduced.obstacles = table(scene.obstacles);
+    const Residue one{in.of(1), &in}, tau{in.of(next() >> 3), &in}, square = tau * tau, inverse{in.inverse((one + square).x), &in};
+    turn = {(one - square) * inverse, (tau + tau) * inverse, one};
 }
 
-std::vector<Fingerprints::Point> Fingerprints::reduced(const Shape& shape) const {
-    std::vector<Point> result;
-    for (std::size_t k = 0; k < shape.X.size(); ++k) result.push_back({in.of(shape.X[k]), in.of(shape.Y[k])});
-    return result;
-}
-
-Fingerprints::Point Fingerprints::placed(Index a, Index b) const {
-    const Point &A = robot[a], &B = obstacles[b];
-    return {in.minus(B.x, in.minus(in.times(c, A.x), in.times(s, A.y))),
-            in.minus(B.y, in.plus(in.times(s, A.x), in.times(c, A.y)))};
-}
-
-std::array<Fingerprints::Point, 2> Fingerprints::line(const Feature& f) const {
-    const Feature first = end_helix(scene, f, 0), last = end_helix(scene, f, 1);
-    const Point p = placed(first.robot, first.obstacle), q = placed(last.robot, last.obstacle);
-    return {p, {in.minus(q.x, p.x), in.minus(q.y, p.y)}};
+Fingerprints::Line Fingerprints::line(const Feature& f) const {
+    const ContactLine<Residue> l(scene, f, reduced);
+    return {l.start(turn), l.direction(turn)};
 }
 
 // None if the two lines are parallel, modulo the prime.
 std::optional<Fingerprint> Fingerprints::of(const NamedCurve& curve) const {
     if (curve.other.kind == Kind::vertex_vertex) {
-        const Point p = placed(curve.other.robot, curve.other.obstacle);
-        return Fingerprint{p.x, p.y};
+        const auto p = reduced.obstacles[curve.other.obstacle] - turn(reduced.robot[curve.other.robot]);
+        return Fingerprint{p.x.x, p.y.x};
     }
     const auto [P, U] = line(curve.on);
     const auto [Q, V] = line(curve.other);
-    const auto product = [&](const Point& u, const Point& v) { return in.minus(in.times(u.x, v.y), in.times(u.y, v.x)); };
-    const Word inverse = in.inverse(product(U, V));
-    if (inverse == 0) return {};
-    const Word t = in.times(product({in.minus(Q.x, P.x), in.minus(Q.y, P.y)}, V), inverse);
-    return Fingerprint{in.plus(P.x, in.times(t, U.x)), in.plus(P.y, in.times(t, U.y))};
+    const Residue inverse{in.inverse(cross(U, V).x), &in};
+    if (inverse.x == 0) return {};
+    const Residue t = cross(Q - P, V) * inverse;
+    return Fingerprint{(P.x + t * U.x).x, (P.y + t * U.y).x};
 }
 
 bool Fingerprints::may_lie_on(const Feature& surface, const Fingerprint& curve) const {
     const auto [P, U] = line(surface);
-    return in.times(U.x, in.minus(curve.y, P.y)) == in.times(U.y, in.minus(curve.x, P.x));
+    return cross(U, Vec<Residue>{{curve.x, &in}, {curve.y, &in}} - P).x == 0;
 }
 
 bool lies_on(const Scene& scene, const NamedCurve& curve, const Feature& surface) {

@@ -72,9 +72,7 @@ public:
     }
 
 private:
-    Feature contact(Index patch) const {
-        return {static_cast<Kind>(patches.kind[patch]), patches.robot[patch], patches.obstacle[patch]};
-    }
+    Feature contact(Index patch) const { return patches.contact(patch); }
     Junction junction(const CriticalAngle& angle) const {
         return {scene, angle.chart(), angle.lo, angle.hi, [&] { return angle.exact(scene); }};
     }

@@ -1,3 +1,4 @@
+// Rays from poses, exact: trees of heights find the trapezoids they may cross, signs decide; theory, "Cells".
 #include "cfree/free/point_location.hpp"
 
 #include <algorithm>
@@ -5,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "cfree/contact/contact_line.hpp"
 #include "predicates/form.hpp"
 #include "support/parallel.hpp"
 
@@ -16,7 +18,7 @@ namespace {
 constexpr double sign_error = 128 * u;
 
 // f at tau, or as a polynomial.
-struct Rotation {
+struct Evaluation {
     Approx c, s;
     Approx operator()(const Trig<Approx>& f) const { return f.a + f.b * c + f.c * s; }
 };
@@ -50,31 +52,19 @@ Leading leading(Poly f, const Int& p, const Int& r) {
 }
 
 template <class T>
-T coordinate(const std::vector<Int>& exact, const std::vector<double>& rounded, Index k) {
-    if constexpr (std::is_same_v<T, Int>) return exact[k];
-    else return {rounded[k], std::abs(rounded[k])};
-}
-template <class T>
-Vec<T> vertex(const Shape& s, Index k) { return {coordinate<T>(s.X, s.x, k), coordinate<T>(s.Y, s.y, k)}; }
-template <class T>
 T constant(int value) {
     if constexpr (std::is_same_v<T, Int>) return value;
     else return {double(value), double(std::abs(value))};
 }
 
-// The line P + t U of a contact surface, P = b - R a with U = E or -R E, seen from a point q / w; all times w.
+// The line of a contact surface seen from a point q / w; all times w.
 template <class T>
-struct Line {
-    bool on_edge;
-    Vec<T> a, b, E, q;
+struct Line : ContactLine<T> {
+    using ContactLine<T>::on_edge, ContactLine<T>::a, ContactLine<T>::b, ContactLine<T>::E;
+    Vec<T> q;
     T w;
-    Line(const Scene& scene, const Feature& contact, const Vec<T>& point, const T& by) : q(point), w(by) {
-        const Shape &A = scene.robot, &O = scene.obstacles;
-        on_edge = contact.kind == Kind::vertex_edge;
-        a = vertex<T>(A, on_edge ? contact.robot : A.v[contact.robot]);
-        b = vertex<T>(O, on_edge ? O.v[contact.obstacle] : contact.obstacle);
-        E = on_edge ? edge<T>(O, contact.obstacle) : edge<T>(A, contact.robot);
-    }
+    Line(const Scene& scene, const Feature& contact, const Vec<T>& point, const T& by)
+        : ContactLine<T>(scene, contact, CoreUnits<T>{}), q(point), w(by) {}
     Vec<T> away() const { return {q.x - w * b.x, q.y - w * b.y}; }  // q - b
     T zero() const { return constant<T>(0); }
     Trig<T> side() const {  // U x (q - P): positive on its left
@@ -102,10 +92,10 @@ struct Line {
 
 }  // namespace
 
-struct Rays::View {
+struct PointLocation::View {
     const ExactPose* pose;
     double tau_lo, tau_hi;  // around p / r
-    Rotation turn;
+    Evaluation turn;
     Vec<Approx> place;
     View(const ExactPose& q, int shift) : pose(&q) {
         const double tau = ratio(q.p, q.r);
@@ -140,33 +130,33 @@ struct Rays::View {
     }
 };
 
-struct Rays::Probe {
+struct PointLocation::Probe {
     ExactPose pose;
     int rise;  // of the segment that it is on: the sign of U_y, of U_x if that is 0
     bool is_level;
 };
 
-Rays::Rays(Scene s, int by, Patches p, Trapezoids x, std::vector<Index> of)
-    : scene(std::move(s)), shift(by), patches(std::move(p)), trapezoids(std::move(x)), component(std::move(of)),
-      index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 3) {
+PointLocation::PointLocation(SharedBoundary b, std::vector<Index> of)
+    : boundary(std::move(b)), scene(*boundary->scene), patches(boundary->patches), trapezoids(boundary->trapezoids),
+      component(std::move(of)), index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 3) {
     for (Index part = 0; part < index.count(); ++part) {
         for (const Index k : index.at(part)) extents.push_back(extent(k, index.from(part), index.to(part)));
-        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& a, const Extent& b) {
-            return a.low < b.low || (a.low == b.low && a.trapezoid < b.trapezoid);
+        std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& x, const Extent& y) {
+            return x.low < y.low || (x.low == y.low && x.trapezoid < y.trapezoid);
         });
         plant(index.begin(part), index.begin(part + 1));
     }
 }
 
 // The ends of a segment move on circles, and rise above their heights at both ends of an arc by at most its sagitta.
-Rays::Extent Rays::extent(Index k, double from, double to) const {
+PointLocation::Extent PointLocation::extent(Index k, double from, double to) const {
     constexpr double rounding = 0x1p-40;
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature contact = surface_of(patches, trapezoids, k).contact;
     const bool on_edge = contact.kind == Kind::vertex_edge;
     const auto turn = [&](double tau) {
-        const double m = (trapezoids.chart[k] ? -1 : 1) / (1 + tau * tau);
-        return Vec<double>{(1 - tau * tau) * m, 2 * tau * m};
+        const auto R = rotation_by(trapezoids.chart[k], tau);
+        return Vec<double>{R.c, R.s};
     };
     const auto first = turn(std::max(from, trapezoids.from_lo[k])), last = turn(std::min(to, trapezoids.to_hi[k]));
     const double sagitta = 1 - std::sqrt(std::max(0.0, 0.5 + 0.5 * dot(first, last)));
@@ -187,7 +177,7 @@ Rays::Extent Rays::extent(Index k, double from, double to) const {
     return result;
 }
 
-double Rays::plant(Index begin, Index end) {
+double PointLocation::plant(Index begin, Index end) {
     if (begin == end) return -std::numeric_limits<double>::infinity();
     const Index middle = begin + (end - begin) / 2;
     Extent& x = extents[middle];
@@ -196,7 +186,7 @@ double Rays::plant(Index begin, Index end) {
 
 // Trapezoids that the ray from a pose towards -x may cross.
 template <class F>
-void Rays::stab(Index begin, Index end, const View& q, F&& report) const {
+void PointLocation::stab(Index begin, Index end, const View& q, F&& report) const {
     while (begin < end) {
         const Index middle = begin + (end - begin) / 2;
         const Extent& x = extents[middle];
@@ -208,7 +198,7 @@ void Rays::stab(Index begin, Index end, const View& q, F&& report) const {
     }
 }
 
-std::array<Dyadic, 2> Rays::angle(Index k, bool last, unsigned bits) const {
+std::array<Dyadic, 2> PointLocation::angle(Index k, bool last, unsigned bits) const {
     const auto critical = last ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k);
     if (critical.is_wall()) return {Dyadic::from(critical.lo), Dyadic::from(critical.lo)};
     RealRoot x = critical.exact(scene);
@@ -219,7 +209,7 @@ std::array<Dyadic, 2> Rays::angle(Index k, bool last, unsigned bits) const {
 }
 
 // Sign of an angle of a trapezoid minus that of the pose, of one chart.
-int Rays::order(bool of_end, Index k, const View& q) const {
+int PointLocation::order(bool of_end, Index k, const View& q) const {
     const double lo = of_end ? trapezoids.to_lo[k] : trapezoids.from_lo[k];
     const double hi = of_end ? trapezoids.to_hi[k] : trapezoids.from_hi[k];
     if (hi < q.tau_lo) return -1;
@@ -229,13 +219,13 @@ int Rays::order(bool of_end, Index k, const View& q) const {
     return sign_at(Poly{-q.pose->p, q.pose->r}, root);
 }
 
-bool Rays::may_be_on(const Feature& contact, const View& q) const {
+bool PointLocation::may_be_on(const Feature& contact, const View& q) const {
     const Approx side = q.turn(q.line<Approx>(scene, contact).side());
     return !(std::abs(side.v) > sign_error * side.m + tiny);
 }
 
 // Is a pose of its line within the limits of a trapezoid? Where a curve ends at a pole of N / D, its limit counts.
-bool Rays::is_on(Index k, const View& q, bool is_end) const {
+bool PointLocation::is_on(Index k, const View& q, bool is_end) const {
     const Surface surface = surface_of(patches, trapezoids, k);
     const Predicates predicates(scene, surface);
     const auto line = q.line<Int>(scene, surface.contact);
@@ -266,7 +256,7 @@ Range range(Approx p, Approx q) {
 
 }  // namespace
 
-Rays::Nearby Rays::look(const View& q, When when, Index own) const {
+PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) const {
     Nearby seen;
     const Index part = index.part_of(q.pose->chart, 0.5 * (q.tau_lo + q.tau_hi));
     stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
@@ -305,7 +295,7 @@ Rays::Nearby Rays::look(const View& q, When when, Index own) const {
 }
 
 // Trapezoids that hold the pose, and end there.
-void Rays::look_on(const View& q, Nearby& seen) const {
+void PointLocation::look_on(const View& q, Nearby& seen) const {
     const Index part = index.part_of(q.pose->chart, 1);
     stab(index.begin(part), index.begin(part + 1), q, [&](Index k) {
         if (trapezoids.to_hi[k] < q.tau_lo || order(true, k, q) != 0) return;
@@ -315,16 +305,16 @@ void Rays::look_on(const View& q, Nearby& seen) const {
 }
 
 // A pose on a trapezoid, strictly between its angles and its curves.
-std::optional<Rays::Probe> Rays::probe(Index k, int attempt) const {
+std::optional<PointLocation::Probe> PointLocation::probe(Index k, int attempt) const {
     const Surface surface = surface_of(patches, trapezoids, k);
     Predicates predicates(scene, surface);
     const Event from = angle_from(patches, trapezoids, k).event(predicates), to = angle_to(patches, trapezoids, k).event(predicates);
     const Dyadic tau = predicates.between(from, to, attempt).exact();
     const Int p = tau.n, r = Int(1) << tau.k;
-    const Int w = r * r + p * p, sign = surface.chart ? -1 : 1, c = sign * (r * r - p * p), s = sign * 2 * p * r;
+    const Rotation<Int> R = rotation_by(surface.chart, p, r);
     const auto curve = [&](std::uint64_t code) {
         auto [N, D] = predicates.curve_trig<Int>(unpacked(code));
-        std::array<Int, 2> t{N.a * w + N.b * c + N.c * s, D.a * w + D.b * c + D.c * s};
+        std::array<Int, 2> t{N.a * R.w + N.b * R.c + N.c * R.s, D.a * R.w + D.b * R.c + D.c * R.s};
         if (t[1] < 0) t = {-t[0], -t[1]};
         return t;
     };
@@ -334,18 +324,16 @@ std::optional<Rays::Probe> Rays::probe(Index k, int attempt) const {
         // the first multiple of 2^-bits above the lower end, which is at least 0; later ones if there are
         const Int m = ((low[0] << bits) / low[1]) + 1 + attempt % 3;
         if (m * high[1] >= high[0] << bits) continue;
-        const Line<Int> line(scene, surface.contact, {0, 0}, 1);
-        const auto turned = [&](const Vec<Int>& v) { return Vec<Int>{c * v.x - s * v.y, s * v.x + c * v.y}; };
-        const Vec<Int> a = turned(line.a), U = line.on_edge ? Vec<Int>{w * line.E.x, w * line.E.y} : -turned(line.E);
+        const ContactLine<Int> line(scene, surface.contact, CoreUnits<Int>{});
+        const Vec<Int> P = line.start(R), U = line.direction(R);
         const Int one = Int(1) << bits;
-        Probe result{{(w * line.b.x - a.x) * one + m * U.x, (w * line.b.y - a.y) * one + m * U.y, w * one, surface.chart, p, r},
-                     U.y.sign(), U.y.is_zero()};
+        Probe result{{P.x * one + m * U.x, P.y * one + m * U.y, R.w * one, surface.chart, p, r}, U.y.sign(), U.y.is_zero()};
         if (result.is_level) result.rise = U.x.sign();
         return result;
     }
 }
 
-Rays::Nesting Rays::nesting() const {
+PointLocation::Nesting PointLocation::nesting() const {
     const auto n = static_cast<Index>(component.size());
     const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;
     std::vector<Index> widest(components, -1);
@@ -359,7 +347,7 @@ Rays::Nesting Rays::nesting() const {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no ray in general position");
             const auto q = probe(widest[x], attempt);
             if (!q) continue;
-            const Nearby seen = look(View(q->pose, shift), When::at, widest[x]);
+            const Nearby seen = look(View(q->pose, scene.shift), When::at, widest[x]);
             if (!seen.generic || !seen.on.empty()) continue;
             // the ray is from just left of the surface, or above it where that is level: forbidden if the surface rises
             const auto crossed = surfaces(seen.crossed);
@@ -392,38 +380,38 @@ ExactPose ExactPose::from(double x, double y, int chart, double tau, const Int& 
             Int(1) << static_cast<unsigned>(-low), chart, t.n, Int(1) << t.k};
 }
 
-void Rays::locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
-                  const Cells& cells, Index* out) const {
+void PointLocation::locate(const double* xy, const int* chart, const double* tau, std::size_t count, int threads,
+                           const Cells& cells, Index* out) const {
     constexpr std::size_t chunk = 64;
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
     in_parallel(threads, stop, [&] {
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;)
             for (std::size_t k = begin; k < std::min(count, begin + chunk); ++k)
-                heed_stop(), out[k] = locate(ExactPose::from(xy[2 * k], xy[2 * k + 1], chart[k], tau[k], scale), cells);
+                heed_stop(), out[k] = locate(ExactPose::from(xy[2 * k], xy[2 * k + 1], chart[k], tau[k], scene.scale), cells);
     });
 }
 
 // The surfaces of trapezoids, in order.
-std::vector<Index> Rays::surfaces(const std::vector<Index>& crossed) const {
+std::vector<Index> PointLocation::surfaces(const std::vector<Index>& crossed) const {
     std::vector<Index> result;
     for (const Index k : crossed) result.push_back(component[k]);
     std::sort(result.begin(), result.end());
     return result;
 }
 
-Rays::Nearby Rays::nearby(const ExactPose& pose) const {
+PointLocation::Nearby PointLocation::nearby(const ExactPose& pose) const {
     ExactPose q = pose;
     if (q.p == q.r) q.chart = 1 - q.chart, q.p = -1, q.r = 1;
-    Nearby seen = look(View(q, shift), When::after, -1);
+    Nearby seen = look(View(q, scene.shift), When::after, -1);
     if (q.p == -q.r) {
         const ExactPose before{q.X, q.Y, q.W, 1 - q.chart, 1, 1};
-        look_on(View(before, shift), seen);
+        look_on(View(before, scene.shift), seen);
     }
     return seen;
 }
 
-Index Rays::locate(const ExactPose& pose, const Cells& cells) const {
+Index PointLocation::locate(const ExactPose& pose, const Cells& cells) const {
     const Nearby seen = nearby(pose);
     Index found = std::numeric_limits<Index>::max();
     for (const Index k : seen.on) found = std::min(found, cells.cell[component[k]]);
@@ -437,34 +425,6 @@ Index Rays::locate(const ExactPose& pose, const Cells& cells) const {
     }
     if (deepest < 0) return cells.outside;
     return cells.free_inside[deepest] ? cells.cell[deepest] : -1;
-}
-
-Turns turns(const std::vector<Index>& first, const std::vector<Index>& face, const std::vector<Index>& twin,
-            const std::vector<Index>& component, const std::vector<std::int8_t>& steps, Index components) {
-    const auto n = static_cast<Index>(component.size());
-    Turns result{std::vector<Index>(components, 0), std::vector<Index>(n, 0)};
-    std::vector<char> seen(n, 0);
-    std::vector<Index> stack;
-    for (Index f = 0; f < n; ++f) {
-        if (seen[f]) continue;
-        seen[f] = 1;
-        stack.push_back(f);
-        while (!stack.empty()) {
-            const Index g = stack.back();
-            stack.pop_back();
-            for (Index h = first[g]; h < first[g + 1]; ++h) {
-                const Index next = face[twin[h]], lift = result.lift[g] + steps[h];
-                if (!seen[next]) {
-                    seen[next] = 1, result.lift[next] = lift;
-                    stack.push_back(next);
-                } else {
-                    Index& divisor = result.divisor[component[f]];
-                    divisor = std::gcd(divisor, lift - result.lift[next]);
-                }
-            }
-        }
-    }
-    return result;
 }
 
 }  // namespace cfree

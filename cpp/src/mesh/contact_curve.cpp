@@ -16,11 +16,10 @@ Complex solve(Complex p, Complex q, double r, double s) { return i_unit * (s * p
 }  // namespace
 
 Places::Parts Places::parts(const Feature& f) const {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const bool on_edge = f.kind == Kind::vertex_edge;
-    const Complex edge = on_edge ? b(O.w[f.obstacle]) - b(O.v[f.obstacle]) : a(A.w[f.robot]) - a(A.v[f.robot]);
+    const ContactLine<double> line(scene, f, *this);
+    const Complex edge = complex(line.E);
     const double length = std::abs(edge);
-    return {a(on_edge ? f.robot : A.v[f.robot]), b(on_edge ? O.v[f.obstacle] : f.obstacle), edge / length, length};
+    return {complex(line.a), complex(line.b), edge / length, length};
 }
 
 ContactCurve::ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to) {

@@ -1,3 +1,4 @@
+// Closed meshes: edges sampled once for all faces, then each face triangulated by itself; theory, "Meshes".
 #include "cfree/mesh/mesh.hpp"
 
 #include <algorithm>
@@ -28,19 +29,26 @@ bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
 
 class Mesher {
 public:
-    explicit Mesher(const MeshInput& x) : in(x) {
-        sheets.reserve(static_cast<std::size_t>(in.faces));
-        for (Index f = 0; f < in.faces; ++f) sheets.push_back(sheet_of(f));
-        order.resize(static_cast<std::size_t>(in.coedges));
+    Mesher(const CellComplex& cells, double most_error, double scale)
+        : in(cells), trapezoids(cells.boundary->trapezoids), patches(cells.boundary->patches), scene(*cells.boundary->scene),
+          error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
+          coedges(static_cast<Index>(cells.face.size())) {
+        for (Index v = 0; v < in.vertices; ++v) {  // the robot as it is, the obstacles from their origin
+            const double c = std::cos(in.theta[v]), s = std::sin(in.theta[v]), a = scene.frame[2], b = scene.frame[3];
+            places.emplace_back(in.xy[2 * v] + (0 - (c * a - s * b)), in.xy[2 * v + 1] + (0 - (s * a + c * b)));
+        }
+        sheets.reserve(static_cast<std::size_t>(faces));
+        for (Index f = 0; f < faces; ++f) sheets.push_back(sheet_of(f));
+        order.resize(static_cast<std::size_t>(coedges));
         start.assign(static_cast<std::size_t>(in.edges) + 1, 0);
-        for (Index h = 0; h < in.coedges; ++h) ++start[in.edge[h] + 1];
+        for (Index h = 0; h < coedges; ++h) ++start[in.edge[h] + 1];
         std::partial_sum(start.begin(), start.end(), start.begin());
         std::vector<Index> place(start.begin(), start.end() - 1);
-        for (Index h = 0; h < in.coedges; ++h) order[place[in.edge[h]]++] = h;
+        for (Index h = 0; h < coedges; ++h) order[place[in.edge[h]]++] = h;
     }
 
     MeshEstimate estimate() const;
-    MeshArrays run();
+    Mesh run();
 
 private:
     // Samples between the ends of an edge, in the direction of its first coedge: all angles of a curve, or shares of a wall.
@@ -52,25 +60,24 @@ private:
     };
 
     Sheet sheet_of(Index f) const {
-        const Index p = in.patch[f];
-        const Feature on{static_cast<Kind>(in.patches.kind[p]), in.patches.robot[p], in.patches.obstacle[p]};
+        const Feature on = patches.contact(trapezoids.patch[f]);
         double from = 0, to = 0;
         for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
             const double phi = angle(h);
             from = h == in.first[f] ? phi : std::min(from, phi), to = h == in.first[f] ? phi : std::max(to, phi);
         }
-        return {in.places, on, unpacked(in.lower[f]), unpacked(in.upper[f]), from, to, in.error, in.angle_scale};
+        return {{scene}, on, unpacked(trapezoids.lower[f]), unpacked(trapezoids.upper[f]), from, to, error, angle_scale};
     }
     Index after(Index h) const { return h + 1 == in.first[in.face[h] + 1] ? in.first[in.face[h]] : h + 1; }
     bool on_seam(Index v) const { return std::abs(in.theta[v] - 0.5 * pi) > pi - 1e-12; }
-    bool is_late(Index h) const { return in.chart[in.face[h]] == 1; }
+    bool is_late(Index h) const { return trapezoids.chart[in.face[h]] == 1; }
     // where the coedge starts, as its face sees it
     double angle(Index h) const {
         const Index v = in.vertex[h];
         return on_seam(v) ? (is_late(h) ? 1.5 * pi : -0.5 * pi) : in.theta[v];
     }
-    Complex place(Index h) const { return {in.x[in.vertex[h]], in.y[in.vertex[h]]}; }
-    double lattice_unit() const { return 2 * std::sqrt(in.error / in.angle_scale); }
+    Complex place(Index h) const { return places[in.vertex[h]]; }
+    double lattice_unit() const { return 2 * std::sqrt(error / angle_scale); }
 
     Samples samples_of_curve(Index edge) const;
     Samples samples_of_wall(Index edge) const;
@@ -101,16 +108,22 @@ private:
         double x = 0, y = 0;
         for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
         y /= stretch;
-        return add_point(sheet, sheet.point(sheet.is_saddle ? in.angle_scale * std::sinh(stretch * x - sheet.shear * y) : x, y));
+        return add_point(sheet, sheet.point(sheet.is_saddle ? angle_scale * std::sinh(stretch * x - sheet.shear * y) : x, y));
     }
     double scale_of_lattice(const Sheet& sheet) const;
 
-    const MeshInput& in;
+    const CellComplex& in;
+    const Trapezoids& trapezoids;
+    const Patches& patches;
+    const Scene& scene;
+    const double error, angle_scale;
+    const Index faces, coedges;
+    std::vector<Complex> places;  // of the complex's vertices
     std::vector<Sheet> sheets;
     std::vector<Index> order, start;  // coedges by edge
     std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
     std::vector<Run> runs;            // of each coedge
-    MeshArrays out;
+    Mesh out;
     Index rim_vertices = 0;
     // of the face at hand
     Triangulation net;
@@ -138,7 +151,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     for (double at = a; at < b - 1e-9;) {
         double step = b - at;
         for (;;) {
-            const double most = std::min(limit, std::sqrt(8 * on_curves * in.error / std::max(bend(at, at + step), 1e-300)));
+            const double most = std::min(limit, std::sqrt(8 * on_curves * error / std::max(bend(at, at + step), 1e-300)));
             if (step <= most * (1 + 1e-9)) break;
             step = std::max((b - at) / std::ceil((b - at) / most), 0.5 * step);
             if (step < 1e-12) break;
@@ -164,7 +177,7 @@ Mesher::Samples Mesher::samples_of_wall(Index edge) const {
         best.clear();
         for (std::size_t j = 1; j < steps; ++j) {
             const double u = from + (to - from) * static_cast<double>(j) / static_cast<double>(steps);
-            best.push_back((in.angle_scale * std::sinh(u) - s) / (t - s));
+            best.push_back((angle_scale * std::sinh(u) - s) / (t - s));
         }
     }
     return best;
@@ -178,7 +191,7 @@ Index Mesher::add_vertex(double x, double y, double theta) {
 Index Mesher::vertex_of(Index h) {
     const Index v = in.vertex[h];
     Index& id = (on_seam(v) && is_late(h) ? late : early)[v];
-    if (id < 0) id = add_vertex(in.x[v], in.y[v], angle(h));
+    if (id < 0) id = add_vertex(places[v].real(), places[v].imag(), angle(h));
     return id;
 }
 
@@ -229,7 +242,7 @@ double Mesher::scale_of_lattice(const Sheet& sheet) const {
             for (int c = 0; c < 3; ++c) {
                 const double dy = scale * unit * y[c] / stretch;
                 const double u = low + wide * k / 16 + stretch * scale * unit * (x[c] - 0.76) - sheet.shear * dy;
-                p[c] = {in.angle_scale * std::sinh(u), phi + dy, {0, 0}};
+                p[c] = {angle_scale * std::sinh(u), phi + dy, {0, 0}};
             }
             if (sheet.excess_inside({&p[0], &p[1], &p[2]}) > 1) return false;
         }
@@ -258,7 +271,7 @@ void Mesher::add_lattice(const Sheet& sheet) {
             const double x = x0 + unit * (i / golden + j), phi = (y0 + unit * (i * golden - j)) / stretch;
             if (x < left || x > right || phi < sheet.from + gap / stretch || phi > sheet.to - gap / stretch) continue;
             const double u = stretch * x - sheet.shear * phi;
-            const MeshPoint p = sheet.point(in.angle_scale * std::sinh(u), phi);
+            const MeshPoint p = sheet.point(angle_scale * std::sinh(u), phi);
             const double low = p.s - p.inward[0], up = p.s + p.inward[1];
             if (u - sheet.u(low) < gap * stretch || sheet.u(up) - u < gap * stretch) continue;
             const Index id = add_point(sheet, p);
@@ -384,7 +397,7 @@ void Mesher::triangulate(Index f) {
         const int parts = 16;
         for (int k = 0; k <= parts; ++k)
             sum += (k == 0 || k == parts ? 1 : k % 2 ? 4 : 2) * sheet.width_u(sheet.from + k * (sheet.to - sheet.from) / parts);
-        return best_density * in.angle_scale * (sheet.to - sheet.from) * sum / (3 * parts) / in.error;
+        return best_density * angle_scale * (sheet.to - sheet.from) * sum / (3 * parts) / error;
     }() : 0;
     out.least += ideal;
     const auto rim_end = static_cast<Index>(points.size());
@@ -469,32 +482,34 @@ bool Mesher::part_equal_edges() {
     return any;
 }
 
-MeshArrays Mesher::run() {
+Mesh Mesher::run() {
     early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
-    runs.resize(static_cast<std::size_t>(in.coedges));
+    runs.resize(static_cast<std::size_t>(coedges));
     const auto samples = samples_of_edges();
     for (Index e = 0; e < in.edges; ++e)
         for (Index k = start[e]; !samples[e].empty() && k < start[e + 1]; ++k)
             if (order[k] < in.twin[order[k]]) add_run(order[k], order[start[e]], samples[e]);
-    for (Index h = 0; h < in.coedges; ++h) vertex_of(h);
+    for (Index h = 0; h < coedges; ++h) vertex_of(h);
     rim_vertices = static_cast<Index>(out.xyz.size() / 3);
-    for (Index f = 0; f < in.faces; ++f) triangulate(f);
+    for (Index f = 0; f < faces; ++f) triangulate(f);
     while (part_equal_edges()) {}
     for (Index v = 0; v < in.vertices; ++v)
         if (early[v] >= 0 && late[v] >= 0) out.seam.push_back(early[v]), out.seam.push_back(late[v]);
+    for (std::size_t k = 0; k < out.xyz.size(); k += 3)
+        out.xyz[k] += scene.frame[0], out.xyz[k + 1] += scene.frame[1], out.xyz[k + 2] *= angle_scale;
     return std::move(out);
 }
 
 MeshEstimate Mesher::estimate() const {
-    MeshEstimate result{static_cast<double>(in.coedges), 0};
-    for (Index f = 0; f < in.faces; ++f) {
+    MeshEstimate result{static_cast<double>(coedges), 0};
+    for (Index f = 0; f < faces; ++f) {
         const Sheet& sheet = sheets[f];
         const double high = sheet.to - sheet.from;
         if (sheet.is_thin()) continue;
-        if (sheet.is_saddle) result.triangles += 1.1 * best_density * in.angle_scale * high * sheet.most_width_u() / in.error;
+        if (sheet.is_saddle) result.triangles += 1.1 * best_density * angle_scale * high * sheet.most_width_u() / error;
         for (const ContactCurve& c : sheet.curves) {
             const double bend = c.bend(sheet.from + 0.25 * high, sheet.to - 0.25 * high);
-            result.triangles += high * std::sqrt(bend / (8 * on_curves * in.error));
+            result.triangles += high * std::sqrt(bend / (8 * on_curves * error));
         }
     }
     result.triangles += result.coarsest;
@@ -503,7 +518,9 @@ MeshEstimate Mesher::estimate() const {
 
 }  // namespace
 
-MeshEstimate estimate_mesh(const MeshInput& input) { return Mesher(input).estimate(); }
-MeshArrays mesh(const MeshInput& input) { return Mesher(input).run(); }
+MeshEstimate estimate_mesh(const CellComplex& cells, double error, double angle_scale) {
+    return Mesher(cells, error, angle_scale).estimate();
+}
+Mesh mesh(const CellComplex& cells, double error, double angle_scale) { return Mesher(cells, error, angle_scale).run(); }
 
 }  // namespace cfree

@@ -1,8 +1,12 @@
+// Coordinates in doubles, exact or with what they leave, and from origins near the shapes; theory, "Coordinates".
 #include "cfree/scene/scene.hpp"
+
+#include <limits>
+#include <numeric>
 
 namespace cfree {
 
-void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift) {
+void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift, const Int& scale) {
     X = std::move(exact_x), Y = std::move(exact_y);
     rounded = rounded_twice = false;
     const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& high, std::vector<double>& low) {
@@ -15,6 +19,55 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
         }
     };
     convert(X, x, x_low), convert(Y, y, y_low);
+    xy.clear();
+    for (std::size_t k = 0; k < X.size(); ++k) xy.push_back(ratio(X[k], scale)), xy.push_back(ratio(Y[k], scale));
+}
+
+std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
+                                          int near_shift) {
+    const auto is_zero = [](const Vec<Int>& p) { return p.x.is_zero() && p.y.is_zero(); };
+    if (is_zero(robot_origin) && is_zero(obstacle_origin) && near_shift == scene.shift)
+        return std::make_shared<const Scene>(std::move(scene));
+    const auto around = [&](Shape shape, const Vec<Int>& origin) {
+        for (Int& c : shape.X) c -= origin.x;
+        for (Int& c : shape.Y) c -= origin.y;
+        shape.set_coordinates(std::move(shape.X), std::move(shape.Y), near_shift, scene.scale);
+        return shape;
+    };
+    scene.frame = {ratio(obstacle_origin.x, scene.scale), ratio(obstacle_origin.y, scene.scale),
+                   ratio(robot_origin.x, scene.scale), ratio(robot_origin.y, scene.scale)};
+    Scene moved{around(scene.robot, robot_origin), around(scene.obstacles, obstacle_origin), scene.scale, near_shift,
+                scene.is_bounded, scene.frame, nullptr};
+    scene.moved = std::make_shared<const Scene>(std::move(moved));
+    return std::make_shared<const Scene>(std::move(scene));
+}
+
+namespace {
+
+// Of each feature the first of its class, by layer, then by rank; features of no ring come last.
+std::vector<Index> firsts(const std::vector<Index>& of_class, const Shape& shape, const std::vector<Index>& rank) {
+    const auto count = static_cast<Index>(of_class.size());
+    constexpr auto last = std::numeric_limits<Index>::max();
+    const auto key = [&](Index k) {
+        return k < shape.ring_vertices ? std::array{shape.layer[k], rank[k], k} : std::array{last, last, k};
+    };
+    Index classes = 0;
+    for (const Index c : of_class) classes = std::max(classes, c + 1);
+    std::vector<Index> first(classes, -1), result;
+    for (Index k = 0; k < count; ++k)
+        if (Index& best = first[of_class[k]]; best < 0 || key(k) < key(best)) best = k;
+    for (const Index c : of_class) result.push_back(first[c]);
+    return result;
+}
+
+}  // namespace
+
+Representatives::Representatives(const Scene& scene) {
+    for (const Shape* shape : {&scene.obstacles, &scene.robot}) {
+        const bool of_robot = shape == &scene.robot;
+        vertices[of_robot] = firsts(shape->point, *shape, shape->vertex_rank);
+        edges[of_robot] = firsts(shape->line, *shape, shape->edge_rank);
+    }
 }
 
 }  // namespace cfree

@@ -1,6 +1,7 @@
-// Work divided among threads.
+// Work divided among threads; one thread is this one, and no other is made.
 #pragma once
 #include <atomic>
+#include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -14,11 +15,12 @@ namespace cfree {
 // thrown again here.
 template <class Work>
 void in_parallel(int threads, std::atomic<bool>& stop, Work&& work) {
+    if (threads <= 1) return work();
     std::mutex mutex;
+    std::condition_variable ended;
+    int running = threads - 1;
     std::exception_ptr error;
-    const auto* flag = stop_flag;
     const auto guarded = [&] {
-        stop_flag = flag;
         try {
             work();
         } catch (...) {
@@ -27,9 +29,22 @@ void in_parallel(int threads, std::atomic<bool>& stop, Work&& work) {
             if (!error) error = std::current_exception();
         }
     };
+    const auto* flag = stop_flag;
     std::vector<std::thread> pool;
-    for (int t = 1; t < threads; ++t) pool.emplace_back(guarded);
+    for (int t = 1; t < threads; ++t)
+        pool.emplace_back([&] {
+            stop_flag = flag;
+            guarded();
+            const std::lock_guard lock(mutex);
+            if (--running == 0) ended.notify_one();
+        });
     guarded();
+    for (std::unique_lock lock(mutex); running > 0;) {
+        ended.wait_for(lock, Lookout::pause);
+        lock.unlock();
+        if (lookout) lookout->look_if_due();
+        lock.lock();
+    }
     for (std::thread& t : pool) t.join();
     if (error) std::rethrow_exception(error);
 }

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from typing import Any
 
 from cfree.arguments import checked
 from cfree.collision.motion import Motion, Rotation, Translation, motion_between
@@ -81,9 +80,8 @@ class MotionChecker(Value):
 
         self._scene = scene
         self.features: SceneFeatures = scene_features(scene)
-        robot, obstacles = self.features.robot, self.features.obstacles
-        self.core = _core.MotionChecker(robot.core_shape(), obstacles.core_shape(), robot.shift)
-        self._rim = None if scene.workspace is None else _extent(obstacles)
+        self.core = _core.MotionChecker(self.features.core)
+        self._rim = None if scene.workspace is None else _extent(self.features.obstacles)
 
     @property
     def _content(self) -> tuple[Scene]:
@@ -113,8 +111,8 @@ class MotionChecker(Value):
         if self._outside(pose) is not None:
             return False
         if isinstance(motion, Slide):
-            return bool(self.core.is_slide_free(self._slide_integers(pose, motion)))
-        return bool(self.core.is_free(*self._integers(pose, motion)))
+            return self.core.is_slide_free(self._slide_integers(pose, motion))
+        return self.core.is_free(*self._integers(pose, motion))
 
     @checked
     def joins(self, poses: Sequence[Pose]) -> bool:
@@ -140,7 +138,7 @@ class MotionChecker(Value):
             raise UnsupportedError("a slide has no first contact; ask is_free for parts of it, as of Slide.between")
         if (outside := self._outside(pose)) is not None:
             return FirstContact(Surd(0), outside[0], outside[1], None)
-        found: Any = self.core.first_collision(*self._integers(pose, motion))
+        found = self.core.first_collision(*self._integers(pose, motion))
         if found is None:
             return None
         polynomial, robot_piece, obstacle_piece, kind, i, j = found

@@ -107,10 +107,7 @@ class PoseChecker(Value):
             self.limits = limits_of(scene)
             x0, y0, x1, y1 = self.limits
             limits = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
-            robot, obstacles = features.robot, features.obstacles
-            self._core = _core.Checker(
-                robot.core_shape(), obstacles.core_shape(), features.scale, robot.xy, obstacles.xy, limits
-            )
+            self._core = _core.PoseChecker(features.core, limits)
 
     @property
     def _content(self) -> tuple[Scene]:
@@ -173,8 +170,7 @@ class PoseChecker(Value):
         (True, False)
         """
         first, change = (np.asarray(each, float).tolist() for each in (start, by))
-        free: bool = self._core.sweep_is_free(first, change)
-        return free
+        return self._core.sweep_is_free(first, change)
 
     def _is_free_exactly(self, pose: Pose) -> bool:
         x0, y0, x1, y1 = self.limits
@@ -182,8 +178,8 @@ class PoseChecker(Value):
             return False
         (c, s, w), unit = pose.rotation, math.lcm(pose.x.denominator, pose.y.denominator)
         x, y = (float(max(-FARTHEST, min(FARTHEST, value))) for value in (pose.x, pose.y))
-        free: bool = self._core.is_free([x, y, c / w, s / w], c, s, w, int(pose.x * unit), int(pose.y * unit), unit)
-        return free
+        exact = c, s, w, int(pose.x * unit), int(pose.y * unit), unit
+        return self._core.is_free([x, y, c / w, s / w], exact)
 
 
 def _is_table(rows: Sequence[Any]) -> bool:

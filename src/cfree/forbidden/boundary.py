@@ -19,13 +19,17 @@ from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import InvariantError
 from cfree.exact.half_angle import Angle
 from cfree.forbidden.cell_complex import CellComplex, glue
-from cfree.forbidden.columns import CODED, IsolatedParts, Trapezoids
+from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.mesh import Mesh, triangulated
 from cfree.forbidden.patch import IsolatedPart, Patches, Trapezoid
 from cfree.forbidden.record import BoundaryRecord, Stats
 from cfree.forbidden.slice import Slice
 from cfree.scene.features import scene_features
 from cfree.scene.scene import Scene
+
+PHASES = ("trim", "collect", "isolated", "intervals", "exact")
+DECIDED = ("decided_by_identity", "decided_by_filter", "decided_by_intervals", "decided_exactly")
+COUNTS = ("live_patches", "pairs", *DECIDED)
 
 
 @checked
@@ -96,37 +100,27 @@ def _computed(
     start = time.perf_counter()
     with collection_paused():
         features = scene_features(scene)
-        shapes = features.robot.near_shape(), features.obstacles.near_shape()
+        core_scene = features.core
     prepared = time.perf_counter()
-    job = _core.Job(*shapes, threads=threads, regularized=regularized)
+
+    def go_on(share: float) -> bool:
+        if progress is not None:
+            progress(share)
+        if max_seconds is not None and time.perf_counter() - start > max_seconds:
+            return False
+        return max_memory is None or memory_used() <= max_memory
+
     try:
-        while not _has_ended(job, scene):
-            if progress is not None:
-                progress(job.progress())
-            if max_seconds is not None and time.perf_counter() - start > max_seconds:
-                job.finish_early()
-            if max_memory is not None and memory_used() > max_memory:
-                job.finish_early()
-    except BaseException:
-        job.cancel()
-        raise
+        core = _core.compute_boundary(core_scene, threads, regularized, go_on)
+    except RuntimeError as error:
+        raise InvariantError(str(error), state=scene) from error
     if progress is not None:
         progress(1.0)
-    tally = job.tally()
-    kind, robot, obstacle = job.patches()
-    trapezoids = Trapezoids(*job.trapezoids())
-    columns, *others = job.isolated()
-    isolated = IsolatedParts(*columns, *others)
-    if regularized:
-        isolated = isolated.rows(slice(0))
-    for name in CODED:
-        features.use_names(getattr(trapezoids, name))
-        features.use_names(getattr(isolated, name))
-    phases = {key.removesuffix("_seconds"): tally[key] for key in tally if key.endswith("_seconds")}
-    seconds = {"features": prepared - start, **phases, "total": time.perf_counter() - start}
-    counts = {key: tally[key] for key in tally if not key.endswith("_seconds")}
-    stats = Stats(patches=len(kind), trapezoids=len(trapezoids), seconds=seconds, **counts)
-    return Boundary(scene, features, kind, robot, obstacle, trapezoids, isolated, stats, job.trimmed())
+    seconds = {"features": prepared - start} | {phase: getattr(core.tally, f"{phase}_seconds") for phase in PHASES}
+    seconds["total"] = time.perf_counter() - start
+    counts = {name: getattr(core.tally, name) for name in COUNTS}
+    stats = Stats(patches=len(core.trimmed), trapezoids=len(core.trapezoids.patch), seconds=seconds, **counts)
+    return Boundary.of(scene, features, core, stats)
 
 
 def _restored(
@@ -139,7 +133,7 @@ def _restored(
     trimmed: Any,
     stats: Stats,
 ) -> Boundary:
-    return Boundary(scene, scene_features(scene), kind, robot, obstacle, trapezoids, isolated, stats, trimmed)
+    return Boundary(scene, scene_features(scene), kind, robot, obstacle, trapezoids, isolated, stats, trimmed).shared
 
 
 def memory_used() -> int:
@@ -148,13 +142,6 @@ def memory_used() -> int:
 
     used = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return used if sys.platform == "darwin" else 1024 * used
-
-
-def _has_ended(job: Any, scene: Scene) -> bool:
-    try:
-        return bool(job.wait(0.1))
-    except RuntimeError as error:
-        raise InvariantError(str(error), state=scene) from error
 
 
 class Boundary(BoundaryRecord):

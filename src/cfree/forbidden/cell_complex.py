@@ -11,14 +11,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.errors import InvariantError
-from cfree.forbidden.columns import COLUMNS, Floats, Ints
+from cfree.forbidden.columns import Floats, Ints
 from cfree.value import Value
 
 if TYPE_CHECKING:
@@ -153,22 +153,11 @@ def glue(boundary: BoundaryRecord) -> CellComplex:
     -----
     Time is about linear in the trapezoids.
     """
-    from cfree import _core
-
-    features = boundary.features
-    shapes = features.robot.near_shape(), features.obstacles.near_shape()
-    columns: list[Any] = [boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle]
-    columns += [getattr(boundary.trapezoids, name) for name in COLUMNS]
-    try:
-        first, face, side, twin, edge, vertex, component, x, y, theta, *counts = _core.glue(*shapes, *columns)
-    except RuntimeError as error:
-        raise InvariantError(f"the boundary is not closed: {error}", state=boundary.scene) from error
-    near = np.column_stack((x, y)) * (2**features.robot.near_shift / features.scale)
-    x, y = (near + features.moved(theta)).T.copy()
-    arrays = (first, face, side, twin, edge, vertex, component, x, y, theta, near)
-    for array in arrays:
-        array.flags.writeable = False
-    cells = CellComplex(*arrays, *counts)
+    core, features = boundary.core_complex, boundary.features
+    x, y = (core.xy + features.moved(core.theta)).T.copy()
+    x.flags.writeable = y.flags.writeable = False
+    loops = core.first, core.face, core.side, core.twin, core.edge, core.vertex, core.component
+    cells = CellComplex(*loops, x, y, core.theta, core.xy, core.edges, core.vertices, core.components)
     if np.any(cells.euler % 2 != 0) or np.any(cells.euler > 2):
         wrong = f"Euler numbers {cells.euler.tolist()}; those of closed surfaces are even and at most 2"
         raise InvariantError(wrong, state=boundary.scene)

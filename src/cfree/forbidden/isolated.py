@@ -57,21 +57,9 @@ def isolated_at(boundary: BoundaryRecord, theta: float) -> list[Floats]:
 
 def _on_curve(boundary: BoundaryRecord, k: int, theta: Floats) -> Floats:
     """Points of the isolated curve k, (n, 2): where the curve that names it meets its patch's line."""
-    from cfree import _core
-
-    a, b, p = boundary.features.robot, boundary.features.obstacles, boundary.isolated
-    one = slice(k, k + 1)
-    at = _core.Slicer(
-        a.near_shape(), b.near_shape(), a.near.ravel(), b.near.ravel(),
-        boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
-        p.lower_patch[one], p.chart[one], p.lower[one], p.lower[one], p.tau_from[one], p.tau_to[one],
-        boundary.features.frame,
-    )  # fmt: skip
-    n = len(theta)
-    chart = np.full(n, p.chart[k])
-    lower, upper = np.empty(n), np.empty(n)
-    at.limits(np.zeros(n, np.int32), chart.astype(np.int32), tau_in(chart, theta), lower, upper)
-    return boundary.evaluate(np.full(n, p.lower_patch[k]), lower, theta)
+    chart = np.full(len(theta), boundary.isolated.chart[k])
+    t = boundary.slicer.isolated_curve(k, np.ascontiguousarray(tau_in(chart, theta)))
+    return boundary.evaluate(np.full(len(theta), boundary.isolated.lower_patch[k]), t, theta)
 
 
 def _raised(xy: Floats, theta: Floats) -> Floats:

@@ -108,30 +108,21 @@ def triangulated(boundary: BoundaryRecord, cells: CellComplex, error: float, ang
         raise ValueError(f"error: {error}; give a length above 0, such as {robot_radius(boundary.scene) / 100:.1g}")
     if not 0 < scale < math.inf:
         raise ValueError(f"angle_scale: {scale}; give a length per radian above 0")
-    f, t, c = boundary.features, boundary.trapezoids, cells
-    x, y = np.ascontiguousarray((c.near + f.moved(c.theta, [0, 0, *f.frame[2:]])).T)  # from the origin of the obstacles
-    size, away = (float(max(np.abs(xy).max(initial=0.0) for xy in pair)) for pair in ((x, y), (c.x, c.y)))
+    f, c = boundary.features, cells
+    near = c.near + f.moved(c.theta, [0, 0, *f.frame[2:]])  # from the origin of the obstacles
+    size, away = float(np.abs(near).max(initial=0.0)), float(max(np.abs(x).max(initial=0.0) for x in (c.x, c.y)))
     if error < (finest := max(ROUNDING * size, FINEST * away)):
         raise UnsupportedError(f"mesh error {error:g}: doubles of {away:g} allow for no less than {finest:g}")
-    try:
-        found = _core.mesh(
-            f.robot.near_shape(), f.obstacles.near_shape(), f.robot.xy.ravel(), f.obstacles.near.ravel(),
-            boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle,
-            t.patch, t.chart, t.lower, t.upper,
-            c.first, c.face, c.side, c.twin, c.edge, c.vertex, x, y, c.theta, c.edges,
-            error, scale, MOST_TRIANGLES,
-        )  # fmt: skip
-    except RuntimeError as fault:
-        raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
-    xyz, corners, trapezoid, seam, least, coarsest, expected = found
+    coarsest, expected = _core.estimate_mesh(boundary.core_complex, error, scale)
     if expected > MOST_TRIANGLES:
         raise UnsupportedError(_too_many(error, coarsest, expected))
-    vertices = xyz.reshape(-1, 3)
-    vertices[:, 2] *= scale
-    vertices[:, :2] += f.frame[:2]
-    patch = t.patch[trapezoid]
+    try:
+        found = _core.mesh(boundary.core_complex, error, scale)
+    except RuntimeError as fault:
+        raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
+    patch = boundary.trapezoids.patch[found.face]
     kind = boundary.patch_kind[patch]
-    return Mesh(vertices, corners.reshape(-1, 3), trapezoid, patch, kind, seam.reshape(-1, 2), error, scale, least)
+    return Mesh(found.xyz, found.corners, found.face, patch, kind, found.seam, error, scale, found.least)
 
 
 def _too_many(error: float, coarsest: float, expected: float) -> str:

@@ -7,18 +7,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
-from cfree.errors import IncompleteError
+from cfree.errors import IncompleteError, InvariantError
 from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
 from cfree.scene.features import BOUNDS, SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Value
+
+if TYPE_CHECKING:
+    from cfree import _core
 
 VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
 
@@ -93,11 +96,52 @@ class BoundaryRecord(Value):
         self.trapezoids = trapezoids
         self.isolated = isolated
         self.stats = stats
-        self.trimmed = trimmed.astype(bool)
+        self.trimmed = np.asarray(trimmed, bool)
         columns = [getattr(trapezoids, name) for name in COLUMNS]
         columns += [getattr(isolated, name) for name in ISOLATED_COLUMNS]
         for array in (kind, robot, obstacle, self.trimmed, *columns):
             array.flags.writeable = False
+
+    @classmethod
+    def of(cls, scene: Scene, features: SceneFeatures, core: _core.Boundary, stats: Stats) -> Self:
+        """What the core has; arrays are views of its memory."""
+        patches, parts = core.patches, core.isolated
+        contacts = patches.kind, patches.robot, patches.obstacle
+        trapezoids = Trapezoids(*(getattr(core.trapezoids, name) for name in COLUMNS))
+        isolated = IsolatedParts(
+            *(getattr(parts.parts if name in COLUMNS else parts, name) for name in ISOLATED_COLUMNS)
+        )
+        boundary = cls(scene, features, *contacts, trapezoids, isolated, stats, core.trimmed.view(np.bool_))
+        boundary.core = core
+        return boundary
+
+    @cached_property
+    def core(self) -> _core.Boundary:
+        """The same as the core has it: slices, surfaces and cells share it."""
+        from cfree import _core
+
+        patches = _core.Patches(self.contact_kind, self.contact_robot, self.contact_obstacle)
+        trapezoids = _core.Trapezoids(*(getattr(self.trapezoids, name) for name in COLUMNS))
+        parts = _core.Trapezoids(*(getattr(self.isolated, name) for name in COLUMNS))
+        isolated = _core.IsolatedParts(
+            parts, *(getattr(self.isolated, name) for name in ISOLATED_COLUMNS[len(COLUMNS) :])
+        )
+        return _core.Boundary(self.features.core, patches, self.trimmed.view(np.uint8), trapezoids, isolated)
+
+    @property
+    def shared(self) -> Self:
+        """The same with arrays that are views of the core's memory."""
+        return self.of(self.scene, self.features, self.core, self.stats)
+
+    @cached_property
+    def core_complex(self) -> _core.CellComplex:
+        """The trapezoids glued; `cfree.forbidden.cell_complex` tells how."""
+        from cfree import _core
+
+        try:
+            return _core.glue(self.core)
+        except RuntimeError as error:
+            raise InvariantError(f"the boundary is not closed: {error}", state=self.scene) from error
 
     @property
     def _content(self) -> tuple[Any, ...]:
@@ -211,17 +255,11 @@ class BoundaryRecord(Value):
         chosen = np.ascontiguousarray(trapezoid, np.int32)
         chart = self.trapezoids.chart[chosen]
         tau = np.ascontiguousarray(tau_in(chart, theta))
-        lower, upper = np.empty(len(chosen)), np.empty(len(chosen))
-        self.slicer.limits(chosen, chart.astype(np.int32), tau, lower, upper)
-        return lower, upper
+        return self.slicer.limits(chosen, chart.astype(np.int32), tau)
 
     @cached_property
-    def slicer(self) -> Any:
+    def slicer(self) -> _core.Slicer:
+        """What slices and limits are asked of."""
         from cfree import _core
 
-        a, b, t = self.features.robot, self.features.obstacles, self.trapezoids
-        return _core.Slicer(
-            a.near_shape(), b.near_shape(), a.near.ravel(), b.near.ravel(),
-            self.contact_kind, self.contact_robot, self.contact_obstacle,
-            t.patch, t.chart, t.lower, t.upper, t.tau_from, t.tau_to, self.features.frame,
-        )  # fmt: skip
+        return _core.Slicer(self.core)

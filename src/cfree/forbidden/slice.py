@@ -34,7 +34,8 @@ class Slice(Value):
         self._place = chart, tau
         self.segments: NDArray[np.float64]
         self.trapezoids: NDArray[np.int32]
-        self.segments, self.trapezoids = boundary.slicer.segments(chart, tau)
+        xy, self.trapezoids = boundary.slicer.segments(chart, tau)
+        self.segments = xy.reshape(-1, 2, 2)
 
     @property
     def _content(self) -> tuple[Any, ...]:

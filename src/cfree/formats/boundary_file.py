@@ -106,7 +106,8 @@ def load_space(path: str | os.PathLike[str]) -> FreeSpace:
     columns = _cells(arrays)
     wrong = _cells_misfit(boundary, **columns) if columns else "no cells are in it"
     if not wrong:
-        space = FreeSpace(boundary, **columns)
+        component, parent, free_inside, turns, lift = (columns[column] for column in CELL_COLUMNS)
+        space = FreeSpace(boundary, component, parent, free_inside, turns, lift)
         if len(space.component) == len(space.walls.trapezoids):
             return space
         wrong = "cells_component does not fit the rest"
@@ -130,7 +131,7 @@ def _load(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
     boundary, arrays = _read(name)
     if wrong := _inconsistent(boundary):
         raise _misfit(name, wrong)
-    return boundary, arrays
+    return boundary.shared, arrays
 
 
 def _misfit(name: str, column: str) -> FormatError:
@@ -258,8 +259,4 @@ def _inconsistent(boundary: Boundary) -> str:
     """Name of a column that contradicts the scene or the others, exactly, or nothing."""
     from cfree import _core
 
-    shapes = boundary.features.robot.core_shape(), boundary.features.obstacles.core_shape()
-    kind, robot, obstacle = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
-    live = [getattr(boundary.trapezoids, name) for name in COLUMNS]
-    thin = [getattr(boundary.isolated, name) for name in ISOLATED_COLUMNS]
-    return _core.misfit(*shapes, kind, robot, obstacle, live, thin, os.cpu_count() or 1)
+    return _core.misfit(boundary.core, os.cpu_count() or 1)

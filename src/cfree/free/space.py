@@ -12,8 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import pairwise
-from typing import Any, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from flint import fmpz_poly
@@ -26,10 +25,13 @@ from cfree.exact.half_angle import chart_of, tau_in_chart
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.cell_complex import CellComplex
-from cfree.forbidden.columns import COLUMNS, Floats, Ints, Trapezoids
+from cfree.forbidden.columns import Floats, Ints, Trapezoids
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.value import Value
+
+if TYPE_CHECKING:
+    from cfree import _core
 
 FORBIDDEN, NO_CELL = -1, -2
 BLOCK = 1 << 16  # poses between two looks at Ctrl-C
@@ -132,20 +134,18 @@ class FreeSpace(Value):
         free_inside: NDArray[np.bool_],
         turns: Ints,
         lift: Ints,
-        rays: Any = None,
+        core: _core.FreeSpace | None = None,
     ) -> None:
         self.boundary = boundary
         self.walls = walls_of(boundary)
-        self.component = component
-        self.parent = parent
-        self.free_inside = free_inside
-        self.turns = turns
-        self.lift = lift
+        self._core = core or _in_core(self.walls, component, parent, free_inside, turns, lift)
+        surfaces = self._core.surfaces
+        self.component, self.parent, self.turns, self.lift = (
+            getattr(surfaces, name) for name in ("component", "parent", "turns", "lift")
+        )
+        self.free_inside = surfaces.free_inside.view(np.bool_)
+        self.cell_of, self.depth = self._core.cell_of, self._core.depth
         self.outside = 0 if boundary.features.rim is None else FORBIDDEN
-        self.cell_of = _cells_of(parent, free_inside, self.outside)
-        for array in (component, parent, free_inside, turns, lift, self.cell_of):
-            array.flags.writeable = False
-        self._rays = rays or _rays(self.walls, component)
 
     @property
     def _content(self) -> tuple[Any, ...]:
@@ -272,8 +272,7 @@ class FreeSpace(Value):
             verdicts = self.boundary.checker.verdicts(np.column_stack([xy, theta]), threads)
             asked = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
             chart, tau = chart_of(theta[asked])
-            scale, count = self.boundary.features.scale, threads or os.cpu_count() or 1
-            cell = self._rays.locate(xy[asked], chart.astype(np.int32), tau, scale, *self._nesting, count)
+            cell = self._core.locate(xy[asked], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
             for m in np.flatnonzero(cell == FORBIDDEN).tolist():
                 x, y = xy[asked[m]].tolist()
                 if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
@@ -284,7 +283,7 @@ class FreeSpace(Value):
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
-        cell: int = self._rays.locate_exactly(*self._place(pose), *self._nesting)
+        cell = self._core.locate_exactly(*self._place(pose))
         return NO_CELL if cell == FORBIDDEN else cell
 
     def _place(self, pose: Pose) -> tuple[tuple[int, ...], int]:
@@ -298,7 +297,7 @@ class FreeSpace(Value):
     def nearby(self, pose: PoseLike) -> Nearby:
         """The trapezoids of `walls` that hold a pose, and those that a ray from it crosses; exactly."""
         pose = to_pose(pose, "pose")
-        return Nearby(*self._rays.nearby(*self._place(pose)))
+        return Nearby(*self._core.nearby(*self._place(pose)))
 
     @checked
     def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
@@ -315,7 +314,7 @@ class FreeSpace(Value):
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
         """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
-        low, p, high, q = self._rays.angle(face, last, bits)
+        low, p, high, q = self._core.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
 
     @checked
@@ -325,7 +324,7 @@ class FreeSpace(Value):
         first, second, lo, hi, place = (
             getattr(table, f"{end}_{name}")[k].item() for name in ("first", "second", "lo", "hi", "place")
         )
-        terms, low, p, high, q = self._rays.root(contact, int(table.chart[k]), first, second, lo, hi, place)
+        terms, low, p, high, q = self._core.root(contact, int(table.chart[k]), first, second, lo, hi, place)
         from_, to = Fraction(low, 1 << p), Fraction(high, 1 << q)
         if from_ == to:
             return from_
@@ -367,21 +366,6 @@ class FreeSpace(Value):
             raise InvalidPoseError("start is free, but an exact fit, in the closure of no cell; see Boundary.isolated")
         return self.cells[cell]
 
-    @cached_property
-    def _nesting(self) -> tuple[Ints, Ints, NDArray[np.uint8], int]:
-        """What the core has to know of the surfaces to name a cell."""
-        return self.depth, self.cell_of, self.free_inside.view(np.uint8), self.outside
-
-    @cached_property
-    def depth(self) -> Ints:
-        """(C,) how many closed surfaces are around each."""
-        depth = np.zeros(len(self.parent), np.int32)
-        above = self.parent
-        while np.any(above >= 0):
-            depth += above >= 0
-            above = np.where(above >= 0, self.parent[above], -1)
-        return depth
-
 
 @checked
 def free_space(boundary: Boundary) -> FreeSpace:
@@ -419,16 +403,13 @@ def free_space(boundary: Boundary) -> FreeSpace:
     from cfree import _core
 
     boundary.require_complete()
-    walls = walls_of(boundary)
-    cells = walls.complex
-    rays = _rays(walls, cells.component)
-    start, around, free_inside = rays.nesting()
-    parent = _parents(start, around, free_inside, boundary.features.rim is None)
-    chart, last, first = walls.trapezoids.chart[cells.face], cells.side == 2, cells.side == 0
-    leaves = last & first[cells.twin] & (chart == 1) & (chart[cells.twin] == 0)  # over theta = 3 pi / 2
-    steps = leaves.astype(np.int8) - leaves[cells.twin].astype(np.int8)
-    turns, lift = _core.turns(cells.first, cells.face, cells.twin, cells.component, steps, cells.components)
-    return FreeSpace(boundary, cells.component, parent, free_inside.astype(bool), turns, lift, rays)
+    try:
+        core = _core.free_space(walls_of(boundary).core_complex)
+    except RuntimeError as error:
+        raise InvariantError(str(error), state=boundary.scene) from error
+    surfaces = core.surfaces
+    inside = surfaces.free_inside.view(np.bool_)
+    return FreeSpace(boundary, surfaces.component, surfaces.parent, inside, surfaces.turns, surfaces.lift, core)
 
 
 def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
@@ -440,8 +421,8 @@ def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
         return None
     component, surfaces = boundary.complex.component, boundary.complex.components
     parent, all_free, turns = np.full(surfaces, -1, np.int32), np.ones(surfaces, bool), np.zeros(surfaces, np.int32)
-    rays = _rays(boundary, component)
-    space = FreeSpace(boundary, component, parent, all_free, turns, np.zeros(len(component), np.int32), rays)
+    columns = component, parent, all_free, turns, np.zeros(len(component), np.int32)
+    space = FreeSpace(boundary, *columns, _in_core(boundary, *columns))
     space.walls = boundary
     return space
 
@@ -470,34 +451,10 @@ def _line(p: tuple[int, int], q: tuple[int, int]) -> tuple[int, int, int]:
     return dx, dy, dx * p[1] - dy * p[0]
 
 
-def _rays(boundary: Boundary, component: Ints) -> Any:
+def _in_core(
+    walls: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
+) -> _core.FreeSpace:
     from cfree import _core
 
-    features = boundary.features
-    shapes = features.robot.core_shape(), features.obstacles.core_shape(), features.robot.shift
-    patches = boundary.contact_kind, boundary.contact_robot, boundary.contact_obstacle
-    columns = (getattr(boundary.trapezoids, name) for name in COLUMNS)
-    return _core.Rays(*shapes, component, *patches, *columns)
-
-
-def _parents(start: Ints, around: Ints, free_inside: NDArray[np.uint8], unbounded: bool) -> Ints:
-    """Of each closed surface the next around it; free and forbidden sides alternate, or something is wrong."""
-    sets = [frozenset(around[i:j].tolist()) for i, j in pairwise(start.tolist())]
-    parent = np.full(len(sets), -1, np.int32)
-    for k, outer in enumerate(sets):
-        if outer:
-            parent[k] = max(outer, key=lambda x: len(sets[x]))
-        above = int(parent[k])
-        if outer != (sets[above] | {above} if outer else outer):
-            raise InvariantError(f"closed surface {k} is inside {sorted(outer)}, which are not inside each other")
-        if bool(free_inside[k]) == (bool(free_inside[above]) if outer else unbounded):
-            raise InvariantError(f"closed surface {k} has the wrong side free for its place inside {sorted(outer)}")
-    return parent
-
-
-def _cells_of(parent: Ints, free_inside: NDArray[np.bool_], outside: int) -> Ints:
-    """The cell that each closed surface bounds; cells in the order of the surfaces around them."""
-    own = np.cumsum(free_inside) + outside  # the unbounded cell is 0
-    above = np.where(parent >= 0, own[parent], outside) if len(parent) else own
-    cell_of: Ints = np.where(free_inside, own, above).astype(np.int32)
-    return cell_of
+    surfaces = _core.Surfaces(component, parent, free_inside.view(np.uint8), turns, lift)
+    return _core.FreeSpace(walls.core, surfaces)

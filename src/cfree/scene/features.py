@@ -26,6 +26,7 @@ from cfree.errors import UnsupportedError
 from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
+    from cfree import _core
     from cfree.scene.scene import Scene
 
 Point = tuple[int, int]
@@ -118,25 +119,10 @@ class ShapeFeatures:
         x0, y0 = self.origin
         return np.array([((x - x0) / self.scale, (y - y0) / self.scale) for x, y in self.vertices]).reshape(-1, 2)
 
-    def near_shape(self) -> Any:
-        """The same for the core, which asks for differences and places only."""
-        from cfree import _core
-
-        if self.origin == (0, 0) and self.near_shift == self.shift:
-            return self.core_shape()
-        x0, y0 = self.origin
-        moved = [(x - x0, y - y0) for x, y in self.vertices]
-        return _core.Shape(**self.core | {"coordinates": limbs(moved), "shift": self.near_shift})
-
     @cached_property
     def core(self) -> dict[str, Any]:
         """Arguments of ``_core.Shape``: the arrays, with an identity for every feature."""
         return core_arrays(self)
-
-    def core_shape(self) -> Any:
-        from cfree import _core
-
-        return _core.Shape(**self.core)
 
     @property
     def v(self) -> NDArray[np.int32]:
@@ -166,13 +152,6 @@ class ShapeFeatures:
         turning: NDArray[np.float64] = np.arctan2(cross, (before * after).sum(axis=1))
         return turning
 
-    @cached_property
-    def names(self) -> tuple[NDArray[np.uint64], NDArray[np.uint64]]:
-        """A vertex of each point, by vertex, and an edge of each line, by edge: of lowest layer and rank in a ring."""
-        core = self.core
-        keys = [core[rank] + (core["layer"].astype(np.int64) << 32) for rank in ("vertex_rank", "edge_rank")]
-        return _representatives(core["point"], keys[0]), _representatives(core["line"], keys[1])
-
 
 @dataclass(frozen=True)
 class SceneFeatures:
@@ -192,6 +171,15 @@ class SceneFeatures:
     rim: tuple[float, float, float, float] | None
 
     @cached_property
+    def core(self) -> _core.Scene:
+        """The same as the core has it: what is made of the scene there shares it."""
+        from cfree import _core
+
+        a, b = self.robot, self.obstacles
+        shapes = _core.Shape(**a.core), _core.Shape(**b.core)
+        return _core.Scene(*shapes, self.scale, a.shift, self.rim is not None, a.origin, b.origin, a.near_shift)
+
+    @cached_property
     def frame(self) -> tuple[float, float, float, float]:
         """The origins of the obstacles and of the robot: what is near by has doubles from these."""
         (x, y), (a, b) = self.obstacles.origin, self.robot.origin
@@ -209,33 +197,10 @@ class SceneFeatures:
         n, m = (shape.rings["convex"] for shape in (self.robot, self.obstacles))
         return int(sum(n) * len(m) + len(n) * sum(m))
 
-    def use_names(self, codes: NDArray[np.uint64]) -> None:
-        """Replace features in packed pairs by the ones that name their point or line, in place."""
-        kind, i, j = unpacked(codes)
-        vertex, edge = self.robot.names
-        i[:] = np.where((kind == 1) | (kind == 3), _take(vertex, i), _take(edge, i))
-        vertex, edge = self.obstacles.names
-        j[:] = np.where((kind == 2) | (kind == 3), _take(vertex, j), _take(edge, j))
-        codes[kind > 0] = (kind << np.uint64(61) | i << np.uint64(31) | j)[kind > 0]
-
 
 def unpacked(code: Any) -> tuple[Any, Any, Any]:
     """Kind, robot feature and obstacle feature of a packed pair, an int or an array of uint64."""
     return code >> 61, code >> 31 & 0x3FFFFFFF, code & 0x7FFFFFFF
-
-
-def _take(table: NDArray[np.uint64], index: NDArray[np.uint64]) -> NDArray[np.uint64]:
-    return table[np.minimum(index, len(table) - 1)] if len(table) else index
-
-
-def _representatives(group: NDArray[np.int32], rank: NDArray[np.int64]) -> NDArray[np.uint64]:
-    keys = np.full(len(group), np.iinfo(np.int64).max)
-    keys[: len(rank)] = rank
-    order = np.lexsort((np.arange(len(group)), keys, group))
-    groups, first = np.unique(group[order], return_index=True)
-    table = np.empty(groups.max(initial=-1) + 1, np.uint64)
-    table[groups] = order[first]
-    return table[group]
 
 
 def scene_features(scene: Scene) -> SceneFeatures:
@@ -415,4 +380,5 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
     }
     arrays: dict[str, Any] = {name: np.array(column, np.int32) for name, column in ints.items()}
     arrays |= {name: np.array(shape.rings[name], np.int8) for name in ("convex", "emit")}
-    return arrays | {"coordinates": limbs(vertices), "shift": shape.shift, "ring_vertices": len(previous)}
+    scalars = {"shift": shape.shift, "scale": shape.scale, "ring_vertices": len(previous)}
+    return arrays | scalars | {"coordinates": limbs(vertices)}

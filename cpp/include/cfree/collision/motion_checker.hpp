@@ -43,7 +43,7 @@ struct Collision {
 
 class MotionChecker {
 public:
-    MotionChecker(const Shape& robot, const Shape& obstacles, int shift);
+    explicit MotionChecker(std::shared_ptr<const Scene> scene);
     ~MotionChecker();
     MotionChecker(const MotionChecker&) = delete;
     MotionChecker& operator=(const MotionChecker&) = delete;
@@ -54,8 +54,7 @@ public:
 private:
     template <int N>
     class Run;
-    const Scene scene;
-    const int shift;  // of the shapes' doubles
+    const std::shared_ptr<const Scene> scene;
     const std::vector<Box> boxes;
     const std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
 };

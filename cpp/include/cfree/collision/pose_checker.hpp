@@ -26,12 +26,10 @@ struct ExactPlacement {
     Int c, s, w, x, y, unit;
 };
 
-class Checker {
+class PoseChecker {
 public:
-    // Coordinates in the user's units, correctly rounded; integers are those times `scale`. The reference point stays in
-    // limits: x0, y0, x1, y1.
-    Checker(std::shared_ptr<const Scene> scene, Int scale, const double* robot_xy, const double* obstacle_xy,
-            std::array<double, 4> limits);
+    // The reference point stays in limits: x0, y0, x1, y1.
+    PoseChecker(std::shared_ptr<const Scene> scene, std::array<double, 4> limits);
 
     // Verdicts of poses x, y and theta in [0, 2 pi], radians.
     void check(const double* poses, std::size_t count, int threads, Verdict* out) const;
@@ -53,7 +51,7 @@ private:
     struct Ranges {  // of a piece's coordinates
         double x0, y0, x1, y1;
     };
-    static Pieces pieces_of(const Shape& shape, const double* xy);
+    static Pieces pieces_of(const Shape& shape);
     double distance(const Pieces& p, Index piece, double x, double y) const;
     struct Placed;
     // Poses around one: the reference point no further away than `shift`, turned by no more than `turn`. Verdicts hold for all.
@@ -82,7 +80,6 @@ private:
     void fill(Grid& grid) const;
 
     std::shared_ptr<const Scene> scene;
-    Int scale;
     std::array<double, 4> limits;
     Pieces robot, obstacles;
     std::vector<Ranges> box;       // of the obstacles' pieces

@@ -1,9 +1,11 @@
 // The number types of the decisions: exact integers of any size, and doubles that carry their magnitude.
 #pragma once
 #include <boost/multiprecision/cpp_int.hpp>
-#include <bit>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+
+#include "cfree/support/bit_cast.hpp"
 
 namespace cfree {
 
@@ -22,13 +24,17 @@ using Int = boost::multiprecision::number<
                                            boost::multiprecision::unchecked, std::allocator<boost::multiprecision::limb_type>>,
     boost::multiprecision::et_off>;
 
-// n / d, rounded; d is not zero.
+// n / d, correctly rounded; d is not zero.
 inline double ratio(const Int& n, const Int& d) {
     if (n.is_zero()) return 0;
-    const Int p = abs(n), r = abs(d);
-    const int up = 64 + static_cast<int>(msb(r)) - static_cast<int>(msb(p));
-    const Int q = up >= 0 ? Int((p << static_cast<unsigned>(up)) / r) : Int(p / (r << static_cast<unsigned>(-up)));
-    return n.sign() * d.sign() * std::ldexp(static_cast<double>(q), -up);
+    // 62 or 63 bits of the quotient, fewer of a subnormal one; the last tells whether anything is left
+    Int p = abs(n), r = abs(d);
+    const int up = std::min(62 + static_cast<int>(msb(r)) - static_cast<int>(msb(p)), 1076);
+    (up >= 0 ? p : r) <<= static_cast<unsigned>(std::abs(up));
+    Int quotient, rest;
+    divide_qr(p, r, quotient, rest);
+    const auto bits = static_cast<std::uint64_t>(quotient) | (rest.is_zero() ? 0u : 1u);
+    return n.sign() * d.sign() * std::ldexp(static_cast<double>(bits), -up);
 }
 
 // Where it is known to be wide enough.
@@ -47,8 +53,8 @@ inline Approx operator*(Approx p, Approx q) { return {p.v * q.v, p.m * q.m}; }
 
 // 2^-e for a positive x in [2^(e-1), 2^e); frexp without the call.
 inline double power_below(double x) {
-    const auto exponent = std::bit_cast<std::uint64_t>(x) >> 52;
-    return std::bit_cast<double>((2045 - exponent) << 52);
+    const auto exponent = bit_cast<std::uint64_t>(x) >> 52;
+    return bit_cast<double>((2045 - exponent) << 52);
 }
 
 template <class T>
@@ -57,6 +63,8 @@ struct Vec {
 };
 template <class T>
 Vec<T> operator-(const Vec<T>& p) { return {-p.x, -p.y}; }
+template <class T>
+Vec<T> operator-(const Vec<T>& p, const Vec<T>& q) { return {p.x - q.x, p.y - q.y}; }
 template <class T>
 T cross(const Vec<T>& p, const Vec<T>& q) { return p.x * q.y - p.y * q.x; }
 template <class T>

@@ -1,7 +1,5 @@
 // The critical angles of all trapezoids in one order, equal ones made one: across patches, names and charts.
 #pragma once
-#include <optional>
-
 #include "cfree/forbidden/critical_angle.hpp"
 
 namespace cfree {
@@ -17,9 +15,9 @@ public:
     // An angle in a chart that holds it: an interval of tau, and the exact number.
     double lo(Index rank, int chart) const { return angles[place(rank, chart)].lo; }
     double hi(Index rank, int chart) const { return angles[place(rank, chart)].hi; }
-    const RealRoot& exact(Index rank, int chart);
+    CriticalAngle critical(Index rank, int chart) const { return critical(angles[place(rank, chart)]); }
     // A sample strictly between two angles.
-    Sample between(Index first, Index second, int chart);
+    Sample between(Index first, Index second, int chart) const;
 
 private:
     struct Angle {
@@ -36,7 +34,6 @@ private:
     const Patches& patches;
     const Trapezoids& trapezoids;
     std::vector<Angle> angles;  // of chart 0, wall to wall, then of chart 1: `middle` is in both
-    std::optional<std::pair<std::size_t, CriticalAngle>> recent;  // the last that was asked for exactly
 };
 
 }  // namespace cfree

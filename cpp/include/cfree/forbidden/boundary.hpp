@@ -1,15 +1,13 @@
-// The trimmed boundary of the forbidden space: all patches, divided among threads.
+// The trimmed boundary of the forbidden space: all patches, divided among threads. Everything built on it shares it.
 #pragma once
-#include <atomic>
-#include <chrono>
-#include <condition_variable>
-#include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
+#include "cfree/forbidden/angle_table.hpp"
 #include "cfree/forbidden/columns.hpp"
+#include "cfree/support/stop.hpp"
 
 namespace cfree {
 
@@ -20,47 +18,41 @@ struct Tally {
     double trim_seconds = 0, collect_seconds = 0, isolated_seconds = 0;
 };
 
+class Boundary {
+public:
+    Boundary(std::shared_ptr<const Scene> scene, Patches patches, std::vector<std::uint8_t> trimmed, Trapezoids trapezoids,
+             IsolatedParts isolated, const Tally& tally = {});
+
+    const std::shared_ptr<const Scene> scene;
+    const Patches patches;
+    const std::vector<std::uint8_t> trimmed;  // of each patch, whether it has been
+    const Trapezoids trapezoids;
+    const IsolatedParts isolated;
+    const Tally tally;
+
+    bool is_complete() const;
+    // All critical angles in one order; found when first asked for.
+    const AngleTable& angles() const;
+
+private:
+    mutable std::once_flag ordered;
+    mutable std::unique_ptr<const AngleTable> table;
+};
+using SharedBoundary = std::shared_ptr<const Boundary>;
+
 // All pairs of a convex vertex and an edge, patches of the boundary before trimming.
 Patches list_patches(const Scene& scene);
 
-// A computation on threads of its own, to be watched and stopped from outside.
-class Job {
-public:
-    // regularized: without slits, surfaces that coincide with opposite sides.
-    Job(std::shared_ptr<const Scene> scene, int threads, bool regularized);
-    ~Job();
-    Job(const Job&) = delete;
-    Job& operator=(const Job&) = delete;
+// What the one who waits wants: to go on, to have what there is so far, or nothing any more.
+enum class Wish { go_on, finish, cancel };
 
-    bool wait(double seconds);  // whether it has ended; rethrows what a thread threw
-    double progress() const;    // patches done, of all
-    void cancel() { cancelled = true, stop = true; }
-    void finish_early() { stop = true; }  // with the patches done so far; if these are all, as if it had not been asked for
-    // After wait() returned true.
-    Patches patches;
-    std::vector<std::uint8_t> trimmed;  // of each patch, whether it has been
-    Trapezoids trapezoids;
-    IsolatedParts isolated;
-    Tally tally;
-
-private:
-    void run(int threads);
-    void trim_patches();
-    void trim_patch(Index id, const std::vector<Index>& near, Tally& mine);
-
-    std::shared_ptr<const Scene> scene;
-    struct Plan;
-    std::unique_ptr<Plan> plan;
-    std::vector<Index> first_patch;                         // of each obstacle ring vertex and the edge that starts there
-    std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
-    std::atomic<Index> next{0};
-    std::atomic<std::int64_t> done{0};
-    std::atomic<bool> stop{false}, cancelled{false};  // trimming; all of it
-    std::mutex mutex;
-    std::condition_variable ended_signal;
-    bool ended = false;
-    std::exception_ptr error;
-    std::thread runner;
+struct Task {
+    int threads = 1;
+    bool regularized = false;           // without slits, surfaces that coincide with opposite sides
+    std::function<Wish(double)> watch;  // asked ten times a second, with the share that is done
 };
+
+// Throws Stopped if cancelled.
+SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& scene, const Task& task = {});
 
 }  // namespace cfree

@@ -4,23 +4,24 @@
 // at its last angle, the lower curve; each is cut into coedges where its neighbours change. Two coedges that bound one free
 // sector are twins. At a geometric edge where more than two faces meet, they are sorted around it.
 #pragma once
-#include "cfree/forbidden/angle_table.hpp"
+#include "cfree/forbidden/boundary.hpp"
 
 namespace cfree {
 
 enum class Side : std::uint8_t { first_wall, upper, last_wall, lower };
 
 struct CellComplex {
+    SharedBoundary boundary;
     // coedges, face after face in the order of their loops
     std::vector<Index> face, twin, edge, vertex;  // vertex: where it starts
     std::vector<std::uint8_t> side;
     std::vector<Index> first;      // coedges of face k: first[k] .. first[k + 1]
     std::vector<Index> component;  // of each face
-    std::vector<double> x, y, theta;  // of each vertex, rounded
+    std::vector<double> xy, theta;  // of each vertex, rounded; in the user's units, from `Scene::frame`
     Index edges = 0, vertices = 0, components = 0;
 };
 
 // A side without a partner, as a message that names trapezoids, is thrown as std::logic_error.
-CellComplex glue(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids);
+std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary);
 
 }  // namespace cfree

@@ -1,5 +1,6 @@
 // The result as flat arrays: patches, trapezoids, isolated parts; features packed into one number.
 #pragma once
+#include <array>
 #include <vector>
 
 #include "cfree/forbidden/trim.hpp"
@@ -9,6 +10,8 @@ namespace cfree {
 struct Patches {
     std::vector<std::uint8_t> kind;
     std::vector<Index> robot, obstacle;
+    std::size_t size() const { return kind.size(); }
+    Feature contact(Index k) const { return {static_cast<Kind>(kind[k]), robot[k], obstacle[k]}; }
 };
 
 inline std::uint64_t packed(const Feature& f) {
@@ -28,9 +31,19 @@ struct Trapezoids {
     std::vector<std::uint64_t> from_first, from_second, to_first, to_second;
     std::vector<double> from_lo, from_hi, to_lo, to_hi;
     std::vector<std::uint8_t> from_place, to_place;
+    std::size_t size() const { return patch.size(); }
+    double tau_from(Index k) const { return 0.5 * (from_lo[k] + from_hi[k]); }
+    double tau_to(Index k) const { return 0.5 * (to_lo[k] + to_hi[k]); }
+    std::array<std::vector<std::uint64_t>*, 6> features() {
+        return {&lower, &upper, &from_first, &from_second, &to_first, &to_second};
+    }
     void reserve(std::size_t count);
     void push_back(const Trapezoid& x);
 };
+
+// Every point and every line under one name, whoever found the trapezoid.
+void use_names(const Scene& scene, const std::array<std::vector<std::uint64_t>*, 6>& columns);
+std::uint64_t named(const Representatives& names, std::uint64_t feature);
 
 // What is free without any width, {(t, theta): lower <= t <= upper, from <= theta <= to} of a patch: from = to (a segment, or a
 // point) or lower = upper (a curve). A curve or an angle may be named on the surface of another patch. Its two ends are at

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "cfree/predicates/predicates.hpp"
+#include "cfree/contact/contact_line.hpp"
 
 namespace cfree {
 
@@ -39,29 +39,43 @@ private:
     Word p, inverse_of_p, one, square;  // of 2^64
 };
 
+// One of them, which knows the others.
+struct Residue {
+    Residues::Word x;
+    const Residues* in;
+};
+inline Residue operator+(const Residue& p, const Residue& q) { return {p.in->plus(p.x, q.x), p.in}; }
+inline Residue operator-(const Residue& p, const Residue& q) { return {p.in->minus(p.x, q.x), p.in}; }
+inline Residue operator-(const Residue& p) { return {p.in->minus(0, p.x), p.in}; }
+inline Residue operator*(const Residue& p, const Residue& q) { return {p.in->times(p.x, q.x), p.in}; }
+
 // Of `count` curves, modulo the first prime of a fixed sequence for which all have a point.
 class Fingerprints {
 public:
     Fingerprints(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve);
+    Fingerprints(const Fingerprints&) = delete;
     const Fingerprint& operator[](std::size_t k) const { return prints[k]; }
     // Whether the curve may lie on a surface; if not, it does not.
     bool may_lie_on(const Feature& surface, const Fingerprint& curve) const;
 
 private:
-    using Word = Residues::Word;
-    struct Point {
-        Word x, y;
+    struct Reduced {  // coordinates modulo the prime
+        const Scene* scene;
+        std::vector<Vec<Residue>> robot, obstacles;
+        const Vec<Residue>& vertex(const Shape& s, Index v) const { return (&s == &scene->robot ? robot : obstacles)[v]; }
+        Vec<Residue> edge(const Shape& s, Index e) const { return vertex(s, s.w[e]) - vertex(s, s.v[e]); }
+    };
+    struct Line {
+        Vec<Residue> P, U;
     };
     void choose(unsigned attempt);
     std::optional<Fingerprint> of(const NamedCurve& curve) const;
-    std::vector<Point> reduced(const Shape& shape) const;
-    Point placed(Index a, Index b) const;                 // b_b - R a_a
-    std::array<Point, 2> line(const Feature& surface) const;  // a point and the direction
+    Line line(const Feature& surface) const;
 
     const Scene& scene;
     Residues in{3};
-    std::vector<Point> robot, obstacles;
-    Word c = 0, s = 0;  // of the orientation
+    Reduced reduced;
+    Rotation<Residue> turn;
     std::vector<Fingerprint> prints;
 };
 

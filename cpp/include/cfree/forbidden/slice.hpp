@@ -1,23 +1,17 @@
 // A built boundary at one orientation: a look-up, then the contact segments; chained, the outline of the forbidden region.
 // Doubles throughout: what is where was decided before. At a critical angle the slice is that of the orientations just after.
 #pragma once
-#include <array>
-#include <memory>
 #include <vector>
 
-#include "cfree/forbidden/columns.hpp"
+#include "cfree/contact/contact_line.hpp"
+#include "cfree/forbidden/boundary.hpp"
 #include "cfree/forbidden/tau_index.hpp"
 
 namespace cfree {
 
 class Slicer {
 public:
-    // Coordinates in the user's units, from places near by: what comes out is moved by shift[0..1] - R shift[2..3]. Limits of tau
-    // are the middles of the isolating intervals.
-    Slicer(std::shared_ptr<const Scene> scene, std::vector<double> robot_xy, std::vector<double> obstacle_xy,
-           Patches patches, std::vector<Index> patch, std::vector<std::uint8_t> chart, std::vector<std::uint64_t> lower,
-           std::vector<std::uint64_t> upper, std::vector<double> tau_from, std::vector<double> tau_to,
-           std::array<double, 4> shift);
+    explicit Slicer(SharedBoundary boundary);
 
     struct Segments {
         std::vector<double> xy;         // x0, y0, x1, y1: forbidden on the left
@@ -36,34 +30,42 @@ public:
     // Limits of t for trapezoids at orientations, one each.
     void limits(const Index* trapezoid, const int* chart, const double* tau, std::size_t count, double* lower,
                 double* upper) const;
+    // t along the curve of an isolated part, on the patch that names it.
+    void isolated_curve(Index part, const double* tau, std::size_t count, double* t) const;
 
 private:
-    struct Turn {
-        double c, s;
-    };
+    using Turn = Rotation<double>;
     struct Line {
-        double px, py, ux, uy;
+        Vec<double> p, u;
     };
-    static Turn turn(int chart, double tau);
     Segments near(int chart, double tau) const;
-    void move(std::vector<double>& xy, Turn r) const;
-    Line line(Index patch, Turn r) const;
+    void move(std::vector<double>& xy, const Turn& r) const;
+    Line line(const Feature& contact, const Turn& r) const;
     struct Meeting {
         double t, sine;  // of the angle between the two lines, at least in size
     };
-    Meeting meets(Index patch, const Line& l, std::uint64_t curve, Turn r) const;
-    std::uint64_t name(std::uint64_t packed_feature) const;
-
-    std::shared_ptr<const Scene> scene;
-    std::vector<double> a, b;
-    Patches patches;
-    std::vector<Index> patch;
-    std::vector<std::uint8_t> chart;
-    std::vector<std::uint64_t> lower, upper;
-    std::vector<double> tau_from, tau_to;
-    TauIndex index;
-    std::array<double, 4> shift;
+    Meeting meets(const Feature& contact, const Line& l, std::uint64_t curve, const Turn& r) const;
+    double helix_at(const Feature& contact, const Feature& helix) const;
     void step_off_events(int& chart, double& tau) const;
+
+    struct Name {  // of a point of the outline: the helix, or the two surfaces, that meet there
+        Code first, second;
+        bool operator==(const Name& o) const { return first == o.first && second == o.second; }
+    };
+    struct Hash {
+        std::size_t operator()(const Name& x) const {
+            return (x.first * 0x9e3779b97f4a7c15u) ^ ((x.second + 0x7f4a7c15u) * 0xc2b2ae3d27d4eb4fu);
+        }
+    };
+    Name end_name(Index trapezoid, std::uint64_t curve) const;
+    std::vector<Index> chained(const Segments& s) const;
+    static std::vector<double> trace(const Segments& s, const std::vector<Index>& next, Rings& result);
+    static void nest(Rings& rings, const std::vector<double>& area);
+
+    SharedBoundary boundary;
+    const Scene& scene;  // near
+    std::vector<double> tau_from, tau_to;  // middles of the isolating intervals
+    TauIndex index;
 };
 
 }  // namespace cfree

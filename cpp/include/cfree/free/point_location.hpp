@@ -17,10 +17,10 @@ struct ExactPose {
     static ExactPose from(double x, double y, int chart, double tau, const Int& scale);
 };
 
-class Rays {
+class PointLocation {
 public:
-    // shift: that of the scene's coordinates
-    Rays(Scene scene, int shift, Patches patches, Trapezoids trapezoids, std::vector<Index> component);
+    // component: of each trapezoid, its closed surface
+    PointLocation(SharedBoundary boundary, std::vector<Index> component);
 
     // Of every component: those around it, in order, and whether space is free just inside it.
     struct Nesting {
@@ -36,9 +36,9 @@ public:
         Index outside;                       // where nothing is around
     };
     Index locate(const ExactPose& q, const Cells& cells) const;
-    // The same for many poses that doubles are; the scene's integers are `scale` times the user's units.
-    void locate(const double* xy, const int* chart, const double* tau, std::size_t count, const Int& scale, int threads,
-                const Cells& cells, Index* out) const;
+    // The same for many poses that doubles are, in the user's units.
+    void locate(const double* xy, const int* chart, const double* tau, std::size_t count, int threads, const Cells& cells,
+                Index* out) const;
 
     // What is at a pose: the trapezoids that hold it, ends included, with -1 if one begins at its orientation, 1 if one ends
     // there, else 0; those that the ray from it towards -x crosses just after its orientation, as often as it does; and whether
@@ -52,6 +52,7 @@ public:
 
     // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
     RealRoot root(const Surface& on, const Event& angle, int place) const { return CriticalAngle(on, angle, place).exact(scene); }
+    const std::vector<Index>& components() const { return component; }
     // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.
     std::array<Dyadic, 2> angle(Index trapezoid, bool last, unsigned bits) const;
 
@@ -76,21 +77,13 @@ private:
     template <class F>
     void stab(Index begin, Index end, const View& q, F&& report) const;
 
-    Scene scene;
-    int shift;
-    Patches patches;
-    Trapezoids trapezoids;
-    std::vector<Index> component;
+    SharedBoundary boundary;
+    const Scene& scene;
+    const Patches& patches;
+    const Trapezoids& trapezoids;
+    const std::vector<Index> component;
     TauIndex index;
     std::vector<Extent> extents;  // of the index's lists, each a tree: in order of `low`, the root in the middle
 };
-
-// How often closed surfaces go round in theta: the greatest common divisor of the turns of all loops on each, and by how many
-// turns each face is lifted from the first of its surface, along some path. `steps` are the turns made on leaving by a coedge.
-struct Turns {
-    std::vector<Index> divisor, lift;
-};
-Turns turns(const std::vector<Index>& first, const std::vector<Index>& face, const std::vector<Index>& twin,
-            const std::vector<Index>& component, const std::vector<std::int8_t>& steps, Index components);
 
 }  // namespace cfree

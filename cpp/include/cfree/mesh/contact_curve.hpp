@@ -4,21 +4,27 @@
 #pragma once
 #include <complex>
 
-#include "cfree/forbidden/boundary.hpp"
+#include "cfree/contact/contact_line.hpp"
 
 namespace cfree {
 
 using Complex = std::complex<double>;
 
+inline Complex complex(const Vec<double>& v) { return {v.x, v.y}; }
 inline double dot(Complex u, Complex v) { return u.real() * v.real() + u.imag() * v.imag(); }
 inline double cross(Complex u, Complex v) { return u.real() * v.imag() - u.imag() * v.real(); }
 
-// Coordinates of robot and obstacles in the user's units.
+// Coordinates of robot and obstacles in the user's units: the robot as it is, obstacles from their origin.
 struct Places {
     const Scene& scene;
-    const double *robot, *obstacle;
-    Complex a(Index i) const { return {robot[2 * i], robot[2 * i + 1]}; }
-    Complex b(Index j) const { return {obstacle[2 * j], obstacle[2 * j + 1]}; }
+    Vec<double> vertex(const Shape& s, Index v) const {
+        return UserUnits{}.vertex(&s == &scene.robot ? s : scene.near().obstacles, v);
+    }
+    Vec<double> edge(const Shape& s, Index e) const {
+        return UserUnits{}.edge(&s == &scene.robot ? s : scene.near().obstacles, e);
+    }
+    Complex a(Index i) const { return complex(vertex(scene.robot, i)); }
+    Complex b(Index j) const { return complex(vertex(scene.obstacles, j)); }
     // The robot's and the obstacle's point of a surface, and the edge with its length 1.
     struct Parts {
         Complex a, b, edge;

@@ -8,23 +8,8 @@
 
 namespace cfree {
 
-struct MeshInput {
-    Places places;
-    const Patches& patches;
-    // of each trapezoid: patch, chart, curves
-    const Index* patch;
-    const std::uint8_t* chart;
-    const std::uint64_t *lower, *upper;
-    // the cell complex
-    Index faces, coedges, edges, vertices;
-    const Index *first, *face, *twin, *edge, *vertex;
-    const std::uint8_t* side;
-    const double *x, *y, *theta;
-    double error, angle_scale;
-};
-
-struct MeshArrays {
-    std::vector<double> xyz;      // x, y and theta of each vertex
+struct Mesh {
+    std::vector<double> xyz;      // x, y and theta times the angle scale of each vertex
     std::vector<Index> corners;   // three vertices of each triangle, counter-clockwise as seen from the free side
     std::vector<Index> face;      // of each triangle
     std::vector<Index> seam;      // pairs of vertices: at theta = -pi/2 and the same at 3 pi/2
@@ -35,9 +20,9 @@ struct MeshArrays {
 struct MeshEstimate {
     double coarsest, triangles;
 };
-MeshEstimate estimate_mesh(const MeshInput& input);
+MeshEstimate estimate_mesh(const CellComplex& cells, double error, double angle_scale);
 
 // A face whose bounds cannot be met, which is a fault, is thrown as std::logic_error.
-MeshArrays mesh(const MeshInput& input);
+Mesh mesh(const CellComplex& cells, double error, double angle_scale);
 
 }  // namespace cfree

@@ -160,7 +160,7 @@ public:
 
 private:
     friend class Junction;  // the same polynomials, at critical angles
-    friend class Rays;      // and at rational ones
+    friend class PointLocation;  // and at rational ones
     template <class T>
     Trig<T> offset_trig(Index s, Index v) const;
     template <class T>

@@ -4,6 +4,8 @@
 // `point`, directed edges on one line with one direction share a `line`, parallel edges (either way) a `direction`:
 // equality of features is decided once, before any predicate.
 #pragma once
+#include <array>
+#include <memory>
 #include <vector>
 
 #include "cfree/exact/ball.hpp"
@@ -32,14 +34,41 @@ struct Shape {
 
     Index pieces() const { return static_cast<Index>(piece.size()) - 1; }
     bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
-    // Sets X and Y and what is derived from them. Both shapes of a scene have the same shift: 0, or enough to keep products
-    // of four doubles finite.
-    void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0);
+    // Vertices in the user's units, correctly rounded: x0, y0, x1, ...
+    std::vector<double> xy;
+    // Sets X and Y and what is derived from them. Both shapes of a scene have the same scale, integers in a unit, and shift: 0,
+    // or enough to keep products of four doubles finite.
+    void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0, const Int& scale = 1);
 };
 
+// Two shapes, and where they are measured from.
 struct Scene {
     Shape robot, obstacles;
+    Int scale = 1;            // integers in a unit of the user
+    int shift = 0;            // doubles are integers times 2^-shift
+    bool is_bounded = false;  // whether there is no free space far away
+    // The same scene from an origin near each shape: far away from it doubles would have no digits left. Differences of
+    // vertices are the same; positions of the robot are moved by `frame`: obstacles' origin - R robot's origin.
+    std::array<double, 4> frame{};      // the two origins in the user's units: x and y of the obstacles', of the robot's
+    std::shared_ptr<const Scene> moved; // if it differs
+    const Scene& near() const { return moved ? *moved : *this; }
+    double unit() const { return ratio(Int(1) << static_cast<unsigned>(shift), scale); }  // of the doubles, in the user's
 };
+
+// One feature for all that are at its point, or on its line: of lowest layer and rank in a ring.
+class Representatives {
+public:
+    explicit Representatives(const Scene& scene);
+    Index vertex(bool of_robot, Index v) const { return vertices[of_robot][v]; }
+    Index edge(bool of_robot, Index e) const { return edges[of_robot][e]; }
+
+private:
+    std::array<std::vector<Index>, 2> vertices, edges;  // of obstacles, of the robot
+};
+
+// Measured from the two origins as well, in the scene's integers, with a shift for coordinates from there.
+std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
+                                          int near_shift);
 
 template <class T>
 Vec<T> difference(const Shape& s, Index p, Index q);  // vertex p minus vertex q

@@ -1,0 +1,43 @@
+// Closed surfaces, and meshes of them.
+#include "cfree/forbidden/cell_complex.hpp"
+
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+
+#include "arrays.hpp"
+#include "cfree/mesh/mesh.hpp"
+#include "watched.hpp"
+
+using namespace nb::literals;
+using cfree::CellComplex, cfree::Mesh;
+
+void bind_cell_complex(nb::module_& m) {
+    nb::class_<CellComplex> cells(m, "CellComplex");
+    column(cells, "first", &CellComplex::first);
+    column(cells, "face", &CellComplex::face);
+    column(cells, "side", &CellComplex::side);
+    column(cells, "twin", &CellComplex::twin);
+    column(cells, "edge", &CellComplex::edge);
+    column(cells, "vertex", &CellComplex::vertex);
+    column(cells, "component", &CellComplex::component);
+    column(cells, "theta", &CellComplex::theta);
+    rows<2>(cells, "xy", &CellComplex::xy);
+    cells.def_ro("edges", &CellComplex::edges).def_ro("vertices", &CellComplex::vertices);
+    cells.def_ro("components", &CellComplex::components);
+    m.def("glue", [](const cfree::SharedBoundary& boundary) { return watched([&] { return cfree::glue(boundary); }); },
+          "boundary"_a);
+
+    nb::class_<Mesh> mesh(m, "Mesh");
+    rows<3>(mesh, "xyz", &Mesh::xyz);
+    rows<3>(mesh, "corners", &Mesh::corners);
+    rows<2>(mesh, "seam", &Mesh::seam);
+    column(mesh, "face", &Mesh::face);
+    mesh.def_ro("least", &Mesh::least);
+    m.def("estimate_mesh", [](const CellComplex& of, double error, double angle_scale) {
+        const auto x = watched([&] { return cfree::estimate_mesh(of, error, angle_scale); });
+        return std::pair(x.coarsest, x.triangles);
+    }, "cells"_a, "error"_a, "angle_scale"_a);
+    m.def("mesh", [](const CellComplex& of, double error, double angle_scale) {
+        return watched([&] { return cfree::mesh(of, error, angle_scale); });
+    }, "cells"_a, "error"_a, "angle_scale"_a);
+}

@@ -1,0 +1,81 @@
+// Cells, and where poses are among them. A pose is (X, Y, W, p, r), integers: the position over W, tau = p / r.
+#include "cfree/free/free_space.hpp"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.hpp"
+#include "integers.hpp"
+#include "watched.hpp"
+
+using namespace nb::literals;
+using cfree::FreeSpace, cfree::Surfaces;
+using PoseIntegers = std::array<nb::int_, 5>;
+
+static cfree::ExactPose pose_of(const PoseIntegers& n, int chart) {
+    return {integer(n[0]), integer(n[1]), integer(n[2]), chart, integer(n[3]), integer(n[4])};
+}
+
+static std::tuple<nb::int_, unsigned, nb::int_, unsigned> angle(const FreeSpace& space, int trapezoid, bool last, unsigned bits) {
+    const auto [lo, hi] = space.points().angle(trapezoid, last, bits);
+    return {integer(lo.n), lo.k, integer(hi.n), hi.k};
+}
+
+static std::tuple<std::vector<nb::int_>, nb::int_, unsigned, nb::int_, unsigned> root(
+    const FreeSpace& space, std::array<int, 3> contact, int chart, std::uint64_t first, std::uint64_t second, double lo,
+    double hi, int place) {
+    const auto [kind, robot, obstacle] = contact;
+    const cfree::RealRoot x = space.points().root({{static_cast<cfree::Kind>(kind), robot, obstacle}, chart},
+                                                  {cfree::unpacked(first), cfree::unpacked(second), lo, hi}, place);
+    return {integers(x.p), integer(x.lo.n), x.lo.k, integer(x.hi.n), x.hi.k};
+}
+
+static std::tuple<std::vector<int>, std::vector<std::int8_t>, std::vector<int>, bool> nearby(
+    const FreeSpace& space, const PoseIntegers& pose, int chart) {
+    auto x = space.points().nearby(pose_of(pose, chart));
+    return {std::move(x.on), std::move(x.end), std::move(x.crossed), x.generic};
+}
+
+static Made<int> locate(const FreeSpace& space, const In<double, 2>& xy, const Column<int>& chart, const Column<double>& tau,
+                        int threads) {
+    const std::size_t n = tau.shape(0);
+    require(xy.shape(0) == n && xy.shape(1) == 2 && chart.shape(0) == n, "xy, chart and tau differ in length");
+    std::vector<int> found(n);
+    watched([&] { space.locate(xy.data(), chart.data(), tau.data(), n, threads, found.data()); });
+    return array_of(std::move(found));
+}
+
+static void bind_surfaces(nb::module_& m) {
+    nb::class_<Surfaces> surfaces(m, "Surfaces");
+    surfaces.def("__init__", [](Surfaces* s, Column<int> component, Column<int> parent, Column<std::uint8_t> free_inside,
+                                Column<int> turns, Column<int> lift) {
+        new (s) Surfaces{vector_of(component), vector_of(parent), vector_of(free_inside), vector_of(turns), vector_of(lift)};
+    }, "component"_a, "parent"_a, "free_inside"_a, "turns"_a, "lift"_a);
+    column(surfaces, "component", &Surfaces::component);
+    column(surfaces, "parent", &Surfaces::parent);
+    column(surfaces, "free_inside", &Surfaces::free_inside);
+    column(surfaces, "turns", &Surfaces::turns);
+    column(surfaces, "lift", &Surfaces::lift);
+}
+
+void bind_free_space(nb::module_& m) {
+    bind_surfaces(m);
+    const auto ints = [](const std::vector<int>& values) { return Made<const int>(values.data(), {values.size()}); };
+    nb::class_<FreeSpace>(m, "FreeSpace")
+        .def("__init__", [](FreeSpace* space, cfree::SharedBoundary boundary, const Surfaces& surfaces) {
+            new (space) FreeSpace(std::move(boundary), surfaces);
+        }, "boundary"_a, "surfaces"_a)
+        .def_ro("surfaces", &FreeSpace::surfaces)
+        .def_prop_ro("cell_of", [ints](const FreeSpace& space) { return ints(space.cell_of); })
+        .def_prop_ro("depth", [ints](const FreeSpace& space) { return ints(space.depth); })
+        .def("angle", &angle, "trapezoid"_a, "last"_a, "bits"_a)
+        .def("root", &root, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
+        .def("nearby", &nearby, "pose"_a, "chart"_a)
+        .def("locate_exactly", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
+            return space.locate(pose_of(pose, chart));
+        }, "pose"_a, "chart"_a)
+        .def("locate", &locate, "xy"_a, "chart"_a, "tau"_a, "threads"_a);
+    m.def("free_space", [](const cfree::CellComplex& cells) { return watched([&] { return FreeSpace::of(cells); }); }, "cells"_a);
+}

@@ -1,0 +1,71 @@
+// The scene: two shapes as flat arrays, their coordinates as limbs of 64 bits.
+#include "cfree/scene/scene.hpp"
+
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/shared_ptr.h>
+
+#include "arrays.hpp"
+#include "cfree/forbidden/columns.hpp"
+#include "integers.hpp"
+
+using namespace nb::literals;
+using Ints = Column<int>;
+using Flags = Column<char>;
+using Limbs = In<std::int64_t, 3>;
+using Point = std::pair<nb::int_, nb::int_>;
+
+// Two's complement, least limb first.
+static cfree::Int integer(const std::int64_t* limbs, std::size_t count) {
+    cfree::Int n = limbs[count - 1];
+    for (std::size_t k = count - 1; k-- > 0;) n = (n << 64) + static_cast<std::uint64_t>(limbs[k]);
+    return n;
+}
+
+static void set_coordinates(cfree::Shape& s, const Limbs& xy, int shift, const nb::int_& scale) {
+    const std::size_t n = xy.shape(0), limbs = xy.shape(2);
+    require(xy.shape(1) == 2 && limbs > 0, "coordinates must have the shape (n, 2, limbs)");
+    std::vector<cfree::Int> x, y;
+    for (std::size_t k = 0; k < n; ++k) {
+        x.push_back(integer(xy.data() + 2 * k * limbs, limbs));
+        y.push_back(integer(xy.data() + (2 * k + 1) * limbs, limbs));
+    }
+    s.set_coordinates(std::move(x), std::move(y), shift, integer(scale));
+}
+
+static void make_shape(cfree::Shape* s, Limbs coordinates, int shift, nb::int_ scale, Ints point, Ints v, Ints w, Ints line,
+                       Ints direction, int ring_vertices, Ints previous, Flags convex, Flags emit, Ints layer,
+                       Ints vertex_rank, Ints edge_rank, Ints piece, Ints piece_vertex, Ints piece_edge, Ints piece_layer) {
+    new (s) cfree::Shape{};
+    set_coordinates(*s, coordinates, shift, scale);
+    s->point = vector_of(point), s->v = vector_of(v), s->w = vector_of(w);
+    s->line = vector_of(line), s->direction = vector_of(direction);
+    s->ring_vertices = ring_vertices, s->previous = vector_of(previous);
+    s->convex = vector_of(convex), s->emit = vector_of(emit), s->layer = vector_of(layer);
+    s->vertex_rank = vector_of(vertex_rank), s->edge_rank = vector_of(edge_rank);
+    s->piece = vector_of(piece), s->piece_vertex = vector_of(piece_vertex);
+    s->piece_edge = vector_of(piece_edge), s->piece_layer = vector_of(piece_layer);
+}
+
+static std::shared_ptr<const cfree::Scene> make_scene(const cfree::Shape& robot, const cfree::Shape& obstacles, nb::int_ scale,
+                                                      int shift, bool is_bounded, const Point& robot_origin,
+                                                      const Point& obstacle_origin, int near_shift) {
+    const auto exact = [](const Point& p) { return cfree::Vec<cfree::Int>{integer(p.first), integer(p.second)}; };
+    cfree::Scene scene{robot, obstacles, integer(scale), shift, is_bounded, {}, nullptr};
+    return cfree::scene_around(std::move(scene), exact(robot_origin), exact(obstacle_origin), near_shift);
+}
+
+void bind_scene(nb::module_& m) {
+    nb::class_<cfree::Shape>(m, "Shape")
+        .def("__init__", &make_shape, "coordinates"_a, "shift"_a, "scale"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a,
+             "ring_vertices"_a, "previous"_a, "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a,
+             "piece_vertex"_a, "piece_edge"_a, "piece_layer"_a);
+    nb::class_<cfree::Scene>(m, "Scene")
+        .def(nb::new_(&make_scene), "robot"_a, "obstacles"_a, "scale"_a, "shift"_a, "is_bounded"_a, "robot_origin"_a,
+             "obstacle_origin"_a, "near_shift"_a)
+        .def("named", [](const cfree::Scene& scene, const Column<std::uint64_t>& codes) {
+            const cfree::Representatives names(scene);
+            auto found = vector_of(codes);
+            for (auto& feature : found) feature = cfree::named(names, feature);
+            return array_of(std::move(found));
+        }, "codes"_a);
+}
