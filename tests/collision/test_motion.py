@@ -20,7 +20,7 @@ from cfree.exact.surd import Surd
 from cfree.formats.scene_file import load_scene
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
-from moving import box, motions, poses
+from moving import box, motions, poses, turning
 
 BITS = 200  # two different critical parameters of small numbers are farther apart
 F = Fraction
@@ -215,6 +215,25 @@ def test_motions_are_displacements(pose: Pose, motion: Motion) -> None:
         for q in (middle, end):
             arm, other = ((p.x - motion.pole[0], p.y - motion.pole[1]) for p in (pose, q))
             assert arm[0] ** 2 + arm[1] ** 2 == other[0] ** 2 + other[1] ** 2
+
+
+@given(
+    poses,
+    st.one_of(motions, st.sampled_from([turning(), turning("-1/5"), turning(1).between("1/3", 1)])),
+    st.floats(0, 1),
+)
+def test_motions_of_all_kinds_agree_on_shares_and_lengths(pose: Pose, motion: Motion, share: float) -> None:
+    u = motion.parameter(share)
+    exact, rounded = motion.at(pose, u), motion.sample(pose, [share])[0]
+    assert (float(exact.x), float(exact.y)) == pytest.approx((float(rounded.x), float(rounded.y)), abs=1e-9)
+    assert math.remainder(exact.theta - rounded.theta, math.tau) == pytest.approx(0, abs=1e-9)
+    assert motion.share(u) == pytest.approx(share if motion.turn or motion.kind == "translation" else 0.0, abs=1e-9)
+    corners = [(0, 0), (3, 0), (3, 1)]
+    placed = motion.sample(pose, np.linspace(0, 1, 400)).apply(corners)
+    ways = np.linalg.norm(np.diff(placed, axis=0), axis=2).sum(axis=0)
+    assert ways[0] == pytest.approx(motion.length(pose), rel=1e-3, abs=1e-9)
+    reach = motion.reach(pose, corners)
+    assert reach >= ways.max() - 1e-9 if motion.kind == "slide" else reach == pytest.approx(ways.max(), rel=1e-4)
 
 
 @given(st.floats(-30, 30))

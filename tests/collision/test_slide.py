@@ -106,10 +106,10 @@ def test_samples_length_and_reach(slide: Slide, pose: Pose) -> None:
         assert np.allclose(samples.xy[k], [float(exact.x), float(exact.y)], atol=1e-9)
         assert math.remainder(samples.theta[k] - exact.theta, math.tau) == pytest.approx(0, abs=1e-9)
     steps = np.hypot(*np.diff(samples.xy, axis=0).T)
-    assert steps.sum() == pytest.approx(slide.length, rel=1e-3, abs=1e-9)
+    assert steps.sum() == pytest.approx(slide.length(pose), rel=1e-3, abs=1e-9)
     corners = samples.apply(np.array([[2.0, 1.0], [-1.0, -2.0]]))
     fastest = np.linalg.norm(np.diff(corners, axis=0), axis=2).max() * 2000
-    assert fastest <= slide.reach(math.sqrt(5)) * (1 + 1e-9)
+    assert fastest <= slide.reach(pose, [(2, 1), (-1, -2)]) * (1 + 1e-9)
 
 
 @pytest.mark.parametrize(

@@ -122,11 +122,8 @@ def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
 
 def motion_counts(path: Path) -> dict[str, int]:
     """How many of each kind."""
-    from cfree.collision.motion import Rotation, Translation
-    from cfree.collision.slide import Slide
-
-    kinds = {"translations": Translation, "rotations": Rotation, "slides": Slide}
-    return {name: sum(isinstance(motion, kind) for motion in path.motions) for name, kind in kinds.items()}
+    kinds = [motion.kind for motion in path.motions]
+    return {f"{kind}s": kinds.count(kind) for kind in ("translation", "rotation", "slide")}
 
 
 def part_name(scene: Scene, obstacle: int) -> str:

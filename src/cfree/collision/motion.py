@@ -6,6 +6,18 @@ paper's Lemma 1 and Remark 2), a translation on a straight line of the configura
 A motion has a parameter u in [0, 1] in which all of it is rational. Of a translation it is the share of the vector. Of
 a rotation half the angle turned at u is the angle of (1 - u) (L, 0) + u (q, p), where tau = p / q belongs to the whole
 and L is the length of (q, p) without its fraction: nearly, but not exactly, the share of the angle.
+
+Translations, rotations and slides answer the same questions, so that who asks need not tell them apart:
+
+    kind                            "translation", "rotation" or "slide"
+    pole, vector                    the point that stays in place; if there is none, how far the reference point moves
+    tau, turn                       half-angle tangent and angle of the whole, 0 of translations
+    contacts                        what is kept; () but of slides
+    numbers                         what it is made of, exactly, by the names of files
+    apply, at, sample               poses: the last one, that at u, those at shares of the length or angle
+    until, between, reversed        motions: parts, and the way back
+    share, parameter                the share of the length or angle that is done at u, and the other way round
+    length, reach                   how far the reference point moves from a pose, and how far other points
 """
 
 from __future__ import annotations
@@ -14,12 +26,13 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
-from cfree.collision.slide import Slide
+from cfree.collision.slide import Slide, Touch
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import Angle, number_of_degrees
 from cfree.exact.number import ExactPoint, Number, to_fraction
@@ -51,25 +64,25 @@ class Translation:
     True
     """
 
+    kind: ClassVar[Literal["translation"]] = "translation"
+    pole: ClassVar[None] = None
+    tau: ClassVar[Fraction] = Fraction(0)
+    turn: ClassVar[float] = 0.0
+    contacts: ClassVar[tuple[Touch, ...]] = ()
     vector: ExactPoint
 
     def __init__(self, vector: tuple[Number, Number]) -> None:
         object.__setattr__(self, "vector", _point("vector", vector))
 
     @property
-    def length(self) -> float:
-        """How far the reference point moves."""
-        return math.hypot(*map(float, self.vector))
-
-    @property
-    def turn(self) -> float:
-        """No angle."""
-        return 0.0
-
-    @property
     def displacement(self) -> Pose:
         """The whole motion as an element of SE(2)."""
         return Pose(*self.vector)
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """The vector by its name."""
+        return {"vector": self.vector}
 
     @checked
     def apply(self, pose: PoseLike) -> Pose:
@@ -106,6 +119,26 @@ class Translation:
         start, vector = np.array([float(pose.x), float(pose.y)]), np.array([float(v) for v in self.vector])
         return Poses(start + s[:, None] * vector, np.full(len(s), pose.theta))
 
+    @checked
+    def share(self, u: Number) -> float:
+        """The share of the length that is done at u: the same."""
+        return float(to_fraction(u))
+
+    @checked
+    def parameter(self, share: float) -> Fraction:
+        """Where a share of the length is done."""
+        return Fraction(share)
+
+    @checked
+    def length(self, pose: PoseLike) -> float:
+        """How far the reference point moves, from any pose."""
+        return math.hypot(*map(float, self.vector))
+
+    @checked
+    def reach(self, pose: PoseLike, points: ArrayLike) -> float:
+        """How far the farthest of some points of the robot moves: all move as far."""
+        return self.length(pose)
+
 
 @dataclass(frozen=True, init=False)
 class Rotation:
@@ -139,6 +172,8 @@ class Rotation:
     (True, -1.5707963267948966)
     """
 
+    kind: ClassVar[Literal["rotation"]] = "rotation"
+    contacts: ClassVar[tuple[Touch, ...]] = ()
     pole: ExactPoint
     tau: Fraction | None
     clockwise: bool
@@ -184,6 +219,12 @@ class Rotation:
         turned = Pose(0, 0, {"tau": self.tau})
         ((x, y),) = turned.apply_exact([self.pole])
         return Pose(self.pole[0] - x, self.pole[1] - y, {"tau": self.tau})
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """Pole and half-angle tangent by their names; of half a turn "inf" or "-inf"."""
+        tau = ("-inf" if self.clockwise else "inf") if self.tau is None else self.tau
+        return {"pole": self.pole, "tau": tau}
 
     @checked
     def apply(self, pose: PoseLike) -> Pose:
@@ -237,6 +278,33 @@ class Rotation:
         c, n = scale * np.cos((s - 1) * half), scale * np.sin((s - 1) * half)
         xy = np.stack((float(pose.x) + c * x - n * y, float(pose.y) + n * x + c * y), axis=1)
         return Poses(xy, pose.theta + s * self.turn)
+
+    @checked
+    def share(self, u: Number) -> float:
+        """The share of the angle that is turned at u."""
+        return self.until(u).turn / self.turn if self.turn else 0.0
+
+    @checked
+    def parameter(self, share: float) -> Fraction:
+        """Where a share of the angle is turned, but for rounding."""
+        (q, p), half = self.half, share * self.turn / 2
+        c, s = math.cos(half), math.sin(half)
+        # (1 - u) (L, 0) + u (q, p) has that direction
+        u = s / (c * float(Fraction(p, self.first)) - s * float(Fraction(q, self.first)) + s) if s else 0.0
+        return Fraction(min(max(u, 0.0), 1.0))
+
+    @checked
+    def length(self, pose: PoseLike) -> float:
+        """How far the reference point moves from a pose."""
+        pose = to_pose(pose, "pose")
+        return math.hypot(float(pose.x - self.pole[0]), float(pose.y - self.pole[1])) * abs(self.turn)
+
+    @checked
+    def reach(self, pose: PoseLike, points: ArrayLike) -> float:
+        """How far the farthest of some points of the robot, (..., 2), moves."""
+        pose = to_pose(pose, "pose")
+        arms = pose.apply(np.asarray(points, np.float64).reshape(-1, 2)) - [float(c) for c in self.pole]
+        return float(np.hypot(*arms.T).max()) * abs(self.turn)
 
 
 Motion = Translation | Rotation | Slide

@@ -181,13 +181,12 @@ class MotionChecker(Value):
 
     def _integers(self, pose: Pose, motion: Translation | Rotation) -> tuple[bool, tuple[int, ...]]:
         """What the core calls a motion."""
-        turns = isinstance(motion, Rotation)
-        vx, vy = motion.pole if isinstance(motion, Rotation) else motion.vector
+        vx, vy = motion.pole or motion.vector
         unit = math.lcm(pose.x.denominator, pose.y.denominator, vx.denominator, vy.denominator)
         scale = unit * self.features.scale
         x, y, along, across = (v.numerator * (scale // v.denominator) for v in (pose.x, pose.y, vx, vy))
-        half = (motion.first, *motion.half) if isinstance(motion, Rotation) else (1, 1, 0)
-        return turns, (*pose.rotation, x, y, unit, along, across, *half)
+        half = (motion.first, *motion.half) if motion.pole else (1, 1, 0)
+        return motion.kind == "rotation", (*pose.rotation, x, y, unit, along, across, *half)
 
 
 @checked

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from flint import fmpq, fmpq_poly
@@ -79,6 +79,8 @@ class Slide:
     True
     """
 
+    kind: ClassVar[Literal["slide"]] = "slide"
+    pole: ClassVar[None] = None
     contacts: tuple[Touch, Touch]
     x: Terms
     y: Terms
@@ -106,6 +108,16 @@ class Slide:
     def turn(self) -> float:
         """Signed angle in radians."""
         return 2 * angle(self.tau.denominator, self.tau.numerator)
+
+    @property
+    def vector(self) -> ExactPoint:
+        """How far the reference point is in the end from where it was."""
+        return self.moved(self.tau)
+
+    @property
+    def numbers(self) -> dict[str, Any]:
+        """Coefficients and half-angle tangent by their names."""
+        return {"x": self.x, "y": self.y, "d": self.d, "tau": self.tau}
 
     @checked
     def apply(self, pose: PoseLike) -> Pose:
@@ -153,9 +165,22 @@ class Slide:
         x, y, d = _values(self, np.tan(0.5 * self.turn * s))
         return Poses(np.stack((float(pose.x) + x / d, float(pose.y) + y / d), axis=1), pose.theta + s * self.turn)
 
-    @property
-    def length(self) -> float:
-        """How far the reference point moves, by quadrature: but for rounding, or a thousandth where it turns back."""
+    @checked
+    def share(self, u: Number) -> float:
+        """The share of the angle that is turned at u."""
+        return self.until(u).turn / self.turn if self.turn else 0.0
+
+    @checked
+    def parameter(self, share: float) -> Fraction:
+        """Where a share of the angle is turned, but for rounding."""
+        return Fraction(min(math.tan(share * self.turn / 2) / float(self.tau), 1.0)) if self.tau else Fraction(0)
+
+    @checked
+    def length(self, pose: PoseLike) -> float:
+        """How far the reference point moves, from any pose.
+
+        By quadrature: but for rounding, or a thousandth where it turns back.
+        """
         nodes, weights = np.polynomial.legendre.leggauss(64)
         half = 0.5 * self.turn
         t = np.tan(half * (1 + nodes) / 2)
@@ -164,8 +189,10 @@ class Slide:
         return float(abs(half) / 2 * (weights * speed).sum())
 
     @checked
-    def reach(self, radius: float) -> float:
-        """Bound, but for rounding: no point of the robot so near the reference point moves further in a share of 1."""
+    def reach(self, pose: PoseLike, points: ArrayLike) -> float:
+        """Bound, but for rounding: no one of some points of the robot, (..., 2), moves farther, from any pose."""
+        x, y = np.asarray(points, np.float64).reshape(-1, 2).T
+        radius = float(np.hypot(x, y).max())
         parts = [self.between(Fraction(k, PARTS), Fraction(k + 1, PARTS)) for k in range(PARTS)]
         return abs(self.turn) * (max(map(_speed, parts)) / 2 + radius)
 

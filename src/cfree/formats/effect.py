@@ -15,8 +15,7 @@ from functools import cached_property
 
 from flint import arb, ctx, fmpq
 
-from cfree.collision.motion import Motion, Rotation, Translation
-from cfree.collision.slide import Slide
+from cfree.collision.motion import Motion
 from cfree.exact.pose import Pose
 from cfree.formats.json_positions import Path as Place
 from cfree.paths.path import Path
@@ -82,15 +81,13 @@ class Effect:
         yield from self._pose(("start",), start, self._counted(start, decimals["start", 2]))
         for k, (pose, motion) in enumerate(zip(self.path.poses, self.path.motions, strict=False)):
             place: Place = ("motions", k)
-            if isinstance(motion, Rotation):
-                angle = (*place, "angle")
-                yield Term(angle, self._turns[k], _arm(pose, motion) + reach)
-                yield from _point((*place, "pole"), motion.pole, min(Fraction(2), abs(decimals[angle])))
-                continue
-            vector = motion.moved(motion.tau) if isinstance(motion, Slide) else motion.vector
-            yield from _point((*place, "vector"), vector)
-            if isinstance(motion, Slide):
-                yield Term((*place, "angle"), self._turns[k], reach)
+            if motion.kind != "translation":
+                yield Term((*place, "angle"), self._turns[k], _arm(pose, motion) + reach)
+            if motion.pole is None:
+                yield from _point((*place, "vector"), motion.vector)
+            else:
+                weight = min(Fraction(2), abs(decimals[(*place, "angle")]))
+                yield from _point((*place, "pole"), motion.pole, weight)
 
     def poses(self, decimals: Decimals) -> Iterator[list[Term]]:
         """Those of each pose that is led to, and of the goal."""
@@ -106,7 +103,7 @@ class Effect:
 
     def decimals(self) -> Written:
         """Decimals that keep the rule, most of them with half of what it allows."""
-        count = 3 + sum(2 + isinstance(motion, (Rotation, Slide)) for motion in self.path.motions)
+        count = 3 + sum(2 + (motion.kind != "translation") for motion in self.path.motions)
         found: dict[Place, Decimal] = {}
         values: dict[Place, Fraction] = {
             ("start", 2): Fraction(self.path.start.theta),
@@ -129,7 +126,7 @@ class Effect:
 
         None if no distance is enough: of slides decimals do not say where they go.
         """
-        if any(isinstance(motion, Slide) for motion in self.path.motions):
+        if any(motion.kind == "slide" for motion in self.path.motions):
             return None
         try:
             doubles = {place: Fraction(float(value)) for place, value in decimals.items()}
@@ -156,8 +153,6 @@ class Effect:
         return [self._turn(motion) for motion in self.path.motions]
 
     def _turn(self, motion: Motion) -> Enclosed:
-        if isinstance(motion, Translation):
-            return Enclosed(Fraction(0))
         is_back = motion.tau is None and motion.clockwise
         return self._angle(motion.tau).times(-1 if is_back else 1)
 
@@ -201,7 +196,7 @@ def _point(place: Place, point: tuple[Fraction, Fraction], weight: Fraction = Fr
 
 def _arm(pose: Pose, motion: Motion) -> Fraction:
     """No less than the way from the pole to the reference point."""
-    if not isinstance(motion, Rotation):
+    if motion.pole is None:
         return Fraction(0)
     return abs(pose.x - motion.pole[0]) + abs(pose.y - motion.pole[1])
 

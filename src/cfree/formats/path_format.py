@@ -232,7 +232,7 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "units": answer.units,
         "frame": answer.frame,
         "answer": kind,
-        "scene": {"sha256": stamp.sha256, "robot": [*map(_exactly, stamp.robot)]},
+        "scene": {"sha256": stamp.sha256, "robot": _exactly(stamp.robot)},
         "start": _numbers(decimals, ("start",), 3),
         "goal": _numbers(decimals, ("goal",), 3),
         "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
@@ -240,25 +240,16 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
 
 
 def _record(k: int, motion: Motion, decimals: Written) -> dict[str, Any]:
-    place = ("motions", k)
-    to = {"to": _numbers(decimals, (*place, "to"), 3)}
-    if isinstance(motion, Translation):
-        vector = _numbers(decimals, (*place, "vector"))
-        return {"type": "translation", "vector": vector, **to, "exact": {"vector": [*map(_exactly, motion.vector)]}}
-    angle = decimals[(*place, "angle")]
-    if isinstance(motion, Slide):
-        terms = {"x": motion.x, "y": motion.y, "d": motion.d}
-        return {
-            "type": "slide",
-            "contacts": [asdict(contact) for contact in motion.contacts],
-            "vector": _numbers(decimals, (*place, "vector")),
-            "angle": angle,
-            **to,
-            "exact": {name: [*map(_exactly, c)] for name, c in terms.items()} | {"tau": _exactly(motion.tau)},
-        }
-    tau = ("-inf" if motion.clockwise else "inf") if motion.tau is None else _exactly(motion.tau)
-    exact = {"pole": [*map(_exactly, motion.pole)], "tau": tau}
-    return {"type": "rotation", "pole": _numbers(decimals, (*place, "pole")), "angle": angle, **to, "exact": exact}
+    place, point = ("motions", k), "vector" if motion.pole is None else "pole"
+    contacts = [asdict(contact) for contact in motion.contacts]
+    return {
+        "type": motion.kind,
+        **({"contacts": contacts} if contacts else {}),
+        point: _numbers(decimals, (*place, point)),
+        **({} if motion.kind == "translation" else {"angle": decimals[(*place, "angle")]}),
+        "to": _numbers(decimals, (*place, "to"), 3),
+        "exact": {name: _exactly(value) for name, value in motion.numbers.items()},
+    }
 
 
 def _numbers(decimals: Written, place: Place, count: int = 2) -> list[Decimal]:
@@ -269,7 +260,12 @@ def _exact(pose: Pose) -> list[Any]:
     return [_exactly(pose.x), _exactly(pose.y), {"tau": "inf" if pose.tau is None else _exactly(pose.tau)}]
 
 
-def _exactly(value: Fraction) -> str:
+def _exactly(value: Any) -> Any:
+    """A number, text that stands for one, or a tuple of them."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, tuple):
+        return [*map(_exactly, value)]
     bits = value.numerator.bit_length() + value.denominator.bit_length()
     if bits > 3 * MAX_DIGITS:  # a digit has 3.3 bits
         digits = f"about {bits * 0.301:.0f} digits, and files hold {MAX_DIGITS}"

@@ -10,10 +10,10 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances, Floats, Ints
-from cfree.collision.motion import Motion, Translation
+from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.paths.path import Path
-from cfree.paths.travel import Travel, reach
+from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
@@ -113,7 +113,7 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
     if not tolerance > 0:
         raise ValueError(f"tolerance {tolerance}: give a positive one")
     motions = path.motions or (Translation((0, 0)),)
-    travel = np.array([reach(q, m, robot) for q, m in zip(path.poses, motions, strict=False)])
+    travel = np.array([m.reach(q, robot) for q, m in zip(path.poses, motions, strict=False)])
     places = max(abs(float(c)) for q in path.poses for c in (q.x, q.y))
     size = max(float(np.abs(segments).max()), places + distances.radius + float(travel.max()))
     motion, low, high = np.arange(len(motions)), np.zeros(len(motions)), np.ones(len(motions))
@@ -213,11 +213,6 @@ def _least_between(path: Path, distances: EdgeDistances, motion: Ints, share: Fl
     if place is None:
         return None
     k, s = i + place.motion, place.share
-    begin = _share(path.motions[k], u) if k == i else 0.0
-    end = _share(path.motions[k], v) if k == j else 1.0
+    begin = path.motions[k].share(u) if k == i else 0.0
+    end = path.motions[k].share(v) if k == j else 1.0
     return replace(place, motion=k, share=begin + s * (end - begin))
-
-
-def _share(motion: Motion, u: Fraction) -> float:
-    """Of the length or of the angle, at a parameter."""
-    return float(u) if isinstance(motion, Translation) else motion.until(u).turn / motion.turn

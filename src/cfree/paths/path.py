@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
 from typing import Literal
 
@@ -16,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
-from cfree.collision.motion import Motion, Rotation, Translation
+from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.slide import Slide
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
@@ -95,7 +93,7 @@ class Path:
     @property
     def length(self) -> float:
         """How far the reference point travels."""
-        return math.fsum(_distance(pose, motion) for pose, motion in zip(self.poses, self.motions, strict=False))
+        return math.fsum(motion.length(pose) for pose, motion in zip(self.poses, self.motions, strict=False))
 
     @property
     def turning(self) -> float:
@@ -135,7 +133,7 @@ class Path:
         >>> path.after(3.5) == Pose(2, "3/2")
         True
         """
-        lengths = [_distance(q, m) + angle_scale * abs(m.turn) for q, m in zip(self.poses, self.motions, strict=False)]
+        lengths = [m.length(q) + angle_scale * abs(m.turn) for q, m in zip(self.poses, self.motions, strict=False)]
         until = np.cumsum([0.0, *lengths])
         if not 0 <= distance <= until[-1] * (1 + 2**-40):  # sums are rounded
             raise ValueError(f"distance {distance} is not on the path; give one from 0 to {until[-1]:g}")
@@ -143,7 +141,7 @@ class Path:
             return self.goal
         k = int(np.searchsorted(until, distance, side="right")) - 1
         share = (distance - float(until[k])) / lengths[k]
-        return self.motions[k].at(self.poses[k], _parameter(self.motions[k], share))
+        return self.motions[k].at(self.poses[k], self.motions[k].parameter(share))
 
     @checked
     def sample(self, step: float, turn: float = math.radians(5)) -> Poses:
@@ -176,6 +174,7 @@ class Path:
 
         Examples
         --------
+        >>> from cfree.collision.motion import Rotation
         >>> path = Path(Pose(0, 0), [Rotation((0, 0), "-90deg"), Rotation((0, 0), "180deg")])
         >>> np.degrees(path.angles(1, math.pi))
         array([  0., -90.,  90.])
@@ -195,7 +194,7 @@ class Path:
             raise ValueError(f"step {step}, turn {turn}: give positive ones")
         found = []
         for pose, motion in zip(self.poses, self.motions, strict=False):
-            count = max(1, math.ceil(_distance(pose, motion) / step), math.ceil(abs(motion.turn) / turn))
+            count = max(1, math.ceil(motion.length(pose) / step), math.ceil(abs(motion.turn) / turn))
             found.append(np.arange(1, count + 1) / count)
         return found
 
@@ -213,24 +212,3 @@ class Path:
         """
         motions = self.motions or (Translation((0, 0)),)
         return all(checker.is_free(pose, motion) for pose, motion in zip(self.poses, motions, strict=False))
-
-
-def _distance(pose: Pose, motion: Motion) -> float:
-    """How far the reference point travels."""
-    if not isinstance(motion, Rotation):
-        return motion.length
-    arm = math.hypot(float(pose.x - motion.pole[0]), float(pose.y - motion.pole[1]))
-    return arm * abs(motion.turn)
-
-
-def _parameter(motion: Motion, share: float) -> Fraction:
-    """Where a share of a motion's length or angle is done."""
-    if isinstance(motion, Translation):
-        return Fraction(share)
-    half = share * motion.turn / 2
-    if isinstance(motion, Slide):
-        return Fraction(min(math.tan(half) / float(motion.tau), 1.0))
-    (q, p), c, s = motion.half, math.cos(half), math.sin(half)
-    # (1 - u) (L, 0) + u (q, p) has that direction
-    u = s / (c * float(Fraction(p, motion.first)) - s * float(Fraction(q, motion.first)) + s) if s else 0.0
-    return Fraction(min(max(u, 0.0), 1.0))

@@ -7,10 +7,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.collision.motion import Motion, Translation
-from cfree.collision.slide import Slide
-from cfree.exact.pose import Pose
-
 if TYPE_CHECKING:
     from cfree.paths.path import Path
     from cfree.scene.scene import Scene
@@ -35,9 +31,7 @@ class Travel:
 
     Examples
     --------
-    >>> from cfree.collision.motion import Rotation
-    >>> from cfree.paths.path import Path
-    >>> from cfree.scene.scene import Scene
+    >>> from cfree import Path, Pose, Rotation, Scene, Translation
     >>> rod = Scene(robot=[(0, 0), (4, 0), (4, 1)])
     >>> path = Path(Pose(0, 0), [Translation((5, 0)), Rotation((9, 1), "90deg")])  # (4, 1) is the pole, then
     >>> travel = Travel(path, rod)
@@ -50,7 +44,7 @@ class Travel:
     def __init__(self, path: Path, scene: Scene) -> None:
         robot = np.concatenate([part.vertices for part in scene.robot])
         self._motions, self._poses = path.motions, path.poses
-        lengths = [reach(pose, motion, robot) for pose, motion in zip(path.poses, path.motions, strict=False)]
+        lengths = [motion.reach(pose, robot) for pose, motion in zip(path.poses, path.motions, strict=False)]
         turns = [motion.turn for motion in path.motions]
         self._until = np.cumsum([0.0, *lengths])
         self._theta = path.start.theta + np.cumsum([0.0, *turns])
@@ -76,13 +70,3 @@ class Travel:
             chosen = motion == k
             rows[chosen, :2] = self._motions[k].sample(self._poses[k], share[chosen]).xy
         return rows
-
-
-def reach(pose: Pose, motion: Motion, points: Floats) -> float:
-    """How far the farthest of these points of the robot, (n, 2), travels in a motion; of a slide, a bound of it."""
-    if isinstance(motion, Translation):
-        return motion.length
-    if isinstance(motion, Slide):
-        return motion.reach(float(np.hypot(points[..., 0], points[..., 1]).max()))
-    corners = pose.apply(points) - [float(c) for c in motion.pole]
-    return float(np.hypot(corners[..., 0], corners[..., 1]).max()) * abs(motion.turn)

@@ -31,7 +31,7 @@ def near_poles(scene: Scene, checker: MotionChecker, poses: Sequence[Pose]) -> l
     for a, b in pairwise(poses):
         motion = motion_between(a, b)
         way: Sequence[Pose] | None = None
-        if isinstance(motion, Rotation) and (motion.pole[0] - a.x) ** 2 + (motion.pole[1] - a.y) ** 2 > far:
+        if motion.pole and (motion.pole[0] - a.x) ** 2 + (motion.pole[1] - a.y) ** 2 > far:
             way = checker.first_free(_ways(a, motion, centres))
         found += way[1:] if way else [b]
     return found

@@ -354,7 +354,7 @@ def _reversed(poses: Sequence[Pose]) -> list[Pose]:
     back = [poses[-1]]
     for after, pose in pairwise(reversed(poses)):
         motion = motion_between(pose, after)
-        if isinstance(motion, Rotation) and motion.tau is None:
+        if motion.tau is None:
             back.append(Rotation(motion.pole, "90deg").apply(pose))
         back.append(pose)
     return back

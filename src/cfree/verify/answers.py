@@ -9,7 +9,6 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
-from cfree.collision.slide import Slide
 from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
@@ -152,7 +151,7 @@ def _of_decimals(read: Read | None) -> dict[str, str]:
 
 
 def _of_path(path: Path) -> dict[str, str]:
-    slides = sum(isinstance(motion, Slide) for motion in path.motions)
+    slides = sum(motion.kind == "slide" for motion in path.motions)
     kept = {KEPT: f"{slides:,} slides: their two vertices are on their edges all the way"} if slides else {}
     return kept | {
         CONTINUOUS: f"{len(path.motions):,} motions lead from the start to the goal, one after the other",

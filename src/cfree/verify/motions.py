@@ -19,7 +19,7 @@ import numpy as np
 from flint import fmpz_poly
 
 from cfree.collision.motion import Translation
-from cfree.collision.slide import Slide, Touch
+from cfree.collision.slide import Touch
 from cfree.exact.algebraic import Root, between, part, roots, sign
 from cfree.forbidden.columns import Ints
 from cfree.verify.course import ALL, Course, Interval, Placed, Poly, bernstein, bernstein_rows, combined, place_of
@@ -55,7 +55,7 @@ def path_findings(
         if not course.is_defined or course.at(ZERO) != placed:
             yield Finding(CONTINUOUS, f"motion {k}", "its formula divides by zero, or begins elsewhere")
             return
-        for touch in motion.contacts if isinstance(motion, Slide) else ():
+        for touch in motion.contacts:
             if (why := _not_kept(world, course, touch)) is not None:
                 yield Finding(KEPT, f"motion {k}", f"{touch.kind} {touch.robot}, {touch.obstacle}: {why}")
         if roomy and collision(roomy, _course_in(roomy, placed, motion, world)) is not None:
