@@ -1,27 +1,81 @@
-"""The README's code runs and prints what it shows; its links lead somewhere."""
+"""The README's code runs and prints what it shows; links, files and names on all pages lead somewhere."""
 
 from __future__ import annotations
 
 import doctest
+import importlib
 import re
+from pathlib import Path
 
 import pytest
 
+from public import NAMES
 
-def test_the_code_prints_what_it_shows(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
-    root = request.config.rootpath
-    monkeypatch.chdir(root)
-    result = doctest.testfile(str(root / "README.md"), module_relative=False)
+ROOT = Path(__file__).parents[1]
+PAGES = [ROOT / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "benchmarks/README.md")]
+PAGES += sorted(page for page in (ROOT / "docs").rglob("*.md") if not {"_build", "gallery"} & {*page.parts})
+FILES = {
+    str(path.relative_to(ROOT))
+    for folder in ("src", "cpp", "tests", "tools", "benchmarks", "examples", "docs")
+    for path in (ROOT / folder).rglob("*")
+}
+EVERY_PAGE = pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
+
+
+def test_the_code_prints_what_it_shows(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    result = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
     assert result.attempted >= 8
     assert result.failed == 0
 
 
-@pytest.mark.parametrize(
-    "page", ["README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/boundary-format.md", "docs/figures.md"]
-)
-def test_links_lead_to_files(request: pytest.FixtureRequest, page: str) -> None:
-    file = request.config.rootpath / page
-    links = re.findall(r"\]\(([^)#]+)\)", file.read_text())
-    assert links
-    for link in links:
-        assert (file.parent / link).exists(), link
+@EVERY_PAGE
+def test_links_lead_to_files(page: Path) -> None:
+    for link in re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text()):
+        if not link.startswith(("http", "gallery/")):  # pages of the gallery are made by Sphinx
+            assert (page.parent / link).exists(), link
+
+
+@EVERY_PAGE
+def test_files_and_folders_that_are_named_exist(page: Path) -> None:
+    text = page.read_text()
+    for name in re.findall(r"[\w./]*\w\.(?:py|pyi|cpp|hpp)\b", text) + re.findall(r"`([\w/]+/)`", text):
+        assert any(f"/{file}".endswith(f"/{name.strip('/')}") for file in FILES), name
+
+
+@EVERY_PAGE
+def test_names_of_the_package_exist(page: Path) -> None:
+    text = page.read_text()
+    for name in re.findall(r"\bcfree(?:\.[A-Za-z_]\w*)+", text):
+        assert exists(name), name
+    for kind, name in re.findall(r"`([A-Z]\w+)\.(\w+)", text):
+        if owner := next((owner for public, owner in NAMES.items() if public.split(".")[-1] == kind), None):
+            assert hasattr(owner, name) or re.search(rf"^ +.*\b{name}\b.* : ", owner.__doc__, re.M), f"{kind}.{name}"
+
+
+def exists(name: str) -> bool:
+    """Whether a dotted name is a module, or an attribute of one."""
+    first, *rest = name.split(".")
+    found: object = importlib.import_module(first)
+    for k, part in enumerate(rest):
+        if not hasattr(found, part):
+            try:
+                importlib.import_module(".".join([first, *rest[: k + 1]]))
+            except ImportError:
+                return False
+        found = getattr(found, part)
+    return True
+
+
+def test_the_reference_lists_every_public_name() -> None:
+    listed = {line.strip() for line in (ROOT / "docs" / "api.md").read_text().splitlines() if line.startswith("   ")}
+    assert {*NAMES} - {"__version__"} <= listed
+    assert all(exists(f"cfree.{name}") for name in listed if not name.startswith(":"))
+
+
+def test_pages_that_the_code_names_exist() -> None:
+    for folder in ("src", "cpp", "tests", "tools", "examples/gallery", "benchmarks"):
+        for file in (ROOT / folder).rglob("*.?p*"):
+            if file.suffix in (".py", ".cpp", ".hpp"):
+                for name in re.findall(r"\bdocs/[\w/-]+\.md", file.read_text()):
+                    assert (ROOT / name).exists(), f"{file}: {name}"
