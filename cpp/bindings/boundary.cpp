@@ -1,12 +1,14 @@
 // The boundary: computed, or made of columns that come from outside.
 #include "cfree/forbidden/boundary.hpp"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
 #include "arrays.hpp"
 #include "cfree/forbidden/consistency.hpp"
+#include "polynomials.hpp"
 #include "watched.hpp"
 
 using namespace nb::literals;
@@ -111,6 +113,21 @@ static SharedBoundary computed(const std::shared_ptr<const cfree::Scene>& scene,
     throw cfree::Stopped();
 }
 
+static RootTuple root(const Boundary& boundary, std::array<int, 3> contact, int chart, std::uint64_t first, std::uint64_t second,
+                      double lo, double hi, int place) {
+    const auto [kind, robot, obstacle] = contact;
+    const cfree::Surface on{{static_cast<Kind>(kind), robot, obstacle}, chart};
+    const cfree::CriticalAngle angle(on, {cfree::unpacked(first), cfree::unpacked(second), lo, hi}, place);
+    const cfree::RealRoot& x = angle.exact(boundary.scene->near());
+    return {integers(x.p), dyadic(x.lo), dyadic(x.hi)};
+}
+
+static std::tuple<Made<int>, Made<int>, int, int> angle_ranks(const Boundary& boundary) {
+    cfree::AngleRanks ranks;
+    watched([&] { ranks = cfree::angle_ranks(boundary); });
+    return {array_of(std::move(ranks.from)), array_of(std::move(ranks.to)), ranks.middle, ranks.last};
+}
+
 void bind_boundary(nb::module_& m) {
     bind_columns(m);
     bind_tally(m);
@@ -123,7 +140,9 @@ void bind_boundary(nb::module_& m) {
         .def_prop_ro("trimmed", [](const Boundary& b) { return Made<const std::uint8_t>(b.trimmed.data(), {b.trimmed.size()}); })
         .def_ro("trapezoids", &Boundary::trapezoids)
         .def_ro("isolated", &Boundary::isolated)
-        .def_ro("tally", &Boundary::tally);
+        .def_ro("tally", &Boundary::tally)
+        .def("root", &root, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
+        .def("angle_ranks", &angle_ranks);
     m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a);
     m.def("misfit", [](const Boundary& b, int threads) { return watched([&] { return cfree::misfit(b, threads); }); },
           "boundary"_a, "threads"_a);

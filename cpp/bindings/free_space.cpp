@@ -23,15 +23,6 @@ static std::tuple<nb::int_, unsigned, nb::int_, unsigned> angle(const FreeSpace&
     return {integer(lo.n), lo.k, integer(hi.n), hi.k};
 }
 
-static std::tuple<std::vector<nb::int_>, nb::int_, unsigned, nb::int_, unsigned> root(
-    const FreeSpace& space, std::array<int, 3> contact, int chart, std::uint64_t first, std::uint64_t second, double lo,
-    double hi, int place) {
-    const auto [kind, robot, obstacle] = contact;
-    const cfree::RealRoot x = space.points().root({{static_cast<cfree::Kind>(kind), robot, obstacle}, chart},
-                                                  {cfree::unpacked(first), cfree::unpacked(second), lo, hi}, place);
-    return {integers(x.p), integer(x.lo.n), x.lo.k, integer(x.hi.n), x.hi.k};
-}
-
 static std::tuple<std::vector<int>, std::vector<std::int8_t>, std::vector<int>, bool> nearby(
     const FreeSpace& space, const PoseIntegers& pose, int chart) {
     auto x = space.points().nearby(pose_of(pose, chart));
@@ -71,7 +62,6 @@ void bind_free_space(nb::module_& m) {
         .def_prop_ro("cell_of", [ints](const FreeSpace& space) { return ints(space.cell_of); })
         .def_prop_ro("depth", [ints](const FreeSpace& space) { return ints(space.depth); })
         .def("angle", &angle, "trapezoid"_a, "last"_a, "bits"_a)
-        .def("root", &root, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
         .def("nearby", &nearby, "pose"_a, "chart"_a)
         .def("locate_exactly", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
             return space.locate(pose_of(pose, chart));

@@ -137,6 +137,34 @@ const AngleTable& Boundary::angles() const {
     return *table;
 }
 
+namespace {
+
+// A row with one angle of an isolated part, on the patch that names it, as both of its own.
+void push_angle(Trapezoids& rows, const IsolatedParts& isolated, Index k, bool is_to) {
+    const Trapezoids& p = isolated.parts;
+    rows.patch.push_back((is_to ? isolated.to_patch : isolated.from_patch)[k]);
+    rows.chart.push_back(p.chart[k]), rows.lower.push_back(p.lower[k]), rows.upper.push_back(p.upper[k]);
+    for (auto* first : {&rows.from_first, &rows.to_first}) first->push_back((is_to ? p.to_first : p.from_first)[k]);
+    for (auto* second : {&rows.from_second, &rows.to_second}) second->push_back((is_to ? p.to_second : p.from_second)[k]);
+    for (auto* lo : {&rows.from_lo, &rows.to_lo}) lo->push_back((is_to ? p.to_lo : p.from_lo)[k]);
+    for (auto* hi : {&rows.from_hi, &rows.to_hi}) hi->push_back((is_to ? p.to_hi : p.from_hi)[k]);
+    for (auto* place : {&rows.from_place, &rows.to_place}) place->push_back((is_to ? p.to_place : p.from_place)[k]);
+}
+
+}  // namespace
+
+AngleRanks angle_ranks(const Boundary& boundary) {
+    Trapezoids rows = boundary.trapezoids;
+    const std::size_t faces = rows.size(), parts = boundary.isolated.parts.size();
+    for (const bool is_to : {false, true})
+        for (std::size_t k = 0; k < parts; ++k) push_angle(rows, boundary.isolated, static_cast<Index>(k), is_to);
+    const AngleTable table(boundary.scene->near(), boundary.patches, rows);
+    AngleRanks ranks{table.from, table.to, table.middle, table.last};
+    ranks.from.resize(faces + parts), ranks.to.resize(faces);
+    ranks.to.insert(ranks.to.end(), table.to.begin() + static_cast<std::ptrdiff_t>(faces + parts), table.to.end());
+    return ranks;
+}
+
 SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, const Task& task) {
     using Clock = std::chrono::steady_clock;
     auto start = Clock::now();

@@ -7,24 +7,20 @@ of all trapezoids and isolated parts: closed intervals, united by the exact orde
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
-from functools import cached_property, cmp_to_key
 from typing import Any
 
-from cfree.exact.algebraic import Root, between
-from cfree.exact.algebraic import part as set_apart
+import numpy as np
+
+from cfree.exact.algebraic import between, part
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
-from cfree.exact.half_angle import normalize_angles, tau_in_chart
+from cfree.exact.half_angle import normalize_angles
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import Trapezoids
+from cfree.forbidden.critical_angle import critical_angle, rational_critical_angle
+from cfree.planning.exact_face import Sheet, isolated_end
 from cfree.scene.scene import Scene, polygons_of
-from cfree.verify.isolated import IsolatedPart
-from cfree.verify.surfaces import Turn
-from cfree.verify.trapezoids import Reader
 
 
 @dataclass(frozen=True)
@@ -88,44 +84,13 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     return Orientations(boundary(scene)).fits()
 
 
-@dataclass(frozen=True, eq=False)
-class _End:
-    """One end, in angle, of a trapezoid or an isolated part."""
-
-    reader: Reader
-    columns: Trapezoids
-    row: int
-    side: str
-    chart: int
-    lo: float
-    hi: float
-
-    @cached_property
-    def root(self) -> Root:
-        patches = getattr(self.columns, f"{self.side}_patch", self.columns.patch)
-        return self.reader.angle(self.columns, self.row, self.side, int(patches[self.row]))
-
-
-def _compare(p: _End, q: _End) -> int:
-    """Order of two angles from the beginning of chart 0 on; the end of chart 0 is the beginning of chart 1."""
-    if p.chart != q.chart:
-        early, late = (p, q) if p.chart == 0 else (q, p)
-        if early.lo == 1 and late.hi == -1:
-            return 0
-        return -1 if p is early else 1
-    if p.hi < q.lo or q.hi < p.lo:
-        return -1 if p.hi < q.lo else 1
-    if p.lo == p.hi == q.lo == q.hi:
-        return 0
-    return (p.root > q.root) - (p.root < q.root)
-
-
-@dataclass(eq=False)
+@dataclass
 class _Run:
-    start: _End
-    stop: _End
-    widest: _End  # start of its widest trapezoid or isolated part
-    width: float
+    """Intervals of orientations that meet: rows of trapezoids, then of isolated parts."""
+
+    start: int
+    stop: int
+    widest: int
 
 
 class Orientations:
@@ -134,67 +99,52 @@ class Orientations:
     def __init__(self, of: Boundary) -> None:
         of.require_complete()
         self.boundary = of
-        contacts = of.contact_kind, of.contact_robot, of.contact_obstacle
-        self.reader = Reader(of.scene, contacts, of.trapezoids, of.isolated)
+        self._from, self._to, _, self._last = of.core.angle_ranks()
 
     def fits(self) -> tuple[Fit, ...]:
         found = [Fit(self._interval(run), *self._place(run.widest)) for run in self._runs()]
         return tuple(sorted(found, key=lambda fit: fit.orientations.theta))
 
-    def _ends(self, columns: Trapezoids) -> Iterator[tuple[_End, _End]]:
-        names = ("chart", "from_lo", "from_hi", "to_lo", "to_hi")
-        values: list[list[Any]] = [getattr(columns, name).tolist() for name in names]
-        for k, (chart, a, b, c, d) in enumerate(zip(*values, strict=True)):
-            start = _End(self.reader, columns, k, "from", chart, a, b)
-            yield start, _End(self.reader, columns, k, "to", chart, c, d)
+    def _row(self, k: int) -> tuple[Trapezoids, int]:
+        """A trapezoid, or an isolated part: its columns, and its row in them."""
+        faces = len(self.boundary.trapezoids)
+        return (self.boundary.trapezoids, k) if k < faces else (self.boundary.isolated, k - faces)
 
     def _runs(self) -> list[_Run]:
-        """Unions of intervals that meet."""
-        spans = [*self._ends(self.boundary.trapezoids), *self._ends(self.boundary.isolated)]
-        key = cmp_to_key(_compare)
-        spans.sort(key=lambda span: key(span[0]))
+        """Unions of intervals that meet, in the order of their ranks."""
+        tables = self.boundary.trapezoids, self.boundary.isolated
+        width = np.concatenate([table.to_lo - table.from_hi for table in tables])
+        first, last = self._from, self._to
         runs: list[_Run] = []
-        for start, stop in spans:
-            if not runs or _compare(runs[-1].stop, start) < 0:
-                runs.append(_Run(start, stop, start, -math.inf))
-            run, width = runs[-1], stop.lo - start.hi
-            if _compare(run.stop, stop) < 0:
-                run.stop = stop
-            if width > run.width:
-                run.widest, run.width = start, width
-        if len(runs) > 1 and _is_wall(runs[0].start, 0, -1) and _is_wall(runs[-1].stop, 1, 1):
-            last = runs.pop()
-            runs[0].start = last.start
-            if last.width > runs[0].width:
-                runs[0].widest = last.widest
+        for k in np.argsort(first, kind="stable").tolist():
+            if not runs or last[runs[-1].stop] < first[k]:
+                runs.append(_Run(k, k, k))
+            run = runs[-1]
+            run.stop = k if last[k] > last[run.stop] else run.stop
+            run.widest = k if width[k] > width[run.widest] else run.widest
+        if len(runs) > 1 and first[runs[0].start] == 0 and last[runs[-1].stop] == self._last:
+            run = runs.pop()
+            runs[0].start = run.start
+            runs[0].widest = max(runs[0].widest, run.widest, key=lambda k: float(width[k]))
         return runs
 
     def _interval(self, run: _Run) -> AngleInterval:
-        if _is_wall(run.start, 0, -1) and _is_wall(run.stop, 1, 1):
+        if self._from[run.start] == 0 and self._to[run.stop] == self._last:
             return AngleInterval(None, None)
-        return AngleInterval(*(AlgebraicAngle(end.chart, end.root) for end in (run.start, run.stop)))
+        return AngleInterval(self._angle(run.start, False), self._angle(run.stop, True))
 
-    def _place(self, start: _End) -> tuple[tuple[float, float, float], Pose | None]:
+    def _angle(self, k: int, last: bool) -> AlgebraicAngle:
+        table, row = self._row(k)
+        return AlgebraicAngle(int(table.chart[row]), critical_angle(self.boundary, table, row, last))
+
+    def _place(self, k: int) -> tuple[tuple[float, float, float], Pose | None]:
         """A position at an angle of a trapezoid or an isolated part: in the midst of the slice if that is free."""
-        if start.columns is self.boundary.trapezoids:
-            trapezoid = self.reader.trapezoid(start.row)
-            turn = trapezoid.turn()
-            t = (trapezoid.lower.at(turn.tau) + trapezoid.upper.at(turn.tau)) / 2
-            point = turn.line(trapezoid.surface).point(t)
-        else:
-            isolated = IsolatedPart(self.reader, start.row)
-            root = isolated.start
-            if root < isolated.stop:
-                set_apart(root, isolated.stop)
-                root = Root.of(between(root.hi, isolated.stop.lo))
-            turn = Turn(isolated.chart, root)
-            _, point = isolated.end(turn, root, isolated.lower)
-        if not isinstance(turn.tau, Fraction):
-            x, y, theta = self.boundary.isolated_part(start.row).ends[0]
+        table, row = self._row(k)
+        exact = self._pose(table, row, k)
+        if exact is None:
+            x, y, theta = self.boundary.isolated_part(row).ends[0]
             return (x, y, float(normalize_angles(theta))), None
-        unit = self.reader.world.scale * turn.w
-        angle = {"tau": tau_in_chart(turn.chart, turn.tau)}
-        exact = Pose(Fraction(point[0]) / unit, Fraction(point[1]) / unit, angle)
+        angle = {"tau": exact.tau}
         segments = self.boundary.slice(angle).segments
         middle = exact
         if len(segments):
@@ -202,6 +152,15 @@ class Orientations:
         pose = middle if self.boundary.checker.is_free(middle) else exact
         return (float(pose.x), float(pose.y), pose.theta), pose
 
-
-def _is_wall(end: _End, chart: int, tau: int) -> bool:
-    return (end.chart, end.lo, end.hi) == (chart, tau, tau)
+    def _pose(self, table: Trapezoids, row: int, k: int) -> Pose | None:
+        """Of a trapezoid or an isolated part; None if it is at one orientation whose tangent is irrational."""
+        is_face = table is self.boundary.trapezoids
+        if self._from[k] == self._to[k]:
+            tau = rational_critical_angle(self.boundary, table, row, False)
+            return None if tau is None else isolated_end(self.boundary, row, False, tau)
+        ends = [critical_angle(self.boundary, table, row, last) for last in (False, True)]
+        part(*ends)
+        tau = between(ends[0].hi, ends[1].lo)
+        sheet = Sheet.of(self.boundary, row) if is_face else Sheet.isolated(self.boundary, row)
+        lower, upper = sheet.limits(tau)
+        return sheet.pose((lower + upper) / 2 if is_face else lower, tau)

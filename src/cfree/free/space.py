@@ -15,7 +15,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
-from flint import fmpz_poly
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
@@ -25,7 +24,7 @@ from cfree.exact.half_angle import chart_of, tau_in_chart
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.cell_complex import CellComplex
-from cfree.forbidden.columns import Floats, Ints, Trapezoids
+from cfree.forbidden.columns import Floats, Ints
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.value import Value
@@ -316,24 +315,6 @@ class FreeSpace(Value):
         """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
         low, p, high, q = self._core.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
-
-    @checked
-    def critical_angle(self, table: Trapezoids, k: int, last: bool, contact: tuple[int, int, int]) -> Fraction | None:
-        """tau of the first or last angle of row k, named on the surface of a contact, if it is rational."""
-        end = "to" if last else "from"
-        first, second, lo, hi, place = (
-            getattr(table, f"{end}_{name}")[k].item() for name in ("first", "second", "lo", "hi", "place")
-        )
-        terms, low, p, high, q = self._core.root(contact, int(table.chart[k]), first, second, lo, hi, place)
-        from_, to = Fraction(low, 1 << p), Fraction(high, 1 << q)
-        if from_ == to:
-            return from_
-        for factor, _ in fmpz_poly(terms).factor()[1]:
-            if factor.degree() == 1:
-                tau = Fraction(-int(factor[0]), int(factor[1]))
-                if from_ <= tau <= to:
-                    return tau
-        return None
 
     @checked
     def reachable(self, start: PoseLike) -> Cell:

@@ -250,6 +250,14 @@ def contact_of(boundary: Boundary, patch: int) -> Contact:
     return int(kind[patch]), int(i[patch]), int(j[patch])
 
 
+def isolated_end(boundary: Boundary, k: int, last: bool, tau: Fraction) -> Pose:
+    """An end of an isolated part at one orientation, rational: of a segment or a point."""
+    table = boundary.isolated
+    patch, code = (int(getattr(table, ("lower", "upper")[last] + name)[k]) for name in ("_patch", ""))
+    sheet = Sheet(boundary.features, contact_of(boundary, patch), int(table.chart[k]), (code, code), (tau, tau))
+    return sheet.pose(sheet.limits(tau)[0], tau)
+
+
 def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
     """The pose turned to an orientation about a point of the robot."""
     ((X, Y),) = pose.apply_exact([point])

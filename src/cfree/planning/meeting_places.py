@@ -18,8 +18,9 @@ import shapely
 
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import Ints
+from cfree.forbidden.critical_angle import rational_critical_angle
 from cfree.planning.clusters import clusters
-from cfree.planning.exact_face import Sheet, between, common_tau, contact_of
+from cfree.planning.exact_face import Sheet, between, common_tau
 from cfree.planning.face_graph import LAST, LOWER, UPPER
 from cfree.planning.thin_parts import ThinPart
 
@@ -283,7 +284,6 @@ def _turn(walker: Walker, face: int, other: int, h: int, k: int) -> list[Pose] |
 def _corners(walker: Walker, face: int) -> tuple[Pose, ...]:
     """Of a face, at its first and last orientations as far as they are rational."""
     sheet, walls = walker.faces.sheet(face), walker.space.walls
-    contact = contact_of(walls, int(walls.trapezoids.patch[face]))
-    ends = (walker.space.critical_angle(walls.trapezoids, face, last, contact) for last in (False, True))
+    ends = (rational_critical_angle(walls, walls.trapezoids, face, last) for last in (False, True))
     taus = [tau for tau in ends if tau is not None]
     return tuple(dict.fromkeys(sheet.pose(t, tau) for tau in taus for t in sheet.limits(tau)))

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import CURVE
-from cfree.planning.exact_face import Sheet, Vector, between, contact_of, cross, dot, minus
+from cfree.forbidden.critical_angle import rational_critical_angle
+from cfree.planning.exact_face import Sheet, Vector, between, cross, dot, isolated_end, minus
 
 if TYPE_CHECKING:
     from cfree.planning.boundary_walk import Walker
@@ -37,8 +38,7 @@ class ThinPart:
         self.tau = self._angle(False), self._angle(True)
 
     def _angle(self, last: bool) -> Fraction | None:
-        patch = (self.table.to_patch if last else self.table.from_patch)[self.k]
-        return self.walker.space.critical_angle(self.table, self.k, last, contact_of(self.boundary, int(patch)))
+        return rational_critical_angle(self.boundary, self.table, self.k, last)
 
     @cached_property
     def ends(self) -> tuple[Pose | None, Pose | None]:
@@ -73,11 +73,7 @@ class ThinPart:
             return None
         if self.is_curve:
             return self.at(tau)
-        patch, code = (int(getattr(self.table, ("lower", "upper")[last] + name)[self.k]) for name in ("_patch", ""))
-        sheet = Sheet(
-            self.boundary.features, contact_of(self.boundary, patch), self.sheet.chart, (code, code), (tau, tau)
-        )
-        return sheet.pose(sheet.limits(tau)[0], tau)
+        return isolated_end(self.boundary, self.k, last, tau)
 
     def at(self, tau: Fraction) -> Pose:
         """The pose of a curve at an orientation."""

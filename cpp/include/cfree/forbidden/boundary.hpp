@@ -38,6 +38,14 @@ private:
     mutable std::once_flag ordered;
     mutable std::unique_ptr<const AngleTable> table;
 };
+
+// Critical angles of trapezoids and of isolated parts in one order; see AngleTable.
+struct AngleRanks {
+    std::vector<Index> from, to;  // of each trapezoid, then of each isolated part
+    Index middle = 0, last = 0;
+};
+AngleRanks angle_ranks(const Boundary& boundary);
+
 using SharedBoundary = std::shared_ptr<const Boundary>;
 
 // All pairs of a convex vertex and an edge, patches of the boundary before trimming.

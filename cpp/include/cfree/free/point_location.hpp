@@ -51,7 +51,6 @@ public:
     Nearby nearby(const ExactPose& q) const;
 
     // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
-    RealRoot root(const Surface& on, const Event& angle, int place) const { return CriticalAngle(on, angle, place).exact(scene); }
     const std::vector<Index>& components() const { return component; }
     // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.
     std::array<Dyadic, 2> angle(Index trapezoid, bool last, unsigned bits) const;
