@@ -50,8 +50,8 @@ def set_pose(state: Any, x: float, y: float, theta: float) -> None:
 def state_space(scene: Scene) -> Any:
     """OMPL's SE2StateSpace with limits for positions.
 
-    They are the bounds of the scene; else the box of its workspace; else that of obstacles, start and goal, larger by
-    twice the robot's radius.
+    They are the bounds of the scene; else the box of its workspace; else the box of obstacles, start and goal, larger
+    by twice the robot's radius.
     """
     space, limits = ob.SE2StateSpace(), ob.RealVectorBounds(2)
     x0, y0, x1, y1 = area(scene, [pose for pose in (scene.start, scene.goal) if pose])

@@ -1,7 +1,8 @@
 """Where does free space open when the robot gets a little smaller? A search by samples on the closed surfaces.
 
 A sample of the smaller robot's boundary has the same contact, t and theta on the larger one's: there it bounds a cell,
-or it is covered. Where neighbours bound different cells, or what is covered between them is connected, is a bottleneck.
+or it is covered. There is a bottleneck where neighbours bound different cells, or where covered samples connect two of
+these.
 """
 
 from __future__ import annotations

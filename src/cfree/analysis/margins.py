@@ -94,7 +94,7 @@ def nearest_miss(
 
     Notes
     -----
-    All edges move inwards by the inset, corners are mitred; what is too thin vanishes.
+    All edges move inwards by the inset, corners are mitred; parts that are too thin vanish.
     About a dozen times the time of the scene's free space.
 
     Examples

@@ -22,7 +22,7 @@ Name = tuple[int, int]  # polygon and edge
 
 
 class EdgeDistances:
-    """The edges of obstacles and workspace, and those of the robot; prepared once.
+    """The edges of obstacles, workspace and robot, prepared once.
 
     Attributes
     ----------

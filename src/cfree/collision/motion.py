@@ -12,9 +12,9 @@ Translations, rotations and slides answer the same questions, so that who asks n
     kind                            "translation", "rotation" or "slide"
     pole, vector                    the point that stays in place; if there is none, how far the reference point moves
     tau, turn                       half-angle tangent and angle of the whole, 0 of translations
-    contacts                        what is kept; () but of slides
+    contacts                        the two that a slide keeps; () of other motions
     numbers                         what it is made of, exactly, by the names of files
-    apply, at, sample               poses: the last one, that at u, those at shares of the length or angle
+    apply, at, sample               poses: the last one, the one at u, several at shares of the length or angle
     until, between, reversed        motions: parts, and the way back
     share, parameter                the share of the length or angle that is done at u, and the other way round
     length, reach                   how far the reference point moves from a pose, and how far other points

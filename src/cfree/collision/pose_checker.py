@@ -63,7 +63,7 @@ def is_free(
 
     Notes
     -----
-    A pose is free if no interior of a convex piece of the robot meets that of a piece of the obstacles (or of the
+    A pose is free if no interior of a convex piece of the robot meets one of the obstacles' pieces (or the
     complement of the workspace), and the reference point is in the bounds. Preparing takes time about linear in the
     vertices; a pose takes time in the number of pieces near by. An uncertain pose (see above) takes some 100
     microseconds.

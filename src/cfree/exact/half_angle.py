@@ -312,7 +312,7 @@ def _angle_of(tau: Fraction | None) -> float:
 
 
 def to_rational(name: str, value: Number) -> Fraction:
-    """Exact value of a number; what is none is an error that names it."""
+    """Exact value of a number; anything else is an error that names it."""
     try:
         return to_fraction(value)
     except ValueError as error:

@@ -174,7 +174,7 @@ OnePose = Pose | tuple[Number, Number, Angle]  # the same, for what takes many a
 
 
 def one_pose(value: object, name: str) -> Pose | None:
-    """The pose, if that is what is given and not many.
+    """The pose, if one is given and not many.
 
     Examples
     --------

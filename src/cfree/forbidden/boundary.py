@@ -246,7 +246,7 @@ class Boundary(BoundaryRecord):
 
         Notes
         -----
-        Distances are those of dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory/meshes.md for exact
+        Distances are measured by dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory/meshes.md for exact
         arithmetic; points are computed in doubles. Time is about linear in the triangles. Isolated parts have none.
 
         Examples

@@ -77,7 +77,7 @@ class Mesh(Value):
 
     @property
     def ratio(self) -> float:
-        """Triangles on e-v patches over those of the best known density; NaN if there is no such patch.
+        """Triangles on e-v patches, as a multiple of the best known density's; NaN if there is no such patch.
 
         The density (sqrt(3)/4) sqrt(-K) / error of Atariah, Rote and Wintraecken holds for small errors: 1.033 is what
         vertices on the surface can reach, and small patches need more for their rims.

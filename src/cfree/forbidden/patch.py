@@ -73,7 +73,7 @@ class CriticalAngle:
     interval : (float, float)
         An interval of tau, in the chart, that holds it.
     place : int
-        0: it is the only root there; else its number among those that doubles cannot hold apart.
+        0: it is the only root there; else its number among the roots that doubles cannot hold apart.
     theta : float, radians
     """
 

@@ -33,7 +33,7 @@ class Stats:
     Attributes
     ----------
     patches, live_patches : int
-        Contact patches before trimming, and those of which something is left.
+        Contact patches before trimming, and the ones of which something is left.
     trapezoids : int
     pairs : int
         Pairs of a patch and a pillar near it.

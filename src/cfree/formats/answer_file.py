@@ -131,7 +131,7 @@ def save_separation(proof: Separated, file: str | PathLike[str]) -> None:
 
 
 def form_of(file: str | PathLike[str], form: str | None) -> str:
-    """Of the forms a path may be written in, the one asked for, or that of the file's name."""
+    """The form to write a path in: the one asked for, or else the one that the file's name says."""
     names = " or ".join(f'"{name}"' for name in FORMS.values())
     if form is not None:
         if form not in FORMS.values():

@@ -121,7 +121,7 @@ def _shown(pose: Pose, theta: float) -> str:
 
 
 def completed(model: PathModel) -> Path:
-    """The path: what is left to the goal as it is written is one motion more."""
+    """The path, with one motion more if it ends short of the goal as it is written."""
     path, goal = model.moved, model.ends[1]
     if path.goal == goal:
         return path

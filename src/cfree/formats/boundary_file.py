@@ -178,7 +178,7 @@ def _read(name: str) -> tuple[Boundary, dict[str, NDArray[Any]]]:
 
 
 def _member(archive: Any, name: str) -> NDArray[Any]:
-    """An array as long as the archive says, and as what is in it can be."""
+    """An array whose shape says as many bytes as the archive does, no more than its packed bytes can hold."""
     info = archive.zip.getinfo(f"{name}.npy")
     with archive.zip.open(info) as member:
         if np.lib.format.read_magic(member) != (1, 0):

@@ -58,7 +58,7 @@ def save(
     UnsupportedError
         If the file's name ends otherwise.
     ValueError
-        If step or scene is missing, or given for what is no path.
+        If step or scene is missing, or given for a value that is no path.
     OSError
         If the file cannot be written.
 

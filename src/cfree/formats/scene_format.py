@@ -57,7 +57,7 @@ def _coordinate(value: object) -> Fraction:
 
 
 def list_of(length: int, form: str) -> Callable[[object], object]:
-    """A validator of lists of one length."""
+    """A validator of lists of a fixed length."""
 
     def check(value: object) -> object:
         if isinstance(value, list) and len(value) == length:

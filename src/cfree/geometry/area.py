@@ -71,7 +71,7 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
 
 @checked
 def trapezoid_areas(boundary: Boundary, *, angle_scale: float = 1.0) -> Floats:
-    """Areas of the trapezoids of a boundary, (T,), in length^2; they add up to that of the boundary.
+    """Areas of the trapezoids of a boundary, (T,), in length^2; they add up to the boundary's area.
 
     Parameters
     ----------

@@ -81,8 +81,8 @@ def helix_classes(robot: Polygon, obstacle: Polygon) -> tuple[tuple[VertexVertex
 
     Notes
     -----
-    Every helix on a v-e surface of a_i is of the class of those of a_i. On an e-v surface, those at t and t' are of one
-    class only if t + t' = 2 t_*: Remark 5.
+    Every helix on a v-e surface of a_i is in the class of a_i's v-v helices. On an e-v surface the helices at t and t'
+    are congruent only if t + t' = 2 t_*: Remark 5.
 
     Examples
     --------

@@ -27,7 +27,7 @@ def develop(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scale: floa
     t : (...) float
         Along the ruling; beyond [0, 1] the points are on the surface, not on the patch.
     phi : (...) float, radians
-        Any values; those of the contact's angle range are on the patch. The surface does not close after a turn.
+        Any values; in the contact's angle range the points are on the patch. The surface does not close after a turn.
     angle_scale : float, length per radian
 
     Returns

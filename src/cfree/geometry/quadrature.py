@@ -22,7 +22,7 @@ Integrand = Callable[["Ints", Floats, Floats, Floats], Floats]
 
 
 def trapezoid_integrals(boundary: Boundary, along_t: Integrand) -> Floats:
-    """Integral over theta of what is integrated along t, for each trapezoid.
+    """Integral over theta of an integral along t, for each trapezoid.
 
     Notes
     -----

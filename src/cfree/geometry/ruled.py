@@ -37,7 +37,7 @@ class Ruled(NamedTuple):
         return np.hypot(edge[..., 0], edge[..., 1])
 
     def ruling(self, phi: Floats) -> Floats:
-        """Unit vectors along S_t, (..., 2): that of q, or of -R(phi) g."""
+        """Unit vectors along S_t, (..., 2): along q, or along -R(phi) g."""
         d, is_edge = self._direction, self.is_edge_vertex
         return np.stack(_turned(np.where(is_edge, -np.cos(phi), 1.0), np.where(is_edge, -np.sin(phi), 0.0), d), -1)
 

@@ -72,7 +72,7 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
     Notes
     -----
     Every motion is halved until no part of it can hold a distance smaller, by more than the tolerance, than the
-    least one found: a pose is at most as much closer as the robot's farthest vertex travels. The time is that of
+    least one found: a pose is at most as much closer as the robot's farthest vertex travels. It takes as long as
     about (length / tolerance) distances for a path that keeps its distance from a wall, and mostly much less.
 
     Examples

@@ -16,7 +16,7 @@ Ints = NDArray[np.int64]
 
 
 class Travel:
-    """Places on a path by the travel of the robot: in each motion that of its farthest moving point.
+    """Places on a path by the travel of the robot: in each motion how far its farthest moving point goes.
 
     Parameters
     ----------

@@ -90,7 +90,7 @@ class Walker:
     # --- from sheet to sheet ---
 
     def over_curve(self, f: Sheet, g: Sheet, tau: Fraction, side: int) -> Sequence[Pose]:
-        """From off the middle of one to off the middle of the other, over a curve that they share."""
+        """A way from beside the middle of one trapezoid to beside the middle of the other, over their common curve."""
         t, end = f.middle(tau), g.middle(tau)
         p, q = self.landings.off(f, t, tau), self.landings.off(g, end, tau)
         corner = f.pose(f.limits(tau)[side], tau)
@@ -100,7 +100,7 @@ class Walker:
         return way
 
     def over_wall(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
-        """From off the middle of one to off that of the other, over a critical angle; the first is at tau now."""
+        """A way from beside one trapezoid at tau to beside the middle of the other, over a critical angle."""
         cells = self.space.complex
         at_end = [bool(cells.side[k] == LAST) for k in (h, int(cells.twin[h]))]
         found = self.across(f, g, at_end, [tau, between(g.low, g.high)])

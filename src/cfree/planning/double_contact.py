@@ -39,7 +39,7 @@ def slide(features: SceneFeatures, pose: Pose, first: Contact, last: Contact, ta
 
 
 def same_line(features: SceneFeatures, contact: Contact) -> Iterator[Contact]:
-    """A contact, and those of edges on the line of its edge: names of curves stand for all of them."""
+    """A contact, and the contacts of other edges on its edge's line: a curve's name stands for all of them."""
     kind, i, j = contact
     shape, edge = (features.obstacles, j) if kind == 1 else (features.robot, i)
     line = shape.core["line"]

@@ -201,7 +201,7 @@ class Sheet:
         return positions_over(line, fmpq_poly([sign, 0, -sign]), fmpq_poly([0, 2 * sign]), fmpq_poly([1, 0, 1]))
 
     def trace(self, side: int) -> tuple[str, ...]:
-        """A name of one of its curves in its chart: the same for the same positions."""
+        """A name of a curve of the trapezoid in its chart: the same for the same positions."""
         (P, U), (n, d) = self._positions(self.line), self._curves[side]
         parts = [P[0] * d + n * U[0], P[1] * d + n * U[1], d * fmpq_poly([1, 0, 1])]
         common = parts[2] * (1 / parts[2].leading_coefficient())

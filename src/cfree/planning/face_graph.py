@@ -52,7 +52,7 @@ class Landing:
 
 @dataclass(frozen=True)
 class Link:
-    """From one landing to another: the way of the first backwards, and that of the second."""
+    """From one landing to another: the first one's way backwards, then the second one's."""
 
     ends: tuple[Landing, Landing]
 

@@ -1,4 +1,4 @@
-"""Paths that keep away from obstacles: those of a robot grown by a margin, as far along a path as it fits.
+"""Paths that keep away from obstacles: paths of a robot grown by a margin, as far along a path as it fits.
 
 Where a grown robot is free the robot has the margin around it. Its paths are searched, never decided: the margin is
 proved, that it is the largest is not.
@@ -29,7 +29,7 @@ PLACES = 16  # of a motion, at which the grown robot may begin and end
 
 
 def clear(scene: Scene, checker: MotionChecker, poses: Sequence[Pose], radius: float, way_of: WayOf) -> Sequence[Pose]:
-    """A path with margins: the largest in the midst of it, what is left at its ends with smaller ones.
+    """A path with margins: the largest in its middle, smaller ones towards its ends.
 
     Parameters
     ----------

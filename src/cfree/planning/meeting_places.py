@@ -127,7 +127,7 @@ class Places:
 
     @cached_property
     def _faces_at(self) -> tuple[Ints, Ints]:
-        """Faces by vertex, and where those of each vertex begin."""
+        """Faces by vertex, and where each vertex's faces begin."""
         cells = self.space.complex
         order = np.argsort(cells.vertex, kind="stable")
         return cells.face[order], np.searchsorted(cells.vertex[order], np.arange(cells.vertices + 1)).astype(np.int32)

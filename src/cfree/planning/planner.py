@@ -69,7 +69,7 @@ def plan(
         How long to improve a path, 0 for the first one found. A fixed number of attempts unless given. Ctrl-C ends it
         early, and the path so far is the answer.
     objective : "short" or "clear"
-        What to prefer: short paths, or those that keep away from obstacles; see Notes.
+        What to prefer: short paths, or paths that keep away from obstacles; see Notes.
     max_seconds : float, optional
         Give up if computing the free space takes longer.
     progress : callable, optional

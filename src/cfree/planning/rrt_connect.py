@@ -72,7 +72,7 @@ class Searcher:
         return _core.Shortener(self.checker.core, grid, self._weight, list(numbers), list(places), 0)
 
     def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
-        """Exact poses from those of the core."""
+        """Exact poses from the core's."""
         poses = []
         for hx, hy, x, y, unit in found:
             tau = Fraction(hy, hx) if hx else None

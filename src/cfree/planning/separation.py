@@ -63,12 +63,12 @@ class Pieces(Value):
     Attributes
     ----------
     kind : (N,) uint8
-        Contacts: 1 a vertex of the robot on an edge of an obstacle, 2 an edge of the robot on a vertex of one.
+        Contacts: 1 a vertex of the robot on an edge of an obstacle, 2 an edge of the robot on a vertex of an obstacle.
     robot, obstacle : (N, 2) int32
         Polygon, and its vertex or the one where its edge begins. -1 is the bounds, and their reference point, -2 the
         workspace's complement: vertices are the workspace's, whose rings it runs through the other way.
     table : Trapezoids
-        Their angles and curves; patch k is that of contact k.
+        Their angles and curves; patch k belongs to contact k.
     auxiliary : tuple of Auxiliary
         What the table names and the scene does not have: diagonals of convex pieces, corners beyond the bounds.
     """
@@ -241,7 +241,7 @@ def separation(
 
     Notes
     -----
-    Takes about as long as the space itself took: that of the smaller robot is computed.
+    Takes about as long as the space itself took: the smaller robot's is computed.
 
     Examples
     --------

@@ -215,7 +215,7 @@ def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
 
 
 def _frame(ax: Any, box: Window) -> None:
-    """What is seen beside, if that is a part of what is seen here."""
+    """A frame around the part of the workspace that is shown in space, if not all of it is."""
     from matplotlib.patches import Rectangle
 
     x0, y0, x1, y1 = box
@@ -300,7 +300,7 @@ def _mark(ax: Any, row: Floats, name: str) -> None:
 
 
 def _range(degrees: Floats) -> Range:
-    """Angles around those of a path."""
+    """A range around the angles of a path."""
     low, high = float(degrees.min()) - MARGIN, float(degrees.max()) + MARGIN
     more = max(0.0, LEAST - (high - low)) / 2
     return low - more, high + more

@@ -29,7 +29,7 @@ THIN = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Strips:
-    """Rows of all trapezoids; those of one *part* follow each other.
+    """Rows of all trapezoids; the rows of a *part* follow each other.
 
     Attributes
     ----------

@@ -84,7 +84,7 @@ def rings_of_geometry(geometry: Any) -> list[Floats]:
 
 
 def path_of(rings: Iterable[Floats]) -> Path:
-    """One path of closed rings: those that run clockwise are holes.
+    """One path of closed rings: clockwise rings are holes.
 
     Examples
     --------

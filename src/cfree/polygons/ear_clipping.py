@@ -22,7 +22,7 @@ def clip_ears(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[tup
     ----------
     v : sequence of pairs of int
     rings : sequence of sequences of indices into v
-        The interior on the left, the outer ring first. Rings may touch at vertices, then of one index.
+        The interior on the left, the outer ring first. Rings may touch at vertices, which then have one index.
 
     Examples
     --------

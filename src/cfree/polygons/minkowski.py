@@ -21,7 +21,7 @@ def convex_sum(first: Sequence[Point], second: Sequence[Point]) -> list[Point]:
 
 
 def summands(first: Sequence[Point], second: Sequence[Point]) -> list[tuple[int, int]]:
-    """Which vertices of two convex rings make those of their sum: edges are merged by direction, in O(m + n)."""
+    """Which vertices of two convex rings make the vertices of their sum: edges are merged by direction, in O(m + n)."""
     (p, u), (q, v) = (_from_the_lowest(ring) for ring in (first, second))
     i = j = 0
     found = []

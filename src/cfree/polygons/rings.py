@@ -46,7 +46,7 @@ class Removed:
 
 @dataclass(frozen=True, slots=True)
 class Rings:
-    """Checked rings, the interior on the left; the attributes are those of `Polygon`."""
+    """Checked rings, the interior on the left; with the attributes of `Polygon`."""
 
     numerators: tuple[IntPoint, ...]
     denominator: int

@@ -11,9 +11,9 @@ bidegree (1, 2) in (x, y) alone. Control points are values of the polar form; so
     degree 2:  1 + u^2,   1 + u v,                  1 + v^2
     degree 3:  1 + u^2,   1 + (u^2 + 2 u v) / 3,   1 + (2 u v + v^2) / 3,   1 + v^2.
 
-The middle weight of degree 2 is positive exactly if the angle spans less than half a turn; those of degree 3 are at
-least 2/3 for u and v of one chart. Since tau has no value at the half turn, a patch that passes it is cut, and where
-|tau| > 1 it is written in the other chart of `cfree.exact.half_angle`.
+The middle weight of degree 2 is positive exactly if the angle spans less than half a turn; the weights of degree 3
+are at least 2/3 for u and v in one chart. Since tau has no value at the half turn, a patch that passes it is cut, and
+where |tau| > 1 it is written in the other chart of `cfree.exact.half_angle`.
 """
 
 from __future__ import annotations

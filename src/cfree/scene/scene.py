@@ -237,7 +237,7 @@ def flat_shape(kind: str) -> str:
 
 
 def explained(error: InvalidPolygonError) -> str:
-    """Message of an error, with the reason if the points given are those of a segment or a point."""
+    """Message of an error, with the reason if the points make only a segment or a point."""
     message = str(error)
     few = "at least 3" in message and not message.startswith("outer ring: 0")
     return f"{message}: {NO_INTERIOR}" if error.ring == 0 and (few or "on one line" in message) else message

@@ -82,7 +82,7 @@ class Course:
         return x / d, y / d, c / d, s / d
 
     def box(self, part: Ring, interval: Interval, unit: int) -> Box:
-        """Around all places of a part, in doubles; larger by more than what is rounded.
+        """Around all places of a part, in doubles; larger by more than their rounding.
 
         Notes
         -----
@@ -97,7 +97,7 @@ class Course:
         return np.array([min(xs), min(ys), max(xs), max(ys)]) + 2.0**-40 * np.array([-1, -1, 1, 1])
 
     def heights(self, part: Ring, wall: Ring) -> Iterator[list[Poly]]:
-        """For every edge of both, the heights of the other's vertices over it, times d: those of points inside grow."""
+        """For every edge of both, the heights of the other's vertices over it, times d; it grows inwards."""
         d, c, s = self.d, self.c, self.s
         for _, (bx, by), end in corners(wall):
             e, f = minus(end, (bx, by))

@@ -67,7 +67,7 @@ def boundary(
 
     Notes
     -----
-    Time is about linear in the number of trapezoids, plus that of the slices: contacts times pillars near them.
+    Time is about linear in the number of trapezoids, plus the time of the slices: contacts times pillars near them.
 
     Examples
     --------

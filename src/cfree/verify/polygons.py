@@ -36,7 +36,7 @@ def rectangle(x0: int, y0: int, x1: int, y1: int) -> Ring:
 
 
 def frame(outer: Sequence[int], inner: Sequence[int]) -> list[Ring]:
-    """Four rectangles that cover what is between two."""
+    """Four rectangles that cover the space between two."""
     (X0, Y0, X1, Y1), (x0, y0, x1, y1) = outer, inner
     return [rectangle(*side) for side in ((X0, Y0, x0, Y1), (x1, Y0, X1, Y1), (X0, Y0, X1, y0), (X0, y1, X1, Y1))]
 
@@ -75,7 +75,7 @@ Boxes = NDArray[np.float64]  # (n, 4): xmin, ymin, xmax, ymax
 
 
 def boxes(rings: Iterable[Ring], unit: int) -> Boxes:
-    """Boxes around rings of integers, in a unit as large as the scene; larger by more than what is rounded."""
+    """Boxes around rings of integers, in a unit as large as the scene; larger by more than their rounding."""
     found = [[of(p[k] / unit for p in ring) for of in (min, max) for k in (0, 1)] for ring in rings]
     return np.array(found, float).reshape(-1, 4) + 2.0**-40 * np.array([-1, -1, 1, 1])
 
