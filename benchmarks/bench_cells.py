@@ -59,7 +59,7 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> None:
 
 
 def by_whole_slice(space: cfree.FreeSpace, x: float, y: float, theta: float) -> int:
-    cut = space.walls.slice(theta)
+    cut = space.surfaces.slice(theta)
     (x0, y0), (x1, y1) = cut.segments[:, 0].T, cut.segments[:, 1].T
     crossed = ((y0 > y) != (y1 > y)) & (((x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) > 0) == (y1 < y0))
     parity = np.bincount(space.component[cut.trapezoids[crossed]], minlength=len(space.parent)) % 2

@@ -192,7 +192,7 @@ def test_a_curve_that_ends_at_a_chart_wall_ends_in_no_point_of_the_other_chart()
         ([(2 * third, 2 * third), (third, -2 * third), (2 * third, -2 * third)], []),
     ]
     (found,) = parts(PlainScene(feet, walls))
-    assert found.kind == "curve" and found.stop.kind == "wall"
+    assert found.kind == "curve" and found.stop.kind == "chart end"
 
 
 def test_isolated_parts_reach_from_room_to_room() -> None:

@@ -175,7 +175,7 @@ def test_critical_angles_are_isolated_roots_of_their_conditions() -> None:
                 lo, hi = map(Fraction, angle.interval)
                 if any(feature.obstacle.index < 0 for feature in angle.features):
                     continue  # a corner of the frame around the bounds
-                if angle.kind == "wall":
+                if angle.kind == "chart end":
                     assert lo == hi and abs(lo) == 1
                     continue
                 assert 0 <= hi - lo < 1e-6

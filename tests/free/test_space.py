@@ -219,7 +219,7 @@ def test_many_poses_are_in_the_cells_that_each_of_them_is_in(name: str) -> None:
 
 def scanned(space: FreeSpace, pose: Pose) -> int:
     """Where a pose is by all segments of its slice, in doubles."""
-    x, y, cut = float(pose.x), float(pose.y), space.walls.slice(pose.theta)
+    x, y, cut = float(pose.x), float(pose.y), space.surfaces.slice(pose.theta)
     (x0, y0), (x1, y1) = cut.segments[:, 0].T, cut.segments[:, 1].T
     crossed = ((y0 > y) != (y1 > y)) & (x0 + (y - y0) / np.where(y1 == y0, 1, y1 - y0) * (x1 - x0) < x)
     around = np.flatnonzero(np.bincount(space.component[cut.trapezoids[crossed]], minlength=len(space.parent)) % 2)
@@ -233,7 +233,7 @@ def test_location_at_critical_orientations_and_beside_them() -> None:
     # and at half-angle tangents k / 64: dyadic ones may be where a list of the index ends
     plain = random_scene(5, "bounds")
     space = space_of(plain)
-    table, rng = space.walls.trapezoids, np.random.default_rng(0)
+    table, rng = space.surfaces.trapezoids, np.random.default_rng(0)
     ends = list(zip(table.chart.tolist(), table.tau_to.tolist(), strict=True))[::40]
     beside = [(c, float(np.nextafter(t, side))) for c, t in ends for side in (-1, 1) if abs(t) < 1]
     assert plain.bounds is not None
@@ -243,7 +243,7 @@ def test_location_at_critical_orientations_and_beside_them() -> None:
         pose = Pose(x, y, {"tau": tau_in_chart(chart, Fraction(tau))})
         forbidden = oracles.exact_is_forbidden(plain.robot, plain.obstacles, x, y, pose.tau, plain.bounds, None)
         assert (space.locate(pose) == -1) == forbidden
-        segments = space.walls.slice(pose.theta).segments
+        segments = space.surfaces.slice(pose.theta).segments
         if shapely.distance(shapely.Point(float(x), float(y)), shapely.MultiLineString(list(segments))) > 1e-6:
             assert space.locate(pose) == scanned(space, pose)
 
@@ -297,7 +297,7 @@ def test_slits_of_bounds_are_in_no_cell() -> None:
     # below the obstacle, its vertex at the reference point upwards, the robot can only slide along the bounds
     scene = Scene(robot=[(0, 0), (-1, -2), (1, -2)], obstacles=[box(1, 0, 4, 3)[0]], bounds=(0, 0, 5, 5))
     space = free_space(boundary(scene))
-    assert space.walls is not space.boundary
+    assert space.surfaces is not space.boundary
     check_against_flood(plain_of(scene), space, 60)
     poses = [Pose(2, 0), Pose(2, 0, {"tau": "1/9"}), Pose(2, 0, {"tau": 1}), Pose(2, Fraction(1, 10**30)), Pose(1, 0)]
     assert space.locate(poses).tolist() == [-2, -2, -1, -1, space.locate(Pose("99/100", 0))]

@@ -45,7 +45,7 @@ def test_volumes_areas_and_surfaces_do_not_depend_on_the_place(offset, point) ->
     here, far = near(), space(offset, point)
     assert [cell.volume for cell in far.cells] == pytest.approx([cell.volume for cell in here.cells], rel=1e-12)
     for name in ("patch", "chart", "lower", "upper"):
-        assert np.array_equal(getattr(far.walls.trapezoids, name), getattr(here.walls.trapezoids, name))
+        assert np.array_equal(getattr(far.surfaces.trapezoids, name), getattr(here.surfaces.trapezoids, name))
     assert np.array_equal(far.complex.twin, here.complex.twin)
     if point == (0, 0):
         assert trapezoid_areas(far.boundary) == pytest.approx(trapezoid_areas(here.boundary), rel=1e-11)

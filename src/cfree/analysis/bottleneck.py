@@ -94,12 +94,12 @@ def bottlenecks(larger: FreeSpace, smaller: FreeSpace, start: Pose, goal: Pose) 
 
 
 def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
-    """Samples on some faces of a space's walls."""
-    walls, table, cells = space.walls, space.walls.trapezoids, space.complex
+    """Samples on some faces of a space's surfaces."""
+    surfaces, table, cells = space.surfaces, space.surfaces.trapezoids, space.complex
     share = (np.arange(n) + 0.5) / n
     face = np.repeat(faces, n * n).astype(np.int32)
     theta = table.theta_from[face] + np.tile(share, n * len(faces)) * (table.theta_to - table.theta_from)[face]
-    lower, upper = walls.limits(face, theta)
+    lower, upper = surfaces.limits(face, theta)
     t = lower + np.tile(np.repeat(share, n), len(faces)) * (upper - lower)
     first = np.full(len(cells.component), -1, np.int64)
     first[faces] = np.arange(len(faces)) * n * n
@@ -118,7 +118,7 @@ def sampled(space: FreeSpace, faces: Ints, n: int) -> Samples:
 
 def labels(larger: FreeSpace, smaller: FreeSpace, samples: Samples) -> Ints:
     """The cell of the larger robot that each sample bounds, or COVERED."""
-    ours, theirs = smaller.walls, larger.walls
+    ours, theirs = smaller.surfaces, larger.surfaces
     patch = ours.trapezoids.patch[samples.face]
     contacts = [np.stack([b.contact_kind, b.contact_robot, b.contact_obstacle], axis=1) for b in (ours, theirs)]
     number = {contact: k for k, contact in enumerate(map(tuple, contacts[1].tolist()))}
@@ -181,13 +181,15 @@ def _route(label: Ints, group: Ints, samples: Samples, cells: list[int]) -> list
 
 def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: MotionChecker) -> Bottleneck | None:
     """Where a sample pushed into the free side comes to a stop first, halfway."""
-    walls, theta = space.walls, samples.theta[chosen]
-    patch = walls.trapezoids.patch[samples.face[chosen]]
-    xy = walls.evaluate(patch, samples.t[chosen], theta)
-    u, v = (walls.evaluate(patch, np.ones(len(patch)), theta) - walls.evaluate(patch, np.zeros(len(patch)), theta)).T
-    owner = walls.features.obstacles.owner_polygon[walls.contact_obstacle[patch]]
+    surfaces, theta = space.surfaces, samples.theta[chosen]
+    patch = surfaces.trapezoids.patch[samples.face[chosen]]
+    xy = surfaces.evaluate(patch, samples.t[chosen], theta)
+    u, v = (
+        surfaces.evaluate(patch, np.ones(len(patch)), theta) - surfaces.evaluate(patch, np.zeros(len(patch)), theta)
+    ).T
+    owner = surfaces.features.obstacles.owner_polygon[surfaces.contact_obstacle[patch]]
     best: tuple[float, Bottleneck] | None = None
-    push = np.column_stack([v, -u]) * float(np.ptp(walls.features.robot.xy, axis=0).max()) / np.hypot(u, v)[:, None]
+    push = np.column_stack([v, -u]) * float(np.ptp(surfaces.features.robot.xy, axis=0).max()) / np.hypot(u, v)[:, None]
     rows = zip(xy.tolist(), theta.tolist(), push.tolist(), owner.tolist(), strict=True)
     for (x, y), angle, (dx, dy), obstacle in rows:
         met = checker.first_contact(Pose(x + NUDGE * dx, y + NUDGE * dy, angle), Translation((dx, dy)))

@@ -66,7 +66,7 @@ class CriticalAngle:
     Attributes
     ----------
     kind : str
-        "wall": an end of a chart; "parallel": two edges become parallel; "helix": a v-v helix meets the patch's
+        "chart end"; "parallel": two edges become parallel; "helix": a v-v helix meets the patch's
         surface; "crossing": two curves on the patch meet.
     features : tuple of Contact
         None, one or two of them.
@@ -161,7 +161,7 @@ def _angle(boundary: BoundaryRecord, columns: Trapezoids, end: str, k: int) -> C
     lo, hi = float(getattr(columns, f"{end}_lo")[k]), float(getattr(columns, f"{end}_hi")[k])
     features = tuple(contact(boundary, code) for code in (first, second) if code)
     if not features:
-        kind = "wall"
+        kind = "chart end"
     elif len(features) == 2:
         kind = "crossing"
     else:

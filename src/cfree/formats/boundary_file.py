@@ -108,7 +108,7 @@ def load_space(path: str | os.PathLike[str]) -> FreeSpace:
     if not wrong:
         component, parent, free_inside, turns, lift = (columns[column] for column in CELL_COLUMNS)
         space = FreeSpace(boundary, component, parent, free_inside, turns, lift)
-        if len(space.component) == len(space.walls.trapezoids):
+        if len(space.component) == len(space.surfaces.trapezoids):
             return space
         wrong = "cells_component does not fit the rest"
     raise FormatError(f"{name}: {wrong}; make it again with `cfree.save`", path=name)

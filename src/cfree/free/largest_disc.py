@@ -34,7 +34,7 @@ def largest_disc(cell: Cell) -> tuple[Pose, float] | None:
     >>> round(radius, 3)
     1.5
     """
-    boundary = cell.free_space.walls
+    boundary = cell.free_space.surfaces
     start, stop = cell.theta_range
     if len(boundary.trapezoids) == 0:
         return Pose(0, 0), math.inf

@@ -106,11 +106,11 @@ class FreeSpace(Value):
     Attributes
     ----------
     boundary : Boundary
-    walls : Boundary
+    surfaces : Boundary
         The one whose closed surfaces bound the cells: `boundary`, or where `bounds` may leave slits of no width, which
         are not in the interior, ``boundary.regularized``.
     component : (F,) int32
-        Of each trapezoid of `walls`: its closed surface.
+        Of each trapezoid of `surfaces`: its closed surface.
     parent : (C,) int32
         Of each closed surface: the next around it, or -1.
     free_inside : (C,) bool
@@ -136,8 +136,8 @@ class FreeSpace(Value):
         core: _core.FreeSpace | None = None,
     ) -> None:
         self.boundary = boundary
-        self.walls = walls_of(boundary)
-        self._core = core or _in_core(self.walls, component, parent, free_inside, turns, lift)
+        self.surfaces = bounding_surfaces(boundary)
+        self._core = core or _in_core(self.surfaces, component, parent, free_inside, turns, lift)
         surfaces = self._core.surfaces
         self.component, self.parent, self.turns, self.lift = (
             getattr(surfaces, name) for name in ("component", "parent", "turns", "lift")
@@ -159,8 +159,8 @@ class FreeSpace(Value):
 
     @property
     def complex(self) -> CellComplex:
-        """The closed surfaces, of `walls`."""
-        return self.walls.complex
+        """The complex of `surfaces`."""
+        return self.surfaces.complex
 
     @cached_property
     def cells(self) -> tuple[Cell, ...]:
@@ -168,28 +168,28 @@ class FreeSpace(Value):
         members: list[list[int]] = [[] for _ in range(count)]
         for k in np.lexsort((np.arange(len(self.parent)), ~self.free_inside)).tolist():
             members[self.cell_of[k]].append(k)
-        on_wall = np.zeros(len(self.parent), bool)
-        on_wall[self.component[self._on_wall]] = True
+        on_limits = np.zeros(len(self.parent), bool)
+        on_limits[self.component[self._on_limits]] = True
         ranges = self._theta_ranges()
         cells = []
         for k, of in enumerate(members):
             bounded = k != self.outside
             turns = int(np.gcd.reduce(self.turns[of])) if bounded else 1
             theta = ranges[of[0]] if bounded and turns == 0 else (0.0, math.tau)
-            cells.append(Cell(k, tuple(of), bounded, bounded and not on_wall[of].any(), turns, theta, self))
+            cells.append(Cell(k, tuple(of), bounded, bounded and not on_limits[of].any(), turns, theta, self))
         return tuple(cells)
 
     @property
-    def _on_wall(self) -> NDArray[np.bool_]:
+    def _on_limits(self) -> NDArray[np.bool_]:
         """(F,) whether a face belongs to bounds or workspace."""
-        b = self.walls
+        b = self.surfaces
         owner = b.features.obstacles.owner_polygon[b.contact_obstacle[b.trapezoids.patch]]
-        on_wall: NDArray[np.bool_] = (owner == BOUNDS) | (owner == WORKSPACE)
-        return on_wall
+        on_limits: NDArray[np.bool_] = (owner == BOUNDS) | (owner == WORKSPACE)
+        return on_limits
 
     def _theta_ranges(self) -> list[tuple[float, float]]:
         """Of each closed surface that does not go round in theta."""
-        table, component, turn = self.walls.trapezoids, self.component, math.tau * self.lift
+        table, component, turn = self.surfaces.trapezoids, self.component, math.tau * self.lift
         low, high = np.full(len(self.parent), np.inf), np.full(len(self.parent), -np.inf)
         np.minimum.at(low, component, table.theta_from + turn)
         np.maximum.at(high, component, table.theta_to + turn)
@@ -198,7 +198,7 @@ class FreeSpace(Value):
 
     @checked
     def faces(self, cell: int) -> Ints:
-        """Trapezoids of `walls` that bound a cell."""
+        """Trapezoids of `surfaces` that bound a cell."""
         return np.flatnonzero(self.cell_of[self.component] == range(len(self))[cell]).astype(np.int32)
 
     @cached_property
@@ -219,17 +219,17 @@ class FreeSpace(Value):
     @property
     def _signed_volumes(self) -> Floats:
         """(F,) parts of the volume inside each closed surface, negative where that is free."""
-        walls, table = self.walls, self.walls.trapezoids
-        middle = walls.evaluate_near(table.patch, np.full(len(table), 0.5), (table.theta_from + table.theta_to) / 2)
+        surfaces, table = self.surfaces, self.surfaces.trapezoids
+        middle = surfaces.evaluate_near(table.patch, np.full(len(table), 0.5), (table.theta_from + table.theta_to) / 2)
         sums = [np.bincount(self.component, values, len(self.parent)) for values in (*middle.T, np.ones(len(table)))]
         o = np.column_stack(sums[:2])[self.component] / sums[2][self.component, None]  # near by: little cancels
 
         def along_t(which: Ints, lower: Floats, upper: Floats, theta: Floats) -> Floats:
-            P, Q = (walls.evaluate_near(table.patch[which], t, theta) - o[which] for t in (lower, upper))
+            P, Q = (surfaces.evaluate_near(table.patch[which], t, theta) - o[which] for t in (lower, upper))
             area: Floats = (P[:, 0] * Q[:, 1] - P[:, 1] * Q[:, 0]) / 2
             return area
 
-        return trapezoid_integrals(walls, along_t)
+        return trapezoid_integrals(surfaces, along_t)
 
     @overload
     def locate(self, poses: OnePose, *, threads: int | None = None) -> int: ...
@@ -294,7 +294,7 @@ class FreeSpace(Value):
 
     @checked
     def nearby(self, pose: PoseLike) -> Nearby:
-        """The trapezoids of `walls` that hold a pose, and those that a ray from it crosses; exactly."""
+        """The trapezoids of `surfaces` that hold a pose, and those that a ray from it crosses; exactly."""
         pose = to_pose(pose, "pose")
         return Nearby(*self._core.nearby(*self._place(pose)))
 
@@ -385,7 +385,7 @@ def free_space(boundary: Boundary) -> FreeSpace:
 
     boundary.require_complete()
     try:
-        core = _core.free_space(walls_of(boundary).core_complex)
+        core = _core.free_space(bounding_surfaces(boundary).core_complex)
     except RuntimeError as error:
         raise InvariantError(str(error), state=boundary.scene) from error
     surfaces = core.surfaces
@@ -398,17 +398,17 @@ def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
 
     All of a surface is free: so any two poses on one are joined along it.
     """
-    if walls_of(boundary) is boundary:
+    if bounding_surfaces(boundary) is boundary:
         return None
     component, surfaces = boundary.complex.component, boundary.complex.components
     parent, all_free, turns = np.full(surfaces, -1, np.int32), np.ones(surfaces, bool), np.zeros(surfaces, np.int32)
     columns = component, parent, all_free, turns, np.zeros(len(component), np.int32)
     space = FreeSpace(boundary, *columns, _in_core(boundary, *columns))
-    space.walls = boundary
+    space.surfaces = boundary
     return space
 
 
-def walls_of(boundary: Boundary) -> Boundary:
+def bounding_surfaces(boundary: Boundary) -> Boundary:
     """The boundary of the interior of the free space."""
     return boundary.regularized if _may_have_slits(boundary) else boundary
 
@@ -433,9 +433,9 @@ def _line(p: tuple[int, int], q: tuple[int, int]) -> tuple[int, int, int]:
 
 
 def _in_core(
-    walls: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
+    boundary: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
 ) -> _core.FreeSpace:
     from cfree import _core
 
     surfaces = _core.Surfaces(component, parent, free_inside.view(np.uint8), turns, lift)
-    return _core.FreeSpace(walls.core, surfaces)
+    return _core.FreeSpace(boundary.core, surfaces)

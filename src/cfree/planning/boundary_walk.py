@@ -99,7 +99,7 @@ class Walker:
             raise InvariantError(f"no way from trapezoid {f.face} to {g.face}", state=tau)
         return way
 
-    def over_wall(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
+    def over_angle(self, f: Sheet, g: Sheet, h: int, tau: Fraction) -> tuple[Fraction, Sequence[Pose], Fraction]:
         """A way from beside one trapezoid at tau to beside the middle of the other, over a critical angle."""
         cells = self.space.complex
         at_end = [bool(cells.side[k] == LAST) for k in (h, int(cells.twin[h]))]
@@ -192,7 +192,7 @@ class Walker:
         if cells.side[h] in (LOWER, UPPER):
             end = common_tau(f, g)
             return end, self.over_curve(f, g, end, int(cells.side[h] == UPPER))[1:], end
-        return self.over_wall(f, g, h, tau)
+        return self.over_angle(f, g, h, tau)
 
 
 def _nearer(tau: Fraction, end: Fraction, halvings: int) -> Fraction:

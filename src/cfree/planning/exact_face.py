@@ -303,7 +303,7 @@ class Faces:
         self.space = space
 
     def sheet(self, face: int) -> Sheet:
-        return Sheet.of(self.space.walls, face, self.space.angle)
+        return Sheet.of(self.space.surfaces, face, self.space.angle)
 
     def cell_at(self, face: int) -> int:
         """The cell that a face bounds; at `FAR` the one that is unbounded."""

@@ -73,8 +73,8 @@ class Corridors:
     @cached_property
     def middles(self) -> Floats:
         """(H, 3) places x, y, theta in the middle of coedges."""
-        walls, cells = self.space.walls, self.space.complex
-        table = walls.trapezoids
+        surfaces, cells = self.space.surfaces, self.space.complex
+        table = surfaces.trapezoids
         start = np.arange(len(cells.face))
         stop = np.where(np.isin(start + 1, cells.first), cells.first[cells.face], start + 1)
         a, b = cells.vertex[start], cells.vertex[stop]
@@ -83,9 +83,9 @@ class Corridors:
         ends = [np.clip(_within_half_turn(cells.theta[v], (low + high) / 2), low, high) for v in (a, b)]
         theta = np.where(cells.side == 0, low, np.where(cells.side == LAST, high, (ends[0] + ends[1]) / 2))
         on_curve = np.flatnonzero((cells.side == LOWER) | (cells.side == UPPER))
-        lower, upper = walls.limits(cells.face[on_curve], theta[on_curve])
+        lower, upper = surfaces.limits(cells.face[on_curve], theta[on_curve])
         t = np.where(cells.side[on_curve] == LOWER, lower, upper)
-        xy[on_curve] = walls.evaluate(table.patch[cells.face[on_curve]], t, theta[on_curve])
+        xy[on_curve] = surfaces.evaluate(table.patch[cells.face[on_curve]], t, theta[on_curve])
         return np.column_stack((xy, theta))
 
     def shortest(

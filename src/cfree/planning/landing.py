@@ -100,7 +100,7 @@ class Landings:
         return self._links[cell]
 
     def _links_of(self, component: int, cell: int) -> Iterator[Link]:
-        table = self.space.walls.trapezoids
+        table = self.space.surfaces.trapezoids
         faces = np.flatnonzero(self.space.component == component)
         f = self.faces.sheet(int(faces[np.argmax((table.tau_to - table.tau_from)[faces])]))
         tau = between(f.low, f.high)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from cfree.planning.boundary_walk import Walker
 
 NEAR = 1e-9  # of the scene's size: what doubles do not tell apart
-MOST_TURNS = 256  # attempts at one, nearer and nearer to the wall
+MOST_TURNS = 256  # attempts at one, nearer and nearer to the critical angle
 HALVINGS = (4, 16, 64)  # of the way to the other end: how near to an irrational orientation a slide begins
 
 
@@ -202,7 +202,7 @@ class Places:
                     yield from self._slid(one, other)
 
     def turns(self) -> Iterator[list[Pose]]:
-        """Ways over walls along which cells or surfaces with slits touch: free turns near a place within the wall."""
+        """Ways over critical angles along which cells or surfaces with slits touch: free turns about a place within."""
         for walker in filter(None, (self.walker, self.slits)):
             cells = walker.space.complex
             for edge in cells.pinched.tolist():
@@ -265,7 +265,7 @@ class Tail:
 
 
 def _turn(walker: Walker, face: int, other: int, h: int, k: int) -> list[Pose] | None:
-    """From one face to another, over sides of theirs that are on one wall."""
+    """From one face to another, over sides of theirs that are one edge."""
     f, g = walker.faces.sheet(face), walker.faces.sheet(other)
     at_end = [bool(walker.space.complex.side[c] == LAST) for c in (h, k)]
     aims = [between(sheet.low, sheet.high) for sheet in (f, g)]
@@ -283,7 +283,7 @@ def _turn(walker: Walker, face: int, other: int, h: int, k: int) -> list[Pose] |
 
 def _corners(walker: Walker, face: int) -> tuple[Pose, ...]:
     """Of a face, at its first and last orientations as far as they are rational."""
-    sheet, walls = walker.faces.sheet(face), walker.space.walls
-    ends = (rational_critical_angle(walls, walls.trapezoids, face, last) for last in (False, True))
+    sheet, surfaces = walker.faces.sheet(face), walker.space.surfaces
+    ends = (rational_critical_angle(surfaces, surfaces.trapezoids, face, last) for last in (False, True))
     taus = [tau for tau in ends if tau is not None]
     return tuple(dict.fromkeys(sheet.pose(t, tau) for tau in taus for t in sheet.limits(tau)))

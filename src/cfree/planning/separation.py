@@ -262,7 +262,7 @@ def separation(
         return None
     scene = space.boundary.scene
     insets = insets or InsetSpaces(scene)
-    found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.walls, _between(space, *cells)))
+    found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.surfaces, _between(space, *cells)))
     found = replace(found, units=scene.units, scene=scene)
     for power in inset_powers(scene) if powers is None else powers:
         smaller = insets.at(power)
@@ -272,7 +272,7 @@ def separation(
         if min(there) < 0:
             raise InvariantError(f"poses in the cells {cells} are in {there} of a smaller robot")
         if there[0] != there[1]:
-            inner, pieces = smaller.boundary.scene, Pieces.of(smaller.walls, _between(smaller, *there))
+            inner, pieces = smaller.boundary.scene, Pieces.of(smaller.surfaces, _between(smaller, *there))
             return replace(found, of="closed", pieces=pieces, robot=inner.robot, bounds=inner.bounds)
     return found
 
