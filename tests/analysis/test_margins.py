@@ -70,7 +70,7 @@ def test_two_gates_one_after_the_other() -> None:
 
 def test_a_miss_that_is_too_small_to_see_and_one_that_nothing_mends() -> None:
     exact = separation(room(1), INSIDE, OUTSIDE)
-    assert exact is not None and exact.of == "closed"
+    assert exact is not None and exact.of == "interior"
     miss = nearest_miss(room(1).boundary.scene, INSIDE, OUTSIDE)
     assert miss is not None and miss.lo == 0 < miss.hi < 1e-40 and miss.bottlenecks == ()
     closed = scene_of(PlainScene([box(0, 0, 1, 1)], [hollow((-5, -5, 5, 5), (-4, -4, 4, 4))]))
