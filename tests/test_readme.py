@@ -74,8 +74,11 @@ def test_the_reference_lists_every_public_name() -> None:
 
 
 def test_pages_that_the_code_names_exist() -> None:
+    titles = {title for page in PAGES for title in re.findall(r"^#+ (.*)$", page.read_text(), re.M)}
     for folder in ("src", "cpp", "tests", "tools", "examples/gallery", "benchmarks"):
-        for file in (ROOT / folder).rglob("*.?p*"):
+        for file in (ROOT / folder).rglob("*"):
             if file.suffix in (".py", ".cpp", ".hpp"):
-                for name in re.findall(r"\bdocs/[\w/-]+\.md", file.read_text()):
+                text = file.read_text()
+                for name in re.findall(r"\bdocs/[\w/-]+\.md", text):
                     assert (ROOT / name).exists(), f"{file}: {name}"
+                assert {*re.findall(r"\btheory, \"([^\"]+)\"", text)} <= titles, file
