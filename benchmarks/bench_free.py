@@ -85,7 +85,7 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float
 
 
 def pieces_of(shape: ShapeFeatures) -> list[np.ndarray]:
-    pieces = zip(shape.pieces, shape.piece_layer, strict=True)
+    pieces = zip(shape.pieces, shape.core.piece_layer, strict=True)
     return [shape.xy[piece] for piece, layer in pieces if layer == BODY]
 
 

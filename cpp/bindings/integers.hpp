@@ -22,3 +22,9 @@ inline std::vector<nanobind::int_> integers(const cfree::Poly& p) {
     for (const cfree::Int& c : p) result.push_back(integer(c));
     return result;
 }
+// Points as a tuple of pairs.
+inline nanobind::tuple integers(const std::vector<cfree::Int>& x, const std::vector<cfree::Int>& y) {
+    nanobind::list points;
+    for (std::size_t k = 0; k < x.size(); ++k) points.append(nanobind::make_tuple(integer(x[k]), integer(y[k])));
+    return nanobind::tuple(points);
+}

@@ -4,6 +4,7 @@
 namespace nb = nanobind;
 
 void bind_scene(nb::module_& m);
+void bind_polygons(nb::module_& m);
 void bind_surface(nb::module_& m);
 void bind_predicates(nb::module_& m);
 void bind_polynomials(nb::module_& m);
@@ -17,6 +18,7 @@ void bind_search(nb::module_& m);
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
     bind_scene(m);
+    bind_polygons(m);
     bind_surface(m);
     bind_predicates(m);
     bind_polynomials(m);

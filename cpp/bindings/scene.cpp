@@ -3,6 +3,7 @@
 
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
 
 #include "arrays.hpp"
 #include "cfree/forbidden/columns.hpp"
@@ -54,14 +55,36 @@ static std::shared_ptr<const cfree::Scene> make_scene(const cfree::Shape& robot,
     return cfree::scene_around(std::move(scene), exact(robot_origin), exact(obstacle_origin), near_shift);
 }
 
+static Made<const std::int8_t> flags(const std::vector<char>& values) {
+    return {reinterpret_cast<const std::int8_t*>(values.data()), {values.size()}};
+}
+
 void bind_scene(nb::module_& m) {
-    nb::class_<cfree::Shape>(m, "Shape")
+    nb::class_<cfree::Shape> shape(m, "Shape");
+    shape
         .def("__init__", &make_shape, "coordinates"_a, "shift"_a, "scale"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a,
              "ring_vertices"_a, "previous"_a, "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a,
-             "piece_vertex"_a, "piece_edge"_a, "piece_layer"_a);
+             "piece_vertex"_a, "piece_edge"_a, "piece_layer"_a)
+        .def_prop_ro("vertices", [](const cfree::Shape& s) { return integers(s.X, s.Y); })
+        .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
+        .def_prop_ro("emit", [](const cfree::Shape& s) { return flags(s.emit); });
+    rows<2>(shape, "xy", &cfree::Shape::xy);
+    for (const auto& [name, member] : {std::pair{"point", &cfree::Shape::point}, {"v", &cfree::Shape::v}, {"w", &cfree::Shape::w},
+                                       {"line", &cfree::Shape::line}, {"direction", &cfree::Shape::direction},
+                                       {"previous", &cfree::Shape::previous}, {"layer", &cfree::Shape::layer},
+                                       {"vertex_rank", &cfree::Shape::vertex_rank}, {"edge_rank", &cfree::Shape::edge_rank},
+                                       {"piece", &cfree::Shape::piece}, {"piece_vertex", &cfree::Shape::piece_vertex},
+                                       {"piece_edge", &cfree::Shape::piece_edge}, {"piece_layer", &cfree::Shape::piece_layer}})
+        column(shape, name, member);
     nb::class_<cfree::Scene>(m, "Scene")
         .def(nb::new_(&make_scene), "robot"_a, "obstacles"_a, "scale"_a, "shift"_a, "is_bounded"_a, "robot_origin"_a,
              "obstacle_origin"_a, "near_shift"_a)
+        .def_ro("robot", &cfree::Scene::robot)
+        .def_ro("obstacles", &cfree::Scene::obstacles)
+        .def_prop_ro("near", &cfree::Scene::near, nb::rv_policy::reference_internal)
+        .def_prop_ro("scale", [](const cfree::Scene& s) { return integer(s.scale); })
+        .def_ro("shift", &cfree::Scene::shift)
+        .def_prop_ro("frame", [](const cfree::Scene& s) { return std::apply([](auto... c) { return std::tuple(c...); }, s.frame); })
         .def("named", [](const cfree::Scene& scene, const Column<std::uint64_t>& codes) {
             const cfree::Representatives names(scene);
             auto found = vector_of(codes);

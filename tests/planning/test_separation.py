@@ -29,7 +29,11 @@ from cfree import (
 from cfree.cli.app import app
 from cfree.formats.answer_file import load_answer
 from cfree.planning.separation import InsetSpaces
+from cfree.polygons.polygon import Polygon
 from compared import scene_of
+from reference_ears import clip_ears
+from reference_features import scene_features
+from reference_pieces import outline
 from shapes import KINDS, PlainScene, box, random_scene
 from spaces import INSIDE, OUTSIDE, ROD, TIGHT, hollow, room, space_of
 
@@ -178,6 +182,11 @@ def test_files_hold_separations_exactly(tmp_path: Path) -> None:
         save(proof, tmp_path / "proof.csv")
 
 
+def triangles_of(polygon: Polygon) -> list[tuple[int, int, int]]:
+    v, rings = polygon.numerators, outline(polygon)
+    return clip_ears(v, rings)[::-1]
+
+
 def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Angles may be named by diagonals; another version may draw others, and other programs none."""
     plain = random_scene(36, "axis_parallel")
@@ -189,7 +198,8 @@ def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkey
     assert isinstance(again, Separated) and again == proof
     bare = replace(again, pieces=replace(again.pieces, auxiliary=()))
     assert bare != proof and not cfree.verify.answer(space.boundary.scene, bare).verified
-    monkeypatch.setattr("cfree.polygons.convex_decomposition._merge", lambda v, rings, triangles: triangles[::-1])
+    monkeypatch.setattr(Polygon, "pieces", property(triangles_of))
+    monkeypatch.setattr("cfree.verify.world.scene_features", scene_features)
     assert cfree.verify.answer(scene_of(plain), load_answer(tmp_path / "proof.json")).verified
 
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 import strategies
 from cfree.exact.number import IntPoint
 from cfree.exact.orientation import Location, Orientation, locate, orient
-from cfree.polygons.convex_decomposition import _delaunay, _outline, convex_pieces, is_cover
 from cfree.polygons.polygon import Polygon
-from cfree.polygons.rings import doubled_area
+from reference_pieces import delaunay, is_cover, outline
+from reference_rings import doubled_area
 from shapes import Shape
 
 L_SHAPE = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
@@ -63,11 +63,11 @@ def grid_of_holes(count: int) -> Polygon:
 
 
 def test_an_l_shape_falls_into_two_pieces() -> None:
-    assert convex_pieces(L_SHAPE) == ((0, 1, 2, 3), (0, 3, 4, 5))
+    assert L_SHAPE.pieces == ((0, 1, 2, 3), (0, 3, 4, 5))
 
 
 def test_a_convex_polygon_is_one_piece() -> None:
-    assert convex_pieces(Polygon(SQUARE)) == ((0, 1, 2, 3),)
+    assert Polygon(SQUARE).pieces == ((0, 1, 2, 3),)
 
 
 def test_straight_vertices_of_pieces_are_left_out() -> None:
@@ -81,8 +81,8 @@ def test_a_square_ring_falls_into_four_pieces() -> None:
 
 
 def test_a_missing_or_doubled_triangle_is_no_cover() -> None:
-    v, rings = L_SHAPE.numerators, _outline(L_SHAPE)
-    triangles = _delaunay(v, rings)
+    v, rings = L_SHAPE.numerators, outline(L_SHAPE)
+    triangles = delaunay(v, rings)
     assert is_cover(v, rings, triangles)
     assert not is_cover(v, rings, triangles[1:])
     assert not is_cover(v, rings, [*triangles, triangles[0]])
@@ -147,8 +147,8 @@ def test_points_that_doubles_cannot_tell_apart_are_decomposed_exactly() -> None:
     for k in range(5, 0, -1):
         comb += [(1 + 2 * k * hair, 9), (1 + (2 * k - 1) * hair, 5)]
     polygon = Polygon([*comb, (0, 9)], [[(2, 1), (2 + hair, 1), (2, 1 + hair)]])
-    v, rings = polygon.numerators, _outline(polygon)
-    assert not is_cover(v, rings, _delaunay(v, rings))
+    v, rings = polygon.numerators, outline(polygon)
+    assert not is_cover(v, rings, delaunay(v, rings))
     check(polygon)
 
 

@@ -3,21 +3,21 @@ from __future__ import annotations
 from hypothesis import given
 
 import strategies
-from cfree.polygons.convex_decomposition import _outline, is_cover
-from cfree.polygons.ear_clipping import clip_ears
 from cfree.polygons.polygon import Polygon
+from reference_ears import clip_ears
+from reference_pieces import is_cover, outline
 from shapes import Shape
 
 
 def clips(polygon: Polygon) -> bool:
-    v, rings = polygon.numerators, _outline(polygon)
+    v, rings = polygon.numerators, outline(polygon)
     return is_cover(v, rings, clip_ears(v, rings))
 
 
 def test_a_hole_is_joined_and_cut_around() -> None:
     polygon = Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(3, 3), (6, 3), (6, 6), (3, 6)]])
     assert clips(polygon)
-    assert len(clip_ears(polygon.numerators, _outline(polygon))) == 8
+    assert len(clip_ears(polygon.numerators, outline(polygon))) == 8
 
 
 @given(strategies.polygons())

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cfree.exact.orientation import Location, Meeting, Orientation, locate, locate_in_sector, meet, orient
-from cfree.polygons.segment_sweep import EdgesMeet, Nesting, sweep
+from reference_sweep import EdgesMeet, Nesting, sweep
 
 Point = tuple[int, int]
 Shapes = list[list[Point]]

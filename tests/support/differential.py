@@ -13,7 +13,7 @@ from typing import Any
 
 from cfree import _core
 from cfree.exact.number import to_fraction
-from cfree.scene.features import LARGEST_BITS, SceneFeatures, ShapeFeatures, unpacked
+from cfree.scene.features import unpacked
 from hard_scenes import Rings
 from reference import (
     EDGE_EDGE,
@@ -29,6 +29,7 @@ from reference import (
     same_feature,
     sign_at,
 )
+from reference_features import LARGEST_BITS, SceneFeatures, ShapeFeatures
 
 Event = tuple[int, int, float, float, int]
 Sample = tuple[float, tuple[int, int] | None]

@@ -10,7 +10,6 @@ from typing import Literal, NamedTuple
 
 import fuzz
 from cfree import Polygon, Pose, is_free
-from cfree.polygons.convex_decomposition import convex_pieces
 from compared import scene_of
 from questions import Question, Verdict, carried
 from shapes import PlainScene, Shape, mirrored
@@ -77,7 +76,7 @@ def part_of(rng: random.Random, plain: PlainScene) -> list[Shape]:
         k = rng.randrange(len(plain.robot))
         return [*plain.robot[:k], *plain.robot[k + 1 :]]
     part = Polygon(*rng.choice(plain.robot))
-    piece = rng.choice(convex_pieces(part))
+    piece = rng.choice(part.pieces)
     return [([part.exact_vertices[k] for k in piece], [])]
 
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "cfree/exact/ratio.hpp"
+
 namespace cfree {
 
 void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift, const Int& scale) {
@@ -20,7 +22,7 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
     };
     convert(X, x, x_low), convert(Y, y, y_low);
     xy.clear();
-    for (std::size_t k = 0; k < X.size(); ++k) xy.push_back(ratio(X[k], scale)), xy.push_back(ratio(Y[k], scale));
+    for (std::size_t k = 0; k < X.size(); ++k) xy.push_back(nearest(X[k], scale)), xy.push_back(nearest(Y[k], scale));
 }
 
 std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,

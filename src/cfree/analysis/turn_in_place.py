@@ -19,7 +19,7 @@ from cfree.exact.angle_set import Arcs, Form, union_of_intersections, where_not_
 from cfree.exact.number import Number, common_denominator, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import Boundary
-from cfree.scene.features import BODY, Point, ShapeFeatures, box, scene_features
+from cfree.scene.features import BODY, Point, ShapeFeatures, scene_features
 from cfree.scene.scene import Scene
 
 
@@ -75,7 +75,7 @@ def turn_in_place(
     robot = _pieces(features.robot, unit, (ax, ay))
     reach = max(x * x + y * y for piece in robot for x, y in piece)
     for obstacle in _pieces(features.obstacles, unit, (x, y)):
-        x0, y0, x1, y1 = box(obstacle)
+        (x0, x1), (y0, y1) = ((min(axis), max(axis)) for axis in zip(*obstacle, strict=True))
         if max(x0, -x1, 0) ** 2 + max(y0, -y1, 0) ** 2 < reach:
             sets += [_apart(part, obstacle) for part in robot]
     free = union_of_intersections([sets])
@@ -89,7 +89,7 @@ def _pieces(shape: ShapeFeatures, unit: int, origin: Point) -> list[list[Point]]
     """Convex pieces in integers, seen from a point."""
     factor, (x, y) = unit // shape.scale, origin
     points = [(factor * p - x, factor * q - y) for p, q in shape.vertices]
-    layers = zip(shape.pieces, shape.piece_layer, strict=True)
+    layers = zip(shape.pieces, shape.core.piece_layer, strict=True)
     return [[points[v] for v in piece] for piece, layer in layers if layer == BODY]
 
 

@@ -93,11 +93,14 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
 
 def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
     """Numbers of contact patches before trimming: convex vertices times edges, both ways."""
-    robot, obstacles = features.robot.rings, features.obstacles.rings
-    body = [convex for convex, layer in zip(robot["convex"], robot["layer"], strict=True) if layer == BODY]
-    columns = zip(obstacles["convex"], obstacles["layer"], obstacles["emit"], strict=True)
-    met = [convex for convex, layer, emit in columns if layer == BODY and emit]
-    counts = {"v-e": sum(body) * len(met), "e-v": len(body) * sum(met), "bound": 4 if scene.bounds else 0}
+    robot, obstacles = features.robot.core, features.obstacles.core
+    body = robot.convex[robot.layer == BODY]
+    met = obstacles.convex[(obstacles.layer == BODY) & (obstacles.emit > 0)]
+    counts = {
+        "v-e": int(body.sum()) * len(met),
+        "e-v": len(body) * int(met.sum()),
+        "bound": 4 if scene.bounds else 0,
+    }
     return counts | {"total": sum(counts.values())}
 
 

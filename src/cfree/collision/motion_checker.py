@@ -90,7 +90,7 @@ class MotionChecker(Value):
     @property
     def units(self) -> tuple[int, int]:
         """The core's integers are coordinates times the first, its doubles those halved as often as the second says."""
-        return self.features.scale, self.features.robot.shift
+        return self.features.scale, self.features.core.shift
 
     @checked
     def is_free(self, pose: PoseLike, motion: Motion) -> bool:
@@ -235,14 +235,13 @@ def _crossing(polynomial: list[int]) -> Surd:
 
 
 def _polygon(shape: ShapeFeatures, piece: int) -> int:
-    if shape.piece_layer[piece] != BODY:
+    if shape.core.piece_layer[piece] != BODY:
         return BOUNDS if len(shape.pieces[piece]) > 1 else 0
     return int(shape.owner_polygon[shape.pieces[piece][0]])
 
 
 def _extent(shape: ShapeFeatures) -> tuple[Fraction, Fraction, Fraction, Fraction]:
     """The outer rim of the frame around the workspace, which is around everything."""
-    layer = shape.rings["layer"]
-    points = [p for p, of in zip(shape.vertices, layer, strict=False) if of == BODY]
+    points = [p for p, of in zip(shape.vertices, shape.core.layer, strict=False) if of == BODY]
     xs, ys = ([Fraction(c, shape.scale) for c in axis] for axis in zip(*points, strict=True))
     return min(xs), min(ys), max(xs), max(ys)

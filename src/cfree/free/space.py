@@ -420,7 +420,8 @@ def _may_have_slits(boundary: Boundary) -> bool:
         return False
     obstacles = boundary.features.obstacles
     on_bounds = obstacles.owner_polygon == BOUNDS
-    ends = [(obstacles.vertices[v], obstacles.vertices[w]) for v, w in obstacles.edges[: len(on_bounds)]]
+    v, w = (ends[: len(on_bounds)].tolist() for ends in (obstacles.v, obstacles.w))
+    ends = [(obstacles.vertices[p], obstacles.vertices[q]) for p, q in zip(v, w, strict=True)]
     lines = {_line(q, p) for (p, q), own in zip(ends, on_bounds, strict=True) if own}
     return any(_line(p, q) in lines for (p, q), own in zip(ends, on_bounds, strict=True) if not own)
 

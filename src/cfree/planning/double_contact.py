@@ -42,7 +42,7 @@ def same_line(features: SceneFeatures, contact: Contact) -> Iterator[Contact]:
     """A contact, and the contacts of other edges on its edge's line: a curve's name stands for all of them."""
     kind, i, j = contact
     shape, edge = (features.obstacles, j) if kind == 1 else (features.robot, i)
-    line = shape.core["line"]
+    line = shape.core.line
     for other in np.flatnonzero(line[: len(shape.previous)] == line[edge]).tolist():
         yield (kind, i, other) if kind == 1 else (kind, other, j)
 
@@ -55,7 +55,7 @@ def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
 
     robot, obstacle = feature(features.robot, i), feature(features.obstacles, j)
     together = (
-        features.robot.core["layer"][i] == features.obstacles.core["layer"][j]
+        features.robot.core.layer[i] == features.obstacles.core.layer[j]
     )  # only the reference point has bounds
     if not together or min(robot[1], obstacle[1]) < 0:
         return None

@@ -13,8 +13,6 @@ import shapely
 
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
-from cfree.polygons.rings import containers, doubled_area
-from cfree.polygons.segment_sweep import EdgesMeet, sweep
 
 FINER = 12  # bits of an inset that survive the rounding of its polygons
 
@@ -53,7 +51,7 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
                 smaller = Polygon(outer, holes)
             except ValueError:  # not simple, or too thin for the grid
                 continue
-            if _is_inside(smaller, polygon):
+            if smaller.core.is_inside(polygon.core):
                 found.append(smaller)
         if found:
             return found
@@ -76,20 +74,3 @@ def _mitred(polygon: Polygon, by: Fraction) -> list[list[ExactPoint]]:
     return [moved[i:j] for i, j in pairwise(polygon.ring_offsets)]
 
 
-def _is_inside(inner: Polygon, outer: Polygon) -> bool:
-    """Is all of a polygon, its boundary included, in the interior of another? Exact, and not the verifier's code."""
-    scale = math.lcm(inner.denominator, outer.denominator)
-    points, offsets = [], [0]
-    for polygon in (inner, outer):
-        factor = scale // polygon.denominator
-        points += [(x * factor, y * factor) for x, y in polygon.numerators]
-        offsets += [int(end) + offsets[-1] for end in polygon.ring_offsets[1:]]
-    count = len(inner.numerators)
-    nesting = sweep(points, offsets)
-    if isinstance(nesting, EdgesMeet) or nesting.touching or not set(points[:count]).isdisjoint(points[count:]):
-        return False
-    rings = [points[i:j] for i, j in pairwise(offsets)]
-    around = containers([*map(doubled_area, rings)], nesting, [r for r, ring in enumerate(rings) for _ in ring])
-    mine, its = 0, len(inner.ring_offsets) - 1  # outer rings
-    # holes of the outer polygon are outside the inner one, or in holes of it
-    return around[mine] == its and all(around[hole] != mine for hole in range(its + 1, len(rings)))

@@ -9,22 +9,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from shapely import Polygon as ShapelyPolygon
 from shapely.geometry.base import BaseGeometry
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, IntPoint, angle
-from cfree.exact.orientation import Orientation, orient
-from cfree.polygons.rings import Points, Removed, doubled_area, read_rings
+from cfree.polygons.rings import Points, Removed, read_rings, restored
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -41,16 +41,6 @@ class Polygon:
         In either direction; a last point equal to the first is dropped. Numbers as in `cfree.exact.number`.
     holes : sequence of the same
         Inside the outer ring, apart from it and from each other.
-
-    Attributes
-    ----------
-    numerators : tuple of pairs of int
-        Vertices of all rings; their exact coordinates are numerators / denominator.
-    denominator : int
-    ring_offsets : tuple of int
-        Ring r holds the vertices ring_offsets[r] to ring_offsets[r + 1] - 1.
-    removed : tuple of Removed
-        Repeated and collinear points of the input, exactly so.
 
     Raises
     ------
@@ -74,24 +64,13 @@ class Polygon:
     cfree.errors.InvalidPolygonError: outer ring: edges 0 and 2 cross at (6/5, 6/5); split it into simple ...
     """
 
-    numerators: tuple[IntPoint, ...]
-    denominator: int
-    ring_offsets: tuple[int, ...]
-    removed: tuple[Removed, ...]
+    core: _core.Polygon
 
     def __init__(self, outer: Points, holes: Sequence[Points] = ()) -> None:
-        rings = read_rings(outer, holes)
-        values = {
-            "numerators": rings.numerators,
-            "denominator": rings.denominator,
-            "ring_offsets": rings.offsets,
-            "removed": rings.removed,
-        }
-        for name, value in values.items():
-            object.__setattr__(self, name, value)
+        object.__setattr__(self, "core", read_rings(outer, holes))
 
     def __len__(self) -> int:
-        return len(self.numerators)
+        return len(self.core)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Polygon):
@@ -101,8 +80,8 @@ class Polygon:
     def __hash__(self) -> int:
         return hash(self._key)
 
-    def __getstate__(self) -> dict[str, object]:  # without what was computed
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+    def __reduce__(self) -> tuple[Any, ...]:  # without what was computed
+        return _restored, (self.numerators, self.denominator, self.ring_offsets, self.removed)
 
     def __repr__(self) -> str:
         holes = len(self.ring_offsets) - 2
@@ -115,9 +94,31 @@ class Polygon:
     # vertices and edges
 
     @cached_property
+    def numerators(self) -> tuple[IntPoint, ...]:
+        """Vertices of all rings: their exact coordinates are numerators / denominator."""
+        return self.core.numerators
+
+    @cached_property
+    def denominator(self) -> int:
+        """The least that makes all coordinates whole."""
+        return self.core.denominator
+
+    @cached_property
+    def ring_offsets(self) -> tuple[int, ...]:
+        """Ring r holds the vertices ring_offsets[r] to ring_offsets[r + 1] - 1."""
+        return tuple(self.core.ring_offsets)
+
+    @cached_property
+    def removed(self) -> tuple[Removed, ...]:
+        """Repeated and collinear points of the input, exactly so."""
+        return tuple(
+            Removed(ring, index, "repeated" if repeated else "collinear") for ring, index, repeated in self.core.removed
+        )
+
+    @cached_property
     def vertices(self) -> Floats:
         """Vertices rounded to the nearest doubles, (n, 2)."""
-        return _read_only(_rounded(self.numerators, self.denominator))
+        return self.core.vertices
 
     @property
     def rings(self) -> list[Floats]:
@@ -172,14 +173,12 @@ class Polygon:
     @cached_property
     def convex(self) -> NDArray[np.bool_]:
         """Is the interior angle below pi? Exact, (n,); False is a reflex vertex."""
-        v = self.numerators
-        around = zip(self.previous.tolist(), range(len(v)), self.next.tolist(), strict=True)
-        return _read_only(np.array([orient(v[h], v[i], v[k]) is Orientation.LEFT for h, i, k in around]))
+        return self.core.convex
 
     @property
     def is_convex(self) -> bool:
         """No hole and no reflex vertex."""
-        return len(self.ring_offsets) == 2 and bool(self.convex.all())
+        return self.core.is_convex
 
     @cached_property
     def interior_angles(self) -> Floats:
@@ -195,8 +194,9 @@ class Polygon:
     @cached_property
     def exact_area(self) -> Fraction:
         """Area, holes taken out."""
-        rings = (self.numerators[first:end] for first, end in pairwise(self.ring_offsets))
-        return Fraction(sum(map(doubled_area, rings)), 2 * self.denominator**2)
+        v = self.numerators
+        doubled = sum(x * v[k][1] - y * v[k][0] for (x, y), k in zip(v, self.next.tolist(), strict=True))
+        return Fraction(doubled, 2 * self.denominator**2)
 
     @property
     def area(self) -> float:
@@ -220,9 +220,7 @@ class Polygon:
     @cached_property
     def pieces(self) -> tuple[tuple[int, ...], ...]:
         """Convex pieces that cover the polygon, counter-clockwise, as indices of vertices."""
-        from cfree.polygons.convex_decomposition import convex_pieces
-
-        return convex_pieces(self)
+        return tuple(map(tuple, self.core.pieces))
 
     # other libraries
 
@@ -252,6 +250,13 @@ class Polygon:
             shapely.get_coordinates(geometry.exterior),
             [shapely.get_coordinates(ring) for ring in geometry.interiors],
         )
+
+
+def _restored(numerators: Any, denominator: int, ring_offsets: Sequence[int], removed: tuple[Removed, ...]) -> Polygon:
+    polygon = Polygon.__new__(Polygon)
+    object.__setattr__(polygon, "core", restored(numerators, denominator, ring_offsets))
+    vars(polygon)["removed"] = removed
+    return polygon
 
 
 def _rounded(numerators: Sequence[IntPoint], denominator: int) -> Floats:

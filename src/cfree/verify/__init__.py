@@ -1,6 +1,7 @@
 """An independent check of boundaries and answers: `cfree.verify.boundary`, `answer`, and ``cfree verify``.
 
-Nothing here calls the C++ core; every sign is one of Python's integers and fractions or of python-flint. The checks:
+The C++ core reads the scene, and nothing else here calls it; every sign is one of Python's integers and fractions or of
+python-flint. The checks:
 
 convex pieces, PROVED
     Those of robot and obstacles are convex and tile them.
@@ -21,7 +22,8 @@ nothing missing, SAMPLED
 
 "Not forbidden" says nothing of other angles, nor does "nothing missing". Curves are told apart by their equations,
 angles by irreducible polynomials, positions by elements of the angle's number field; 32-byte hashes stand for curves
-and lines when sides are gathered. Only `features` is believed: that it numbers features as the file does.
+and lines when sides are gathered. Only polygons and `features` are believed:
+that they hold the scene's numbers, and number features as the file does.
 
 Each file imports only from those before it: `algebra` (roots, numbers), `surfaces` (contacts, curves, lines),
 `polygons`, `world` (the scene), `section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`,

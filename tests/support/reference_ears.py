@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from cfree.errors import InvariantError
 from cfree.exact.number import IntPoint
 from cfree.exact.orientation import Location, Meeting, Orientation, locate_in_sector, meet, orient
-from cfree.polygons.rings import doubled_area
+from reference_rings import doubled_area
 
 
 def clip_ears(v: Sequence[IntPoint], rings: Sequence[Sequence[int]]) -> list[tuple[int, int, int]]:

@@ -1,8 +1,9 @@
-"""Convex pieces of a polygon, with its own vertices only.
+"""The core's convex pieces of a polygon, by other means.
 
-1. Triangulate: constrained Delaunay in doubles, which may be wrong; its cover is then checked exactly.
+1. Triangulate: constrained Delaunay in doubles, by GEOS, which may be wrong; its cover is then checked exactly.
 2. If the check fails (points closer than doubles can tell), clip ears exactly: O(n^2), rarely needed.
-3. Remove diagonals while both sides stay convex (Hertel and Mehlhorn: at most 4 times the least number).
+3. Flip edges until the triangles are the constrained Delaunay ones that the core has, whatever was there before.
+4. Remove diagonals while both sides stay convex (Hertel and Mehlhorn: at most 4 times the least number).
 
 A piece may run along several true edges and diagonals that lie on one line; their common vertices are not
 listed. Vertices of different rings that coincide are known by the least of their indices.
@@ -12,16 +13,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import chain
-from typing import TYPE_CHECKING
 
 from cfree.errors import InvariantError
 from cfree.exact.number import IntPoint
 from cfree.exact.orientation import Orientation, orient
-from cfree.polygons.ear_clipping import clip_ears
-from cfree.polygons.segment_sweep import Nesting, sweep
-
-if TYPE_CHECKING:
-    from cfree.polygons.polygon import Polygon
+from cfree.polygons.polygon import Polygon
+from reference_ears import clip_ears
+from reference_sweep import Nesting, sweep
 
 Ring = list[int]
 Triangle = tuple[int, int, int]
@@ -38,22 +36,16 @@ def convex_pieces(polygon: Polygon) -> tuple[tuple[int, ...], ...]:
     -------
     tuple of tuple of int
         Vertices of each piece, counter-clockwise, strictly convex, least index first; the pieces are sorted.
-
-    Examples
-    --------
-    >>> from cfree.polygons.polygon import Polygon
-    >>> convex_pieces(Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]))
-    ((0, 1, 2, 3), (0, 3, 4, 5))
     """
     if polygon.is_convex:
         return (tuple(range(len(polygon))),)
-    v, rings = polygon.numerators, _outline(polygon)
-    triangles = _delaunay(v, rings)
+    v, rings = polygon.numerators, outline(polygon)
+    triangles = delaunay(v, rings)
     if not is_cover(v, rings, triangles):
         triangles = clip_ears(v, rings)
         if not is_cover(v, rings, triangles):
             raise InvariantError("ears do not cover their polygon", state=(v, rings, triangles))
-    return tuple(sorted(_merge(v, rings, triangles)))
+    return tuple(sorted(_merge(v, rings, flipped(v, rings, triangles))))
 
 
 def is_cover(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Iterable[Triangle]) -> bool:
@@ -74,7 +66,7 @@ def is_cover(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Iterable[T
     )
 
 
-def _outline(polygon: Polygon) -> list[Ring]:
+def outline(polygon: Polygon) -> list[Ring]:
     """Rings of vertices, in which points of other rings that touch an edge are vertices too."""
     v, following = polygon.numerators, polygon.next.tolist()
     touching: dict[int, list[int]] = {}
@@ -99,7 +91,7 @@ def _edges(rings: Iterable[Ring]) -> list[tuple[int, int]]:
     return [edge for ring in rings for edge in zip(ring, (*ring[1:], ring[0]), strict=True)]
 
 
-def _delaunay(v: Sequence[IntPoint], rings: Sequence[Ring]) -> list[Triangle]:
+def delaunay(v: Sequence[IntPoint], rings: Sequence[Ring]) -> list[Triangle]:
     """Triangles by floating-point arithmetic, in a frame that the polygon fills; none if that breaks down."""
     import shapely
 
@@ -121,6 +113,31 @@ def _delaunay(v: Sequence[IntPoint], rings: Sequence[Ring]) -> list[Triangle]:
     return [(a, b, c) if orient(v[a], v[b], v[c]) is Orientation.LEFT else (a, c, b) for a, b, c in triangles]
 
 
+def flipped(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Triangle]) -> list[Triangle]:
+    """The constrained Delaunay triangulation of the box's frame; on circles of many points, fans from the least."""
+    xs, ys = zip(*(v[k] for ring in rings for k in ring), strict=True)
+    width, height = max(xs) - min(xs), max(ys) - min(ys)
+
+    def inside(a: int, b: int, c: int, d: int) -> int:
+        rows = [(v[k][0] - v[d][0], v[k][1] - v[d][1]) for k in (a, b, c)]
+        (ax, ay, al), (bx, by, bl), (cx, cy, cl) = ((x, y, (x * height) ** 2 + (y * width) ** 2) for x, y in rows)
+        return al * (bx * cy - by * cx) + bl * (cx * ay - cy * ax) + cl * (ax * by - ay * bx)
+
+    opposite = {edge: c for a, b, c in triangles for edge, c in (((a, b), c), ((b, c), a), ((c, a), b))}
+    stack = [(a, b) for a, b in opposite if a < b]
+    while stack:
+        a, b = stack.pop()
+        if (a, b) not in opposite or (b, a) not in opposite:
+            continue
+        c, d = opposite[a, b], opposite[b, a]
+        side = inside(a, b, c, d)
+        if side > 0 or (side == 0 and min(c, d) < min(a, b)):
+            del opposite[a, b], opposite[b, a]
+            opposite |= {(a, d): c, (d, c): a, (c, a): d, (d, b): c, (b, c): d, (c, d): b}
+            stack += [(a, d), (d, b), (b, c), (c, a)]
+    return sorted({min((a, b, c), (b, c, a), (c, a, b)) for (a, b), c in opposite.items()})
+
+
 def _merge(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Triangle]) -> list[tuple[int, ...]]:
     """Faces left after removing diagonals while both their ends stay convex."""
     # half-edge 3k + m runs from corner m of triangle k to its next corner
@@ -135,7 +152,7 @@ def _merge(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Tri
         before, after = origin[preceding[h]], origin[following[following[back]]]
         return orient(v[before], v[origin[h]], v[after]) is not Orientation.RIGHT
 
-    for a, b in _least_useful_first(v, rings, [(a, b) for a, b in half_edge if a < b and (b, a) in half_edge]):
+    for a, b in _least_useful_first(v, rings, sorted(e for e in half_edge if e[0] < e[1] and e[::-1] in half_edge)):
         h, back = half_edge[a, b], half_edge[b, a]
         if is_convex_without(h, back) and is_convex_without(back, h):
             for one, other in ((h, back), (back, h)):
@@ -157,7 +174,7 @@ def _merge(v: Sequence[IntPoint], rings: Sequence[Ring], triangles: Sequence[Tri
 def _least_useful_first(
     v: Sequence[IntPoint], rings: Sequence[Ring], diagonals: list[tuple[int, int]]
 ) -> list[tuple[int, int]]:
-    """Diagonals by the number of reflex vertices each of them would cure alone, longer ones first."""
+    """Diagonals by the number of reflex vertices each of them would cure alone, longer ones first, then by numbers."""
     neighbours = {b: (a, c) for ring in rings for a, b, c in _around(ring)}
 
     def cures(a: int, b: int) -> bool:

@@ -1,4 +1,4 @@
-"""One exact sweep over the edges of rings: do any cross, where do rings touch, and which ring lies in which?
+"""The core's sweep over the edges of rings: do any cross, where do rings touch, and which ring lies in which?
 
 Shamos and Hoey's sweep from left to right (the vertical line leans, so that points are met in the order of
 their pairs of coordinates). It keeps the edges it cuts in their order from below to above; edges that cross
@@ -105,7 +105,7 @@ def sweep(points: Sequence[IntPoint], offsets: Sequence[int]) -> EdgesMeet | Nes
             raise InvariantError("the sweep lost an edge", state=(point, incident))
         leaving = _from_below(point, [e for e in incident if start[e] == point] + passing, end)
         active[place:beyond] = leaving
-        for above in {place, place + len(leaving)}:
+        for above in dict.fromkeys((place, place + len(leaving))):
             if 0 < above < len(active) and may_not_meet(active[above - 1], active[above]):
                 return EdgesMeet((min(active[above - 1 : above + 1]), max(active[above - 1 : above + 1])))
         for m, e in enumerate(leaving, place):

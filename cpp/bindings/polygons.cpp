@@ -1,0 +1,183 @@
+// Polygons and scenes from Python's numbers: what needs no second look is read here, all else is left to Python.
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "arrays.hpp"
+#include "cfree/scene/coordinate_range.hpp"
+#include "integers.hpp"
+
+using namespace nb::literals;
+using cfree::Index;
+using cfree::Int;
+using cfree::Polygon;
+using cfree::Ratio;
+
+namespace {
+
+// Rounded to doubles it would be infinite, or may be.
+bool is_huge(const Ratio& value) {
+    return !value.n.is_zero() && static_cast<int>(msb(abs(value.n))) - static_cast<int>(msb(value.d)) >= 1023;
+}
+
+// Numbers of the kinds that are common; false for others, and for what is none.
+class Numbers {
+public:
+    bool read(PyObject* from, Ratio& to) const {
+        if (PyFloat_Check(from)) {
+            const double value = PyFloat_AsDouble(from);
+            if (!std::isfinite(value)) return false;
+            to = cfree::ratio_of(value);
+            return true;
+        }
+        const auto* type = reinterpret_cast<PyObject*>(Py_TYPE(from));
+        if (type == reinterpret_cast<PyObject*>(&PyLong_Type)) {
+            to = {integer(nb::borrow<nb::int_>(from)), 1};
+            return !is_huge(to);
+        }
+        if (type == reinterpret_cast<PyObject*>(&PyUnicode_Type)) return read_text(from, to);
+        if (type == decimal.ptr()) return read_text(nb::steal(PyObject_Str(from)).ptr(), to);
+        if (type != fraction.ptr()) return false;
+        const auto pair = nb::cast<nb::tuple>(nb::borrow(from).attr("as_integer_ratio")());
+        to = {integer(nb::cast<nb::int_>(pair[0])), integer(nb::cast<nb::int_>(pair[1]))};
+        return !is_huge(to);
+    }
+
+private:
+    nb::object fraction = nb::module_::import_("fractions").attr("Fraction");
+    nb::object decimal = nb::module_::import_("decimal").attr("Decimal");
+
+    static bool read_text(PyObject* text, Ratio& to) {
+        Py_ssize_t size = 0;
+        const char* data = text ? PyUnicode_AsUTF8AndSize(text, &size) : nullptr;
+        if (!data) return PyErr_Clear(), false;
+        const auto found = cfree::ratio_of(std::string_view(data, static_cast<std::size_t>(size)));
+        if (found) to = *found;
+        return found && !is_huge(to);
+    }
+};
+
+const Numbers& numbers() {
+    static const auto* kept = new Numbers;  // types live as long as Python
+    return *kept;
+}
+
+// Elements of a list or a tuple; nothing of others.
+class Elements {
+public:
+    explicit Elements(PyObject* of) : sequence(of), is_list(PyList_CheckExact(of)), is_tuple(PyTuple_CheckExact(of)) {}
+    explicit operator bool() const { return is_list || is_tuple; }
+    Py_ssize_t size() const { return is_list ? PyList_Size(sequence) : PyTuple_Size(sequence); }
+    PyObject* operator[](Py_ssize_t k) const { return is_list ? PyList_GetItem(sequence, k) : PyTuple_GetItem(sequence, k); }
+
+private:
+    PyObject* sequence;
+    bool is_list, is_tuple;
+};
+
+bool read_ring(PyObject* from, cfree::RatioRing& to) {
+    const Elements rows(from);
+    if (!rows) return false;
+    const Py_ssize_t n = rows.size();
+    to.resize(static_cast<std::size_t>(n));
+    for (Py_ssize_t k = 0; k < n; ++k) {
+        const Elements row(rows[k]);
+        auto& point = to[static_cast<std::size_t>(k)];
+        if (!row || row.size() != 2 || !numbers().read(row[0], point.x) || !numbers().read(row[1], point.y)) return false;
+    }
+    return true;
+}
+
+std::shared_ptr<Polygon> polygon_of(nb::handle rings) {
+    const Elements items(rings.ptr());
+    if (!items) return nullptr;
+    std::vector<cfree::RatioRing> read(static_cast<std::size_t>(items.size()));
+    for (Py_ssize_t r = 0; r < items.size(); ++r)
+        if (!read_ring(items[r], read[static_cast<std::size_t>(r)])) return nullptr;
+    return read.empty() ? nullptr : std::make_shared<Polygon>(std::move(read));
+}
+
+cfree::SceneShapes shapes_of(std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
+                             std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
+    cfree::SceneShapes shapes{{robot.begin(), robot.end()}, {obstacles.begin(), obstacles.end()}, std::move(workspace), {}};
+    if (!bounds) return shapes;
+    shapes.bounds.emplace();
+    for (std::size_t k = 0; k < 4; ++k)
+        if (!numbers().read((*bounds)[k].ptr(), (*shapes.bounds)[k])) {
+            // beyond all doubles, and so of the range
+            const auto pair = nb::cast<nb::tuple>((*bounds)[k].attr("as_integer_ratio")());
+            (*shapes.bounds)[k] = {integer(nb::cast<nb::int_>(pair[0])), integer(nb::cast<nb::int_>(pair[1]))};
+        }
+    return shapes;
+}
+
+}  // namespace
+
+void bind_polygons(nb::module_& m) {
+    nb::register_exception_translator([](const std::exception_ptr& p, void*) {
+        try {
+            std::rethrow_exception(p);
+        } catch (const cfree::InvalidPolygon& error) {
+            const nb::object type = nb::module_::import_("cfree.errors").attr("InvalidPolygonError");
+            nb::list edges;
+            for (const Index e : error.edges) edges.append(e);
+            const nb::object ring = error.ring < 0 ? nb::none() : nb::object(nb::int_(error.ring));
+            PyErr_SetObject(type.ptr(), type(error.what(), "ring"_a = ring, "edges"_a = nb::tuple(edges)).ptr());
+        }
+    });
+    nb::class_<Polygon>(m, "Polygon")
+        .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: object) -> Polygon | None"))
+        .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); })
+        .def_prop_ro("denominator", [](const Polygon& p) { return integer(p.denominator); })
+        .def_prop_ro("ring_offsets", [](const Polygon& p) { return p.offsets; })
+        .def_prop_ro("removed", [](const Polygon& p) {
+            nb::list removed;
+            for (const auto& r : p.removed) removed.append(nb::make_tuple(r.ring, r.index, r.repeated));
+            return removed;
+        })
+        .def_prop_ro("vertices", [](const Polygon& p) {
+            std::vector<double> xy;
+            for (Index k = 0; k < p.vertices.size(); ++k)
+                for (const Int* c : {&p.vertices.X[k], &p.vertices.Y[k]}) xy.push_back(cfree::nearest(*c, p.denominator));
+            auto* kept = new std::vector<double>(std::move(xy));
+            nb::capsule owner(kept, [](void* q) noexcept { delete static_cast<std::vector<double>*>(q); });
+            return Made<const double, 2>(kept->data(), {kept->size() / 2, 2}, owner);
+        }, nb::rv_policy::automatic)
+        .def_prop_ro("convex", [](const Polygon& p) {
+            return Made<const bool>(reinterpret_cast<const bool*>(p.convex.data()), {p.convex.size()});
+        })
+        .def_prop_ro("is_convex", &Polygon::is_convex)
+        .def_prop_ro("pieces", &Polygon::pieces)
+        .def("is_inside", &cfree::is_inside, "outer"_a)
+        .def("__len__", [](const Polygon& p) { return p.vertices.size(); });
+    nb::class_<cfree::Owners> owners(m, "Owners");
+    column(owners, "polygon", &cfree::Owners::polygon);
+    column(owners, "vertex", &cfree::Owners::vertex);
+    nb::class_<cfree::SceneFeatures>(m, "SceneFeatures")
+        .def("__init__", [](cfree::SceneFeatures* f, std::vector<std::shared_ptr<Polygon>> robot,
+                            std::vector<std::shared_ptr<Polygon>> obstacles, std::shared_ptr<Polygon> workspace,
+                            std::optional<std::array<nb::object, 4>> bounds) {
+            new (f) cfree::SceneFeatures(
+                cfree::scene_features(shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds))));
+        }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(),
+             nb::sig("def __init__(self, robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
+                     "bounds: Sequence[fractions.Fraction] | None) -> None"))
+        .def_ro("scene", &cfree::SceneFeatures::scene)
+        .def_ro("robot", &cfree::SceneFeatures::robot)
+        .def_ro("obstacles", &cfree::SceneFeatures::obstacles)
+        .def_prop_ro("rim", [](const cfree::SceneFeatures& f) {
+            using Box = std::optional<std::tuple<double, double, double, double>>;
+            return f.rim ? std::apply([](auto... c) { return Box({c...}); }, *f.rim) : Box();
+        });
+    m.def("range_fault", [](std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
+                            std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
+        const auto fault = cfree::range_fault(shapes_of(std::move(robot), std::move(obstacles), std::move(workspace), std::move(bounds)));
+        using Answer = std::optional<std::tuple<std::string, Index, std::string>>;
+        return fault ? Answer({fault->kind, fault->index, fault->message}) : Answer();
+    }, "robot"_a, "obstacles"_a, "workspace"_a.none(), "bounds"_a.none(),
+       nb::sig("def range_fault(robot: Sequence[Polygon], obstacles: Sequence[Polygon], workspace: Polygon | None, "
+               "bounds: Sequence[fractions.Fraction] | None) -> tuple[str, int, str] | None"));
+}

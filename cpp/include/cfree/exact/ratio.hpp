@@ -1,0 +1,31 @@
+// Rationals as they come in and go out: read from decimals, "p/q" and doubles, rounded to the nearest double.
+#pragma once
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "cfree/exact/number.hpp"
+
+namespace cfree {
+
+// In lowest terms, d > 0.
+struct Ratio {
+    Int n = 0, d = 1;
+    friend bool operator==(const Ratio&, const Ratio&) = default;
+};
+
+inline constexpr int most_digits = 4000;  // longer numbers are refused: no coordinate needs them
+
+// Of a text like "0.1", "-2e3" or "1/3", in ASCII; nothing if it is none, divides by zero, or is too long.
+std::optional<Ratio> ratio_of(std::string_view text);
+Ratio ratio_of(double value);  // finite
+Ratio reduced(Int n, Int d);   // d is not zero
+
+double nearest(const Int& n, const Int& d);  // n / d rounded once, to even; d > 0, the quotient below 2^1023
+
+// "-1/3", "2".
+std::string text_of(const Ratio& value);
+// The shortest decimal that reads back as this double, as Python writes it: "0.1", "1e-05", "2.0".
+std::string text_of(double value);
+
+}  // namespace cfree

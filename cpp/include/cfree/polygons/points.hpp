@@ -1,0 +1,49 @@
+// Points with exact integer coordinates, and the signs that polygons are checked and cut by.
+//
+// Coordinates of at most 62 bits, which nearly all are, are compared in machine integers; longer ones in doubles with a
+// proven bound first, then exactly.
+#pragma once
+#include <vector>
+
+#include "cfree/exact/number.hpp"
+
+namespace cfree {
+
+class Points {
+public:
+    std::vector<Int> X, Y;
+
+    Points() = default;
+    Points(std::vector<Int> exact_x, std::vector<Int> exact_y);
+    Index size() const { return static_cast<Index>(X.size()); }
+    Points chosen(const std::vector<Index>& which) const;
+
+    int compare(Index p, Index q) const;  // by x, then by y: -1, 0 or 1
+    bool before(Index p, Index q) const { return compare(p, q) < 0; }
+    bool same(Index p, Index q) const { return compare(p, q) == 0; }
+
+    int turn(Index p, Index q, Index r, Index s) const;  // sign of (q - p) x (s - r): 1 if rs turns left of pq
+    int orient(Index p, Index q, Index r) const { return turn(p, q, p, r); }  // 1 if r is left of pq, 0 if on its line
+    int along(Index p, Index q, Index r, Index s) const;  // sign of (q - p) . (s - r)
+    bool is_upper(Index p, Index q) const;                // is the angle of q - p in [0, pi)?
+
+    bool are_small() const { return !x.empty() || X.empty(); }
+    std::int64_t small_x(Index k) const { return x[k]; }
+    std::int64_t small_y(Index k) const { return y[k]; }
+
+private:
+    std::vector<std::int64_t> x, y;     // if all have at most 62 bits
+    std::vector<double> about_x, about_y;  // else: times a power of two, rounded
+    template <bool is_dot>
+    int sign(Index p, Index q, Index r, Index s) const;
+};
+
+enum class Meeting { apart, cross, touch, overlap };
+Meeting meet(const Points& v, Index p, Index q, Index r, Index s);  // what the segments pq and rs have in common
+
+// Where a direction lies in the sector swept counter-clockwise from `start` to `end`, all of them from the point o towards
+// points. Two equal directions bound the whole turn, slit along them.
+enum class Location { inside, boundary, outside };
+Location locate_in_sector(const Points& v, Index o, Index towards, Index start, Index end);
+
+}  // namespace cfree

@@ -1,0 +1,44 @@
+// The scene as the rest of the core takes it, made from polygons: integer coordinates, and an identity for every feature.
+//
+// Coordinates are multiplied by one common denominator. Coincident vertices get one point, directed edges on one line with
+// one direction one line, parallel edges one direction: equality of features is settled here, exactly, once. The core then
+// names curves and critical angles by these, and most ties need no arithmetic.
+//
+// Two layers meet only themselves: the robot's polygons with the obstacles (and the complement of the workspace), and the
+// robot's reference point, as a shape of its own, with the complement of the bounds.
+#pragma once
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cfree/polygons/polygon.hpp"
+#include "cfree/scene/scene.hpp"
+
+namespace cfree {
+
+// What a scene is made of.
+struct SceneShapes {
+    std::vector<std::shared_ptr<const Polygon>> robot, obstacles;
+    std::shared_ptr<const Polygon> workspace;         // or none: the whole robot stays in it
+    std::optional<std::array<Ratio, 4>> bounds;       // xmin, ymin, xmax, ymax: the reference point stays in them
+};
+
+inline constexpr Index body_layer = 0, reference_layer = 1;
+inline constexpr Index bounds_owner = -1, workspace_owner = -2;  // in place of polygons of the user's robot or obstacles
+
+// Whose the vertices of a shape's rings are.
+struct Owners {
+    std::vector<Index> polygon, vertex;
+};
+
+struct SceneFeatures {
+    std::shared_ptr<const Scene> scene;
+    Owners robot, obstacles;
+    std::optional<std::array<double, 4>> rim;  // around all patches, if bounds or a workspace are given
+};
+SceneFeatures scene_features(const SceneShapes& shapes);
+
+Int floor_divide(const Int& n, const Int& d);  // d > 0
+
+}  // namespace cfree

@@ -1,0 +1,157 @@
+#include "cfree/exact/ratio.hpp"
+
+#include <array>
+#include <charconv>
+#include <numeric>
+
+namespace cfree {
+
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
+
+void strip(std::string_view& text) {
+    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
+}
+
+bool take_sign(std::string_view& text) {
+    const bool minus = !text.empty() && text.front() == '-';
+    if (minus || (!text.empty() && text.front() == '+')) text.remove_prefix(1);
+    return minus;
+}
+
+std::string_view take_digits(std::string_view& text) {
+    std::size_t n = 0;
+    while (n < text.size() && is_digit(text[n])) ++n;
+    const auto digits = text.substr(0, n);
+    text.remove_prefix(n);
+    return digits;
+}
+
+// Appends digits to a number.
+void append(Int& n, std::string_view digits) {
+    while (!digits.empty()) {
+        const auto block = digits.substr(0, 18);
+        std::int64_t value = 0, unit = 1;
+        for (const char c : block) value = 10 * value + (c - '0'), unit *= 10;
+        if (n.is_zero()) n = value;
+        else n = n * unit + value;
+        digits.remove_prefix(block.size());
+    }
+}
+
+Int power(int base, int exponent) {
+    static const auto small = [] {
+        std::array<Int, 19> powers{1};
+        for (std::size_t k = 1; k < powers.size(); ++k) powers[k] = powers[k - 1] * 10;
+        return powers;
+    }();
+    if (base == 10 && exponent < 19) return small[static_cast<std::size_t>(exponent)];
+    return boost::multiprecision::pow(Int(base), static_cast<unsigned>(exponent));
+}
+
+std::optional<Int> whole(std::string_view text) {
+    strip(text);
+    const bool minus = take_sign(text);
+    const auto digits = take_digits(text);
+    if (digits.empty() || !text.empty()) return {};
+    Int n = 0;
+    append(n, digits);
+    return minus ? Int(-n) : n;
+}
+
+std::optional<Ratio> decimal(std::string_view text) {
+    strip(text);
+    const bool minus = take_sign(text);
+    const auto units = take_digits(text);
+    std::string_view decimals;
+    if (!text.empty() && text.front() == '.') {
+        text.remove_prefix(1);
+        decimals = take_digits(text);
+    }
+    if (units.empty() && decimals.empty()) return {};
+    int exponent = 0;
+    if (!text.empty() && (text.front() == 'e' || text.front() == 'E')) {
+        text.remove_prefix(1);
+        const bool down = take_sign(text);
+        const auto digits = take_digits(text);
+        if (digits.empty() || digits.size() > 5) return {};
+        for (const char c : digits) exponent = 10 * exponent + (c - '0');
+        if (down) exponent = -exponent;
+    }
+    if (!text.empty()) return {};
+    exponent -= static_cast<int>(decimals.size());
+    if (static_cast<int>(units.size() + decimals.size()) + std::abs(exponent) > most_digits) return {};
+    Int n = 0;
+    append(n, units), append(n, decimals);
+    if (minus) n = -n;
+    return exponent < 0 ? reduced(std::move(n), power(10, -exponent)) : Ratio{n * power(10, exponent), 1};
+}
+
+}  // namespace
+
+std::optional<Ratio> ratio_of(std::string_view text) {
+    if (text.size() > most_digits) return {};
+    const auto stroke = text.find('/');
+    if (stroke == std::string_view::npos) return decimal(text);
+    const auto n = whole(text.substr(0, stroke)), d = whole(text.substr(stroke + 1));
+    if (!n || !d || d->is_zero()) return {};
+    return reduced(*n, *d);
+}
+
+Ratio ratio_of(double value) {
+    int exponent;
+    auto n = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
+    if (n == 0) return {};
+    exponent -= 53;
+    const int zeros = std::countr_zero(static_cast<std::uint64_t>(n));
+    n /= std::int64_t{1} << zeros, exponent += zeros;
+    return exponent < 0 ? Ratio{n, Int(1) << static_cast<unsigned>(-exponent)}
+                        : Ratio{Int(n) << static_cast<unsigned>(exponent), 1};
+}
+
+Ratio reduced(Int n, Int d) {
+    if (d.sign() < 0) n = -n, d = -d;
+    const Int divisor = gcd(n, d);
+    if (divisor != 1) n /= divisor, d /= divisor;
+    return {std::move(n), std::move(d)};
+}
+
+double nearest(const Int& n, const Int& d) {
+    if (n.is_zero()) return 0;
+    const Int p = abs(n);
+    const int bits_p = static_cast<int>(msb(p)), bits_d = static_cast<int>(msb(d));
+    if (bits_p < 53 && bits_d < 53) return static_cast<double>(static_cast<std::int64_t>(n)) / static_cast<double>(static_cast<std::int64_t>(d));
+    // p / d = (q + rest) 2^low with a bit or more beyond the last of the double, 0 <= rest < 1
+    const int low = std::max(bits_p - bits_d - 56, -1076);
+    const Int scaled = low < 0 ? Int(p << static_cast<unsigned>(-low)) : p;
+    const Int unit = low > 0 ? Int(d << static_cast<unsigned>(low)) : d;
+    Int q_wide, rest;
+    divide_qr(scaled, unit, q_wide, rest);
+    auto q = static_cast<std::uint64_t>(q_wide);
+    const int drop = std::max(static_cast<int>(std::bit_width(q)) - 53, -1074 - low);
+    const std::uint64_t half = std::uint64_t{1} << (drop - 1), beyond = q & (2 * half - 1);
+    q >>= drop;
+    if (beyond > half || (beyond == half && (!rest.is_zero() || (q & 1)))) ++q;
+    return n.sign() * std::ldexp(static_cast<double>(q), low + drop);
+}
+
+std::string text_of(const Ratio& value) {
+    return value.d == 1 ? value.n.str() : value.n.str() + "/" + value.d.str();
+}
+
+std::string text_of(double value) {
+    std::array<char, 32> text;
+    const auto shortest = [&](std::chars_format format) {
+        const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value, format);
+        return std::string(text.data(), end);
+    };
+    const double size = std::abs(value);
+    if (size != 0 && (size < 1e-4 || size >= 1e16)) return shortest(std::chars_format::scientific);
+    const std::string fixed = shortest(std::chars_format::fixed);
+    return fixed.find('.') == std::string::npos ? fixed + ".0" : fixed;
+}
+
+}  // namespace cfree

@@ -1,0 +1,110 @@
+#include "cfree/polygons/points.hpp"
+
+#include <algorithm>
+
+#include "cfree/exact/ball.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr unsigned small_bits = 62;    // differences have 63, products of two 126, their sum 127
+constexpr int scaled_bits = 100;       // of the doubles: nothing overflows, and what underflows is below `least`
+constexpr double least = 0x1p-900;
+
+unsigned bits(const Int& n) { return n.is_zero() ? 0 : static_cast<unsigned>(msb(abs(n))) + 1; }
+
+}  // namespace
+
+Points::Points(std::vector<Int> exact_x, std::vector<Int> exact_y) : X(std::move(exact_x)), Y(std::move(exact_y)) {
+    unsigned widest = 0;
+    for (const auto* axis : {&X, &Y})
+        for (const Int& c : *axis) widest = std::max(widest, bits(c));
+    const auto convert = [](const std::vector<Int>& from, auto& to, auto rule) {
+        to.reserve(from.size());
+        for (const Int& c : from) to.push_back(rule(c));
+    };
+    if (widest <= small_bits) {
+        const auto whole = [](const Int& c) { return static_cast<std::int64_t>(c); };
+        convert(X, x, whole), convert(Y, y, whole);
+    } else {
+        const int shift = static_cast<int>(widest) - scaled_bits;
+        const auto rounded = [&](const Int& c) { return ball(c, shift).hi; };
+        convert(X, about_x, rounded), convert(Y, about_y, rounded);
+    }
+}
+
+Points Points::chosen(const std::vector<Index>& which) const {
+    std::vector<Int> chosen_x, chosen_y;
+    chosen_x.reserve(which.size()), chosen_y.reserve(which.size());
+    for (const Index k : which) chosen_x.push_back(X[k]), chosen_y.push_back(Y[k]);
+    return {std::move(chosen_x), std::move(chosen_y)};
+}
+
+int Points::compare(Index p, Index q) const {
+    const auto order = [](const auto& a, const auto& b) { return (a > b) - (a < b); };
+    if (are_small()) return x[p] != x[q] ? order(x[p], x[q]) : order(y[p], y[q]);
+    // rounding keeps the order
+    if (about_x[p] != about_x[q]) return order(about_x[p], about_x[q]);
+    if (const int by_x = X[p].compare(X[q])) return by_x < 0 ? -1 : 1;
+    if (about_y[p] != about_y[q]) return order(about_y[p], about_y[q]);
+    const int by_y = Y[p].compare(Y[q]);
+    return (by_y > 0) - (by_y < 0);
+}
+
+template <bool is_dot>
+int Points::sign(Index p, Index q, Index r, Index s) const {
+    if (are_small()) {
+        const std::int64_t ux = x[q] - x[p], uy = y[q] - y[p], vx = x[s] - x[r], vy = y[s] - y[r];
+        const Wide value = is_dot ? Wide(ux) * vx + Wide(uy) * vy : Wide(ux) * vy - Wide(uy) * vx;
+        return (value > 0) - (value < 0);
+    }
+    // six roundings in a row: inputs, differences, products (2 + 2 + 1), their sum
+    const auto difference = [](const std::vector<double>& c, Index to, Index from) {
+        return Approx{c[to] - c[from], std::abs(c[to]) + std::abs(c[from])};
+    };
+    const Vec<Approx> u{difference(about_x, q, p), difference(about_y, q, p)};
+    const Vec<Approx> v{difference(about_x, s, r), difference(about_y, s, r)};
+    const Approx about = is_dot ? dot(u, v) : cross(u, v);
+    if (std::abs(about.v) > 8 * 0x1p-53 * about.m + least) return about.v > 0 ? 1 : -1;
+    const Vec<Int> U{X[q] - X[p], Y[q] - Y[p]}, V{X[s] - X[r], Y[s] - Y[r]};
+    return (is_dot ? dot(U, V) : cross(U, V)).sign();
+}
+
+int Points::turn(Index p, Index q, Index r, Index s) const { return sign<false>(p, q, r, s); }
+int Points::along(Index p, Index q, Index r, Index s) const { return sign<true>(p, q, r, s); }
+
+bool Points::is_upper(Index p, Index q) const {
+    if (are_small()) return y[q] > y[p] || (y[q] == y[p] && x[q] > x[p]);
+    const int up = Y[q].compare(Y[p]);
+    return up > 0 || (up == 0 && X[q] > X[p]);
+}
+
+Meeting meet(const Points& v, Index p, Index q, Index r, Index s) {
+    const int r_side = v.orient(p, q, r), s_side = v.orient(p, q, s);
+    if (r_side == s_side) {
+        if (r_side) return Meeting::apart;
+        const auto ordered = [&](Index a, Index b) { return v.before(a, b) ? std::pair(a, b) : std::pair(b, a); };
+        const auto [a, b] = ordered(p, q);
+        const auto [c, d] = ordered(r, s);
+        const int order = v.compare(ordered(a, c).second, ordered(b, d).first);
+        return order == 0 ? Meeting::touch : order < 0 ? Meeting::overlap : Meeting::apart;
+    }
+    const int p_side = v.orient(r, s, p), q_side = v.orient(r, s, q);
+    if (p_side == q_side) return Meeting::apart;
+    return p_side && q_side && r_side && s_side ? Meeting::cross : Meeting::touch;
+}
+
+Location locate_in_sector(const Points& v, Index o, Index towards, Index start, Index end) {
+    const int after_start = v.turn(o, start, o, towards), before_end = v.turn(o, towards, o, end);
+    if ((after_start == 0 && v.along(o, start, o, towards) >= 0) || (before_end == 0 && v.along(o, end, o, towards) >= 0))
+        return Location::boundary;
+    const bool follows = after_start > 0, precedes = before_end > 0;
+    const int whole = v.turn(o, start, o, end);
+    const bool inside = whole > 0   ? follows && precedes
+                        : whole < 0 ? follows || precedes
+                                    : follows || v.along(o, start, o, end) >= 0;
+    return inside ? Location::inside : Location::outside;
+}
+
+}  // namespace cfree

@@ -1,0 +1,90 @@
+#include "cfree/scene/coordinate_range.hpp"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+
+namespace cfree {
+
+namespace {
+
+unsigned bits(const Int& n) { return n.is_zero() ? 0 : static_cast<unsigned>(msb(abs(n))) + 1; }
+
+std::string formatted(const char* format, double value) {
+    std::array<char, 64> text;
+    std::snprintf(text.data(), text.size(), format, value);
+    return text.data();
+}
+
+// About this number, however long it is.
+std::string shown(const Int& value) {
+    const int power = std::max(0, static_cast<int>(bits(value)) * 30103 / 100000 - 6);  // leaves six digits or seven
+    if (power <= 6) return value.str();
+    const Int leading = floor_divide(value, boost::multiprecision::pow(Int(10), static_cast<unsigned>(power)));
+    const std::string text = formatted("%e", static_cast<double>(leading));
+    const auto mark = text.find('e');
+    return formatted("%.6g", std::strtod(text.substr(0, mark).c_str(), nullptr)) + "e" +
+           std::to_string(std::atoi(text.c_str() + mark + 1) + power);
+}
+
+// "1,110"
+std::string grouped(unsigned n) {
+    std::string digits = std::to_string(n);
+    for (int k = static_cast<int>(digits.size()) - 3; k > 0; k -= 3) digits.insert(static_cast<std::size_t>(k), ",");
+    return digits;
+}
+
+struct Extreme {
+    std::string kind;
+    Index index;
+    Int value, denominator;  // the coordinate of largest size, times the denominator
+};
+
+std::vector<Extreme> extremes(const SceneShapes& shapes) {
+    std::vector<Extreme> result;
+    const auto add = [&](const char* kind, Index index, const Polygon& polygon) {
+        const Int* widest = &polygon.vertices.X[0];
+        for (Index k = 0; k < polygon.vertices.size(); ++k)
+            for (const Int* c : {&polygon.vertices.X[k], &polygon.vertices.Y[k]})
+                if (abs(*c) > abs(*widest)) widest = c;
+        result.push_back({kind, index, *widest, polygon.denominator});
+    };
+    for (std::size_t k = 0; k < shapes.robot.size(); ++k) add("robot", static_cast<Index>(k), *shapes.robot[k]);
+    for (std::size_t k = 0; k < shapes.obstacles.size(); ++k) add("obstacles", static_cast<Index>(k), *shapes.obstacles[k]);
+    if (shapes.workspace) add("workspace", -1, *shapes.workspace);
+    for (std::size_t k = 0; shapes.bounds && k < 4; ++k) {
+        const Ratio& bound = (*shapes.bounds)[k];
+        result.push_back({"bounds", static_cast<Index>(k), bound.n, bound.d});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::optional<RangeFault> range_fault(const SceneShapes& shapes) {
+    static const Int largest = boost::multiprecision::pow(Int(10), 150);
+    Int widest = 0, widest_denominator = 1, scale = 1;
+    const Extreme* finest = nullptr;
+    const auto found = extremes(shapes);
+    for (const Extreme& next : found) {
+        const Int size = abs(next.value);
+        if (size > largest * next.denominator)
+            return RangeFault{next.kind, next.index, "the coordinate " + shown(floor_divide(next.value, next.denominator)) +
+                                                         " is larger than 1e150; scale the scene"};
+        if (size * widest_denominator > widest * next.denominator) widest = size, widest_denominator = next.denominator;
+        if (!finest || next.denominator > finest->denominator ||
+            (next.denominator == finest->denominator && std::pair(next.kind, next.index) > std::pair(finest->kind, finest->index)))
+            finest = &next;
+        if (scale % next.denominator != 0) scale = lcm(scale, next.denominator);
+        if (bits(scale) > most_bits) break;
+    }
+    const unsigned needed = std::max(bits(widest * scale / widest_denominator), bits(scale));
+    if (needed <= most_bits) return {};
+    return RangeFault{finest->kind, finest->index,
+                      "with its denominator " + shown(finest->denominator) +
+                          " the scene's coordinates, over one common denominator, are integers of " + grouped(needed) +
+                          " bits or more, and " + grouped(most_bits) +
+                          " are allowed; keep lengths between 1e-150 and 1e150, in decimals or in few denominators"};
+}
+
+}  // namespace cfree

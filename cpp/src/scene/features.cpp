@@ -1,0 +1,303 @@
+#include "cfree/scene/features.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace cfree {
+
+namespace {
+
+constexpr int far = 1 << 10;       // sizes: farther away shapes are measured from a place near them
+constexpr int largest_bits = 100;  // of the core's doubles, so that products of four of their products stay finite
+
+struct Box {
+    Int x0, y0, x1, y1;
+    void add(const Int& x, const Int& y) {
+        if (x < x0) x0 = x;
+        if (x > x1) x1 = x;
+        if (y < y0) y0 = y;
+        if (y > y1) y1 = y;
+    }
+};
+
+Box box_of(const std::vector<Int>& x, const std::vector<Int>& y) {
+    Box box{x[0], y[0], x[0], y[0]};
+    for (std::size_t k = 1; k < x.size(); ++k) box.add(x[k], y[k]);
+    return box;
+}
+
+Points rectangle(const Int& x0, const Int& y0, const Int& x1, const Int& y1) { return {{x0, x1, x1, x0}, {y0, y0, y1, y1}}; }
+
+// A shape while polygons are put in.
+struct Builder {
+    const Int& scale;
+    std::vector<Int> x, y;
+    std::vector<Index> next, previous, layer, piece{0}, piece_vertex, piece_layer;
+    Owners owners;
+    std::vector<char> convex, emit;
+
+    explicit Builder(const Int& common) : scale(common) {}
+
+    Index count() const { return static_cast<Index>(x.size()); }
+
+    // A ring of the vertices put in last, from `first` on.
+    void close_ring(Index first) {
+        const Index n = count() - first;
+        for (Index k = 0; k < n; ++k)
+            next.push_back(first + (k + 1) % n), previous.push_back(first + (k + n - 1) % n);
+    }
+
+    template <class Owner>
+    void add_polygon(const Polygon& polygon, Index owner, bool emit_outer, Owner owner_of) {
+        const Int factor = scale / polygon.denominator;
+        const Index first = count();
+        for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
+            const Index start = count();
+            for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k) {
+                x.push_back(polygon.vertices.X[k] * factor), y.push_back(polygon.vertices.Y[k] * factor);
+                convex.push_back(polygon.convex[k]);
+                emit.push_back(emit_outer || r > 0);
+                layer.push_back(body_layer);
+                owners.polygon.push_back(owner), owners.vertex.push_back(owner_of(r, k));
+            }
+            close_ring(start);
+        }
+        for (const auto& vertices : polygon.pieces()) {
+            for (const Index v : vertices) piece_vertex.push_back(first + v);
+            close_piece(body_layer);
+        }
+    }
+
+    void close_piece(Index of_layer) {
+        piece.push_back(static_cast<Index>(piece_vertex.size()));
+        piece_layer.push_back(of_layer);
+    }
+
+    // Vertices of the bounds, as a ring.
+    void add_bound_ring(const Points& ring, bool is_convex) {
+        const Index start = count();
+        for (Index k = 0; k < ring.size(); ++k) {
+            x.push_back(ring.X[k]), y.push_back(ring.Y[k]);
+            convex.push_back(is_convex), emit.push_back(1), layer.push_back(reference_layer);
+            owners.polygon.push_back(bounds_owner), owners.vertex.push_back(k);
+        }
+        close_ring(start);
+    }
+};
+
+// Numbers equal items alike, in order of appearance; `before` orders them.
+template <class Before>
+std::vector<Index> classes(std::size_t count, Before before) {
+    std::vector<Index> order(count), number(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), before);
+    std::vector<Index> first(count);  // the least of the items that are equal
+    for (std::size_t k = 0, beyond; k < count; k = beyond) {
+        Index least = order[k];
+        for (beyond = k + 1; beyond < count && !before(order[k], order[beyond]); ++beyond) least = std::min(least, order[beyond]);
+        for (std::size_t m = k; m < beyond; ++m) first[order[m]] = least;
+    }
+    Index known = 0;
+    for (std::size_t k = 0; k < count; ++k) number[k] = first[k] == static_cast<Index>(k) ? known++ : number[first[k]];
+    return number;
+}
+
+// Place of each of the first items among those of its group, by a pair of keys, then by number.
+template <class Key>
+std::vector<Index> ranks(const std::vector<Index>& group, std::size_t count, Key key) {
+    std::vector<Index> order(count), rank(count);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+        if (group[a] != group[b]) return group[a] < group[b];
+        const auto one = key(a), other = key(b);
+        return one != other ? one < other : a < b;
+    });
+    for (std::size_t k = 1; k < count; ++k)
+        rank[order[k]] = group[order[k]] == group[order[k - 1]] ? rank[order[k - 1]] + 1 : 0;
+    return rank;
+}
+
+// By vertex: how many places come before its own.
+std::vector<Index> place_orders(const Points& points) {
+    std::vector<Index> order(static_cast<std::size_t>(points.size())), place(order.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](Index p, Index q) { return points.before(p, q); });
+    for (std::size_t k = 1; k < order.size(); ++k) place[order[k]] = place[order[k - 1]] + !points.same(order[k - 1], order[k]);
+    return place;
+}
+
+Shape finished(Builder&& from, int shift) {
+    Shape s;
+    const Points points(std::move(from.x), std::move(from.y));
+    s.ring_vertices = static_cast<Index>(from.next.size());
+    s.v.resize(from.next.size()), s.w = from.next;
+    std::iota(s.v.begin(), s.v.end(), 0);
+    // pieces run along edges of rings and along diagonals, each in one direction once
+    for (std::size_t p = 0; p + 1 < from.piece.size(); ++p)
+        for (Index k = from.piece[p]; k < from.piece[p + 1]; ++k) {
+            const Index v = from.piece_vertex[k], w = from.piece_vertex[k + 1 < from.piece[p + 1] ? k + 1 : from.piece[p]];
+            if (v < s.ring_vertices && from.next[v] == w) {
+                s.piece_edge.push_back(v);
+            } else {
+                s.piece_edge.push_back(static_cast<Index>(s.v.size()));
+                s.v.push_back(v), s.w.push_back(w);
+            }
+        }
+    const std::vector<Index> place = place_orders(points);
+    const auto low = [&](Index e) { return place[s.v[e]] < place[s.w[e]] ? s.v[e] : s.w[e]; };
+    const auto high = [&](Index e) { return place[s.v[e]] < place[s.w[e]] ? s.w[e] : s.v[e]; };
+    // upright vectors along the edges, and the origin: their doubles have all digits
+    std::vector<Int> along_x, along_y;
+    for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
+        along_x.push_back(points.X[high(e)] - points.X[low(e)]);
+        along_y.push_back(points.Y[high(e)] - points.Y[low(e)]);
+    }
+    along_x.push_back(0), along_y.push_back(0);
+    const Points vectors(std::move(along_x), std::move(along_y));
+    const auto origin = static_cast<Index>(s.v.size());
+    s.point = classes(place.size(), [&](Index p, Index q) { return place[p] < place[q]; });
+    s.direction = classes(s.v.size(), [&](Index e, Index f) {
+        if (!s.has_extent(e) || !s.has_extent(f)) return !s.has_extent(e) && s.has_extent(f);
+        return vectors.turn(origin, e, origin, f) > 0;
+    });
+    s.line = classes(s.v.size(), [&](Index e, Index f) {
+        if (s.direction[e] != s.direction[f]) return s.direction[e] < s.direction[f];
+        if (!s.has_extent(e)) return e < f;
+        const bool backward = low(e) != s.v[e], other_backward = low(f) != s.v[f];
+        return backward != other_backward ? other_backward : points.orient(low(e), high(e), low(f)) > 0;
+    });
+    // geometry, not numbering, decides who owns what coincides
+    const std::size_t rings = from.next.size();
+    s.vertex_rank = ranks(s.point, rings, [&](Index v) { return std::pair(place[from.next[v]], place[from.previous[v]]); });
+    s.edge_rank = ranks(s.line, rings, [&](Index e) { return std::pair(place[s.v[e]], place[s.w[e]]); });
+    s.previous = std::move(from.previous), s.layer = std::move(from.layer);
+    s.convex = std::move(from.convex), s.emit = std::move(from.emit);
+    s.piece = std::move(from.piece), s.piece_vertex = std::move(from.piece_vertex), s.piece_layer = std::move(from.piece_layer);
+    s.set_coordinates(points.X, points.Y, shift, from.scale);
+    return s;
+}
+
+// What the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes.
+void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obstacles, const std::vector<Int>& bounds) {
+    const Int factor = obstacles.scale / workspace.denominator;
+    std::vector<Int> x, y;
+    for (Index k = 0; k < workspace.vertices.size(); ++k)
+        x.push_back(workspace.vertices.X[k] * factor), y.push_back(workspace.vertices.Y[k] * factor);
+    const Points corners(x, y);
+    Box around = box_of(x, y);
+    for (Index k = 0; k < obstacles.count(); ++k) around.add(obstacles.x[k], obstacles.y[k]);
+    for (std::size_t k = 0; k < bounds.size(); k += 2) around.add(bounds[k], bounds[k + 1]);
+    const Box size = box_of(robot.x, robot.y);
+    const Int thickness = 1 + 2 * (abs(size.x0) + abs(size.y0) + abs(size.x1) + abs(size.y1));
+    const Points frame = rectangle(around.x0 - thickness, around.y0 - thickness, around.x1 + thickness, around.y1 + thickness);
+    for (std::size_t r = 0; r + 1 < workspace.offsets.size(); ++r) {
+        std::vector<Index> ring;
+        for (Index k = workspace.offsets[r]; k < workspace.offsets[r + 1]; ++k) ring.push_back(k);
+        const Points points = corners.chosen(ring);
+        const Polygon part(r ? std::vector{points} : std::vector{frame, points}, obstacles.scale);
+        // turned around, its first point kept; the frame's rim stands for infinity, and has no owner
+        obstacles.add_polygon(part, workspace_owner, r > 0, [&](std::size_t of_part, Index k) -> Index {
+            if (r == 0 && of_part == 0) return -1;
+            const Index n = static_cast<Index>(ring.size()), place = k - (r == 0 ? 4 : 0);
+            return ring[place ? n - place : 0];
+        });
+    }
+}
+
+// The reference point against the complement of the bounds: overlapping rectangles that reach past every pillar.
+void add_bounds(Builder& robot, Builder& obstacles, const std::vector<Int>& inner, const Box& outer) {
+    robot.add_bound_ring({{0}, {0}}, true);
+    robot.piece_vertex.push_back(robot.count() - 1);
+    robot.close_piece(reference_layer);
+    const Int &x0 = inner[0], &y0 = inner[1], &x1 = inner[2], &y1 = inner[3];
+    obstacles.add_bound_ring({{x0, x0, x1, x1}, {y0, y1, y1, y0}}, false);  // a hole: clockwise
+    for (const Points& side : {rectangle(outer.x0, outer.y0, x0, outer.y1), rectangle(x1, outer.y0, outer.x1, outer.y1),
+                               rectangle(outer.x0, outer.y0, outer.x1, y0), rectangle(outer.x0, y1, outer.x1, outer.y1)}) {
+        for (Index k = 0; k < 4; ++k) {
+            obstacles.piece_vertex.push_back(obstacles.count());
+            obstacles.x.push_back(side.X[k]), obstacles.y.push_back(side.Y[k]);
+        }
+        obstacles.close_piece(reference_layer);
+    }
+}
+
+Int widest_of(const Builder& shape, const Vec<Int>& from) {
+    Int widest = 0;
+    for (Index k = 0; k < shape.count(); ++k)
+        for (const Int& size : {Int(abs(shape.x[k] - from.x)), Int(abs(shape.y[k] - from.y))})
+            if (size > widest) widest = size;
+    return widest;
+}
+
+int shift_of(const Int& widest) {
+    return widest.is_zero() ? 0 : std::max(0, static_cast<int>(msb(widest)) + 1 - largest_bits);
+}
+
+// The middle of vertices that are far away, in whole units of the user where these are small; else 0.
+Vec<Int> place_near(const Builder& shape) {
+    if (shape.x.empty()) return {0, 0};
+    const Box box = box_of(shape.x, shape.y);
+    const Int size = std::max(Int(box.x1 - box.x0), Int(box.y1 - box.y0));
+    Int widest = 0;
+    for (const Int* c : {&box.x0, &box.y0, &box.x1, &box.y1})
+        if (abs(*c) > widest) widest = abs(*c);
+    if (widest <= far * size) return {0, 0};
+    const Int unit = size > shape.scale ? shape.scale : Int(1);
+    return {floor_divide(box.x0 + box.x1, 2 * unit) * unit, floor_divide(box.y0 + box.y1, 2 * unit) * unit};
+}
+
+}  // namespace
+
+Int floor_divide(const Int& n, const Int& d) {
+    Int q, rest;
+    divide_qr(n, d, q, rest);
+    return rest.sign() < 0 ? Int(q - 1) : q;
+}
+
+SceneFeatures scene_features(const SceneShapes& shapes) {
+    SceneFeatures result;
+    Int scale = 1;  // the common denominator
+    const auto include = [&](const Int& denominator) {
+        if (scale % denominator != 0) scale = lcm(scale, denominator);
+    };
+    for (const auto* polygons : {&shapes.robot, &shapes.obstacles})
+        for (const auto& polygon : *polygons) include(polygon->denominator);
+    if (shapes.workspace) include(shapes.workspace->denominator);
+    std::vector<Int> bounds;
+    if (shapes.bounds) {
+        for (const Ratio& bound : *shapes.bounds) include(bound.d);
+        for (const Ratio& bound : *shapes.bounds) bounds.push_back(bound.n * (scale / bound.d));
+    }
+    Builder robot(scale), obstacles(scale);
+    const auto own = [](std::size_t, Index k) { return k; };
+    for (std::size_t k = 0; k < shapes.robot.size(); ++k)
+        robot.add_polygon(*shapes.robot[k], static_cast<Index>(k), true, own);
+    for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
+        obstacles.add_polygon(*shapes.obstacles[k], static_cast<Index>(k), true, own);
+    if (shapes.workspace) add_workspace(*shapes.workspace, robot, obstacles, bounds);
+    if (shapes.workspace || shapes.bounds) {
+        Int reach_x = 0, reach_y = 0;
+        for (Index k = 0; k < robot.count(); ++k) {
+            if (abs(robot.x[k]) > reach_x) reach_x = abs(robot.x[k]);
+            if (abs(robot.y[k]) > reach_y) reach_y = abs(robot.y[k]);
+        }
+        Box outer = obstacles.x.empty() ? Box{bounds[0], bounds[1], bounds[0], bounds[1]} : box_of(obstacles.x, obstacles.y);
+        for (std::size_t k = 0; k < bounds.size(); k += 2) outer.add(bounds[k], bounds[k + 1]);
+        // so that doubles see the difference
+        const Int reach = 1 + reach_x + reach_y + std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0)) / 8;
+        outer = {outer.x0 - reach, outer.y0 - reach, outer.x1 + reach, outer.y1 + reach};
+        result.rim = {nearest(outer.x0, scale), nearest(outer.y0, scale), nearest(outer.x1, scale),
+                      nearest(outer.y1, scale)};
+        if (shapes.bounds) add_bounds(robot, obstacles, bounds, outer);
+    }
+    const Vec<Int> zero{0, 0}, robot_origin = place_near(robot), obstacle_origin = place_near(obstacles);
+    const int shift = shift_of(std::max(widest_of(robot, zero), widest_of(obstacles, zero)));
+    const int near_shift = shift_of(std::max(widest_of(robot, robot_origin), widest_of(obstacles, obstacle_origin)));
+    result.robot = std::move(robot.owners), result.obstacles = std::move(obstacles.owners);
+    Scene scene{finished(std::move(robot), shift), finished(std::move(obstacles), shift), scale, shift, result.rim.has_value(), {}, nullptr};
+    result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift);
+    return result;
+}
+
+}  // namespace cfree
