@@ -25,7 +25,7 @@ from cfree.contact.surface import contact_helix, contact_segment, contact_surfac
 from cfree.figures import FIGURES, curves, draw, draw_all, plane, poses, ranges, scenes, surfaces
 from cfree.figures.style import FORMATS, PAPER, SAFE, Palette, styled, write
 from cfree.forbidden.boundary import boundary
-from cfree.plot.depth_sort import ON_TOP, SURFACE
+from cfree.plot.pieces import ON_TOP, SURFACE
 from cfree.scene.scene import Scene
 
 NUMBERS = [entry.number for entry in FIGURES]

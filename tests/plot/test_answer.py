@@ -28,8 +28,9 @@ from cfree.paths.path import Path
 from cfree.plot import unrolled as slab
 from cfree.plot.answer import picture, plot_path_space, surface_of
 from cfree.plot.boundary import plot_overview, save_figure
-from cfree.plot.depth_sort import CURVE, ON_TOP, OVER, WALL, Painting, patches_of
+from cfree.plot.depth_sort import Painting
 from cfree.plot.path import GHOSTS, LIMIT, Track, plot_path, quantity
+from cfree.plot.pieces import CURVE, ON_TOP, OVER, WALL, patches_of
 from cfree.plot.strips import strips
 from cfree.scene.scene import Scene
 
@@ -78,7 +79,7 @@ def test_ghosts_are_poses_of_the_path_at_even_steps_of_the_robot(car_park: Bound
     assert isinstance(ghosts, PathCollection)
     paths = ghosts.get_paths()
     assert 5 < len(paths) <= GHOSTS and len(ghosts.get_edgecolor()) == len(paths)
-    steps = np.diff(track.travel[track.ghosts])
+    steps = np.diff(track.steps[track.ghosts])
     assert steps.max() < 1.1 * steps.min()
     obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in car_park.scene.obstacles])
     area = car_park.scene.robot[0].area
@@ -349,6 +350,6 @@ def test_names_that_look_like_formulas_or_control_characters_are_shown_as_writte
         assert figure.texts[0].get_text().startswith(r"\$\bad{\$\x1b: ")
     whole = boundary(scene)
     save_figure(plot_overview(whole), tmp_path / "boundary.svg")
-    cfree.film_path(path, scene, tmp_path / "path.gif", seconds=0.4, fps=5, size=(160, 90))
+    cfree.film.film_path(path, scene, tmp_path / "path.gif", seconds=0.4, fps=5, size=(160, 90))
     contact = Contact("e-v", Place(0, "robot", 0, 0, 1), Place(0, name, 0, 0))
     assert caption(contact).endswith(r" of \$\bad{\$\x1b")

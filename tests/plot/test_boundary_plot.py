@@ -18,7 +18,7 @@ from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
 from cfree.forbidden.mesh import COLOURS
 from cfree.formats.scene_file import load_scene
-from cfree.plot import depth_sort as plot3d
+from cfree.plot import depth_sort, pieces
 from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
 from cfree.scene.scene import Scene
 from compared import scene_of
@@ -82,19 +82,19 @@ def test_given_axes_are_used(fig9: Boundary) -> None:
 def test_pieces_of_one_convex_pair_are_those_of_the_paper() -> None:
     scene = load_scene(SCENES / "paper_fig9.json")
     result = boundary(Scene(robot=scene.robot, obstacles=scene.obstacles))
-    pieces = plot3d.pieces_of(result, extent(result))
-    assert pieces.corners[..., 2].min() == 0 and pieces.corners[..., 2].max() == pytest.approx(360)
+    shown = pieces.pieces_of(result, extent(result))
+    assert shown.corners[..., 2].min() == 0 and shown.corners[..., 2].max() == pytest.approx(360)
     curves = {
-        colour: (pieces.sort == plot3d.CURVE) & (pieces.rgb == to_rgb(colour)).all(axis=1)
-        for colour in (plot3d.Colours.helix, plot3d.Colours.edge_edge)
+        colour: (shown.sort == pieces.CURVE) & (shown.rgb == to_rgb(colour)).all(axis=1)
+        for colour in (pieces.Colours.helix, pieces.Colours.edge_edge)
     }
     # n m = 9 e-e lines, |E_i| + |E_j| long, level, each between the ends of patches above and below it
-    lines = pieces.corners[curves[plot3d.Colours.edge_edge]]
+    lines = shown.corners[curves[pieces.Colours.edge_edge]]
     assert np.ptp(lines[..., 2], axis=1).max() < 1e-12
     lengths = np.add.outer(*(np.hypot(*shape.edges.T) for shape in (scene.robot[0], scene.obstacles[0])))
     assert np.hypot(*(lines[:, 1] - lines[:, 0])[:, :2].T).sum() == pytest.approx(2 * lengths.sum(), rel=1e-9)
     # n m helices, 2 pi - rho - omega high, each between two patches
-    heights = np.ptp(pieces.corners[curves[plot3d.Colours.helix]][..., 2], axis=1).sum()
+    heights = np.ptp(shown.corners[curves[pieces.Colours.helix]][..., 2], axis=1).sum()
     angles = np.add.outer(scene.robot[0].interior_angles, scene.obstacles[0].interior_angles)
     assert heights == pytest.approx(2 * np.degrees(2 * np.pi - angles).sum(), rel=1e-9)
 
@@ -104,7 +104,7 @@ def test_the_free_side_is_in_front_and_the_forbidden_side_a_ghost(fig9: Boundary
     ax.figure.canvas.draw()
     (painting,) = ax.collections
     alpha = painting.get_facecolor()[:, 3]
-    assert {plot3d.GHOST, plot3d.GLASS, 1.0} <= set(np.round(alpha, 12))
+    assert {depth_sort.GHOST, depth_sort.GLASS, 1.0} <= set(np.round(alpha, 12))
 
 
 def test_depth_is_sorted_again_when_the_view_turns(fig9: Boundary) -> None:

@@ -11,7 +11,7 @@ from cfree.figures.space import draw_frame, new_space, paint
 from cfree.figures.style import GREY, Palette, new_figure
 from cfree.figures.surfaces import OBSTACLE, ROBOT, VIEW, colours_of, patch_legend
 from cfree.forbidden.boundary import Boundary, boundary
-from cfree.plot.depth_sort import ON_TOP, SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
+from cfree.plot.pieces import ON_TOP, SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
 from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:

@@ -11,7 +11,8 @@ from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
 from cfree.figures.style import FAINT, GREY
-from cfree.plot.depth_sort import SURFACE, Painting, Pieces, joined, of_line, shaded
+from cfree.plot.depth_sort import Painting
+from cfree.plot.pieces import SURFACE, Pieces, joined, of_line, shaded
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -110,7 +111,7 @@ def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
     rgb = np.tile(to_rgb(colour), (n, 1)) if isinstance(colour, str) else colour.reshape(-1, 3)
     both = np.concatenate((corners, corners[:, ::-1]))
     lit = shaded(np.concatenate((rgb, rgb)), both, angle_scale)
-    return Pieces(both, lit, np.full(2 * n, SURFACE), np.arange(2 * n), np.zeros(2 * n))
+    return Pieces(both, lit, np.full(2 * n, SURFACE), np.arange(2 * n), np.zeros(2 * n), np.full(2 * n, -1))
 
 
 def curve(points: Floats, colour: str, width: float) -> Pieces:

@@ -12,7 +12,7 @@ from cfree.contact.surface import Surface, contact_surface
 from cfree.figures.space import curve, draw_frame, legend, new_space, paint, sheet
 from cfree.figures.style import Palette, new_figure
 from cfree.forbidden.boundary import boundary
-from cfree.plot.depth_sort import Colours, pieces_of
+from cfree.plot.pieces import Colours, pieces_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
 

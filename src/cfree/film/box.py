@@ -15,7 +15,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 if TYPE_CHECKING:
-    from cfree.film.painter import Eye
+    from cfree.film.eye import Eye
     from cfree.plot.workspace import Window
 
 Floats = NDArray[np.float64]

@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 from cfree.exact.pose import Pose
 from cfree.film.box import INK
 from cfree.film.moves import Moment
-from cfree.film.painter import EDGE_EDGE, HELIX
 from cfree.film.plane import TOUCH, Plane, edge_number
 from cfree.film.space import FREE, SOLID, Space
 from cfree.forbidden.mesh import COLOURS
 from cfree.forbidden.patch import Contact
 from cfree.plot.boundary import extent, plain, with_unit
+from cfree.plot.pieces import Colours
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -129,8 +129,8 @@ def _legend(figure: Figure) -> None:
     handles = [
         Patch(color=COLOURS[1], label="v-e patch"),
         Patch(color=COLOURS[2], label="e-v patch"),
-        Line2D([], [], color=HELIX, lw=2.5, label="v-v helix"),
-        Line2D([], [], color=EDGE_EDGE, lw=2.5, label="e-e line"),
+        Line2D([], [], color=Colours.helix, lw=2.5, label="v-v helix"),
+        Line2D([], [], color=Colours.edge_edge, lw=2.5, label="e-e line"),
         Patch(facecolor=SOLID, label="forbidden"),
         Patch(facecolor=FREE, label="free"),
     ]

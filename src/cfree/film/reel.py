@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.film.eye import AZIMUTHS
 from cfree.film.frame import Stage, View
-from cfree.film.painter import AZIMUTHS
 from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
 
 if TYPE_CHECKING:
@@ -138,10 +138,9 @@ def _more_shown(shown: Floats, angles: Floats, shot: Shot, k: int, degrees: Floa
     shown = shown.copy()
     if shot.swept is not None:
         parts = list(shot.swept.parts)
-        begin, here = degrees[shot.link], degrees[k]
-        low, high = min(begin, here), max(begin, here)
+        low, high = sorted((degrees[shot.link], degrees[k]))
         if k == len(shot.moments) - 1:
-            low, high = math.degrees(shot.swept.angles[0]), math.degrees(shot.swept.angles[-1])
+            low, high = 0, 360
         shown[parts, 0] = np.clip(low, angles[parts, 0], angles[parts, 1])
         shown[parts, 1] = np.clip(high, angles[parts, 0], angles[parts, 1])
     if len(shot.level):

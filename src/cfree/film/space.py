@@ -18,8 +18,10 @@ from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
 from cfree.film.box import INK, Box
-from cfree.film.painter import ON_FACE, Eye, Pieces, facing, joined, line_pieces, paint, pieces_of, within
+from cfree.film.eye import Eye
 from cfree.forbidden.mesh import COLOURS
+from cfree.plot.depth_sort import paint
+from cfree.plot.pieces import CURVE, OVER, SURFACE, Detail, Pieces, joined, of_line, patches_of
 from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
 
 if TYPE_CHECKING:
@@ -34,6 +36,8 @@ Floats = NDArray[np.float64]
 FREE, SOLID, LEVEL, SHADOW, RIM = "#cfe3f7", "#c9cad2", "#3a6ea5", "#b9bec8", "#1b1b1f"
 POINT = "#d81b9a"
 TAIL = 500  # points of a motion's line
+LINE, GHOST = 2.2, 0.08  # width of curves; opacity of the forbidden side
+COARSE = Detail(8_000, (math.radians(4), math.radians(15)), 25)
 PLACE = 0.445, 0.095, 0.55, 0.85
 
 
@@ -52,7 +56,9 @@ class Space:
 
     def __init__(self, figure: Figure, boundary: Boundary, window: Window, names: tuple[str, str]) -> None:
         self.boundary, self.window = boundary, window
-        self.pieces, self.angles = pieces_of(boundary, window)
+        pieces = patches_of(boundary, window, line=LINE, detail=COARSE)
+        self.angles = _angles(pieces)
+        self.pieces = pieces.chosen((pieces.sort == SURFACE) | ((pieces.sort == CURVE) & (pieces.owner >= 0)))
         ax: Any = figure.add_axes(PLACE)
         self.panel = figure.bbox.width * PLACE[2], figure.bbox.height * PLACE[3]
         ax.set(xlim=(0, self.panel[0]), ylim=(0, self.panel[1]))
@@ -110,17 +116,12 @@ class Space:
         self, eye: Eye, theta: float, shown: Floats, ghost: float, lines: Sequence[tuple[str, Floats]]
     ) -> None:
         low, high = shown[self.pieces.part].T
-        fronts = facing(self.pieces, eye)
         tubes = [piece for colour, line in lines for piece in _tube(line, colour)]
-        for onto, bottom, top, opacity in ((self.below, 0.0, theta, 1.0), (self.above, theta, 361.0, ghost)):
-            faces, kept = within(self.pieces, np.maximum(low, bottom), np.minimum(high, top))
-            parts = [faces]
-            for tube in tubes:
-                n = len(tube.part)
-                parts.append(within(tube, np.full(n, bottom), np.full(n, top))[0])
-            both = joined(parts)
-            front = np.append(fronts[kept], np.ones(len(both.part) - len(faces.part), dtype=bool))
-            paint(onto, both, eye, front, opacity)
+        for onto, bottom, top, opacity in ((self.below, -1.0, theta, 1.0), (self.above, theta, 361.0, ghost)):
+            patches = self.pieces.between(np.maximum(low, bottom), np.minimum(high, top))
+            both = joined([patches, *(tube.between(bottom, top) for tube in tubes)])
+            flat, depth = eye(both.corners)
+            paint(onto, both, flat, depth.mean(axis=1), eye.span, ghost=GHOST, opacity=opacity)
 
 
 def _tube(line: Floats, colour: str) -> list[Pieces]:
@@ -128,7 +129,19 @@ def _tube(line: Floats, colour: str) -> list[Pieces]:
     if len(line) < 2:
         return []
     kept = line[np.unique(np.linspace(0, len(line) - 1, TAIL).astype(int))]
-    return [line_pieces(kept, RIM, 4.4, ON_FACE + 0.01), line_pieces(kept, colour, 2.8, ON_FACE + 0.04)]
+    parts = np.split(kept, np.flatnonzero(np.abs(np.diff(kept[:, 2])) >= 180) + 1)  # where theta runs through 0
+    styles = (RIM, 4.4, CURVE), (colour, 2.8, OVER)
+    return [of_line(part, *style) for style in styles for part in parts if len(part) > 1]
+
+
+def _angles(pieces: Pieces) -> Floats:
+    """Between which angles in degrees each part is, (parts, 2)."""
+    on_part = pieces.part >= 0
+    part, z = pieces.part[on_part], pieces.corners[on_part, :, 2]
+    angles = np.tile((np.inf, -np.inf), (int(part.max(initial=-1)) + 1, 1))
+    np.minimum.at(angles[:, 0], part, z.min(axis=1))
+    np.maximum.at(angles[:, 1], part, z.max(axis=1))
+    return angles
 
 
 def _lifted(eye: Eye, rings: Iterable[Floats], theta: float) -> Path:

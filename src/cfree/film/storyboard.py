@@ -23,10 +23,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
+from cfree.film.eye import AZIMUTHS
 from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
-from cfree.film.painter import AZIMUTHS, HELIX
 from cfree.film.route import Clearance, route
 from cfree.plot.boundary import extent
+from cfree.plot.pieces import Colours
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
@@ -198,7 +199,7 @@ class _Director:
         low, high = _inside(self.corner)
         moments = along_helix(self.boundary, self.corner, _eased(low, high, n))
         shot = Shot("helix", "Rotation about a vertex: a helix", _FORMULAS["v-v"], moments)
-        return replace(shot, azimuth=self._azimuth(self.corner), colour=HELIX)
+        return replace(shot, azimuth=self._azimuth(self.corner), colour=Colours.helix)
 
     def _vertex_edge(self, n: int) -> Shot:
         column = self.corner

@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from cfree.collision.distance import EdgeDistances
 from cfree.film.box import INK
+from cfree.film.eye import Eye
 from cfree.film.frame import GREY, INCHES, MONO
-from cfree.film.painter import Eye
 from cfree.film.space import Space
 from cfree.plot.boundary import extent, plain, set_window, with_unit
 from cfree.plot.path import LIMIT, Track, poses_of, quantity, statement

@@ -17,10 +17,11 @@ from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.plot.boundary import around, new_figure, new_space, plain, set_window, with_unit
-from cfree.plot.depth_sort import ON_TOP, OVER, Colours, Painting, Pieces, joined, level, of_line, patches_of
+from cfree.plot.depth_sort import Painting
 from cfree.plot.path import LIMIT, Track, draw_track, statement
+from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.strips import strips
-from cfree.plot.unrolled import Range, chosen, distances, slab
+from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
 from cfree.scene.scene import Scene, robot_radius
@@ -235,7 +236,7 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     degrees, radius = _range(rows[:, 2]), robot_radius(track.scene)
     patches = slab(patches_of(boundary, track.window, PALE), track.window, degrees)
     near = distances(patches, rows[:: max(1, len(rows) // 80)], radius) < NEAR * radius
-    _draw_patches(ax, boundary, track.window, degrees, joined([chosen(patches, near), _line(track, rows)]))
+    _draw_patches(ax, boundary, track.window, degrees, joined([patches.chosen(near), _line(track, rows)]))
     names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
     _legend(ax, names, [("path", "-"), ("hidden", (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
@@ -312,7 +313,7 @@ def _line(track: Track, rows: Floats) -> Pieces:
     rim = of_line(rows, "white", 5.0)
     line, above = (replace(of_line(rows, INK, width, sort), rgb=rgb) for width, sort in ((3.0, OVER), (1.8, ON_TOP)))
     line.corners[:-1, 1:3] = line.corners[1:, 1:3]  # parts overlap, so that no seams are seen
-    return joined([rim, line, chosen(above, np.arange(len(rgb)) % DASH < DASH / 2)])
+    return joined([rim, line, above.chosen(np.arange(len(rgb)) % DASH < DASH / 2)])
 
 
 # figures

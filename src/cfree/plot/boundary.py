@@ -117,7 +117,8 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     from matplotlib.patches import Patch
     from matplotlib.ticker import MaxNLocator
 
-    from cfree.plot.depth_sort import CUT, SECTION_COLOUR, Colours, Painting, pieces_of
+    from cfree.plot.depth_sort import Painting
+    from cfree.plot.pieces import CUT, SECTION_COLOUR, Colours, pieces_of
 
     if ax is None:
         ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))

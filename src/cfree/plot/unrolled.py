@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.plot.depth_sort import CURVE, WALL, Pieces, joined
+from cfree.plot.pieces import WALL, Pieces, joined
 
 if TYPE_CHECKING:
     from cfree.plot.workspace import Window
@@ -25,24 +25,15 @@ def slab(pieces: Pieces, window: Window, degrees: Range) -> Pieces:
     """
     x, y = pieces.corners[..., 0].mean(axis=1), pieces.corners[..., 1].mean(axis=1)
     inside = (x >= window[0]) & (x <= window[2]) & (y >= window[1]) & (y <= window[3])
-    pieces = chosen(pieces, inside & (pieces.sort != WALL))
+    pieces = pieces.chosen(inside & (pieces.sort != WALL))
     low, high = degrees
     found, count = [], 0
     for turn in range(math.floor(low / 360), math.ceil(high / 360)):
         corners = pieces.corners + np.array([0.0, 0.0, 360.0 * turn])
-        z = corners[..., 2]
-        copy = chosen(replace(pieces, corners=corners), (z.max(axis=1) > low) & (z.min(axis=1) < high))
-        found.append(replace(copy, corners=_cut(copy, degrees), owner=np.where(copy.owner < 0, -1, copy.owner + count)))
+        copy = replace(pieces, corners=corners).between(low, high)
+        found.append(replace(copy, owner=np.where(copy.owner < 0, -1, copy.owner + count)))
         count += len(copy.corners)
     return joined(found)
-
-
-def chosen(pieces: Pieces, mask: NDArray[np.bool_]) -> Pieces:
-    """Some of the pieces, without the curves on faces that are not among them."""
-    kept = mask & (mask[pieces.owner] | (pieces.owner < 0)) if len(mask) else mask
-    number = np.cumsum(kept) - 1
-    owner = np.where(pieces.owner < 0, -1, number[pieces.owner])[kept] if len(mask) else pieces.owner
-    return Pieces(pieces.corners[kept], pieces.rgb[kept], pieces.sort[kept], owner, pieces.width[kept])
 
 
 def distances(pieces: Pieces, rows: Floats, radius: float) -> Floats:
@@ -53,14 +44,3 @@ def distances(pieces: Pieces, rows: Floats, radius: float) -> Floats:
     for row in rows * scale:
         np.minimum(found, ((middle - row) ** 2).sum(axis=1), out=found)
     return np.asarray(np.sqrt(found))
-
-
-def _cut(pieces: Pieces, degrees: Range) -> Floats:
-    """Corners moved along the sides that rise, to between two angles."""
-    corners = pieces.corners
-    is_curve = (pieces.sort >= CURVE)[:, None, None]
-    other = np.where(is_curve, corners[:, [1, 0, 3, 2]], corners[:, [3, 2, 1, 0]])
-    z, beyond = corners[..., 2], other[..., 2]
-    rise = np.where(beyond == z, 1.0, beyond - z)
-    share = (np.clip(z, *degrees) - z) / rise
-    return np.asarray(corners + share[..., None] * (other - corners))

@@ -1,0 +1,61 @@
+"""From where a film is seen: the box around the configuration space, from above and from azimuths in one quadrant."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from cfree.plot.workspace import Window
+
+Floats = NDArray[np.float64]
+
+HEIGHT = 0.82  # of the box, its longer side being 1
+ELEVATION, DISTANCE, REACH = math.radians(27), 4.2, 0.7  # REACH: depths are so much less and more than the distance
+AZIMUTHS = math.radians(-78), math.radians(-12)  # within one quadrant the axes keep their places
+
+
+class Eye:
+    """Projection of the box to a panel, in pixels from its lower left corner.
+
+    Parameters
+    ----------
+    window : four floats
+        x0, y0, x1, y1 of the box.
+    width, height : float
+        Of the panel, in pixels.
+    azimuth : float, radians
+
+    Attributes
+    ----------
+    span : (float, float)
+        Depths between which the box is.
+    """
+
+    span = DISTANCE - REACH, DISTANCE + REACH
+
+    def __init__(self, window: Window, width: float, height: float, azimuth: float) -> None:
+        x0, y0, x1, y1 = window
+        self.side = max(x1 - x0, y1 - y0)
+        self.middle = np.array([0.5 * (x0 + x1), 0.5 * (y0 + y1), 180.0])
+        self.unit = np.array([1 / self.side, 1 / self.side, HEIGHT / 360])
+        self.azimuth = azimuth
+        box = np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (0.0, 360.0)])
+        seen = [self._flat(box, azimuth)[0] for azimuth in np.linspace(*AZIMUTHS, 9)]
+        low, high = np.min([s.min(axis=0) for s in seen], axis=0), np.max([s.max(axis=0) for s in seen], axis=0)
+        # one scale and one place for all azimuths: the box turns, and nothing else
+        self.scale = min(0.8 * width / (high[0] - low[0]), 0.88 * height / (high[1] - low[1]))
+        self.offset = 0.5 * np.array([1.0 * width, 1.04 * height]) - 0.5 * self.scale * (low + high)
+
+    def __call__(self, points: ArrayLike) -> tuple[Floats, Floats]:
+        """Places (..., 2) and depths (...) of points (..., 3), theta in degrees."""
+        flat, depth = self._flat(np.asarray(points, dtype=np.float64), self.azimuth)
+        return self.offset + self.scale * flat, depth
+
+    def _flat(self, points: Floats, azimuth: float) -> tuple[Floats, Floats]:
+        p = (points - self.middle) * self.unit
+        c, s, ce, se = math.cos(azimuth), math.sin(azimuth), math.cos(ELEVATION), math.sin(ELEVATION)
+        depth = DISTANCE - p @ np.array([ce * c, ce * s, se])
+        flat = p @ np.array([[-s, -se * c], [c, -se * s], [0, ce]])
+        return flat / depth[..., None], depth
