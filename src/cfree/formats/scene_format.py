@@ -12,7 +12,7 @@ from decimal import Decimal
 from difflib import get_close_matches
 from fractions import Fraction
 from math import isfinite
-from typing import Annotated, Any
+from typing import Annotated, Any, Self
 
 from pydantic import (
     AfterValidator,
@@ -20,6 +20,7 @@ from pydantic import (
     BeforeValidator,
     ConfigDict,
     Field,
+    ModelWrapValidatorHandler,
     PlainValidator,
     PrivateAttr,
     ValidationError,
@@ -28,17 +29,19 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, PydanticCustomError
 
+from cfree import _core
 from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import Pose
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path, shortened
-from cfree.polygons.polygon import Polygon
+from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import LARGEST, range_fault
 from cfree.scene.scene import Scene, explained
 
 VERSION = 1
 MAX_NESTING = 32
+MAX_NAME = 1000
 
 
 def fault(message: str, **context: object) -> PydanticCustomError:
@@ -113,7 +116,7 @@ def _known_version(value: object) -> int:
 
 def is_encodable(text: str) -> bool:
     """No half of a surrogate pair?"""
-    return not any("\ud800" <= character <= "\udfff" for character in text)
+    return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
 
 
 def _plain(value: Any, depth: int = MAX_NESTING) -> Any:
@@ -178,6 +181,20 @@ class Strict(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
+def _without_fault(data: Any, model: type[BaseModel]) -> Polygon | None:
+    """The polygon of a model in which nothing is wrong: the core has read it, so nobody looks at each number."""
+    if not isinstance(data, dict) or not data.keys() <= model.model_fields.keys():
+        return None
+    name, holes = data.get("name") or "", data.get("holes", [])
+    if not isinstance(holes, list) or not isinstance(name, str) or len(name) > MAX_NAME or not is_encodable(name):
+        return None
+    try:
+        core = _core.Polygon.of([data.get("outer"), *holes])
+    except InvalidPolygonError:
+        return None
+    return None if core is None else polygon_of(core)
+
+
 class PolygonModel(Strict):
     """A polygon: an outer ring and the holes in it, in any orientation, closing point optional."""
 
@@ -185,13 +202,19 @@ class PolygonModel(Strict):
     holes: list[list[Point]] = []
     _polygon: Polygon = PrivateAttr()
 
-    @model_validator(mode="after")
-    def _build(self) -> PolygonModel:
-        try:
-            self._polygon = Polygon(self.outer, self.holes)
-        except InvalidPolygonError as error:
-            raise fault(explained(error), ring=error.ring) from None
-        return self
+    @model_validator(mode="wrap")
+    @classmethod
+    def _build(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        if polygon := _without_fault(data, cls):
+            model = cls.model_construct(name=data.get("name"))
+        else:
+            model = handler(data)
+            try:
+                polygon = Polygon(model.outer, model.holes)
+            except InvalidPolygonError as error:
+                raise fault(explained(error), ring=error.ring) from None
+        model._polygon = polygon
+        return model
 
     @property
     def polygon(self) -> Polygon:
@@ -201,7 +224,7 @@ class PolygonModel(Strict):
 class ObstacleModel(PolygonModel):
     """An obstacle: a polygon, and a name for messages and pictures."""
 
-    name: Annotated[str, Field(max_length=1000)] | None = None
+    name: Annotated[str, Field(max_length=MAX_NAME)] | None = None
 
 
 class SceneModel(Strict):

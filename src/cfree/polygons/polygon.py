@@ -252,9 +252,15 @@ class Polygon:
         )
 
 
-def _restored(numerators: Any, denominator: int, ring_offsets: Sequence[int], removed: tuple[Removed, ...]) -> Polygon:
+def polygon_of(core: _core.Polygon) -> Polygon:
+    """The polygon that the core has read."""
     polygon = Polygon.__new__(Polygon)
-    object.__setattr__(polygon, "core", restored(numerators, denominator, ring_offsets))
+    object.__setattr__(polygon, "core", core)
+    return polygon
+
+
+def _restored(numerators: Any, denominator: int, ring_offsets: Sequence[int], removed: tuple[Removed, ...]) -> Polygon:
+    polygon = polygon_of(restored(numerators, denominator, ring_offsets))
     vars(polygon)["removed"] = removed
     return polygon
 
