@@ -19,14 +19,15 @@ from typer.testing import CliRunner
 
 import cfree
 from cfree.cli.app import app
+from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.pose_checker import is_free
 from cfree.contact.definitions import contact_features, is_forbidden
 from cfree.errors import UnsupportedError
-from cfree.exact.pose import Pose
+from cfree.exact.pose import Pose, Poses
 from cfree.film.frame import Stage, caption
+from cfree.film.free_motions import FreeMotions
 from cfree.film.moves import Moment, Ring, columns, outward, over_column, roll, surface_of
 from cfree.film.reel import LATER, check_options, shots_of, views
-from cfree.film.route import Clearance, route
 from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.formats.scene_file import load_scene
@@ -71,6 +72,13 @@ def shot_of(name: str, kind: str) -> Shot:
 
 def places(moments: list[Moment]) -> np.ndarray:
     return np.array([(float(m.pose.x), float(m.pose.y), m.pose.theta) for m in moments])
+
+
+def apart(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Differences of rows x, y, theta, the last one the shorter way round."""
+    steps = first - second
+    steps[:, 2] = np.mod(steps[:, 2] + math.pi, math.tau) - math.pi
+    return steps
 
 
 # what is shown is true
@@ -144,17 +152,18 @@ def test_motions_are_continuous(told: tuple[Boundary, list[Shot]]) -> None:
     bound = 48 / FRAMES * math.hypot(x1 - x0, y1 - y0)
     for shot in shots:
         if len(shot.moments) > 1:
-            steps = np.linalg.norm(np.diff(places(shot.moments), axis=0) * scale, axis=1)
-            assert steps.max() < bound, shot.kind
-            assert np.abs(np.diff(places(shot.moments)[:, 2])).max() < 1.5  # never through theta = 0
+            steps = apart(places(shot.moments)[1:], places(shot.moments)[:-1])
+            assert np.linalg.norm(steps * scale, axis=1).max() < bound, shot.kind
+            assert np.abs(steps[:, 2]).max() < 1.5, shot.kind
     for before, after in itertools.pairwise(shots):
-        gap = np.linalg.norm((places(before.moments[-1:]) - places(after.moments[:1])) * scale)
+        gap = np.linalg.norm(apart(places(before.moments[-1:]), places(after.moments[:1])) * scale)
         assert after.cut or gap < bound, after.kind
 
 
 def test_more_frames_mean_smaller_steps(fig9: Boundary) -> None:
     def largest(frames: int) -> float:
-        return max(float(np.abs(np.diff(places(shot.moments), axis=0)).max()) for shot in storyboard(fig9, frames))
+        rows = [places(shot.moments) for shot in storyboard(fig9, frames)]
+        return max(float(np.abs(apart(row[1:], row[:-1])).max()) for row in rows)
 
     assert largest(1200) < 0.25 * largest(200)
 
@@ -241,32 +250,35 @@ def test_outward_is_away_from_the_forbidden_space(five: Boundary) -> None:
 # free motions
 
 
-def test_clearance_is_a_lower_bound(five: Boundary) -> None:
-    space = Clearance(five, extent(five))
-    rng = np.random.default_rng(1)
-    poses = rng.uniform((0, 0, 0), (12, 9, math.tau), (400, 3))
-    assert (space.at_least(poses) <= space.measured(poses) + 1e-9).all()
-    assert (space.at_least(poses) > 0).sum() > 50
+def test_shares_of_a_path_are_exact_poses_on_it_at_even_travel(five: Boundary) -> None:
+    free = FreeMotions(five, extent(five))
+    start, goal = Pose(1, "1.2"), Pose(11, "4.3", "120deg")
+    path = free.path(start, goal)
+    assert path is not None and path.is_free(MotionChecker(five.scene))
+    poses = free.poses(path, np.linspace(0, 1, 200).tolist())
+    assert poses[0] == start and (float(poses[-1].x), poses[-1].theta) == pytest.approx((11, goal.theta), abs=1e-9)
+    assert all(is_free(five.checker, pose) for pose in poses)
+    corners = Poses.from_poses(poses).apply(five.scene.robot[0].vertices)
+    moved = np.linalg.norm(np.diff(corners, axis=0), axis=2).max(axis=1)
+    assert moved.max() < 1.01 * free.travel(path) / 199 and np.median(moved) > 0.9 * moved.max()
 
 
-def test_routes_are_free_between_their_points(five: Boundary) -> None:
-    space = Clearance(five, extent(five))
-    start, goal = np.array([1, 1.2, 0.0]), np.array([11, 4.3, math.radians(120)])
-    way = route(space, start, goal)
-    assert way is not None
-    assert np.allclose(way[[0, -1]], [start, goal])
-    assert space.are_free(way, space.measured(way))
-    for a, b in itertools.pairwise(way[:: len(way) // 60]):
-        for s in (0.25, 0.5, 0.75):
-            assert is_free(five.checker, Pose(*((1 - s) * a + s * b).tolist())) or np.linalg.norm(a - b) > 0.5
-
-
-def test_no_route_leads_through_a_wall() -> None:
+def test_no_path_leads_through_a_wall() -> None:
     wall = [(4, -1), (5, -1), (5, 9), (4, 9)]
     result = boundary(Scene([(0, 0), (1, 0), (0, 1)], [wall], bounds=(0, 0, 8, 8)))
-    space = Clearance(result, extent(result))
-    assert route(space, np.array([1.0, 4.0, 0.0]), np.array([7.0, 4.0, 0.0])) is None
-    assert route(space, np.array([1.0, 4.0, 0.0]), np.array([1.0, 1.0, 1.0])) is not None
+    free = FreeMotions(result, extent(result))
+    assert free.path(Pose(1, 4), Pose(7, 4)) is None
+    assert free.path(Pose(1, 4), Pose(1, 1, 1.0)) is not None
+    far = free.farthest(Pose(1, 1))
+    assert far is not None and float(far.x) < 4 and float(far.y) > 4  # on this side
+
+
+def test_a_full_turn_has_room_where_it_is_made(five: Boundary) -> None:
+    turn = FreeMotions(five, extent(five)).full_turn()
+    assert turn is not None and turn.turning == pytest.approx(math.tau) and turn.is_free(MotionChecker(five.scene))
+    rod, slot = [(-2, -0.25), (2, -0.25), (2, 0.25), (-2, 0.25)], [(-9, -1), (9, -1), (9, 1), (-9, 1)]
+    narrow = boundary(Scene(rod, workspace=slot))
+    assert FreeMotions(narrow, extent(narrow)).full_turn() is None
 
 
 # frames

@@ -34,8 +34,6 @@ LARGEST_BITS = 100  # of the core's doubles, so that products of four of their p
 RING_COLUMNS = ("previous", "convex", "emit", "layer", "owner_polygon", "owner_vertex")
 
 
-
-
 class ShapeFeatures:
     """Flat arrays of the robot or of the obstacles; see ``cpp/include/cfree/scene/scene.hpp`` for those the core takes.
 
@@ -134,6 +132,7 @@ class ShapeFeatures:
     @cached_property
     def owner_vertex(self) -> NDArray[np.int32]:
         return np.array(self.rings["owner_vertex"], np.int32)
+
 
 @dataclass(frozen=True)
 class SceneFeatures:

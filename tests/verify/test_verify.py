@@ -111,10 +111,7 @@ def test_progress_is_reported(flat: Path) -> None:
 
 
 def test_the_core_reads_the_scene_and_nothing_else(flat: Path) -> None:
-    program = (
-        f"{READING_ONLY}\nimport cfree.verify\n"
-        f"print(cfree.verify.boundary({str(flat)!r}, slices=1).verified)"
-    )
+    program = f"{READING_ONLY}\nimport cfree.verify\nprint(cfree.verify.boundary({str(flat)!r}, slices=1).verified)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert done.stdout == "True\n", done.stderr
 

@@ -55,7 +55,7 @@ def save_film(
 
     Notes
     -----
-    Poses at contacts are exact and on the contact surface; free motions keep a clearance that makes them free. Time
+    Poses at contacts are exact and on the contact surface, those of free motions exact and on a path proved free. Time
     is some tenths of a second a frame of 1280 x 720. A GIF is kept in memory until it is written.
 
     Examples

@@ -9,7 +9,7 @@ The storyboard "paper" tells what the paper says of one robot and one obstacle, 
     pillar    it goes around the obstacle, or turns where it can, while theta goes from 0 to 360 degrees: everything
     path      it moves from start to goal, touching nothing
 
-Within a shot the motion is continuous. From one to the next it goes freely; where no free way is found there is a cut.
+Within a shot the motion is continuous. From one to the next it goes freely; where no free way leads there is a cut.
 """
 
 from __future__ import annotations
@@ -24,8 +24,9 @@ from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
 from cfree.film.eye import AZIMUTHS
+from cfree.film.free_motions import FreeMotions
 from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
-from cfree.film.route import Clearance, route
+from cfree.paths.path import Path
 from cfree.plot.boundary import extent
 from cfree.plot.pieces import Colours
 from cfree.scene.scene import robot_radius
@@ -45,7 +46,6 @@ HOME = math.radians(-52)
 FULL_TURN = math.tau - 1e-6
 LOWER = math.radians(50)  # by how much the first slice is below the second
 LINK = 0.45  # share of a shot that a free way to its beginning may take
-FINER = 1, 2  # a second grid for narrow passages
 TRIED = 30  # patches, best first, until one is found whose slice closes around an obstacle
 
 
@@ -132,7 +132,7 @@ class _Director:
         edges = [c for c in found if self._kind(c) == "e-v"]
         self.edge = next((c for c in edges if self._shares_obstacle(c)), edges[0] if edges else None)
         self.here: Moment | None = None
-        self._spaces: dict[int, Clearance] = {}
+        self.free = FreeMotions(boundary, self.window)
 
     def shots(self, frames: int, kinds: tuple[str, ...]) -> list[Shot]:
         self.here = None
@@ -254,26 +254,21 @@ class _Director:
 
     def _in_place(self, n: int) -> tuple[list[Moment], int, bool] | None:
         """Where there is most room for a full turn, if there is any."""
-        space = self._space(1)
-        room = space.grid.min(axis=2)
-        if room.max(initial=0) <= 2 * space.margin:
-            return None
-        i, j = np.unravel_index(int(room.argmax()), room.shape)
-        x, y, _ = space.poses(np.array([i, j, 0])).tolist()
-        return self._linked(lambda count: [Moment(Pose(x, y, float(a))) for a in _eased(0, FULL_TURN, count)], n)
+        turn = self.free.full_turn()
+        return None if turn is None else self._linked(lambda count: self._along(turn, count, FULL_TURN / math.tau), n)
 
     def _path(self, n: int) -> Shot | None:
-        """From start to goal; if the scene has none, from here to the pose that is farthest."""
+        """From start to goal; if the scene has none, or no way to it, from here to the pose that is farthest."""
         scene = self.boundary.scene
         start = self.here or self._rest() if scene.start is None else Moment(scene.start)
         if start is None:
             return None
-        way = None if scene.goal is None else self._way_to(_place(start.pose), _place(scene.goal))
-        if way is None:
-            way = route(self._space(1), _place(start.pose), None)
+        way = None if scene.goal is None else self.free.path(start.pose, scene.goal)
+        if way is None and (goal := self.free.farthest(start.pose)) is not None:
+            way = self.free.path(start.pose, goal)
         if way is None:
             return None
-        moments, link, cut = self._linked(lambda count: _along(way, count), n)
+        moments, link, cut = self._linked(lambda count: self._along(way, count), n)
         shot = Shot("path", "A path through the free space", _FORMULAS["path"], moments)
         return replace(shot, ghost=0.08, link=link, cut=cut)
 
@@ -284,72 +279,24 @@ class _Director:
         if self.here is None:
             return moments(n), 0, False
         (begin,) = moments(1)
-        here, there = (_place(moment.pose) for moment in (self.here, begin))
-        if np.linalg.norm((here - there) * (1, 1, self.radius)) < 0.02 * self.radius:
-            return moments(n), 0, False
-        way = self._way_between(self.here, begin)
+        way = self.free.path(self.here.pose, begin.pose)
         if way is None:
             return moments(n), 0, True
-        length = float(np.linalg.norm(np.diff(way, axis=0) * (1, 1, self.radius), axis=1).sum())
+        length = self.free.travel(way)
+        if length < 0.02 * self.radius:
+            return moments(n), 0, False
         link = round(n * min(LINK, max(0.1, 0.4 * length / math.dist(self.window[:2], self.window[2:]))))
-        # both ends are exact already
-        return [*_along(way, link + 2)[1:-1], *moments(n - link)], link, False
+        # both ends are shown already
+        return [*self._along(way, link + 2)[1:-1], *moments(n - link)], link, False
 
-    def _way_between(self, start: Moment, goal: Moment) -> Floats | None:
-        """Off the contact, freely, and onto the other contact."""
-        first, last = self._off(start), self._off(goal)
-        if first is None or last is None:
-            return None
-        way = route(self._space(1), first[-1], last[-1])
-        if way is None:
-            return None
-        return np.concatenate((first[:-1], way, last[:-1][::-1]))
-
-    def _off(self, moment: Moment) -> Floats | None:
-        """A straight free way off a contact, to where there is some clearance."""
-        here = _place(moment.pose)
-        if moment.contact is None:
-            return here[None]
-        normal = self._normal(moment)
-        space = self._space(1)
-        for length in (8 * space.margin, 4 * space.margin, 2 * space.margin, space.margin):
-            s = np.linspace(0, length, 40)[:, None]
-            way = here + s * np.append(normal, 0.0)
-            clearance = space.measured(way)
-            # straight off an edge, the clearance grows at first by what is moved
-            if (clearance[1:] > 0.3 * np.minimum(s[1:, 0], space.margin)).all():
-                return np.asarray(way)
-        return None
-
-    def _normal(self, moment: Moment) -> Floats:
-        """The mean of the directions to the free side that the contacts here have."""
-        cut = self.boundary.slice(moment.pose.theta)
-        start, stop = cut.segments[:, 0], cut.segments[:, 1]
-        step = stop - start
-        square = np.maximum((step**2).sum(axis=1), 1e-300)
-        share = np.clip(((_xy(moment.pose) - start) * step).sum(axis=1) / square, 0, 1)
-        gap = np.hypot(*(start + share[:, None] * step - _xy(moment.pose)).T)
-        near = np.flatnonzero(gap < 1e-6 * self.radius + gap.min())
-        normal = np.sum([outward(self.boundary, int(cut.patches[k]), moment.pose.theta) for k in near], axis=0)
-        return np.asarray(normal / max(np.linalg.norm(normal), 1e-12))
-
-    def _way_to(self, start: Floats, goal: Floats) -> Floats | None:
-        ways = (route(self._space(fineness), start, goal) for fineness in FINER)
-        return next((way for way in ways if way is not None), None)
-
-    def _space(self, fineness: int) -> Clearance:
-        if fineness not in self._spaces:
-            self._spaces[fineness] = Clearance(self.boundary, self.window, fineness)
-        return self._spaces[fineness]
+    def _along(self, way: Path, n: int, end: float = 1.0) -> list[Moment]:
+        """Poses at even travel of the robot, slowly at both ends."""
+        return [Moment(pose) for pose in self.free.poses(way, _eased(0, end, n))]
 
     def _rest(self) -> Moment | None:
-        """Where there is most room at theta = 0."""
-        space = self._space(1)
-        i, j = np.unravel_index(int(space.grid[..., 0].argmax()), space.grid.shape[:2])
-        if space.grid[i, j, 0] <= 0:
-            return None
-        x, y, _ = space.poses(np.array([i, j, 0])).tolist()
-        return Moment(Pose(x, y, 0))
+        """Where there is most room."""
+        pose = self.free.roomiest()
+        return None if pose is None else Moment(pose)
 
     def _kind(self, column: Column) -> str:
         return {1: "v-e", 2: "e-v", 3: "bound"}[int(self.boundary.patch_kind[column.patch])]
@@ -393,10 +340,6 @@ _FORMULAS = {
 }
 
 
-def _place(pose: Pose) -> Floats:
-    return np.array([float(pose.x), float(pose.y), pose.theta])
-
-
 def _xy(pose: Pose) -> tuple[float, float]:
     return float(pose.x), float(pose.y)
 
@@ -417,10 +360,3 @@ def _eased(start: float, stop: float, n: int) -> list[float]:
 
 def _thinned(moments: list[Moment], n: int) -> list[Moment]:
     return [moments[k] for k in np.rint(np.linspace(0, len(moments) - 1, n)).astype(int)] if n > 1 else moments[:n]
-
-
-def _along(way: Floats, n: int) -> list[Moment]:
-    """Poses at even steps of a polyline, slowly at both ends."""
-    places = _eased(0, len(way) - 1, n)
-    rows = np.stack([np.interp(places, np.arange(len(way)), column) for column in way.T], axis=1)
-    return [Moment(Pose(x, y, min(theta, FULL_TURN))) for x, y, theta in rows.tolist()]

@@ -54,9 +54,7 @@ def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
         return int(shape.owner_polygon[k]), int(shape.owner_vertex[k])
 
     robot, obstacle = feature(features.robot, i), feature(features.obstacles, j)
-    together = (
-        features.robot.core.layer[i] == features.obstacles.core.layer[j]
-    )  # only the reference point has bounds
+    together = features.robot.core.layer[i] == features.obstacles.core.layer[j]  # only the reference point has bounds
     if not together or min(robot[1], obstacle[1]) < 0:
         return None
     return Touch("vertex-edge" if kind == 1 else "edge-vertex", robot, obstacle)

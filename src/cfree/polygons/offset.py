@@ -72,5 +72,3 @@ def _mitred(polygon: Polygon, by: Fraction) -> list[list[ExactPoint]]:
     if any((x1 - x0) * u + (y1 - y0) * v <= 0 for (x0, y0), (x1, y1), (u, v) in ends):
         return []
     return [moved[i:j] for i, j in pairwise(polygon.ring_offsets)]
-
-

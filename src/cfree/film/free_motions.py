@@ -1,0 +1,100 @@
+"""Free motions of a film: paths of the planner, and places to go to."""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from cfree.collision.motion import rotations
+from cfree.exact.pose import Pose, Poses
+from cfree.free.largest_disc import largest_disc
+from cfree.free.space import FreeSpace, free_space
+from cfree.paths.path import Path
+from cfree.paths.travel import Travel
+from cfree.planning.planner import Planner
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from cfree.forbidden.boundary import Boundary
+    from cfree.plot.workspace import Window
+
+SLICES = 72  # among which the place for a full turn is looked for
+GRID = 16  # poses along each axis, among which the farthest is
+
+
+class FreeMotions:
+    """What the robot can do without touching anything on the way.
+
+    Parameters
+    ----------
+    boundary : Boundary
+    window : four floats
+        x0, y0, x1, y1 around the places it may go to.
+    """
+
+    def __init__(self, boundary: Boundary, window: Window) -> None:
+        self._boundary, self._window, self._scene = boundary, window, boundary.scene
+
+    @cached_property
+    def _space(self) -> FreeSpace:
+        return free_space(self._boundary)
+
+    @cached_property
+    def _planner(self) -> Planner:
+        return Planner(self._scene, self._space)
+
+    def path(self, start: Pose, goal: Pose) -> Path | None:
+        """A path; None if the two are in no common cell, as where all ways touch something."""
+        if self._space.common_cell(start, goal) is None:
+            return None
+        found = self._planner.plan(start, goal)
+        return found if isinstance(found, Path) else None
+
+    def full_turn(self) -> Path | None:
+        """A full turn in place where there is most room for it, from theta = 0; None if it is not free."""
+        import shapely
+
+        angles = np.linspace(0, math.tau, SLICES, endpoint=False).tolist()
+        forbidden = shapely.union_all([self._boundary.slice(angle).forbidden for angle in angles])
+        free = shapely.box(*self._window).difference(forbidden)
+        if free.is_empty:
+            return None
+        x, y = shapely.maximum_inscribed_circle(free).coords[0]
+        path = Path(Pose(x, y, 0), rotations((x, y), "360deg"))
+        return path if path.is_free(self._planner.checker) else None
+
+    def roomiest(self) -> Pose | None:
+        """A pose with much room in the largest cell; None if there is none."""
+        if not len(self._boundary.trapezoids) or not len(self._space):
+            return None
+        found = largest_disc(self._space.cells[int(np.argmax(self._space.volumes))])
+        return None if found is None else found[0]
+
+    def farthest(self, pose: Pose) -> Pose | None:
+        """Of poses on a grid that can be reached, the farthest; None if none can."""
+        x0, y0, x1, y1 = self._window
+        axes = np.linspace(x0, x1, GRID), np.linspace(y0, y1, GRID), np.linspace(0, math.tau, GRID, endpoint=False)
+        x, y, theta = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
+        far = np.hypot(x - float(pose.x), y - float(pose.y))
+        far += self._planner.angle_scale * np.abs(np.mod(theta - pose.theta + math.pi, math.tau) - math.pi)
+        reached = self._space.locate(Poses(np.stack((x, y), axis=1), theta)) == self._space.locate(pose)
+        if not reached.any():
+            return None
+        k = int(np.where(reached, far, -1.0).argmax())
+        return Pose(float(x[k]), float(y[k]), float(theta[k]))
+
+    def travel(self, path: Path) -> float:
+        """How far the robot travels."""
+        return Travel(path, self._scene).total
+
+    def poses(self, path: Path, shares: Sequence[float]) -> list[Pose]:
+        """Exact poses of a path at shares of the robot's travel."""
+        if not path.motions:
+            return [path.start] * len(shares)
+        travel = Travel(path, self._scene)
+        places = zip(*(column.tolist() for column in travel.places(travel.total * np.array(shares))), strict=True)
+        return [path.motions[k].at(path.poses[k], path.motions[k].parameter(share)) for k, share in places]
