@@ -1,1 +1,1 @@
-"""Scene files: one file a format, the collection of their faults, and where in the text they are."""
+"""Every value in files of its own kind: one file a format, their faults collected, and where in the text they are."""

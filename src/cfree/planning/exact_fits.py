@@ -1,8 +1,8 @@
 """Ways through exact fits: contact motions between cells, where free space is too thin for any clearance.
 
-C_free is closed. Its cells may touch, and its isolated parts are free without being in any cell; `places` knows where
-they meet. Every motion is checked. So a way that is found is a proof; that none is found says nothing: `separated` has
-the proofs of that.
+C_free is closed. Its cells may touch, and its isolated parts are free without being in any cell; `meeting_places`
+knows where they meet. Every motion is checked. So a way that is found is a proof; that none is found says nothing:
+`separation` has the proofs of that.
 """
 
 from __future__ import annotations

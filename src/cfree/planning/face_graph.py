@@ -1,7 +1,7 @@
 """Which trapezoids a path along the boundary of a cell crosses: the shortest way over common sides, in doubles.
 
-Nothing is decided here: `walk` makes poses of it, exactly. Where a cell has several closed surfaces, free segments
-link them.
+Nothing is decided here: `boundary_walk` makes poses of it, exactly. Where a cell has several closed surfaces, free
+segments link them.
 """
 
 from __future__ import annotations

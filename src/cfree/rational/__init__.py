@@ -1,6 +1,6 @@
 """The rational model of the configuration space: the paper's section 5.
 
-`surd` has numbers with one square root, `model` contacts on fractions, `bezier` patches as rational Bezier surfaces.
+`model` has contacts on fractions, `bezier` patches as rational Bezier surfaces.
 """
 
 from typing import TYPE_CHECKING

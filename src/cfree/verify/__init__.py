@@ -22,13 +22,13 @@ nothing missing, SAMPLED
 
 "Not forbidden" says nothing of other angles, nor does "nothing missing". Curves are told apart by their equations,
 angles by irreducible polynomials, positions by elements of the angle's number field; 32-byte hashes stand for curves
-and lines when sides are gathered. Only polygons and `features` are believed:
-that they hold the scene's numbers, and number features as the file does.
+and lines when sides are gathered. Polygons are believed to hold the scene's numbers, and `features` to number features
+as the file does; nothing else is.
 
-Each file imports only from those before it: `algebra` (roots, numbers), `surfaces` (contacts, curves, lines),
-`polygons`, `world` (the scene), `section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`,
-`missing`, `angles`, `result`, `driver`; for answers, `cfree.verify.answer`: `inside` (polygons in polygons), `motions`,
-`parity` (rays), `separation`, `answers`. Of an answer everything is PROVED.
+Each file imports only from the ones before it: `surfaces` (contacts, curves, lines), `polygons`, `world` (the scene),
+`section` (the scene at one angle), `trapezoids` (the file), `isolated`, `matching`, `missing`, `angles`, `result`,
+`driver`; for answers, `cfree.verify.answer`: `inside` (polygons in polygons), `motions`, `parity` (rays), `separation`,
+`answers`. Of an answer everything is PROVED.
 """
 
 from cfree.verify.answers import answer as answer
