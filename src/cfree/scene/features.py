@@ -10,7 +10,6 @@ robot's reference point, as a shape of its own, with the complement of `bounds`.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -20,11 +19,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree import _core
 from cfree.errors import UnsupportedError
+from cfree.scene.coordinate_range import core_shapes
 
 if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from cfree.polygons.polygon import Polygon
     from cfree.scene.scene import Scene
 
 Point = tuple[int, int]
@@ -139,21 +136,6 @@ def scene_features(scene: Scene) -> SceneFeatures:
     )
     refuse_too_many(features)
     return features
-
-
-def core_shapes(
-    robot: Sequence[Polygon],
-    obstacles: Sequence[Polygon],
-    workspace: Polygon | None,
-    bounds: Sequence[Fraction] | None,
-) -> tuple[Any, ...]:
-    """What the core makes scenes of."""
-    return (
-        [part.core for part in robot],
-        [obstacle.core for obstacle in obstacles],
-        workspace and workspace.core,
-        bounds and list(bounds),
-    )
 
 
 def refuse_too_many(features: SceneFeatures) -> None:

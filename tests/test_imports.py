@@ -1,0 +1,72 @@
+"""Packages import one way, and no files import each other in a circle."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+SOURCE = Path(__file__).parents[1] / "src"
+CORE = "cfree._core"
+ORDER = """
+    lazy errors collector value arguments
+    exact polygons scene contact collision forbidden geometry free paths planning analysis formats
+    verify rational ompl plot figures film cli __main__
+""".split()  # noqa: SIM905
+"""Each imports only from those before it."""
+
+
+def modules() -> dict[str, Path]:
+    """All files of the package by name."""
+    files = {path.relative_to(SOURCE).with_suffix(""): path for path in SOURCE.rglob("*.py")}
+    return {".".join(name.parts).removesuffix(".__init__"): path for name, path in files.items()}
+
+
+MODULES = modules()
+
+
+def imported(text: str) -> Iterator[str]:
+    """Files of the package named by any import statement: in functions and under TYPE_CHECKING, too."""
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name.split(".")[0] == "cfree")
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "imports are absolute"
+            if node.module and node.module.split(".")[0] == "cfree":
+                names = (f"{node.module}.{alias.name}" for alias in node.names)
+                yield from (name if name in MODULES or name == CORE else node.module for name in names)
+
+
+def package(name: str) -> str:
+    return name.split(".")[1]
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if name != "cfree"])
+def test_imports_lead_down(name: str) -> None:
+    for other in imported(MODULES[name].read_text()):
+        assert other != "cfree", "whoever imports what is public runs in a circle"
+        assert other == CORE or ORDER.index(package(other)) <= ORDER.index(package(name)), other
+
+
+def test_no_files_import_each_other_in_a_circle() -> None:
+    graph = {name: {other for other in imported(path.read_text()) if other != name} for name, path in MODULES.items()}
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        pytest.fail(f"circle: {' <- '.join(error.args[1])}")
+
+
+def test_what_is_hidden_is_seen() -> None:
+    text = """
+        from typing import TYPE_CHECKING
+        if TYPE_CHECKING:
+            from cfree.film import save_film
+        def late():
+            import cfree.verify.world
+            from cfree import _core
+    """
+    lines = [line.removeprefix("        ") for line in text.splitlines()]
+    assert set(imported("\n".join(lines))) == {"cfree.film", "cfree.verify.world", CORE}
