@@ -31,6 +31,7 @@ BENCHES = (
     "plan",
     "tight",
     "fits",
+    "scene",
     "start",
 )
 

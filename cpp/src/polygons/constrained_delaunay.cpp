@@ -178,32 +178,36 @@ Triangles swept_triangles(const Points& points, const std::vector<std::vector<In
 }
 
 std::vector<Index> twins(const Points& points, const std::vector<std::vector<Index>>& rings, const Triangles& triangles) {
-    struct Edge {
-        Index from, to, number;
+    struct Side {
+        std::uint64_t ends;  // the lesser, the greater
+        Index number;        // of the triangle's edge, -1 for an edge of the rings
+        bool upwards;        // from the lesser to the greater
     };
-    const auto before = [](const Edge& e, const Edge& f) { return std::pair(e.from, e.to) < std::pair(f.from, f.to); };
-    std::vector<Edge> edges, own;
+    std::vector<Side> sides;
+    const auto add = [&](Index from, Index to, Index number) {
+        const auto [low, high] = std::minmax(from, to);
+        sides.push_back({static_cast<std::uint64_t>(low) << 32 | static_cast<std::uint64_t>(high), number, from < to});
+    };
+    sides.reserve(3 * triangles.size() + static_cast<std::size_t>(points.size()));
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto [a, b, c] = triangles[t];
         if (points.orient(a, b, c) <= 0) return {};
         const auto first = static_cast<Index>(3 * t);
-        edges.insert(edges.end(), {{a, b, first}, {b, c, first + 1}, {c, a, first + 2}});
+        add(a, b, first), add(b, c, first + 1), add(c, a, first + 2);
     }
     for (const auto& ring : rings)
-        for (std::size_t k = 0; k < ring.size(); ++k) own.push_back({ring[k], ring[k + 1 < ring.size() ? k + 1 : 0], -1});
-    std::sort(edges.begin(), edges.end(), before), std::sort(own.begin(), own.end(), before);
-    std::vector<Index> twin(edges.size(), -1);
-    std::size_t owned = 0;
-    for (std::size_t k = 0; k < edges.size(); ++k) {
-        const Edge &e = edges[k], backwards{e.to, e.from, -1};
-        if (k && !before(edges[k - 1], e)) return {};
-        const auto found = std::lower_bound(edges.begin(), edges.end(), backwards, before);
-        if (found != edges.end() && !before(backwards, *found)) twin[e.number] = found->number;
-        const bool is_own = std::binary_search(own.begin(), own.end(), e, before);
-        if (is_own == (twin[e.number] >= 0)) return {};
-        owned += is_own;
+        for (std::size_t k = 0; k < ring.size(); ++k) add(ring[k], ring[k + 1 < ring.size() ? k + 1 : 0], -1);
+    std::sort(sides.begin(), sides.end(), [](const Side& s, const Side& t) { return s.ends < t.ends; });
+    // each edge of a triangle has one partner: the same one of the rings, or another triangle's, backwards
+    std::vector<Index> twin(3 * triangles.size(), -1);
+    if (sides.size() % 2) return {};
+    for (std::size_t k = 0; k < sides.size(); k += 2) {
+        const Side &one = sides[k], &other = sides[k + 1];
+        if (one.ends != other.ends || (k && one.ends == sides[k - 1].ends)) return {};
+        const bool are_inside = one.number >= 0 && other.number >= 0;
+        if ((one.number < 0 && other.number < 0) || are_inside == (one.upwards == other.upwards)) return {};
+        if (are_inside) twin[one.number] = other.number, twin[other.number] = one.number;
     }
-    if (owned < own.size()) return {};
     return twin;
 }
 

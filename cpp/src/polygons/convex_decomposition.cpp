@@ -1,6 +1,7 @@
 #include "cfree/polygons/convex_decomposition.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 
 #include "cfree/polygons/constrained_delaunay.hpp"
@@ -56,15 +57,11 @@ public:
     struct Diagonal {
         Index a, b, edge;  // ends, a < b, and its half-edge from a
         int cured;
-        Int square;  // of its length
     };
-    Diagonal of(Index a, Index b, Index edge) const {
-        const Int dx = v.X[b] - v.X[a], dy = v.Y[b] - v.Y[a];
-        return {a, b, edge, cures(a, b) + cures(b, a), dx * dx + dy * dy};
-    }
-    static bool less(const Diagonal& d, const Diagonal& e) {
+    Diagonal of(Index a, Index b, Index edge) const { return {a, b, edge, cures(a, b) + cures(b, a)}; }
+    bool operator()(const Diagonal& d, const Diagonal& e) const {
         if (d.cured != e.cured) return d.cured < e.cured;
-        if (const int order = d.square.compare(e.square)) return order > 0;
+        if (const int order = v.compare_lengths(d.a, d.b, e.a, e.b)) return order > 0;
         return std::pair(d.a, d.b) < std::pair(e.a, e.b);
     }
 
@@ -100,7 +97,7 @@ Pieces merged(const Points& v, const IndexRings& rings, const Cover& cover) {
     std::vector<Usefulness::Diagonal> diagonals;
     for (Index h = 0; h < count; ++h)
         if (twin[h] >= 0 && origin(h) < origin(twin[h])) diagonals.push_back(usefulness.of(origin(h), origin(twin[h]), h));
-    std::sort(diagonals.begin(), diagonals.end(), Usefulness::less);
+    std::sort(diagonals.begin(), diagonals.end(), std::cref(usefulness));
 
     // the corner at the origin of h, once h and its reverse are gone (below 2 pi, as at every vertex)
     const auto is_convex_without = [&](Index h, Index back) {

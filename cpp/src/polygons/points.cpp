@@ -60,19 +60,34 @@ int Points::sign(Index p, Index q, Index r, Index s) const {
         return (value > 0) - (value < 0);
     }
     // six roundings in a row: inputs, differences, products (2 + 2 + 1), their sum
-    const auto difference = [](const std::vector<double>& c, Index to, Index from) {
-        return Approx{c[to] - c[from], std::abs(c[to]) + std::abs(c[from])};
-    };
-    const Vec<Approx> u{difference(about_x, q, p), difference(about_y, q, p)};
-    const Vec<Approx> v{difference(about_x, s, r), difference(about_y, s, r)};
-    const Approx about = is_dot ? dot(u, v) : cross(u, v);
-    if (std::abs(about.v) > 8 * 0x1p-53 * about.m + least) return about.v > 0 ? 1 : -1;
+    const Vec<Approx> u = about(p, q), v = about(r, s);
+    const Approx value = is_dot ? dot(u, v) : cross(u, v);
+    if (std::abs(value.v) > 8 * 0x1p-53 * value.m + least) return value.v > 0 ? 1 : -1;
     const Vec<Int> U{X[q] - X[p], Y[q] - Y[p]}, V{X[s] - X[r], Y[s] - Y[r]};
     return (is_dot ? dot(U, V) : cross(U, V)).sign();
 }
 
 int Points::turn(Index p, Index q, Index r, Index s) const { return sign<false>(p, q, r, s); }
 int Points::along(Index p, Index q, Index r, Index s) const { return sign<true>(p, q, r, s); }
+
+int Points::compare_lengths(Index p, Index q, Index r, Index s) const {
+    const auto square = [](auto x_length, auto y_length) { return x_length * x_length + y_length * y_length; };
+    if (are_small()) {
+        const Wide one = square(Wide(x[q]) - x[p], Wide(y[q]) - y[p]), other = square(Wide(x[s]) - x[r], Wide(y[s]) - y[r]);
+        return (one > other) - (one < other);
+    }
+    const Vec<Approx> u = about(p, q), v = about(r, s);
+    const Approx order = dot(u, u) - dot(v, v);  // seven roundings in a row
+    if (std::abs(order.v) > 9 * 0x1p-53 * order.m + least) return order.v > 0 ? 1 : -1;
+    return square(Int(X[q] - X[p]), Int(Y[q] - Y[p])).compare(square(Int(X[s] - X[r]), Int(Y[s] - Y[r])));
+}
+
+Vec<Approx> Points::about(Index from, Index to) const {
+    const auto difference = [&](const std::vector<double>& c) {
+        return Approx{c[to] - c[from], std::abs(c[to]) + std::abs(c[from])};
+    };
+    return {difference(about_x), difference(about_y)};
+}
 
 bool Points::is_upper(Index p, Index q) const {
     if (are_small()) return y[q] > y[p] || (y[q] == y[p] && x[q] > x[p]);

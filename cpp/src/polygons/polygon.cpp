@@ -121,24 +121,29 @@ Polygon::Polygon(std::vector<RatioRing> rings) {
         for (const auto& point : ring) x.push_back(whole(point.x)), y.push_back(whole(point.y));
         points.emplace_back(std::move(x), std::move(y));
     }
-    check(points);
+    check(std::move(points));
 }
 
-Polygon::Polygon(const std::vector<Points>& rings, const Int& common) : denominator(common) { check(rings); }
+Polygon::Polygon(std::vector<Points> rings, const Int& common) : denominator(common) { check(std::move(rings)); }
 
-void Polygon::check(const std::vector<Points>& rings) {
+void Polygon::check(std::vector<Points>&& rings) {
     // clean
     std::vector<Cleaned> kept;
     std::vector<Int> x, y;
     offsets = {0};
     for (std::size_t r = 0; r < rings.size(); ++r) {
         kept.push_back(cleaned(static_cast<Index>(r), rings[r]));
-        for (const Index k : kept[r].source) x.push_back(rings[r].X[k]), y.push_back(rings[r].Y[k]);
         removed.insert(removed.end(), kept[r].removed.begin(), kept[r].removed.end());
-        offsets.push_back(static_cast<Index>(x.size()));
+        offsets.push_back(offsets.back() + static_cast<Index>(kept[r].source.size()));
     }
-    vertices = Points(std::move(x), std::move(y));
     const std::size_t count = rings.size();
+    if (count == 1 && removed.empty()) {
+        vertices = std::move(rings[0]);
+    } else {
+        for (std::size_t r = 0; r < count; ++r)
+            for (const Index k : kept[r].source) x.push_back(rings[r].X[k]), y.push_back(rings[r].Y[k]);
+        vertices = Points(std::move(x), std::move(y));
+    }
     is_convex_ring = count == 1 && is_convex_chain(vertices);
     std::vector<char> counterclockwise;
     for (std::size_t r = 0; r < count; ++r) counterclockwise.push_back(is_counterclockwise(vertices, offsets[r], offsets[r + 1]));

@@ -39,6 +39,12 @@ struct Builder {
 
     explicit Builder(const Int& common) : scale(common) {}
 
+    void reserve(const std::vector<std::shared_ptr<const Polygon>>& polygons) {
+        std::size_t total = 0;
+        for (const auto& polygon : polygons) total += polygon->vertices.X.size();
+        x.reserve(total), y.reserve(total);
+    }
+
     Index count() const { return static_cast<Index>(x.size()); }
 
     // A ring of the vertices put in last, from `first` on.
@@ -129,7 +135,7 @@ std::vector<Index> place_orders(const Points& points) {
 
 Shape finished(Builder&& from, int shift) {
     Shape s;
-    const Points points(std::move(from.x), std::move(from.y));
+    Points points(std::move(from.x), std::move(from.y));
     s.ring_vertices = static_cast<Index>(from.next.size());
     s.v.resize(from.next.size()), s.w = from.next;
     std::iota(s.v.begin(), s.v.end(), 0);
@@ -149,6 +155,7 @@ Shape finished(Builder&& from, int shift) {
     const auto high = [&](Index e) { return place[s.v[e]] < place[s.w[e]] ? s.w[e] : s.v[e]; };
     // upright vectors along the edges, and the origin: their doubles have all digits
     std::vector<Int> along_x, along_y;
+    along_x.reserve(s.v.size() + 1), along_y.reserve(s.v.size() + 1);
     for (Index e = 0; e < static_cast<Index>(s.v.size()); ++e) {
         along_x.push_back(points.X[high(e)] - points.X[low(e)]);
         along_y.push_back(points.Y[high(e)] - points.Y[low(e)]);
@@ -174,7 +181,7 @@ Shape finished(Builder&& from, int shift) {
     s.previous = std::move(from.previous), s.layer = std::move(from.layer);
     s.convex = std::move(from.convex), s.emit = std::move(from.emit);
     s.piece = std::move(from.piece), s.piece_vertex = std::move(from.piece_vertex), s.piece_layer = std::move(from.piece_layer);
-    s.set_coordinates(points.X, points.Y, shift, from.scale);
+    s.set_coordinates(std::move(points.X), std::move(points.Y), shift, from.scale);
     return s;
 }
 
@@ -270,6 +277,7 @@ SceneFeatures scene_features(const SceneShapes& shapes) {
         for (const Ratio& bound : *shapes.bounds) bounds.push_back(bound.n * (scale / bound.d));
     }
     Builder robot(scale), obstacles(scale);
+    robot.reserve(shapes.robot), obstacles.reserve(shapes.obstacles);
     const auto own = [](std::size_t, Index k) { return k; };
     for (std::size_t k = 0; k < shapes.robot.size(); ++k)
         robot.add_polygon(*shapes.robot[k], static_cast<Index>(k), true, own);

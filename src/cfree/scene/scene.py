@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 
 from cfree.arguments import checked
+from cfree.collector import collection_paused
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -114,11 +115,12 @@ class Scene:
         names: Sequence[str | None] = [None] * len(items) if obstacle_names is None else obstacle_names
         if len(names) != len(items):
             raise ValueError(f"{len(names)} names for {len(items)} obstacles; give one for each, or None")
-        shapes = [
-            (name, polygon)
-            for k, (item, name) in enumerate(zip(items, names, strict=True))
-            for polygon in _polygons(item, f"obstacle {k}" + (f" ({name})" if name else ""))
-        ]
+        with collection_paused():
+            shapes = [
+                (name, polygon)
+                for k, (item, name) in enumerate(zip(items, names, strict=True))
+                for polygon in _polygons(item, f"obstacle {k}" + (f" ({name})" if name else ""))
+            ]
         values = {
             "robot": tuple(robot_parts),
             "obstacles": tuple(polygon for _, polygon in shapes),

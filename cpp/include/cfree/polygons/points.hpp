@@ -26,6 +26,7 @@ public:
     int orient(Index p, Index q, Index r) const { return turn(p, q, p, r); }  // 1 if r is left of pq, 0 if on its line
     int along(Index p, Index q, Index r, Index s) const;  // sign of (q - p) . (s - r)
     bool is_upper(Index p, Index q) const;                // is the angle of q - p in [0, pi)?
+    int compare_lengths(Index p, Index q, Index r, Index s) const;  // of pq and rs: -1, 0 or 1
 
     bool are_small() const { return !x.empty() || X.empty(); }
     std::int64_t small_x(Index k) const { return x[k]; }
@@ -34,6 +35,7 @@ public:
 private:
     std::vector<std::int64_t> x, y;     // if all have at most 62 bits
     std::vector<double> about_x, about_y;  // else: times a power of two, rounded
+    Vec<Approx> about(Index from, Index to) const;
     template <bool is_dot>
     int sign(Index p, Index q, Index r, Index s) const;
 };

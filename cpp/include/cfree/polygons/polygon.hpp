@@ -41,7 +41,7 @@ public:
     // Rings in either direction, the outer one first; a last point equal to the first is dropped.
     explicit Polygon(std::vector<RatioRing> rings);
     // Of integers over a denominator.
-    Polygon(const std::vector<Points>& rings, const Int& denominator);
+    Polygon(std::vector<Points> rings, const Int& denominator);
 
     Points vertices;  // times the denominator, the least that makes them whole
     Int denominator = 1;
@@ -56,7 +56,7 @@ public:
 private:
     bool is_convex_ring = false;
     mutable Pieces found_pieces;
-    void check(const std::vector<Points>& rings);
+    void check(std::vector<Points>&& rings);
 };
 
 // Is all of a polygon, its boundary included, in the interior of another?
