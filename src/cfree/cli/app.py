@@ -2,27 +2,26 @@
 
 from __future__ import annotations
 
-import errno
 import math
-import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import asdict
-from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
-from cfree.cli.terminal import json_text, printable
-from cfree.cli.values import read_angle, read_numbers, read_pixels, read_pose, read_seconds, read_size
-
-if TYPE_CHECKING:
-    from cfree.forbidden.boundary import Boundary
-    from cfree.paths.path import Path as Motions
-    from cfree.planning.planner import Planner
-    from cfree.planning.separation import Separated
+from cfree.cli.files import bar, boundary_of, check_outputs, is_archive, planner_of
+from cfree.cli.options import (
+    JsonOption,
+    MemoryOption,
+    PictureOption,
+    SceneArgument,
+    SecondsOption,
+    SourceArgument,
+    ThreadsOption,
+)
+from cfree.cli.terminal import print_json, printable
+from cfree.cli.values import read_angle, read_numbers, read_objective, read_pixels, read_pose, read_seconds, read_size
 
 app = typer.Typer(
     name="cfree",
@@ -33,36 +32,6 @@ app = typer.Typer(
     help="The exact configuration space of a planar robot that translates and rotates among polygons.",
     epilog="Example: `cfree boundary examples/scenes/flat.json --picture flat.png`",
 )
-
-SceneArgument = Annotated[
-    Path, typer.Argument(metavar="SCENE", help="Scene file: JSON, GeoJSON or WKT.", show_default=False)
-]
-SourceArgument = Annotated[
-    Path,
-    typer.Argument(
-        metavar="SCENE", help="Scene file, or a boundary written by `cfree boundary -o`.", show_default=False
-    ),
-]
-PictureOption = Annotated[
-    Path | None,
-    typer.Option("--picture", metavar="PNG", help="Write a figure: .png, .svg, .pdf ...", show_default=False),
-]
-ThreadsOption = Annotated[
-    int | None, typer.Option("--threads", metavar="N", min=1, help="Threads to use.", show_default="all cores")
-]
-SecondsOption = Annotated[
-    float | None,
-    typer.Option(
-        "--max-seconds", metavar="S", min=0, help="Stop trimming after S seconds, incomplete.", show_default="no limit"
-    ),
-]
-MemoryOption = Annotated[
-    str | None,
-    typer.Option(
-        "--max-memory", metavar="SIZE", help='Stop at "500MB" or "4GB" of memory, incomplete.', show_default="no limit"
-    ),
-]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
 
 
 def main() -> None:
@@ -95,12 +64,12 @@ def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
         from cfree.cli.describe import describe
         from cfree.formats.scene_file import load_scene
 
-        with _bar("reading"):
+        with bar("reading"):
             given = load_scene(scene)
-        with _bar("counting"):
+        with bar("counting"):
             facts = {"file": str(scene)} | describe(given)
         if as_json:
-            _print_json(facts)
+            print_json(facts)
         else:
             from cfree.cli.report import print_scene
 
@@ -143,8 +112,8 @@ def boundary(
     with one_line_faults():
         if error is not None and not (mesh and 0 < error < math.inf):
             raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
-        written = _check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
-        result = _boundary_of(scene, threads, max_seconds, None if max_memory is None else read_size(max_memory))
+        written = check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
+        result = boundary_of(scene, threads, max_seconds, None if max_memory is None else read_size(max_memory))
         if output:
             from cfree.formats.boundary_file import save_boundary
 
@@ -161,13 +130,10 @@ def boundary(
             from cfree.plot.boundary import plot_overview, save_figure
 
             save_figure(plot_overview(result), picture)
-        if as_json:
-            facts = asdict(result.stats) | {"isolated": len(result.isolated)}
-            _print_json({"file": str(scene), **facts, "files": written})
-        else:
-            from cfree.cli.report import boundary_rows, print_rows
+        from cfree.cli.report import boundary_facts, boundary_rows
 
-            print_rows(result.scene.name or str(scene), boundary_rows(result), written)
+        rows = boundary_facts(result) if as_json else boundary_rows(result)
+        print_result(result.scene.name or str(scene), scene, rows, written, as_json)
 
 
 @app.command(
@@ -215,59 +181,25 @@ def plan(
 ) -> None:
     """Find a path from start to goal, each motion of it proved free, or prove that there is none."""
     with one_line_faults():
-        from cfree.cli.report import answer_facts, answer_rows, print_rows
-        from cfree.errors import IncompleteError
-        from cfree.formats.answer_file import form_of, save_path, save_separation
-        from cfree.paths.path import Path as Motions
-        from cfree.scene.scene import required
+        from cfree.cli.answering import Answering
+        from cfree.formats.answer_file import form_of
 
-        written = _check_outputs(scene, {"answer": output, "picture": picture, "film": film})
+        written = check_outputs(scene, {"answer": output, "picture": picture, "film": film})
         kind = form_of(output, form) if output else "json"
         seconds = None if improve is None else read_seconds(improve)
-        if objective not in ("short", "clear"):
-            raise ValueError(f'--objective: {objective!r}; give "short" or "clear"')
-        ends = [read_pose(text, name) for text, name in ((start, "--start"), (goal, "--goal"))]
-        planner = _planner_of(scene, max_seconds)
-        begin, end = required(planner.scene, *ends)
-        try:
-            answer = planner.plan(begin, end, improve=seconds, objective=objective)  # type: ignore[arg-type]
-        except IncompleteError as error:
-            fail(str(error), INCOMPLETE)
+        wanted = read_objective(objective)
+        ends = read_pose(start, "--start"), read_pose(goal, "--goal")
+        found = Answering.of(planner_of(scene, max_seconds), ends, written, seconds=seconds, objective=wanted)
         if output:
-            if isinstance(answer, Motions):
-                save_path(answer, output, step=planner.angle_scale / 20, scene=planner.scene, form=kind)
-            elif kind == "json":
-                save_separation(answer, output)
-            else:
-                _leave_out(written, "answer", f"there is no path to write as {kind}; a proof is written as .json")
+            found.write(output, kind)
         if picture:
-            from cfree.plot.answer import picture as drawn
-            from cfree.plot.boundary import save_figure
-
-            space = planner.free_space
-            with _bar("picture"):
-                save_figure(drawn(answer, planner.scene, space.boundary), picture)
-        if film and isinstance(answer, Motions):
-            from cfree.film import film_path
-
-            with _bar("film") as progress:
-                film_path(answer, planner.scene, film, progress=progress)
-        elif film:
-            _leave_out(written, "film", "there is no path to film")
-        with _bar("least clearance"):
-            facts = answer_facts(answer, planner.scene) if as_json else answer_rows(answer, planner.scene)
-        if miss and not isinstance(answer, Motions):
-            from cfree.analysis.margins import nearest_miss
-
-            with _bar("nearest miss") as progress:
-                found = nearest_miss(planner.scene, begin, end, progress=progress)
-            facts["nearest miss"] = str(found) if found else "no smaller robot gets there either"
-        if as_json:
-            _print_json({"file": str(scene), **facts, "files": written})
-        else:
-            print_rows(planner.scene.name or str(scene), facts, written)
-    if code := _exit_code(answer):
-        raise typer.Exit(code)
+            found.draw(picture)
+        if film:
+            found.film(film)
+        rows = found.rows(for_machines=as_json, nearest_miss=miss)
+        print_result(found.planner.scene.name or str(scene), scene, rows, written, as_json)
+    if found.exit_code:
+        raise typer.Exit(found.exit_code)
 
 
 @app.command(
@@ -293,10 +225,10 @@ def cut(
     """Cut the forbidden space at one orientation of the robot."""
     with one_line_faults():
         angle = read_angle(theta)
-        written = _check_outputs(scene, {"geojson": output, "picture": picture})
+        written = check_outputs(scene, {"geojson": output, "picture": picture})
         from cfree.cli.describe import describe_slice
 
-        result = _boundary_of(scene, threads)
+        result = boundary_of(scene, threads)
         found = result.slice(angle)
         if output:
             from cfree.formats.slice_geojson import save_slice
@@ -306,13 +238,7 @@ def cut(
             from cfree.plot.boundary import plot_slice, save_figure
 
             save_figure(plot_slice(found).figure, picture)
-        facts = describe_slice(found)
-        if as_json:
-            _print_json({"file": str(scene), **facts, "files": written})
-        else:
-            from cfree.cli.report import print_rows
-
-            print_rows(f"slice of {result.scene.name or scene}", facts, written)
+        print_result(f"slice of {result.scene.name or scene}", scene, describe_slice(found), written, as_json)
 
 
 @app.command(
@@ -347,17 +273,16 @@ def film(
         from cfree.film.reel import check_options
 
         for scene in scenes:
-            written = _check_outputs(scene, {"film": output})
+            written = check_outputs(scene, {"film": output})
         pixels = read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
         check_options(len(scenes), seconds, fps, pixels, storyboard)
-        found = [_boundary_of(scene, None) for scene in scenes]
-        with _bar("film") as progress:
+        found = [boundary_of(scene, None) for scene in scenes]
+        with bar("film") as progress:
             save_film(found, output, seconds=seconds, fps=fps, size=pixels, storyboard=storyboard, progress=progress)
         from cfree.cli.report import print_rows
 
-        print_rows(
-            ", ".join(map(str, scenes)), {"frames": round(seconds * fps), "size": "x".join(map(str, pixels))}, written
-        )
+        rows: dict[str, Any] = {"frames": round(seconds * fps), "size": "x".join(map(str, pixels))}
+        print_rows(", ".join(map(str, scenes)), rows, written)
 
 
 @app.command(
@@ -389,14 +314,14 @@ def verify(
         from cfree.verify.driver import boundary as verified_boundary
 
         given = load_scene(scene)
-        with _bar("verify") as progress:
-            if _is_archive(file):
+        with bar("verify") as progress:
+            if is_archive(file):
                 options = {"sample": sample, "slices": slices, "seed": seed}
                 result = verified_boundary(file, given, progress=progress, **options)  # type: ignore[arg-type]
             else:
                 result = verified_answer(given, file, progress=progress)
         if as_json:
-            _print_json({"file": str(file), "verified": result.verified, **asdict(result)})
+            print_json({"file": str(file), "verified": result.verified, **asdict(result)})
         else:
             from cfree.cli.report import print_verification
 
@@ -422,10 +347,10 @@ def figures(
         from cfree.figures import FIGURES, draw_all
 
         numbers = None if only is None else read_numbers(only)
-        with _bar("figures") as progress:
+        with bar("figures") as progress:
             files = draw_all(output, only=numbers, formats=formats.split(","), safe=safe, progress=progress)
         if as_json:
-            _print_json({"files": [str(file) for file in files]})
+            print_json({"files": [str(file) for file in files]})
         else:
             for entry in FIGURES:
                 written = [str(file) for file in files if file.stem == entry.stem]
@@ -433,97 +358,11 @@ def figures(
                     print(printable(f"figure {entry.number}: {entry.caption} {' '.join(written)}"))
 
 
-# input
+def print_result(title: str, source: Path, rows: dict[str, Any], files: dict[str, str], as_json: bool) -> None:
+    """What was found, and the files written: on a terminal, or for machines."""
+    if as_json:
+        print_json({"file": str(source), **rows, "files": files})
+    else:
+        from cfree.cli.report import print_rows
 
-
-def _planner_of(source: Path, max_seconds: float | None) -> Planner:
-    """For the scene in a file, with its free space if the file is a boundary."""
-    from cfree.formats.boundary_file import load_boundary
-    from cfree.formats.scene_file import load_scene
-    from cfree.free.space import free_space
-    from cfree.planning.planner import Planner
-
-    if _is_archive(source):
-        with _bar("cells"):
-            space = free_space(load_boundary(source))
-        return Planner(space.boundary.scene, space, phase=_bar)
-    with _bar("reading"):
-        scene = load_scene(source)
-    return Planner(scene, max_seconds=max_seconds, phase=_bar)
-
-
-def _exit_code(answer: Motions | Separated) -> int:
-    """0 for a path, 1 for a proof that there is none; 3 if one that touches may exist."""
-    of = getattr(answer, "of", None)
-    return {None: 0, "closed": REFUTED}.get(of, INCOMPLETE)
-
-
-def _leave_out(files: dict[str, str], name: str, why: str) -> None:
-    print(printable(f"{files.pop(name)} is not written: {why}"), file=sys.stderr)
-
-
-def _boundary_of(
-    source: Path, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
-) -> Boundary:
-    """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
-    from cfree.forbidden.boundary import boundary
-    from cfree.formats.boundary_file import load_boundary
-    from cfree.formats.scene_file import load_scene
-
-    if _is_archive(source):
-        return load_boundary(source)
-    with _bar("reading"):
-        scene = load_scene(source)
-    with _bar("boundary") as progress:
-        return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
-
-
-@contextmanager
-def _bar(name: str) -> Iterator[Callable[[float], object] | None]:
-    """What to call with the share that is done: it moves a bar on a terminal, which says what is being done."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task(name, total=None)
-        yield lambda share: bar.update(task, completed=share, total=1.0)
-
-
-def _is_archive(path: Path) -> bool:
-    """Does the file begin as a NumPy archive does? No scene does."""
-    try:
-        with path.open("rb") as file:
-            return file.read(2) == b"PK"
-    except OSError:
-        return False
-
-
-_CHECKS = {  # of the names of files
-    "boundary": ("formats.boundary_file", "check_boundary_path"),
-    "film": ("film.encode", "check_film_path"),
-    "geojson": ("formats.slice_geojson", "check_slice_path"),
-    "mesh": ("formats.mesh_file", "check_mesh_path"),
-    "picture": ("plot.boundary", "check_picture_path"),
-}
-
-
-def _check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
-    """The files to write; what cannot be written is refused before a long computation rather than after it."""
-    from cfree.formats.atomic import check_place
-
-    files = {name: path for name, path in wanted.items() if path is not None}
-    for name, path in files.items():
-        check_place(path)
-        if path.exists() and source.exists() and path.samefile(source):
-            raise FileExistsError(errno.EEXIST, "is the input; give another name", str(path))
-        if name in _CHECKS:
-            module, function = _CHECKS[name]
-            getattr(import_module(f"cfree.{module}"), function)(path)
-    return {name: str(path) for name, path in files.items()}
-
-
-def _print_json(facts: dict[str, Any]) -> None:
-    print(json_text(facts))
+        print_rows(title, rows, files)

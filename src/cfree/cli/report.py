@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator, Mapping
+from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from rich.console import Console
@@ -71,6 +72,11 @@ def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
         "decided by exact integers": stats.decided_exactly,
         **{f"seconds, {phase}": f"{value:.4f}" for phase, value in stats.seconds.items()},
     }
+
+
+def boundary_facts(boundary: Boundary) -> dict[str, Any]:
+    """The same as they are, for machines."""
+    return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
 
 
 def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float | str]:

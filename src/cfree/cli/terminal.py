@@ -33,6 +33,10 @@ def json_text(facts: dict[str, Any]) -> str:
     return "".join(c if _is_seen(c) else json.dumps(c)[1:-1] for c in text)
 
 
+def print_json(facts: dict[str, Any]) -> None:
+    print(json_text(facts))
+
+
 def _is_seen(c: str) -> bool:
     if c.isprintable() or c == "\n":
         return True

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
+    from cfree.paths.path import Objective
 
 
 def read_numbers(text: str) -> list[int]:
@@ -51,6 +52,15 @@ def read_seconds(text: str) -> float:
     if not 0 <= seconds < math.inf:
         raise ValueError(f'--improve: {text!r}; give a time such as "2s" or "500ms"')
     return seconds
+
+
+def read_objective(text: str) -> Objective:
+    """What to prefer among paths."""
+    word: Objective
+    for word in ("short", "clear"):
+        if text == word:
+            return word
+    raise ValueError(f'--objective: {text!r}; give "short" or "clear"')
 
 
 def read_size(text: str) -> float:

@@ -1,0 +1,120 @@
+"""What `cfree plan` does with an answer: written, drawn, filmed, put into words."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from cfree.cli.faults import INCOMPLETE, REFUTED, fail
+from cfree.cli.files import bar
+from cfree.cli.terminal import printable
+
+if TYPE_CHECKING:
+    from cfree.exact.pose import Pose
+    from cfree.paths.path import Objective
+    from cfree.paths.path import Path as Motions
+    from cfree.planning.planner import Planner
+    from cfree.planning.separation import Separated
+
+
+@dataclass
+class Answering:
+    """A question about a scene, and its answer in all forms that are asked for.
+
+    Attributes
+    ----------
+    planner : Planner
+    start, goal : Pose
+    files : dict
+        Names of the files to write; those that there is nothing to write into are taken out.
+    answer : Path or Separated
+    """
+
+    planner: Planner
+    start: Pose
+    goal: Pose
+    files: dict[str, str]
+    answer: Motions | Separated
+
+    @classmethod
+    def of(
+        cls, planner: Planner, ends: tuple[Pose | None, Pose | None], files: dict[str, str], *,
+        seconds: float | None, objective: Objective,
+    ) -> Answering:  # fmt: skip
+        """The answer, unless a limit leaves the command without one."""
+        from cfree.errors import IncompleteError
+        from cfree.scene.scene import required
+
+        start, goal = required(planner.scene, *ends)
+        try:
+            answer = planner.plan(start, goal, improve=seconds, objective=objective)
+        except IncompleteError as error:
+            fail(str(error), INCOMPLETE)
+        return cls(planner, start, goal, files, answer)
+
+    @property
+    def path(self) -> Motions | None:
+        """The answer, if it is a path."""
+        from cfree.paths.path import Path as Motions
+
+        return self.answer if isinstance(self.answer, Motions) else None
+
+    @property
+    def exit_code(self) -> int:
+        """0 for a path, 1 for a proof that there is none; 3 if one that touches may exist."""
+        of = getattr(self.answer, "of", None)
+        return {None: 0, "closed": REFUTED}.get(of, INCOMPLETE)
+
+    def write(self, output: Path, form: str) -> None:
+        """A path in any form, a proof as JSON."""
+        from cfree.formats.answer_file import save_path, save_separation
+        from cfree.paths.path import Path as Motions
+
+        if isinstance(self.answer, Motions):
+            step = self.planner.angle_scale / 20
+            save_path(self.answer, output, step=step, scene=self.planner.scene, form=form)
+        elif form == "json":
+            save_separation(self.answer, output)
+        else:
+            self._leave_out("answer", f"there is no path to write as {form}; a proof is written as .json")
+
+    def draw(self, picture: Path) -> None:
+        """The picture, with the configuration space."""
+        from cfree.plot.answer import picture as drawn
+        from cfree.plot.boundary import save_figure
+
+        space = self.planner.free_space
+        with bar("picture"):
+            save_figure(drawn(self.answer, self.planner.scene, space.boundary), picture)
+
+    def film(self, film: Path) -> None:
+        """The film of a path."""
+        from cfree.film import film_path
+
+        if self.path is None:
+            self._leave_out("film", "there is no path to film")
+            return
+        with bar("film") as progress:
+            film_path(self.path, self.planner.scene, film, progress=progress)
+
+    def rows(self, *, for_machines: bool, nearest_miss: bool) -> dict[str, Any]:
+        """The answer in words and numbers."""
+        from cfree.cli.report import answer_facts, answer_rows
+
+        with bar("least clearance"):
+            rows: dict[str, Any] = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+        if nearest_miss and self.path is None:
+            rows["nearest miss"] = self._nearest_miss()
+        return rows
+
+    def _nearest_miss(self) -> str:
+        from cfree.analysis.margins import nearest_miss
+
+        with bar("nearest miss") as progress:
+            found = nearest_miss(self.planner.scene, self.start, self.goal, progress=progress)
+        return str(found) if found else "no smaller robot gets there either"
+
+    def _leave_out(self, name: str, why: str) -> None:
+        print(printable(f"{self.files.pop(name)} is not written: {why}"), file=sys.stderr)

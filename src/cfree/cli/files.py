@@ -1,0 +1,94 @@
+"""What commands read and where they write: scenes and boundaries in files, and a bar that says what takes long."""
+
+from __future__ import annotations
+
+import errno
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from cfree.forbidden.boundary import Boundary
+    from cfree.planning.planner import Planner
+
+
+def boundary_of(
+    source: Path, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
+) -> Boundary:
+    """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
+    from cfree.forbidden.boundary import boundary
+    from cfree.formats.boundary_file import load_boundary
+    from cfree.formats.scene_file import load_scene
+
+    if is_archive(source):
+        return load_boundary(source)
+    with bar("reading"):
+        scene = load_scene(source)
+    with bar("boundary") as progress:
+        return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
+
+
+def planner_of(source: Path, max_seconds: float | None) -> Planner:
+    """For the scene in a file, with its free space if the file is a boundary."""
+    from cfree.formats.boundary_file import load_boundary
+    from cfree.formats.scene_file import load_scene
+    from cfree.free.space import free_space
+    from cfree.planning.planner import Planner
+
+    if is_archive(source):
+        with bar("cells"):
+            space = free_space(load_boundary(source))
+        return Planner(space.boundary.scene, space, phase=bar)
+    with bar("reading"):
+        scene = load_scene(source)
+    return Planner(scene, max_seconds=max_seconds, phase=bar)
+
+
+@contextmanager
+def bar(name: str) -> Iterator[Callable[[float], object] | None]:
+    """What to call with the share that is done: it moves a bar on a terminal, which says what is being done."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress
+
+    with Progress(console=Console(stderr=True), transient=True) as shown:
+        task = shown.add_task(name, total=None)
+        yield lambda share: shown.update(task, completed=share, total=1.0)
+
+
+def is_archive(path: Path) -> bool:
+    """Does the file begin as a NumPy archive does? No scene does."""
+    try:
+        with path.open("rb") as file:
+            return file.read(2) == b"PK"
+    except OSError:
+        return False
+
+
+_CHECKS = {  # of the names of files
+    "boundary": ("formats.boundary_file", "check_boundary_path"),
+    "film": ("film.encode", "check_film_path"),
+    "geojson": ("formats.slice_geojson", "check_slice_path"),
+    "mesh": ("formats.mesh_file", "check_mesh_path"),
+    "picture": ("plot.boundary", "check_picture_path"),
+}
+
+
+def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
+    """The files to write; what cannot be written is refused before a long computation rather than after it."""
+    from cfree.formats.atomic import check_place
+
+    files = {name: path for name, path in wanted.items() if path is not None}
+    for name, path in files.items():
+        check_place(path)
+        if path.exists() and source.exists() and path.samefile(source):
+            raise FileExistsError(errno.EEXIST, "is the input; give another name", str(path))
+        if name in _CHECKS:
+            module, function = _CHECKS[name]
+            getattr(import_module(f"cfree.{module}"), function)(path)
+    return {name: str(path) for name, path in files.items()}
