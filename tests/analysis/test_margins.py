@@ -13,7 +13,7 @@ import shapely
 import cfree.verify
 from cfree import Pose, Scene, boundary, free_space, load_scene, max_margin, max_scale, nearest_miss, separation
 from cfree.analysis.bottleneck import bottlenecks
-from cfree.polygons.offset import _is_inside, inset
+from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, SIDES, _around_a_disc
 from cfree.scene.scene import with_robot
@@ -134,7 +134,7 @@ def test_a_polygon_is_inside_another_only_without_its_holes() -> None:
     shapes = [square(half, *holes) for half in (2, 4, 6, 9) for holes in many if all(x + h < half for x, h in holes)]
     for inner, outer in product(shapes, shapes):
         expected = outer.to_shapely().contains_properly(inner.to_shapely())
-        assert _is_inside(inner, outer) == expected, (inner, outer)
+        assert inner.core.is_inside(outer.core) == expected, (inner, outer)
 
 
 def test_where_the_nest_opens() -> None:

@@ -67,7 +67,7 @@ class FreeMotions:
         path = Path(Pose(x, y, 0), rotations((x, y), "360deg"))
         return path if path.is_free(self._planner.checker) else None
 
-    def roomiest(self) -> Pose | None:
+    def resting_pose(self) -> Pose | None:
         """A pose with much room in the largest cell; None if there is none."""
         if not len(self._boundary.trapezoids) or not len(self._space):
             return None

@@ -295,7 +295,7 @@ class _Director:
 
     def _rest(self) -> Moment | None:
         """Where there is most room."""
-        pose = self.free.roomiest()
+        pose = self.free.resting_pose()
         return None if pose is None else Moment(pose)
 
     def _kind(self, column: Column) -> str:
