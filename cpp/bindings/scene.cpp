@@ -1,9 +1,10 @@
-// The scene: two shapes as flat arrays, their coordinates as limbs of 64 bits.
+// The scene: two shapes as flat arrays. Users' scenes are made of polygons; the constructors are for tests of the core.
 #include "cfree/scene/scene.hpp"
 
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
 #include "cfree/forbidden/columns.hpp"
@@ -12,32 +13,15 @@
 using namespace nb::literals;
 using Ints = Column<int>;
 using Flags = Column<char>;
-using Limbs = In<std::int64_t, 3>;
 using Point = std::pair<nb::int_, nb::int_>;
 
-// Two's complement, least limb first.
-static cfree::Int integer(const std::int64_t* limbs, std::size_t count) {
-    cfree::Int n = limbs[count - 1];
-    for (std::size_t k = count - 1; k-- > 0;) n = (n << 64) + static_cast<std::uint64_t>(limbs[k]);
-    return n;
-}
-
-static void set_coordinates(cfree::Shape& s, const Limbs& xy, int shift, const nb::int_& scale) {
-    const std::size_t n = xy.shape(0), limbs = xy.shape(2);
-    require(xy.shape(1) == 2 && limbs > 0, "coordinates must have the shape (n, 2, limbs)");
-    std::vector<cfree::Int> x, y;
-    for (std::size_t k = 0; k < n; ++k) {
-        x.push_back(integer(xy.data() + 2 * k * limbs, limbs));
-        y.push_back(integer(xy.data() + (2 * k + 1) * limbs, limbs));
-    }
-    s.set_coordinates(std::move(x), std::move(y), shift, integer(scale));
-}
-
-static void make_shape(cfree::Shape* s, Limbs coordinates, int shift, nb::int_ scale, Ints point, Ints v, Ints w, Ints line,
-                       Ints direction, int ring_vertices, Ints previous, Flags convex, Flags emit, Ints layer,
+static void make_shape(cfree::Shape* s, const std::vector<Point>& vertices, int shift, nb::int_ scale, Ints point, Ints v, Ints w,
+                       Ints line, Ints direction, int ring_vertices, Ints previous, Flags convex, Flags emit, Ints layer,
                        Ints vertex_rank, Ints edge_rank, Ints piece, Ints piece_vertex, Ints piece_edge, Ints piece_layer) {
     new (s) cfree::Shape{};
-    set_coordinates(*s, coordinates, shift, scale);
+    std::vector<cfree::Int> x, y;
+    for (const Point& p : vertices) x.push_back(integer(p.first)), y.push_back(integer(p.second));
+    s->set_coordinates(std::move(x), std::move(y), shift, integer(scale));
     s->point = vector_of(point), s->v = vector_of(v), s->w = vector_of(w);
     s->line = vector_of(line), s->direction = vector_of(direction);
     s->ring_vertices = ring_vertices, s->previous = vector_of(previous);
@@ -62,7 +46,7 @@ static Made<const std::int8_t> flags(const std::vector<char>& values) {
 void bind_scene(nb::module_& m) {
     nb::class_<cfree::Shape> shape(m, "Shape");
     shape
-        .def("__init__", &make_shape, "coordinates"_a, "shift"_a, "scale"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a,
+        .def("__init__", &make_shape, "vertices"_a, "shift"_a, "scale"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a,
              "ring_vertices"_a, "previous"_a, "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a,
              "piece_vertex"_a, "piece_edge"_a, "piece_layer"_a)
         .def_prop_ro("vertices", [](const cfree::Shape& s) { return integers(s.X, s.Y); })

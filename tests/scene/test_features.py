@@ -6,14 +6,13 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from hypothesis import strategies as st
 
 import strategies
 from cfree import Scene
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import ShapeFeatures, scene_features
 from compared import scene_of
-from reference_features import classes, limbs, ranks
+from reference_features import classes, ranks
 from reference_features import scene_features as expected_features
 from shapes import PlainScene, box, frame, l_shape, random_scene
 
@@ -33,14 +32,6 @@ def test_two_boxes_with_tops_on_one_line_share_it() -> None:
 def test_classes_number_equal_keys_alike() -> None:
     assert classes(["b", "a", "b", "c"]) == [0, 1, 0, 2]
     assert ranks([0, 0, 1, 0], [5, 3, 9, 4]) == [2, 0, 0, 1]
-
-
-@given(st.lists(st.tuples(*[st.integers(-(2**200), 2**200)] * 2), min_size=1, max_size=8))
-def test_limbs_are_twos_complement(points: list[tuple[int, int]]) -> None:
-    array = limbs(points)
-    for point, row in zip(points, array, strict=True):
-        for value, parts in zip(point, row, strict=True):
-            assert int.from_bytes(parts.tobytes(), "little", signed=True) == value
 
 
 @brief
@@ -85,7 +76,7 @@ def test_the_core_numbers_features_as_the_reference_does(plain: PlainScene, fact
     for shape, other in ((found.robot, expected.robot), (found.obstacles, expected.obstacles)):
         assert shape.vertices == tuple(other.vertices)
         assert (found.core.shift, found.core.near.shift) == (other.shift, other.near_shift)
-        for name in other.core.keys() - {"coordinates", "shift", "scale", "ring_vertices"}:
+        for name in other.core.keys() - {"vertices", "shift", "scale", "ring_vertices"}:
             assert np.array_equal(getattr(shape.core, name), other.core[name]), name
         for name in ("owner_polygon", "owner_vertex", "xy", "near"):
             assert np.array_equal(getattr(shape, name), getattr(other, name)), name

@@ -275,14 +275,6 @@ def ranks(group: Sequence[int], keys: Sequence[Any]) -> list[int]:
     return rank
 
 
-def limbs(rows: Sequence[Sequence[int]], columns: int = 2) -> NDArray[np.int64]:
-    """Integers as two's complement 64-bit limbs, least first: (n, columns, limbs)."""
-    widest = max((c.bit_length() for row in rows for c in row), default=0)
-    count = widest // 64 + 1
-    data = b"".join(c.to_bytes(8 * count, "little", signed=True) for row in rows for c in row)
-    return np.frombuffer(data, np.int64).reshape(len(rows), columns, count)
-
-
 def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
     """Arguments of ``_core.Shape``, with the identities of all features."""
     edges = list(shape.edges)
@@ -326,4 +318,4 @@ def core_arrays(shape: ShapeFeatures) -> dict[str, Any]:
     arrays: dict[str, Any] = {name: np.array(column, np.int32) for name, column in ints.items()}
     arrays |= {name: np.array(shape.rings[name], np.int8) for name in ("convex", "emit")}
     scalars = {"shift": shape.shift, "scale": shape.scale, "ring_vertices": len(previous)}
-    return arrays | scalars | {"coordinates": limbs(vertices)}
+    return arrays | scalars | {"vertices": vertices}
