@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -22,6 +22,9 @@ from cfree.cli.options import (
 )
 from cfree.cli.terminal import print_json, printable
 from cfree.cli.values import read_angle, read_numbers, read_objective, read_pixels, read_pose, read_seconds, read_size
+
+if TYPE_CHECKING:
+    from cfree.forbidden.boundary import Boundary
 
 app = typer.Typer(
     name="cfree",
@@ -121,19 +124,24 @@ def boundary(
         if not result.complete:
             kept = f"; what was done is in {output}" if output else ""
             fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
-        if mesh:
-            from cfree.formats.mesh_file import save_mesh
-            from cfree.scene.scene import robot_radius
-
-            save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
-        if picture:
-            from cfree.plot.boundary import plot_overview, save_figure
-
-            save_figure(plot_overview(result), picture)
+        _draw_boundary(result, mesh, error, picture)
         from cfree.cli.report import boundary_facts, boundary_rows
 
         rows = boundary_facts(result) if as_json else boundary_rows(result)
         print_result(result.scene.name or str(scene), scene, rows, written, as_json)
+
+
+def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, picture: Path | None) -> None:
+    """A mesh and a figure of it, if they are asked for."""
+    if mesh:
+        from cfree.formats.mesh_file import save_mesh
+        from cfree.scene.scene import robot_radius
+
+        save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
+    if picture:
+        from cfree.plot.boundary import plot_overview, save_figure
+
+        save_figure(plot_overview(result), picture)
 
 
 @app.command(
