@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
@@ -70,3 +71,10 @@ def test_what_is_hidden_is_seen() -> None:
     """
     lines = [line.removeprefix("        ") for line in text.splitlines()]
     assert set(imported("\n".join(lines))) == {"cfree.film", "cfree.verify.world", CORE}
+
+
+def test_the_architecture_page_lists_the_packages_in_their_order() -> None:
+    page = (SOURCE.parent / "docs" / "architecture.md").read_text()
+    table = page.split("## The packages")[1].split("`__init__.py`")[0]
+    rows = [row.split("|")[1] for row in table.splitlines() if row.startswith("| `")]
+    assert re.findall(r"`(\w+)(?:\.py|/)`", " ".join(rows)) == ORDER[:-1]
