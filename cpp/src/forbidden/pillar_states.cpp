@@ -1,7 +1,8 @@
-// What a pillar covers on a patch: its states, each with the angles between which it lives.
+// What a pillar covers on a patch: its states, each with the angles between which it lives; theory, "The trimmed boundary".
 #include <algorithm>
 #include <stdexcept>
 
+#include "cfree/contact/contact_line.hpp"
 #include "cfree/forbidden/trim.hpp"
 
 namespace cfree {
@@ -34,29 +35,19 @@ void Trimmer::cover(Index p, Index k) {
 
 namespace {
 
-template <class T>
-struct Rotation {
-    T c, s, w;  // cosine and sine times w
-};
-Rotation<double> rotation(const Sample& at, double kappa, double) {
-    const double tau = at.tau;
-    const double w = 1 + tau * tau;
+// By a sample: in doubles divided by w, so that w = 1.
+Rotation<double> rotation_at(const Sample& at, int chart, double) {
+    const double kappa = chart ? -1 : 1, tau = at.tau, w = 1 + tau * tau;
     return {kappa * (1 - tau * tau) / w, kappa * 2 * tau / w, 1};
 }
-Rotation<Int> rotation(const Sample& at, double kappa, const Int&) {
+Rotation<Int> rotation_at(const Sample& at, int chart, const Int&) {
     const Dyadic t = at.exact();
-    const Int q = Int(1) << t.k, c = q * q - t.n * t.n, s = 2 * t.n * q;
-    return {kappa > 0 ? c : Int(-c), kappa > 0 ? s : Int(-s), q * q + t.n * t.n};
+    return rotation_by(chart, t.n, Int(1) << t.k);
 }
 template <class T>
-Vec<T> between_vertices(const Shape& s, Index p, Index q);
-template <>
-Vec<double> between_vertices(const Shape& s, Index p, Index q) {
-    return {s.x[p] - s.x[q], s.y[p] - s.y[q]};
-}
-template <>
-Vec<Int> between_vertices(const Shape& s, Index p, Index q) {
-    return difference<Int>(s, p, q);
+Vec<T> between_vertices(const Shape& s, Index p, Index q) {
+    if constexpr (std::is_same_v<T, Int>) return difference<Int>(s, p, q);
+    else return {s.x[p] - s.x[q], s.y[p] - s.y[q]};
 }
 
 }  // namespace
@@ -66,93 +57,112 @@ std::vector<double>* Trimmer::scratch() const { return heights; }
 template <>
 std::vector<Int>* Trimmer::scratch() const { return exact_heights; }
 
-// The pillar is a convex polygon whose edges are those of both pieces, merged by direction. Offsets from the surface's line
-// rise and fall once along it.
+// A pillar at a sample, seen from the surface's line: a convex polygon whose edges are those of both pieces, merged by direction.
+// A vertex is a pair (x, y) of vertices of the robot's piece and the obstacle's; its offset from the line, obstacle[y] - robot[x],
+// rises and falls once around the pillar.
 template <class T>
-Trimmer::State Trimmer::state_at(Index p, Index k, const Sample& at) const {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const Rotation<T> R = rotation(at, surface.chart ? -1 : 1, T{});
-    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
-    const Index i = surface.contact.robot, j = surface.contact.obstacle;
-    const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
-    // the line's direction in the workspace (U) and in the robot's frame (V), both times w
-    Vec<T> U, V;
-    if (on_edge) {
-        const auto E = between_vertices<T>(O, O.w[j], O.v[j]);
-        U = {R.w * E.x, R.w * E.y};
-        V = {R.c * E.x + R.s * E.y, R.c * E.y - R.s * E.x};
-    } else {
-        const auto E = between_vertices<T>(A, A.w[i], A.v[i]);
-        U = {R.s * E.y - R.c * E.x, -(R.s * E.x) - R.c * E.y};
-        V = {-(R.w * E.x), -(R.w * E.y)};
+class Trimmer::PillarView {
+public:
+    PillarView(const Trimmer& t, Index p, Index k, const Sample& at)
+        : A(t.scene.robot), O(t.scene.obstacles), R(rotation_at(at, t.surface.chart, T{})), a(&A.piece_vertex[A.piece[p]]),
+          b(&O.piece_vertex[O.piece[k]]), ga(&A.piece_edge[A.piece[p]]), fb(&O.piece_edge[O.piece[k]]),
+          n(A.piece[p + 1] - A.piece[p]), m(O.piece[k + 1] - O.piece[k]), robot(t.scratch<T>()[0]), obstacle(t.scratch<T>()[1]) {
+        measure(t.surface.contact);
     }
-    const Index* a = &A.piece_vertex[A.piece[p]];
-    const Index* b = &O.piece_vertex[O.piece[k]];
-    const Index n = A.piece[p + 1] - A.piece[p], m = O.piece[k + 1] - O.piece[k];
-    auto &robot = scratch<T>()[0], &obstacle = scratch<T>()[1];  // offsets are obstacle[y] - robot[x]
-    robot.resize(n), obstacle.resize(m);
-    for (Index x = 0; x < n; ++x) robot[x] = cross(V, between_vertices<T>(A, a[x], a0));
-    for (Index y = 0; y < m; ++y) obstacle[y] = cross(U, between_vertices<T>(O, b[y], b0));
-    const auto after = [](Index x, Index size) { return x + 1 == size ? 0 : x + 1; };
-    const auto prior = [](Index x, Index size) { return x == 0 ? size - 1 : x - 1; };
 
-    // highest and lowest vertices; of several the last in counter-clockwise order
-    Index x_high = 0, x_low = 0, y_high = 0, y_low = 0;  // high: robot offset least
-    for (Index x = 1; x < n; ++x) {
-        if (robot[x] < robot[x_high]) x_high = x;
-        if (robot[x] > robot[x_low]) x_low = x;
-    }
-    for (Index y = 1; y < m; ++y) {
-        if (obstacle[y] > obstacle[y_high]) y_high = y;
-        if (obstacle[y] < obstacle[y_low]) y_low = y;
-    }
-    const auto last = [&](Index x, const std::vector<T>& h, Index size) {
-        for (Index c = 0; c < size && h[after(x, size)] == h[x]; ++c) x = after(x, size);
-        return x;
+    struct Vertex {
+        Index x, y;
     };
-    State state;
-    const auto miss = [&](Meets meets, Index x, Index y) {
-        state.meets = meets, state.s = a[x], state.v = b[y];
-        const Index *ga = &A.piece_edge[A.piece[p]], *fb = &O.piece_edge[O.piece[k]];
-        state.robot_around[0] = n > 1 ? ga[prior(x, n)] : -1, state.robot_around[1] = n > 1 ? ga[x] : -1;
-        state.obstacle_around[0] = m > 1 ? fb[prior(y, m)] : -1, state.obstacle_around[1] = m > 1 ? fb[y] : -1;
+    // Of several, any: see `last`.
+    Vertex highest() const { return {extreme(robot, n, -1), extreme(obstacle, m, 1)}; }
+    Vertex lowest() const { return {extreme(robot, n, 1), extreme(obstacle, m, -1)}; }
+    bool is_left(const Vertex& v) const { return obstacle[v.y] > robot[v.x]; }
+    bool is_right(const Vertex& v) const { return obstacle[v.y] < robot[v.x]; }
+    // Of the highest or lowest, the last in counter-clockwise order.
+    Vertex last(Vertex v) const { return {last(v.x, robot, n), last(v.y, obstacle, m)}; }
+
+    State missed(Meets meets, const Vertex& nearest) const {
+        State state{};
+        state.meets = meets, state.s = a[nearest.x], state.v = b[nearest.y];
+        set_around(nearest.x, n, ga, state.robot_around), set_around(nearest.y, m, fb, state.obstacle_around);
         return state;
-    };
-    if (!(obstacle[y_high] > robot[x_high])) return miss(Meets::never_left, x_high, y_high);
-    if (!(obstacle[y_low] < robot[x_low])) return miss(Meets::never_right, x_low, y_low);
-
-    state.meets = Meets::crosses;
-    // walk counter-clockwise from one extreme vertex towards the other until the line is passed
-    const auto walk = [&](Index x, Index y, int direction) {
-        const Index *ga = &A.piece_edge[A.piece[p]], *fb = &O.piece_edge[O.piece[k]];
+    }
+    // The edge by which the line is passed, on the way counter-clockwise down from the highest vertex, or up from the lowest.
+    PillarEdge crossing(Vertex v, bool down) const {
         PillarEdge e{};
         for (Index steps = 0; steps <= n + m; ++steps) {
-            const Index x1 = after(x, n), y1 = after(y, m);
-            const bool by_obstacle = direction < 0 ? obstacle[y1] < obstacle[y] : obstacle[y1] > obstacle[y];
-            const bool by_robot = direction < 0 ? robot[x1] > robot[x] : robot[x1] < robot[x];
-            bool obstacle_first = by_obstacle || n == 1;
-            if (by_obstacle && by_robot) {
-                const auto F = between_vertices<T>(O, b[y1], b[y]), G = between_vertices<T>(A, a[x1], a[x]);
-                const Vec<T> RG{R.c * G.x - R.s * G.y, R.s * G.x + R.c * G.y};
-                obstacle_first = cross(F, RG) < 0;
-            }
-            e.s0 = a[x], e.v0 = b[y];
-            if (obstacle_first) {
-                e.feature = {Kind::vertex_edge, a[x], fb[y]};
-                e.around[0] = n > 1 ? ga[prior(x, n)] : -1, e.around[1] = n > 1 ? ga[x] : -1;
-                y = y1;
+            e.s0 = a[v.x], e.v0 = b[v.y];
+            if (is_obstacle_next(v, down)) {
+                e.feature = {Kind::vertex_edge, a[v.x], fb[v.y]};
+                set_around(v.x, n, ga, e.around);
+                v.y = after(v.y, m);
             } else {
-                e.feature = {Kind::edge_vertex, ga[x], b[y]};
-                e.around[0] = m > 1 ? fb[prior(y, m)] : -1, e.around[1] = m > 1 ? fb[y] : -1;
-                x = x1;
+                e.feature = {Kind::edge_vertex, ga[v.x], b[v.y]};
+                set_around(v.y, m, fb, e.around);
+                v.x = after(v.x, n);
             }
-            e.s1 = a[x], e.v1 = b[y];
-            if (direction < 0 ? obstacle[y] < robot[x] : obstacle[y] > robot[x]) break;
+            e.s1 = a[v.x], e.v1 = b[v.y];
+            if (down ? is_right(v) : is_left(v)) break;
         }
         return e;
-    };
-    state.lower = walk(last(x_high, robot, n), last(y_high, obstacle, m), -1);
-    state.upper = walk(last(x_low, robot, n), last(y_low, obstacle, m), 1);
+    }
+
+private:
+    static Index after(Index x, Index size) { return x + 1 == size ? 0 : x + 1; }
+    static Index prior(Index x, Index size) { return x == 0 ? size - 1 : x - 1; }
+    static void set_around(Index x, Index size, const Index* edges, Index* around) {
+        around[0] = size > 1 ? edges[prior(x, size)] : -1, around[1] = size > 1 ? edges[x] : -1;
+    }
+    static Index extreme(const std::vector<T>& heights, Index size, int sign) {
+        Index best = 0;
+        for (Index x = 1; x < size; ++x)
+            if (sign > 0 ? heights[x] > heights[best] : heights[x] < heights[best]) best = x;
+        return best;
+    }
+    static Index last(Index x, const std::vector<T>& heights, Index size) {
+        for (Index c = 0; c < size && heights[after(x, size)] == heights[x]; ++c) x = after(x, size);
+        return x;
+    }
+
+    // Heights over the line: its direction in the workspace is U, in the robot's frame V, both times w.
+    void measure(const Feature& contact) {
+        const bool on_edge = contact.kind == Kind::vertex_edge;
+        const Index i = contact.robot, j = contact.obstacle;
+        const Index a0 = on_edge ? i : A.v[i], b0 = on_edge ? O.v[j] : j;
+        const auto E = on_edge ? between_vertices<T>(O, O.w[j], O.v[j]) : between_vertices<T>(A, A.w[i], A.v[i]);
+        const Vec<T> scaled{R.w * E.x, R.w * E.y};
+        const Vec<T> U = on_edge ? scaled : -R(E), V = on_edge ? R.back(E) : -scaled;
+        robot.resize(n), obstacle.resize(m);
+        for (Index x = 0; x < n; ++x) robot[x] = cross(V, between_vertices<T>(A, a[x], a0));
+        for (Index y = 0; y < m; ++y) obstacle[y] = cross(U, between_vertices<T>(O, b[y], b0));
+    }
+
+    // Whether the next edge of the pillar, of those that lead on, is the obstacle's: by direction, where both lead on.
+    bool is_obstacle_next(const Vertex& v, bool down) const {
+        const Index x1 = after(v.x, n), y1 = after(v.y, m);
+        const bool by_obstacle = down ? obstacle[y1] < obstacle[v.y] : obstacle[y1] > obstacle[v.y];
+        const bool by_robot = down ? robot[x1] > robot[v.x] : robot[x1] < robot[v.x];
+        if (!by_obstacle || !by_robot) return by_obstacle || n == 1;
+        return cross(between_vertices<T>(O, b[y1], b[v.y]), R(between_vertices<T>(A, a[x1], a[v.x]))) < 0;
+    }
+
+    const Shape &A, &O;
+    const Rotation<T> R;
+    const Index *a, *b, *ga, *fb;  // vertices and edges of the two pieces
+    const Index n, m;
+    std::vector<T>&robot, &obstacle;
+};
+
+template <class T>
+Trimmer::State Trimmer::state_at(Index p, Index k, const Sample& at) const {
+    const PillarView<T> pillar(*this, p, k, at);
+    const auto high = pillar.highest(), low = pillar.lowest();
+    if (!pillar.is_left(high)) return pillar.missed(Meets::never_left, high);
+    if (!pillar.is_right(low)) return pillar.missed(Meets::never_right, low);
+    State state{};
+    state.meets = Meets::crosses;
+    state.lower = pillar.crossing(pillar.last(high), true);
+    state.upper = pillar.crossing(pillar.last(low), false);
     return state;
 }
 

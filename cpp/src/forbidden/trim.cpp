@@ -1,4 +1,4 @@
-// The live region of a patch: bands taken away, parts without width kept.
+// The live region of a patch: bands taken away, parts without width kept; theory, "The trimmed boundary".
 #include "cfree/forbidden/trim.hpp"
 
 #include <algorithm>
@@ -156,87 +156,106 @@ void Trimmer::go_on(Index at, std::initializer_list<std::array<Index, 2>> parts,
 }
 
 // False if nothing is taken away.
+//
+// Between two cuts the four orders are constant: the area is kept, or what is below and what is above the band.
 bool Trimmer::subtract_from(const Area& area, const Band& taken) {
-    const Area& band = taken.area;
+    Overlap x{area, taken, -1, -1, {}, {}};
+    if (!compare(x)) return false;
+    sort_cuts(x);
+    open.clear();
+    if (x.from != area.from) go_on(area.from, {{area.lower, area.upper}}, false);
+    Cover last{};
+    for (int k = 0;;) {
+        const Index start = k == 0 ? x.from : x.cuts[k - 1].event, end = k == x.count ? x.to : x.cuts[k].event;
+        const Cover cover{x.sign(Overlap::lower_to_upper) < 0 && x.sign(Overlap::upper_to_lower) > 0,
+                          x.sign(Overlap::lower_to_lower) < 0, x.sign(Overlap::upper_to_upper) > 0};
+        keep_around(x, start, cover);
+        if (taken.state != nullptr) {
+            keep_touched_curves(x, start, end, cover);
+            if (k > 0) keep_at(x, start, &last, &cover);
+            else if (x.from == area.from) keep_at(x, start, nullptr, &cover);
+        }
+        last = cover;
+        if (k == x.count) break;
+        // on to the next angle, over all cuts that are there
+        x.low_meets = x.high_meets = false;
+        do {
+            x.low_meets |= x.cuts[k].which == Overlap::lower_to_lower, x.high_meets |= x.cuts[k].which == Overlap::upper_to_upper;
+            ++x.position[x.cuts[k].which], ++k;
+        } while (k < x.count && equal(x.cuts[k].event, x.cuts[k - 1].event));
+    }
+    if (taken.state != nullptr && x.to == area.to) keep_at(x, x.to, &last, nullptr);
+    if (x.to != area.to) go_on(x.to, {{area.lower, area.upper}}, false);
+    go_on(area.to, {}, false);
+    return true;
+}
+
+// The angles where both are, and the four orders there; false if the band covers nothing of the area, as far as can be seen.
+bool Trimmer::compare(Overlap& x) {
+    const Area &area = x.area, &band = x.band.area;
     if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi || band.t_max < area.t_min ||
         band.t_min > area.t_max)
         return false;
-    const Index from = before(area.from, band.from) ? band.from : area.from;
-    const Index to = before(band.to, area.to) ? band.to : area.to;
-    if (!before(from, to)) return false;
-    // where the band lies against the area: four orders, their changes in one list
-    const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[from], events[to]); };
-    Predicates::Order orders[4];
-    orders[0] = order(band.lower, area.upper);
-    if (orders[0].count == 0 && orders[0].sign[0] >= 0) return false;
-    orders[1] = order(band.upper, area.lower);
-    if (orders[1].count == 0 && orders[1].sign[0] <= 0) return false;
-    orders[2] = order(band.lower, area.lower);
-    orders[3] = order(band.upper, area.upper);
-    struct Cut {
-        Index event;
-        int which;
-    };
-    Cut cuts[16];
-    int count = 0;
-    for (int w = 0; w < 4; ++w) {
-        for (int r = 0; r < orders[w].count; ++r) {
-            Cut cut{intern(orders[w].at[r]), w};
-            int k = count++;
-            for (; k > 0 && before(cut.event, cuts[k - 1].event); --k) cuts[k] = cuts[k - 1];
-            cuts[k] = cut;
-        }
-    }
-    // what the band leaves of the area without width, at an angle between two parts (or one, or none, of them covered)
-    struct Cover {
-        bool all, low, high;  // some of the area's inside; its lower, its upper curve
-    };
-    const auto leave = [&](Index at, const Cover* before_it, const Cover* after_it, bool low_meets, bool high_meets) {
-        for (const Cover* c : {before_it, after_it})
-            if (c != nullptr && !c->all) return;
-        const auto both = [&](bool Cover::*which) {
-            return (before_it == nullptr || before_it->*which) && (after_it == nullptr || after_it->*which);
-        };
-        if (!covers_at(taken, at)) return add_thin(at, at, area.lower, area.upper);
-        const bool is_end = before_it == nullptr || after_it == nullptr;
-        const auto meets = [&](int w, Index p, Index q) { return is_end && !orders[w].strict && order_at(at, p, q) == 0; };
-        if (both(&Cover::low) && (low_meets || meets(2, band.lower, area.lower))) add_thin(at, at, area.lower, area.lower);
-        if (both(&Cover::high) && (high_meets || meets(3, band.upper, area.upper))) add_thin(at, at, area.upper, area.upper);
-    };
-    // between cuts the order is constant: keep the area, or what is below and above the band
-    open.clear();
-    if (from != area.from) go_on(area.from, {{area.lower, area.upper}}, false);
-    int position[4] = {0, 0, 0, 0};
-    Cover last{};
-    bool low_meets = false, high_meets = false;
-    for (int k = 0;;) {
-        const Index start = k == 0 ? from : cuts[k - 1].event, end = k == count ? to : cuts[k].event;
-        const auto sign = [&](int w) { return orders[w].sign[position[w]]; };
-        const Cover cover{sign(0) < 0 && sign(1) > 0, sign(2) < 0, sign(3) > 0};
-        const bool below = sign(2) > 0, above = sign(3) < 0;
-        if (!cover.all) go_on(start, {{area.lower, area.upper}}, false);
-        else if (below && above) go_on(start, {{area.lower, band.lower}, {band.upper, area.upper}}, low_meets || high_meets);
-        else if (below) go_on(start, {{area.lower, band.lower}}, low_meets);
-        else if (above) go_on(start, {{band.upper, area.upper}}, high_meets);
-        else go_on(start, {}, false);
-        if (taken.state != nullptr) {
-            if (cover.all && sign(2) == 0) add_thin(start, end, area.lower, area.lower);
-            if (cover.all && sign(3) == 0) add_thin(start, end, area.upper, area.upper);
-            if (k > 0) leave(start, &last, &cover, low_meets, high_meets);
-            else if (from == area.from) leave(start, nullptr, &cover, false, false);
-            if (k == count && to == area.to) leave(to, &cover, nullptr, false, false);
-        }
-        last = cover;
-        if (k == count) break;
-        low_meets = high_meets = false;
-        do {
-            low_meets |= cuts[k].which == 2, high_meets |= cuts[k].which == 3;
-            ++position[cuts[k].which], ++k;
-        } while (k < count && equal(cuts[k].event, cuts[k - 1].event));
-    }
-    if (to != area.to) go_on(to, {{area.lower, area.upper}}, false);
-    go_on(area.to, {}, false);
+    x.from = before(area.from, band.from) ? band.from : area.from;
+    x.to = before(band.to, area.to) ? band.to : area.to;
+    if (!before(x.from, x.to)) return false;
+    const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[x.from], events[x.to]); };
+    auto& orders = x.orders;
+    orders[Overlap::lower_to_upper] = order(band.lower, area.upper);
+    if (orders[Overlap::lower_to_upper].count == 0 && x.sign(Overlap::lower_to_upper) >= 0) return false;
+    orders[Overlap::upper_to_lower] = order(band.upper, area.lower);
+    if (orders[Overlap::upper_to_lower].count == 0 && x.sign(Overlap::upper_to_lower) <= 0) return false;
+    orders[Overlap::lower_to_lower] = order(band.lower, area.lower);
+    orders[Overlap::upper_to_upper] = order(band.upper, area.upper);
     return true;
+}
+
+// The changes of the four orders in one list.
+void Trimmer::sort_cuts(Overlap& x) {
+    for (int w = 0; w < 4; ++w) {
+        for (int r = 0; r < x.orders[w].count; ++r) {
+            const Overlap::Cut cut{intern(x.orders[w].at[r]), w};
+            int k = x.count++;
+            for (; k > 0 && before(cut.event, x.cuts[k - 1].event); --k) x.cuts[k] = x.cuts[k - 1];
+            x.cuts[k] = cut;
+        }
+    }
+}
+
+// From an angle on: all of the area, or what is below and what is above the band.
+void Trimmer::keep_around(const Overlap& x, Index start, const Cover& cover) {
+    const Area &area = x.area, &band = x.band.area;
+    const bool below = x.sign(Overlap::lower_to_lower) > 0, above = x.sign(Overlap::upper_to_upper) < 0;
+    if (!cover.inside) go_on(start, {{area.lower, area.upper}}, false);
+    else if (below && above) go_on(start, {{area.lower, band.lower}, {band.upper, area.upper}}, x.low_meets || x.high_meets);
+    else if (below) go_on(start, {{area.lower, band.lower}}, x.low_meets);
+    else if (above) go_on(start, {{band.upper, area.upper}}, x.high_meets);
+    else go_on(start, {}, false);
+}
+
+// Bands are open: of an area that is covered, a curve that is the band's own is free.
+void Trimmer::keep_touched_curves(const Overlap& x, Index start, Index end, const Cover& cover) {
+    if (cover.inside && x.sign(Overlap::lower_to_lower) == 0) add_thin(start, end, x.area.lower, x.area.lower);
+    if (cover.inside && x.sign(Overlap::upper_to_upper) == 0) add_thin(start, end, x.area.upper, x.area.upper);
+}
+
+// What the band leaves of the area without width at an angle between two parts, all of them covered; one of them at an end.
+void Trimmer::keep_at(const Overlap& x, Index at, const Cover* before_it, const Cover* after_it) {
+    const Area &area = x.area, &band = x.band.area;
+    for (const Cover* c : {before_it, after_it})
+        if (c != nullptr && !c->inside) return;
+    if (!covers_at(x.band, at)) return add_thin(at, at, area.lower, area.upper);
+    const auto both = [&](bool Cover::*which) {
+        return (before_it == nullptr || before_it->*which) && (after_it == nullptr || after_it->*which);
+    };
+    const bool is_end = before_it == nullptr || after_it == nullptr;
+    const auto meets = [&](Overlap::Which w, Index p, Index q) {
+        return is_end && !x.orders[w].strict && order_at(at, p, q) == 0;
+    };
+    if (both(&Cover::low) && ((!is_end && x.low_meets) || meets(Overlap::lower_to_lower, band.lower, area.lower)))
+        add_thin(at, at, area.lower, area.lower);
+    if (both(&Cover::high) && ((!is_end && x.high_meets) || meets(Overlap::upper_to_upper, band.upper, area.upper)))
+        add_thin(at, at, area.upper, area.upper);
 }
 
 void Trimmer::subtract_from_thin(const Band& taken) {

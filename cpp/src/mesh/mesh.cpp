@@ -90,7 +90,12 @@ private:
     Index vertex_of(Index h);
     Index add_vertex(double x, double y, double theta);
     void add_run(Index h, Index first_coedge, const Samples& samples);
+    using Rim = std::array<std::vector<Index>, 4>;  // points by side
     void triangulate(Index f);
+    Rim place_rim(Index f);
+    void zip(const Rim& rim);
+    double ideal_triangles(const Sheet& sheet) const;
+    void put_out(Index f);
     void add_lattice(const Sheet& sheet);
     void improve(Index f, std::size_t most);
     bool flip_to_better(const Sheet& sheet, Index t);
@@ -356,10 +361,29 @@ void Mesher::simplify(const Sheet& sheet, Index rim, Index lattice) {
     net.sweep_dropped();
 }
 
+// From the rim inwards: a disc zipped between the two curves, points of the lattice where there is room, more where the bound
+// asks for them, none that are not needed.
 void Mesher::triangulate(Index f) {
     const Sheet& sheet = sheets[f];
     net.places.clear(), net.triangles.clear(), points.clear();
-    std::array<std::vector<Index>, 4> rim;  // without the coedges' last ends
+    zip(place_rim(f));
+    const auto rim_end = static_cast<Index>(points.size());
+    const double ideal = ideal_triangles(sheet);
+    out.least += ideal;
+    if (ideal > 4) {
+        net.make_delaunay();
+        add_lattice(sheet);
+    }
+    const auto lattice_end = static_cast<Index>(points.size());
+    improve(f, 100 * points.size() + 10000);
+    if (static_cast<Index>(points.size()) > rim_end) simplify(sheet, rim_end, lattice_end);
+    put_out(f);
+}
+
+// Points of the four sides, in the order of the loop, without the half-edges' last ends.
+Mesher::Rim Mesher::place_rim(Index f) {
+    const Sheet& sheet = sheets[f];
+    Rim rim;
     for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
         const auto add = [&](Index vertex, Complex x, double phi) {
             MeshPoint p = sheet.point(sheet.position(x, phi), phi);
@@ -375,8 +399,12 @@ void Mesher::triangulate(Index f) {
             add(v, {out.xyz[3 * v], out.xyz[3 * v + 1]}, out.xyz[3 * v + 2]);
         }
     }
-    // corners: lower left, lower right, upper right, upper left
-    const auto corner = [&](int side) {
+    return rim;
+}
+
+// The face between its curves, then the points of its first and last side put on the rim.
+void Mesher::zip(const Rim& rim) {
+    const auto corner = [&](int side) {  // lower left, lower right, upper right, upper left
         for (int k = 0; k < 4; ++k)
             if (!rim[(side + k) % 4].empty()) return rim[(side + k) % 4].front();
         return Index(-1);
@@ -387,32 +415,29 @@ void Mesher::triangulate(Index f) {
     points[left.front()].inward[0] = points[left.back()].inward[0] = 0;
     points[right.front()].inward[1] = points[right.back()].inward[1] = 0;
     net.zip(left, right);
-    const auto split = [&](const std::vector<Index>& wall, Index end) {
-        for (std::size_t k = 1; k < wall.size(); ++k) net.split_rim(wall[k - 1], end, wall[k]);
+    const auto split = [&](const std::vector<Index>& side, Index end) {
+        for (std::size_t k = 1; k < side.size(); ++k) net.split_rim(side[k - 1], end, side[k]);
     };
     split(rim[0], corner(1)), split(rim[2], corner(3));
+}
 
-    const double ideal = sheet.is_saddle && !sheet.is_thin() ? [&] {
-        double sum = 0;  // Simpson's rule
-        const int parts = 16;
-        for (int k = 0; k <= parts; ++k)
-            sum += (k == 0 || k == parts ? 1 : k % 2 ? 4 : 2) * sheet.width_u(sheet.from + k * (sheet.to - sheet.from) / parts);
-        return best_density * angle_scale * (sheet.to - sheet.from) * sum / (3 * parts) / error;
-    }() : 0;
-    out.least += ideal;
-    const auto rim_end = static_cast<Index>(points.size());
-    if (ideal > 4) {
-        net.make_delaunay();
-        add_lattice(sheet);
-    }
-    const auto lattice_end = static_cast<Index>(points.size());
-    improve(f, 100 * points.size() + 10000);
-    if (static_cast<Index>(points.size()) > rim_end) simplify(sheet, rim_end, lattice_end);
+// How many triangles the best known density asks for: its integral over the face, by Simpson's rule.
+double Mesher::ideal_triangles(const Sheet& sheet) const {
+    if (!sheet.is_saddle || sheet.is_thin()) return 0;
+    double sum = 0;
+    const int parts = 16;
+    for (int k = 0; k <= parts; ++k)
+        sum += (k == 0 || k == parts ? 1 : k % 2 ? 4 : 2) * sheet.width_u(sheet.from + k * (sheet.to - sheet.from) / parts);
+    return best_density * angle_scale * (sheet.to - sheet.from) * sum / (3 * parts) / error;
+}
+
+// The triangles of a face, and its inner points as vertices.
+void Mesher::put_out(Index f) {
     for (const Triangle& t : net.triangles) {
         for (const Index c : t.corner) {
             MeshPoint& p = points[c];
             if (p.vertex < 0) {
-                const Complex x = sheet.at(p.s, p.phi);
+                const Complex x = sheets[f].at(p.s, p.phi);
                 p.vertex = add_vertex(x.real(), x.imag(), p.phi);
             }
             out.corners.push_back(p.vertex);

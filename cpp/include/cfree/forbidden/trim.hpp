@@ -71,6 +71,31 @@ private:
         const State* state;
     };
 
+    // A band against an area, between the angles where both are.
+    struct Overlap {
+        const Area& area;
+        const Band& band;
+        Index from, to;
+        // Of the band's lower (upper) curve against the area's, and where an order changes.
+        enum Which { lower_to_upper, upper_to_lower, lower_to_lower, upper_to_upper };
+        Predicates::Order orders[4];
+        struct Cut {
+            Index event;
+            int which;
+        };
+        Cut cuts[16];
+        int count = 0;
+        int position[4] = {0, 0, 0, 0};  // among the signs of each order
+        bool low_meets = false, high_meets = false;  // whether two lower, two upper curves meet at the last cut
+        int sign(Which which) const { return orders[which].sign[position[which]]; }
+    };
+    // What a band covers of an area between two cuts: some of its inside; its lower, its upper curve.
+    struct Cover {
+        bool inside, low, high;
+    };
+
+    template <class T>
+    class PillarView;
     template <class T>
     std::vector<T>* scratch() const;
     template <class T>
@@ -89,6 +114,11 @@ private:
     void bounds(Area& area) const;
     void subtract(const Band& band);
     bool subtract_from(const Area& area, const Band& band);
+    bool compare(Overlap& x);
+    void sort_cuts(Overlap& x);
+    void keep_around(const Overlap& x, Index start, const Cover& cover);
+    void keep_touched_curves(const Overlap& x, Index start, Index end, const Cover& cover);
+    void keep_at(const Overlap& x, Index at, const Cover* before_it, const Cover* after_it);
     void go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip);
     void subtract_from_thin(const Band& band);
     void add_thin(Index from, Index to, Index lower, Index upper) { fresh.push_back({from, to, lower, upper, 0, 1}); }
