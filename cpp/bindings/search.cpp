@@ -26,15 +26,15 @@ static std::vector<PoseTuple> list_of(const cfree::Route& route) {
 
 void bind_search(nb::module_& m) {
     using Numbers = std::array<double, 3>;
-    nb::class_<cfree::Search>(m, "Search")
-        .def("__init__", [](cfree::Search* search, const cfree::MotionChecker& checker, std::array<int, 3> grid,
+    nb::class_<cfree::RrtConnect>(m, "RrtConnect")
+        .def("__init__", [](cfree::RrtConnect* search, const cfree::MotionChecker& checker, std::array<int, 3> grid,
                             std::array<double, 4> area, double weight, const PoseIntegers& start, const Numbers& start_at,
                             const PoseIntegers& goal, const Numbers& goal_at, std::uint64_t seed) {
-            new (search) cfree::Search(checker, {grid[0], grid[1], grid[2]}, {area[0], area[1], area[2], area[3]}, weight,
-                                       configuration(start, start_at), configuration(goal, goal_at), seed);
+            new (search) cfree::RrtConnect(checker, {grid[0], grid[1], grid[2]}, {area[0], area[1], area[2], area[3]},
+                                           weight, configuration(start, start_at), configuration(goal, goal_at), seed);
         }, "checker"_a, "grid"_a, "area"_a, "weight"_a, "start"_a, "start_at"_a, "goal"_a, "goal_at"_a, "seed"_a,
            nb::keep_alive<1, 2>())
-        .def("run", [](cfree::Search& search, int checks) {
+        .def("run", [](cfree::RrtConnect& search, int checks) {
             cfree::Route route;
             {
                 nb::gil_scoped_release release;
@@ -42,14 +42,14 @@ void bind_search(nb::module_& m) {
             }
             return list_of(route);
         }, "checks"_a);
-    nb::class_<cfree::Shortener>(m, "Shortener")
-        .def("__init__", [](cfree::Shortener* s, const cfree::MotionChecker& checker, std::array<int, 3> grid, double weight,
+    nb::class_<cfree::Shortcut>(m, "Shortcut")
+        .def("__init__", [](cfree::Shortcut* s, const cfree::MotionChecker& checker, std::array<int, 3> grid, double weight,
                             const std::vector<PoseIntegers>& poses, const std::vector<Numbers>& places, std::uint64_t seed) {
             cfree::Route route;
             for (std::size_t k = 0; k < poses.size(); ++k) route.push_back(configuration(poses[k], places.at(k)));
-            new (s) cfree::Shortener(checker, {grid[0], grid[1], grid[2]}, weight, std::move(route), seed);
+            new (s) cfree::Shortcut(checker, {grid[0], grid[1], grid[2]}, weight, std::move(route), seed);
         }, "checker"_a, "grid"_a, "weight"_a, "poses"_a, "places"_a, "seed"_a, nb::keep_alive<1, 2>())
-        .def("run", &cfree::Shortener::run, "checks"_a, nb::call_guard<nb::gil_scoped_release>())
-        .def("length", &cfree::Shortener::length)
-        .def("path", [](const cfree::Shortener& s) { return list_of(s.path()); });
+        .def("run", &cfree::Shortcut::run, "checks"_a, nb::call_guard<nb::gil_scoped_release>())
+        .def("length", &cfree::Shortcut::length)
+        .def("path", [](const cfree::Shortcut& s) { return list_of(s.path()); });
 }

@@ -1,3 +1,4 @@
+// Motions decided in integers, narrowed first by boxes and by halving in doubles; theory, "Motions".
 #include "cfree/collision/motion_checker.hpp"
 
 #include <algorithm>

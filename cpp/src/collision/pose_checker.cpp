@@ -1,3 +1,4 @@
+// Separating axes in doubles with a bound, then in integers; grids remember what is near; theory, "Poses, exactly".
 #include "cfree/collision/pose_checker.hpp"
 
 #include <limits>

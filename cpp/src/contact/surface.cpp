@@ -1,3 +1,4 @@
+// Points of ruled surfaces; theory, "The paper, and where it is".
 #include "cfree/contact/surface.hpp"
 
 #include <cmath>

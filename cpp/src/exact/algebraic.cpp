@@ -1,3 +1,4 @@
+// Real roots told apart by halving, common divisors and Sturm chains; theory, "Degrees".
 #include "cfree/exact/algebraic.hpp"
 
 #include <algorithm>

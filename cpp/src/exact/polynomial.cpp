@@ -1,3 +1,4 @@
+// Polynomials with exact coefficients: division, divisors, isolation of roots; theory, "Degrees".
 #include "cfree/exact/polynomial.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Critical angles sorted by their intervals, and exactly where these overlap; theory, "Closed surfaces".
 #include "cfree/forbidden/angle_table.hpp"
 
 #include <algorithm>

@@ -79,8 +79,8 @@ private:
     void trim(Index id, const std::vector<Index>& near, Tally& mine);
 
     const Scene& scene;
-    const Neighbours neighbours;
-    const Owners owners;
+    const PillarIndex neighbours;
+    const CoincidentSurfaces owners;
     std::vector<Index> first_patch;  // of each obstacle ring vertex and the edge that starts there
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};

@@ -1,4 +1,4 @@
-// Sides of trapezoids matched by what they are: along curves, then along walls; theory, "Closed surfaces".
+// Sides of trapezoids matched by what they are: along curves, then at critical angles; theory, "Closed surfaces".
 #include "cfree/forbidden/cell_complex.hpp"
 
 #include <algorithm>
@@ -24,8 +24,8 @@ struct Part {
     Side side;
     Index order;  // along theta or t
     Index edge;
-    Index from, to;    // ranks of angles, one and the same for a wall
-    double first, last;  // t on a wall
+    Index from, to;    // ranks of angles, one and the same at a critical angle
+    double first, last;  // t at a critical angle
     Index twin = -1;
 };
 
@@ -36,7 +36,7 @@ public:
 
     CellComplex run() {
         glue_curves();
-        glue_walls();
+        glue_levels();
         return build();
     }
 
@@ -65,7 +65,7 @@ private:
     // --- curves: at every angle between two critical ones, segments of a slice end in a point of the curve ---
 
     struct CurveSide {
-        Fingerprint curve;
+        CurveHash curve;
         Index from, to, trapezoid;
         bool is_upper;
     };
@@ -73,19 +73,19 @@ private:
     void glue_curve(CurveSide* begin, CurveSide* end);
     void pair_around_point(Index from, Index to, const std::vector<Index>& live);
 
-    // --- walls: horizontal segments at one critical angle ---
+    // --- levels: sides at one critical angle ---
 
-    struct Wall {
+    struct Level {
         Index trapezoid;
         bool is_above;
         Spot low, high;   // its ends in the order of its own line
         int along = 1;    // direction of its line against the group's
         Index first, last;  // numbers of its ends among the group's places
     };
-    void glue_walls();
-    void glue_junction(std::vector<Wall>& walls, Junction& at);
-    void glue_line(std::vector<Wall*>& line, Junction& at);
-    void pair_around_line(const std::vector<std::pair<const Wall*, Index>>& live, const Spot& p, const Spot& q, Junction& at);
+    void glue_levels();
+    void glue_junction(std::vector<Level>& levels, Junction& at);
+    void glue_line(std::vector<Level*>& line, Junction& at);
+    void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, Junction& at);
 
     CellComplex build();
     struct Start {
@@ -108,11 +108,11 @@ void Gluer::glue_curves() {
     const auto n = static_cast<Index>(trapezoids.patch.size());
     std::vector<CurveSide> sides;
     sides.reserve(2 * static_cast<std::size_t>(n));
-    const Fingerprints prints(scene, 2 * static_cast<std::size_t>(n),
+    const CurveHashes hashes(scene, 2 * static_cast<std::size_t>(n),
                               [&](std::size_t k) { return curve(static_cast<Index>(k / 2), k % 2 != 0); });
     for (Index k = 0; k < n; ++k)
         for (const bool upper : {false, true})
-            sides.push_back({prints[2 * static_cast<std::size_t>(k) + upper], angles.from[k], angles.to[k], k, upper});
+            sides.push_back({hashes[2 * static_cast<std::size_t>(k) + upper], angles.from[k], angles.to[k], k, upper});
     std::sort(sides.begin(), sides.end(), [](const CurveSide& x, const CurveSide& y) {
         if (x.curve != y.curve) return x.curve < y.curve;
         return x.from < y.from || (x.from == y.from && x.trapezoid < y.trapezoid);
@@ -126,7 +126,7 @@ void Gluer::glue_curves() {
     }
 }
 
-// Sides with one fingerprint: first those on the first's curve, then others.
+// Sides with one hash: first those on the first's curve, then others.
 void Gluer::glue_curve(CurveSide* begin, CurveSide* end) {
     const NamedCurve first = curve(begin->trapezoid, begin->is_upper);
     CurveSide* others = std::stable_partition(begin + 1, end, [&](const CurveSide& s) {
@@ -184,7 +184,7 @@ void Gluer::pair_around_point(Index from, Index to, const std::vector<Index>& li
     }
 }
 
-void Gluer::glue_walls() {
+void Gluer::glue_levels() {
     const auto n = static_cast<Index>(trapezoids.patch.size());
     // trapezoids by the angle where they end, or begin
     const Index ranks = angles.last;
@@ -195,39 +195,39 @@ void Gluer::glue_walls() {
     std::vector<Index> place(start.begin(), start.end() - 1);
     for (Index k = 0; k < n; ++k)
         member[place[round(angles.from[k])]++] = 2 * k, member[place[round(angles.to[k])]++] = 2 * k + 1;
-    std::vector<Wall> walls;
+    std::vector<Level> levels;
     for (Index rank = 0; rank < ranks; ++rank) {
         heed_stop();
         if (start[rank] == start[rank + 1]) continue;
         Junction at = junction(rank, rank > angles.middle ? 1 : 0);
-        walls.clear();
+        levels.clear();
         for (Index m = start[rank]; m < start[rank + 1]; ++m) {
             const Index k = member[m] / 2;
             at.know((member[m] % 2 == 0 ? angle_from : angle_to)(patches, trapezoids, k).name(scene));
-            Wall wall{k, member[m] % 2 == 0, at.spot(contact(k), unpacked(trapezoids.lower[k])),
+            Level level{k, member[m] % 2 == 0, at.spot(contact(k), unpacked(trapezoids.lower[k])),
                       at.spot(contact(k), unpacked(trapezoids.upper[k])), 1, 0, 0};
-            if (at.order(contact(k), wall.low, wall.high) != 0) walls.push_back(std::move(wall));
+            if (at.order(contact(k), level.low, level.high) != 0) levels.push_back(std::move(level));
         }
-        glue_junction(walls, at);
+        glue_junction(levels, at);
     }
 }
 
-void Gluer::glue_junction(std::vector<Wall>& walls, Junction& at) {
-    std::vector<Wall*> all;
-    for (Wall& w : walls) all.push_back(&w);
-    std::vector<Wall*> line;
+void Gluer::glue_junction(std::vector<Level>& levels, Junction& at) {
+    std::vector<Level*> all;
+    for (Level& w : levels) all.push_back(&w);
+    std::vector<Level*> line;
     while (!all.empty()) {  // one direction after another
         const Feature front = contact(all[0]->trapezoid);
-        std::vector<Wall*> parallel, others;
-        for (Wall* w : all) {
+        std::vector<Level*> parallel, others;
+        for (Level* w : all) {
             w->along = at.parallel(front, contact(w->trapezoid));
             (w->along != 0 ? parallel : others).push_back(w);
         }
         // y's line left of x's, seen along the first
-        const auto offset = [&](const Wall* x, const Wall* y) {
+        const auto offset = [&](const Level* x, const Level* y) {
             return at.side(contact(x->trapezoid), contact(y->trapezoid)) * x->along;
         };
-        std::stable_sort(parallel.begin(), parallel.end(), [&](const Wall* x, const Wall* y) { return offset(x, y) > 0; });
+        std::stable_sort(parallel.begin(), parallel.end(), [&](const Level* x, const Level* y) { return offset(x, y) > 0; });
         for (std::size_t begin = 0, end; begin < parallel.size(); begin = end) {
             line.clear();
             for (end = begin; end < parallel.size() && (end == begin || offset(parallel[begin], parallel[end]) == 0); ++end)
@@ -238,12 +238,12 @@ void Gluer::glue_junction(std::vector<Wall>& walls, Junction& at) {
     }
 }
 
-void Gluer::glue_line(std::vector<Wall*>& line, Junction& at) {
+void Gluer::glue_line(std::vector<Level*>& line, Junction& at) {
     const Feature ref = contact(line[0]->trapezoid);
     const int along = line[0]->along;
-    for (Wall* w : line) w->along *= along;
+    for (Level* w : line) w->along *= along;
     std::vector<const Spot*> places;
-    for (const Wall* w : line) places.push_back(&w->low), places.push_back(&w->high);
+    for (const Level* w : line) places.push_back(&w->low), places.push_back(&w->high);
     std::stable_sort(places.begin(), places.end(), [&](const Spot* p, const Spot* q) { return at.order(ref, *p, *q) < 0; });
     places.erase(std::unique(places.begin(), places.end(),
                              [&](const Spot* p, const Spot* q) { return at.order(ref, *p, *q) == 0; }),
@@ -253,21 +253,21 @@ void Gluer::glue_line(std::vector<Wall*>& line, Junction& at) {
                                                        [&](const Spot* p) { return at.order(ref, *p, spot) < 0; }) -
                                   places.begin());
     };
-    for (Wall* w : line) {
+    for (Level* w : line) {
         w->first = number(w->low), w->last = number(w->high);
         if (w->along < 0) std::swap(w->first, w->last);
-        if (w->first >= w->last) fail("a wall that runs backwards", w->trapezoid);
+        if (w->first >= w->last) fail("a side that runs backwards", w->trapezoid);
     }
-    std::vector<std::pair<const Wall*, Index>> live;
+    std::vector<std::pair<const Level*, Index>> live;
     for (Index k = 0; k + 1 < static_cast<Index>(places.size()); ++k) {
         heed_stop();
         live.clear();
-        for (const Wall* w : line) {
+        for (const Level* w : line) {
             if (w->first > k || k + 1 > w->last) continue;
             const auto t = [&](Index place) { return at.value(contact(w->trapezoid), *places[place]); };
             const bool forwards = w->along > 0;
             const Index own = w->is_above ? angles.from[w->trapezoid] : angles.to[w->trapezoid];
-            live.push_back({w, add({w->trapezoid, w->is_above ? Side::first_wall : Side::last_wall, forwards ? k : -k, edges,
+            live.push_back({w, add({w->trapezoid, w->is_above ? Side::first : Side::last, forwards ? k : -k, edges,
                                     own, own, t(forwards ? k : k + 1), t(forwards ? k + 1 : k)})});
         }
         if (live.empty()) continue;
@@ -277,10 +277,10 @@ void Gluer::glue_line(std::vector<Wall*>& line, Junction& at) {
 }
 
 // Around the line, seen along it: theta upwards, the line's left to the right. Counter-clockwise from there.
-void Gluer::pair_around_line(const std::vector<std::pair<const Wall*, Index>>& live, const Spot& p, const Spot& q,
+void Gluer::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
                              Junction& at) {
     auto around = live;
-    const auto is_left = [&](const Wall* x, const Wall* y) {  // x further left than y, of two above or two below
+    const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below
         const int s = at.across(contact(x->trapezoid), contact(y->trapezoid), p, q, x->is_above) * y->along;
         return s != 0 ? s > 0 : x->along > y->along;  // one slit: what is left of its left sheet is forbidden
     };
@@ -291,18 +291,18 @@ void Gluer::pair_around_line(const std::vector<std::pair<const Wall*, Index>>& l
         return x.first->is_above ? is_left(x.first, y.first) : is_left(y.first, x.first);
     });
     // forbidden is on the left of a segment
-    const auto free_after = [](const Wall* w) { return w->is_above == (w->along > 0); };
+    const auto free_after = [](const Level* w) { return w->is_above == (w->along > 0); };
     for (std::size_t k = 0; k < around.size(); ++k) {
         const auto &x = around[k], &y = around[(k + 1) % around.size()];
         if (around.size() % 2 != 0 || free_after(x.first) == free_after(y.first))
-            fail("a wall with " + std::to_string(around.size()) + " sides that do not alternate", x.first->trapezoid);
+            fail("a line with " + std::to_string(around.size()) + " sides that do not alternate", x.first->trapezoid);
         if (free_after(x.first)) pair(x.second, y.second);
     }
 }
 
 // Where a part starts, in doubles.
 Gluer::Start Gluer::start_of(const Part& part) {
-    const bool forwards = part.side == Side::first_wall || part.side == Side::upper;
+    const bool forwards = part.side == Side::first || part.side == Side::upper;
     const int chart = trapezoids.chart[part.trapezoid];
     const auto tau_of = [&](Index rank) { return 0.5 * (angles.lo(rank, chart) + angles.hi(rank, chart)); };
     const Index rank = forwards ? part.from : part.to;
@@ -336,7 +336,7 @@ CellComplex Gluer::build() {
         const Part &p = parts[x], &q = parts[y];
         if (p.trapezoid != q.trapezoid) return p.trapezoid < q.trapezoid;
         if (p.side != q.side) return p.side < q.side;
-        const bool forwards = p.side == Side::first_wall || p.side == Side::upper;
+        const bool forwards = p.side == Side::first || p.side == Side::upper;
         return forwards ? p.order < q.order : p.order > q.order;
     });
     CellComplex result;
@@ -351,7 +351,7 @@ CellComplex Gluer::build() {
         ++result.first[p.trapezoid + 1];
     }
     std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
-    // vertices: around the start of a coedge, over twins
+    // vertices: around the start of a half-edge, over twins
     const auto before = [&](Index h) {
         const Index f = result.face[h];
         return h == result.first[f] ? result.first[f + 1] - 1 : h - 1;
@@ -360,7 +360,7 @@ CellComplex Gluer::build() {
     for (Index h = 0; h < count; ++h) {
         if (result.vertex[h] >= 0) continue;
         heed_stop();
-        Index best = h;  // walls know their ends
+        Index best = h;  // levels know their ends
         for (Index x = h; result.vertex[x] < 0; x = result.twin[before(x)]) {
             result.vertex[x] = result.vertices;
             if (parts[order[x]].from == parts[order[x]].to) best = x;

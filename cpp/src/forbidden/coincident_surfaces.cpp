@@ -1,3 +1,4 @@
+// Ranges of contacts, and who owns what several of them share; theory, "Surfaces that coincide".
 #include "forbidden/coincident_surfaces.hpp"
 
 #include <algorithm>
@@ -7,19 +8,19 @@ namespace cfree {
 Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
-    const Event first_wall{{}, {}, -1, -1}, last_wall{{}, {}, 1, 1};
+    const Event first_end{{}, {}, -1, -1}, last_end{{}, {}, 1, 1};
     const bool on_edge = contact.kind == Kind::vertex_edge;
     if (on_edge && A.previous[i] == i)  // a point touches at every orientation
-        return {2, {0, 1}, {first_wall, first_wall}, {last_wall, last_wall}};
+        return {2, {0, 1}, {first_end, first_end}, {last_end, last_end}};
     const auto start = on_edge ? Predicates::range_end(scene, i, j, true, counters)
                                : Predicates::range_end(scene, i, O.previous[j], true, counters);
     const auto end = on_edge ? Predicates::range_end(scene, A.previous[i], j, false, counters)
                              : Predicates::range_end(scene, i, j, false, counters);
     if (start.chart == end.chart) return {1, {start.chart, 0}, {start.event, {}}, {end.event, {}}};
-    return {2, {start.chart, end.chart}, {start.event, first_wall}, {last_wall, end.event}};
+    return {2, {start.chart, end.chart}, {start.event, first_end}, {last_end, end.event}};
 }
 
-Owners::Groups::Groups(const std::vector<Index>& group, Index count) {
+CoincidentSurfaces::Groups::Groups(const std::vector<Index>& group, Index count) {
     Index last = -1;
     for (Index k = 0; k < count; ++k) last = std::max(last, group[k]);
     start.assign(static_cast<std::size_t>(last) + 2, 0);
@@ -30,26 +31,26 @@ Owners::Groups::Groups(const std::vector<Index>& group, Index count) {
     for (Index k = 0; k < count; ++k) member[at[group[k]]++] = k;
 }
 
-Owners::Owners(const Scene& s, bool without_slits)
+CoincidentSurfaces::CoincidentSurfaces(const Scene& s, bool without_slits)
     : scene(s), regularized(without_slits), robot_points(s.robot.point, s.robot.ring_vertices),
       robot_lines(s.robot.line, s.robot.ring_vertices), obstacle_points(s.obstacles.point, s.obstacles.ring_vertices),
       obstacle_lines(s.obstacles.line, s.obstacles.ring_vertices) {}
 
-std::array<Index, 2> Owners::rank(const Feature& contact) const {
+std::array<Index, 2> CoincidentSurfaces::rank(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     if (contact.kind == Kind::vertex_edge) return {A.vertex_rank[i], O.edge_rank[j]};
     return {A.edge_rank[i], O.vertex_rank[j]};
 }
 
-bool Owners::is_patch(const Feature& contact) const {
+bool CoincidentSurfaces::is_patch(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     if (!O.emit[j] || A.layer[i] != O.layer[j]) return false;
     return contact.kind == Kind::vertex_edge ? A.convex[i] : O.convex[j] && A.has_extent(i);
 }
 
-std::vector<Feature> Owners::before(const Feature& contact) const {
+std::vector<Feature> CoincidentSurfaces::before(const Feature& contact) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const bool on_edge = contact.kind == Kind::vertex_edge;
     const Groups &robots = on_edge ? robot_points : robot_lines, &others = on_edge ? obstacle_lines : obstacle_points;
@@ -65,8 +66,8 @@ std::vector<Feature> Owners::before(const Feature& contact) const {
     return result;
 }
 
-// The same surface with the other side forbidden: a robot vertex at the reference point, a wall on a bound.
-void Owners::add_opposite(const Feature& contact, std::vector<Feature>& out) const {
+// The same surface with the other side forbidden: a robot vertex at the reference point, an obstacle edge on a bound.
+void CoincidentSurfaces::add_opposite(const Feature& contact, std::vector<Feature>& out) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = contact.robot, j = contact.obstacle;
     for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {

@@ -4,7 +4,7 @@
 
 namespace cfree {
 
-// The orientations of a contact (the paper's phi_min to phi_max), cut at the chart walls.
+// The orientations of a contact (the paper's phi_min to phi_max), cut at the ends of the charts.
 struct Range {
     int count = 0;
     int chart[2];
@@ -12,10 +12,10 @@ struct Range {
 };
 Range range_of(const Scene& scene, const Feature& contact, Counters& counters);
 
-class Owners {
+class CoincidentSurfaces {
 public:
     // regularized: patches of one surface whose free sides face each other own nothing.
-    Owners(const Scene& scene, bool regularized);
+    CoincidentSurfaces(const Scene& scene, bool regularized);
 
     // Contacts that own what they share with this one: of the same surface, and of lower rank, whatever the order of input.
     std::vector<Feature> before(const Feature& contact) const;

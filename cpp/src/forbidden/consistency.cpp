@@ -1,3 +1,4 @@
+// What the sizes and signs of a boundary from outside must be; theory, "The trimmed boundary".
 #include "cfree/forbidden/consistency.hpp"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ bool is_curve(const Scene& scene, const Surface& on, const Feature& f) {
 }
 
 bool is_angle(const Scene& scene, const CriticalAngle& x) {
-    if (x.is_wall()) return x.second.kind == Kind::none && x.lo == x.hi && std::abs(x.lo) == 1 && x.place == 0;
+    if (x.is_chart_end()) return x.second.kind == Kind::none && x.lo == x.hi && std::abs(x.lo) == 1 && x.place == 0;
     if (!is_there(scene, x.first)) return false;
     const bool alone = x.second.kind == Kind::none;
     if (alone && x.first.kind != Kind::edge_edge && x.first.kind != Kind::vertex_vertex) return false;

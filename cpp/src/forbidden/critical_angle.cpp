@@ -1,3 +1,4 @@
+// Angles named by what meets there, compared by their intervals, then exactly; theory, "Surfaces that coincide".
 #include "cfree/forbidden/critical_angle.hpp"
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 namespace cfree {
 
 CriticalAngle::Name CriticalAngle::name(const Scene& scene) const {
-    if (is_wall()) return {0, 0, lo < 0 ? 0u : 1u};
+    if (is_chart_end()) return {0, 0, lo < 0 ? 0u : 1u};
     const Code a = code(scene, first), b = code(scene, second), own = code(scene, surface.contact);
     Name names{own, a, b};
     if (first.kind == Kind::edge_edge) names = {a, 0, 0};
@@ -18,7 +19,7 @@ CriticalAngle::Name CriticalAngle::name(const Scene& scene) const {
 
 bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>& same) {
     const CriticalAngle& x = same[0];
-    if (x.is_wall()) return true;
+    if (x.is_chart_end()) return true;
     double low = x.lo, high = x.hi;
     for (const CriticalAngle& y : same) {
         if (y.place != 0) return false;
@@ -30,7 +31,7 @@ bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>
 const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     if (root) return *root;
     root = std::make_shared<RealRoot>();
-    if (is_wall()) {
+    if (is_chart_end()) {
         root->lo = root->hi = Dyadic::from(lo);
         return *root;
     }

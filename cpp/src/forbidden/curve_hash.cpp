@@ -1,3 +1,4 @@
+// Curves at one orientation, modulo a prime; theory, "Closed surfaces".
 #include "cfree/forbidden/curve_hash.hpp"
 
 #include <boost/multiprecision/miller_rabin.hpp>
@@ -38,24 +39,25 @@ bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
 
 }  // namespace
 
-Fingerprints::Fingerprints(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve)
+CurveHashes::CurveHashes(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve)
     : scene(sc), reduced{&sc, {}, {}} {
-    prints.reserve(count);
-    for (unsigned attempt = 0; prints.size() < count; ++attempt) {
+    hashes.reserve(count);
+    for (unsigned attempt = 0; hashes.size() < count; ++attempt) {
         choose(attempt);
-        for (prints.clear(); prints.size() < count;) {
+        for (hashes.clear(); hashes.size() < count;) {
             heed_stop();
-            const NamedCurve next = curve(prints.size());
-            const auto print = of(next);
-            if (!print && are_parallel(scene, next.on, next.other)) throw std::logic_error("a curve of two parallel surfaces");
-            if (!print) break;
-            prints.push_back(*print);
+            const NamedCurve next = curve(hashes.size());
+            const auto hash = of(next);
+            if (!hash && are_parallel(scene, next.on, next.other)) 
+                throw std::logic_error("a curve of two parallel surfaces");
+            if (!hash) break;
+            hashes.push_back(*hash);
         }
     }
 }
 
 // Primes and orientations without any pattern: coordinates have patterns, and are short modulo 2^61 - 1.
-void Fingerprints::choose(unsigned attempt) {
+void CurveHashes::choose(unsigned attempt) {
     using Word = Residues::Word;
     Word seed = attempt;
     const auto next = [&] {  // splitmix64
@@ -76,26 +78,26 @@ void Fingerprints::choose(unsigned attempt) {
     turn = {(one - square) * inverse, (tau + tau) * inverse, one};
 }
 
-Fingerprints::Line Fingerprints::line(const Feature& f) const {
+CurveHashes::Line CurveHashes::line(const Feature& f) const {
     const ContactLine<Residue> l(scene, f, reduced);
     return {l.start(turn), l.direction(turn)};
 }
 
 // None if the two lines are parallel, modulo the prime.
-std::optional<Fingerprint> Fingerprints::of(const NamedCurve& curve) const {
+std::optional<CurveHash> CurveHashes::of(const NamedCurve& curve) const {
     if (curve.other.kind == Kind::vertex_vertex) {
         const auto p = reduced.obstacles[curve.other.obstacle] - turn(reduced.robot[curve.other.robot]);
-        return Fingerprint{p.x.x, p.y.x};
+        return CurveHash{p.x.x, p.y.x};
     }
     const auto [P, U] = line(curve.on);
     const auto [Q, V] = line(curve.other);
     const Residue inverse{in.inverse(cross(U, V).x), &in};
     if (inverse.x == 0) return {};
     const Residue t = cross(Q - P, V) * inverse;
-    return Fingerprint{(P.x + t * U.x).x, (P.y + t * U.y).x};
+    return CurveHash{(P.x + t * U.x).x, (P.y + t * U.y).x};
 }
 
-bool Fingerprints::may_lie_on(const Feature& surface, const Fingerprint& curve) const {
+bool CurveHashes::may_lie_on(const Feature& surface, const CurveHash& curve) const {
     const auto [P, U] = line(surface);
     return cross(U, Vec<Residue>{{curve.x, &in}, {curve.y, &in}} - P).x == 0;
 }

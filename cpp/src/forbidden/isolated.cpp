@@ -1,3 +1,4 @@
+// Parts without width that are on no trapezoid, each once; theory, "Exact fits".
 #include "cfree/forbidden/isolated.hpp"
 
 #include <algorithm>
@@ -40,7 +41,7 @@ class Finder {
 public:
     Finder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t)
         : scene(s), patches(p), live(l), thin(t),
-          prints(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }),
+          hashes(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }),
           tree(boxes()) {
         first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
         for (const Index j : p.obstacle) ++first_patch[j + 1];
@@ -61,7 +62,7 @@ public:
                 const Index patch = thin.patch[k];
                 const Feature lower = unpacked(thin.lower[k]), upper = unpacked(thin.upper[k]);
                 if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, from, lower, upper);
-                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch}, prints[k]);
+                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch}, hashes[k]);
             }
         };
         in_parallel(std::min(threads, count / 64 + 1), stop, work);
@@ -101,10 +102,10 @@ private:
         });
     }
 
-    // Whether a trapezoid reaches an angle, ends included; chart walls are in both charts.
+    // Whether a trapezoid reaches an angle, ends included; chart ends are in both charts.
     bool may_reach(Index k, const CriticalAngle& at) const {
         if (live.chart[k] == at.chart()) return live.to_hi[k] >= at.lo && live.from_lo[k] <= at.hi;
-        return at.is_wall() && (at.lo > 0 ? live.from_hi[k] == -1 : live.to_lo[k] == 1);
+        return at.is_chart_end() && (at.lo > 0 ? live.from_hi[k] == -1 : live.to_lo[k] == 1);
     }
     bool reaches(Index k, const CriticalAngle& at) const {
         if (!may_reach(k, at)) return false;
@@ -148,19 +149,19 @@ private:
             left.swap(next);
         });
         for (Flat& f : left)  // the end of one chart is the start of the other
-            if (angle.is_wall() && angle.chart() == 1) f.angle = CriticalAngle(0, angle.lo > 0 ? -1 : 1);
+            if (angle.is_chart_end() && angle.chart() == 1) f.angle = CriticalAngle(0, angle.lo > 0 ? -1 : 1);
         return left;
     }
 
     // --- along theta ---
 
-    std::vector<Ridge> ridges_of(const Ridge& whole, const Fingerprint& print) const {
+    std::vector<Ridge> ridges_of(const Ridge& whole, const CurveHash& hash) const {
         std::vector<Ridge> left{whole}, next;
         const NamedCurve curve{contact(whole.patch), whole.curve};
         for_each_near(whole.patch, [&](Index p, Index k) {
             const Feature on = contact(p);
             if (left.empty() || live.chart[k] != whole.from.chart() || live.to_hi[k] < whole.from.lo ||
-                live.from_lo[k] > whole.to.hi || !prints.may_lie_on(on, print) || !lies_on(scene, curve, on))
+                live.from_lo[k] > whole.to.hi || !hashes.may_lie_on(on, hash) || !lies_on(scene, curve, on))
                 return;
             for (const auto& [from, to] : stays_in(k, on, curve)) {
                 next.clear();
@@ -208,13 +209,13 @@ private:
     // --- each once ---
 
     void unite_ridges(const std::vector<std::vector<Ridge>>& found) {
-        // by curve: the first thin trapezoid on it; one fingerprint may be of several
-        std::map<Fingerprint, std::vector<std::size_t>> curves;
+        // by curve: the first thin trapezoid on it; one hash may be of several
+        std::map<CurveHash, std::vector<std::size_t>> curves;
         std::vector<std::pair<std::size_t, Ridge>> named;
         const auto name = [&](std::size_t k) { return NamedCurve{contact(thin.patch[k]), unpacked(thin.lower[k])}; };
         for (std::size_t k = 0; k < found.size(); ++k) {
             if (found[k].empty()) continue;
-            auto& firsts = curves[prints[k]];
+            auto& firsts = curves[hashes[k]];
             auto first = std::find_if(firsts.begin(), firsts.end(),
                                       [&](std::size_t x) { return is_same_curve(scene, name(x), name(k)); });
             if (first == firsts.end()) first = firsts.insert(first, k);
@@ -290,7 +291,7 @@ private:
         const CriticalAngle& angle = point.angle;
         for (const Ridge& r : ridges) {
             if (r.from.chart() == angle.chart() ? order(scene, angle, r.from) < 0 || order(scene, r.to, angle) < 0
-                                                : !angle.is_wall() || (angle.lo > 0 ? r.from.hi != -1 : r.to.lo != 1))
+                                                : !angle.is_chart_end() || (angle.lo > 0 ? r.from.hi != -1 : r.to.lo != 1))
                 continue;
             const Feature other = contact(r.patch);
             if (at.side(other, own, p) == 0 && at.order(other, place_on(other), at.spot(other, r.curve)) == 0) return true;
@@ -328,7 +329,7 @@ private:
     const Scene& scene;
     const Patches& patches;
     const Trapezoids &live, &thin;
-    Fingerprints prints;
+    CurveHashes hashes;
     BoxTree tree;
     std::vector<Index> first_patch, first_live;
     std::vector<Flat> flats;

@@ -1,3 +1,4 @@
+// Boxes around what a pillar and a patch sweep; theory, "The trimmed boundary".
 #include "forbidden/pillar_index.hpp"
 
 #include <array>
@@ -25,13 +26,13 @@ std::vector<Box> piece_boxes(const Shape& s) {
 
 }  // namespace
 
-Neighbours::Neighbours(const Scene& s) : scene(s), boxes(piece_boxes(s.obstacles)), tree(boxes) {
+PillarIndex::PillarIndex(const Scene& s) : scene(s), boxes(piece_boxes(s.obstacles)), tree(boxes) {
     Box robot;
     for (std::size_t v = 0; v < s.robot.x.size(); ++v) robot.add(s.robot.x[v], s.robot.y[v]);
     reach = std::hypot(robot.x1 - robot.x0, robot.y1 - robot.y0);
 }
 
-void Neighbours::near(Index j, std::vector<Index>& out) const {
+void PillarIndex::near(Index j, std::vector<Index>& out) const {
     const Shape& O = scene.obstacles;
     Box contact;
     contact.add(O.x[O.v[j]], O.y[O.v[j]]), contact.add(O.x[O.w[j]], O.y[O.w[j]]);
@@ -47,7 +48,7 @@ void Neighbours::near(Index j, std::vector<Index>& out) const {
     });
 }
 
-Box Neighbours::swept(const Feature& contact, Index p, int chart, double lo, double hi) const {
+Box PillarIndex::swept(const Feature& contact, Index p, int chart, double lo, double hi) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature ends[2] = {end_helix(scene, contact, 0), end_helix(scene, contact, 1)};
     const int different = ends[0].robot == ends[1].robot ? 1 : 2;

@@ -5,9 +5,9 @@
 
 namespace cfree {
 
-class Neighbours {
+class PillarIndex {
 public:
-    explicit Neighbours(const Scene& scene);
+    explicit PillarIndex(const Scene& scene);
 
     // Obstacle pieces near the obstacle edge or vertex j, nearest first.
     void near(Index j, std::vector<Index>& out) const;

@@ -34,8 +34,8 @@ void find_turns(const CellComplex& c, Surfaces& out) {
     const auto& chart = c.boundary->trapezoids.chart;
     const auto leaves = [&](Index h) {  // over theta = 3 pi / 2
         const Index twin = c.twin[h];
-        return c.side[h] == static_cast<std::uint8_t>(Side::last_wall) && chart[c.face[h]] == 1 &&
-               c.side[twin] == static_cast<std::uint8_t>(Side::first_wall) && chart[c.face[twin]] == 0;
+        return c.side[h] == static_cast<std::uint8_t>(Side::last) && chart[c.face[h]] == 1 &&
+               c.side[twin] == static_cast<std::uint8_t>(Side::first) && chart[c.face[twin]] == 0;
     };
     out.turns.assign(c.components, 0), out.lift.assign(c.component.size(), 0);
     std::vector<char> seen(c.component.size(), 0);

@@ -200,7 +200,7 @@ void PointLocation::stab(Index begin, Index end, const View& q, F&& report) cons
 
 std::array<Dyadic, 2> PointLocation::angle(Index k, bool last, unsigned bits) const {
     const auto critical = last ? angle_to(patches, trapezoids, k) : angle_from(patches, trapezoids, k);
-    if (critical.is_wall()) return {Dyadic::from(critical.lo), Dyadic::from(critical.lo)};
+    if (critical.is_chart_end()) return {Dyadic::from(critical.lo), Dyadic::from(critical.lo)};
     RealRoot x = critical.exact(scene);
     const Dyadic widest{1, bits};
     const auto width = [&] { return Dyadic{(x.hi.n << x.lo.k) - (x.lo.n << x.hi.k), x.lo.k + x.hi.k}; };

@@ -1,3 +1,4 @@
+// Curves where two surfaces meet, and bounds of their derivatives; theory, "Curves".
 #include "cfree/mesh/contact_curve.hpp"
 
 #include <algorithm>

@@ -32,34 +32,34 @@ public:
     Mesher(const CellComplex& cells, double most_error, double scale)
         : in(cells), trapezoids(cells.boundary->trapezoids), patches(cells.boundary->patches), scene(*cells.boundary->scene),
           error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
-          coedges(static_cast<Index>(cells.face.size())) {
+          half_edges(static_cast<Index>(cells.face.size())) {
         for (Index v = 0; v < in.vertices; ++v) {  // the robot as it is, the obstacles from their origin
             const double c = std::cos(in.theta[v]), s = std::sin(in.theta[v]), a = scene.frame[2], b = scene.frame[3];
             places.emplace_back(in.xy[2 * v] + (0 - (c * a - s * b)), in.xy[2 * v + 1] + (0 - (s * a + c * b)));
         }
-        sheets.reserve(static_cast<std::size_t>(faces));
-        for (Index f = 0; f < faces; ++f) sheets.push_back(sheet_of(f));
-        order.resize(static_cast<std::size_t>(coedges));
+        mesh_faces.reserve(static_cast<std::size_t>(faces));
+        for (Index f = 0; f < faces; ++f) mesh_faces.push_back(sheet_of(f));
+        order.resize(static_cast<std::size_t>(half_edges));
         start.assign(static_cast<std::size_t>(in.edges) + 1, 0);
-        for (Index h = 0; h < coedges; ++h) ++start[in.edge[h] + 1];
+        for (Index h = 0; h < half_edges; ++h) ++start[in.edge[h] + 1];
         std::partial_sum(start.begin(), start.end(), start.begin());
         std::vector<Index> place(start.begin(), start.end() - 1);
-        for (Index h = 0; h < coedges; ++h) order[place[in.edge[h]]++] = h;
+        for (Index h = 0; h < half_edges; ++h) order[place[in.edge[h]]++] = h;
     }
 
     MeshEstimate estimate() const;
     Mesh run();
 
 private:
-    // Samples between the ends of an edge, in the direction of its first coedge: all angles of a curve, or shares of a wall.
+    // Samples between the ends of an edge, in the direction of its first half-edge: angles of a curve, or shares of a side.
     using Samples = std::vector<double>;
-    // Those of a pair of twins: `count` vertices from `begin` on in that direction; a wall at the seam has them twice.
+    // Those of a pair of twins: `count` vertices from `begin` on in that direction; a side at the seam has them twice.
     struct Run {
         Index begin = 0, count = 0;
         bool forwards = true;
     };
 
-    Sheet sheet_of(Index f) const {
+    MeshFace sheet_of(Index f) const {
         const Feature on = patches.contact(trapezoids.patch[f]);
         double from = 0, to = 0;
         for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
@@ -71,7 +71,7 @@ private:
     Index after(Index h) const { return h + 1 == in.first[in.face[h] + 1] ? in.first[in.face[h]] : h + 1; }
     bool on_seam(Index v) const { return std::abs(in.theta[v] - 0.5 * pi) > pi - 1e-12; }
     bool is_late(Index h) const { return trapezoids.chart[in.face[h]] == 1; }
-    // where the coedge starts, as its face sees it
+    // where the half-edge starts, as its face sees it
     double angle(Index h) const {
         const Index v = in.vertex[h];
         return on_seam(v) ? (is_late(h) ? 1.5 * pi : -0.5 * pi) : in.theta[v];
@@ -80,7 +80,7 @@ private:
     double lattice_unit() const { return 2 * std::sqrt(error / angle_scale); }
 
     Samples samples_of_curve(Index edge) const;
-    Samples samples_of_wall(Index edge) const;
+    Samples samples_of_side(Index edge) const;
     double rim_limit(double across, double unit_along) const {  // for a step in u or phi, beside a face so wide in the other
         const double unit = lattice_unit();
         return std::max(rim_step * unit * unit_along, 1.6 * unit * unit / std::max(across, 1e-300));
@@ -89,45 +89,45 @@ private:
     bool part_equal_edges();
     Index vertex_of(Index h);
     Index add_vertex(double x, double y, double theta);
-    void add_run(Index h, Index first_coedge, const Samples& samples);
+    void add_run(Index h, Index first_half_edge, const Samples& samples);
     using Rim = std::array<std::vector<Index>, 4>;  // points by side
     void triangulate(Index f);
     Rim place_rim(Index f);
     void zip(const Rim& rim);
-    double ideal_triangles(const Sheet& sheet) const;
+    double ideal_triangles(const MeshFace& sheet) const;
     void put_out(Index f);
-    void add_lattice(const Sheet& sheet);
+    void add_lattice(const MeshFace& sheet);
     void improve(Index f, std::size_t most);
-    bool flip_to_better(const Sheet& sheet, Index t);
-    void simplify(const Sheet& sheet, Index rim, Index lattice);
-    double excess(const Sheet& sheet, Index p, Index q, Index r) const {
+    bool flip_to_better(const MeshFace& sheet, Index t);
+    void simplify(const MeshFace& sheet, Index rim, Index lattice);
+    double excess(const MeshFace& sheet, Index p, Index q, Index r) const {
         return sheet.excess({&points[p], &points[q], &points[r]});
     }
-    double excess(const Sheet& sheet, Index t) const {
+    double excess(const MeshFace& sheet, Index t) const {
         const auto& c = net.triangles[t].corner;
         return excess(sheet, c[0], c[1], c[2]);
     }
-    Index add_point(const Sheet& sheet, const MeshPoint& p);
+    Index add_point(const MeshFace& sheet, const MeshPoint& p);
     template <std::size_t n>
-    Index add_middle(const Sheet& sheet, const std::array<Index, n>& of) {
+    Index add_middle(const MeshFace& sheet, const std::array<Index, n>& of) {
         double x = 0, y = 0;
         for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
         y /= stretch;
         return add_point(sheet, sheet.point(sheet.is_saddle ? angle_scale * std::sinh(stretch * x - sheet.shear * y) : x, y));
     }
-    double scale_of_lattice(const Sheet& sheet) const;
+    double scale_of_lattice(const MeshFace& sheet) const;
 
     const CellComplex& in;
     const Trapezoids& trapezoids;
     const Patches& patches;
     const Scene& scene;
     const double error, angle_scale;
-    const Index faces, coedges;
+    const Index faces, half_edges;
     std::vector<Complex> places;  // of the complex's vertices
-    std::vector<Sheet> sheets;
-    std::vector<Index> order, start;  // coedges by edge
+    std::vector<MeshFace> mesh_faces;
+    std::vector<Index> order, start;  // half-edges by edge
     std::vector<Index> early, late;   // mesh vertices of the complex's vertices; late ones at 3 pi / 2
-    std::vector<Run> runs;            // of each coedge
+    std::vector<Run> runs;            // of each half-edge
     Mesh out;
     Index rim_vertices = 0;
     // of the face at hand
@@ -143,13 +143,13 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     bool is_digon = false;
     for (Index k = start[edge]; k < start[edge + 1]; ++k) {
         const Index f = in.face[order[k]];
-        if (sheets[f].is_saddle) limit = std::min(limit, rim_limit(sheets[f].most_width_u(), 1 / stretch));
+        if (mesh_faces[f].is_saddle) limit = std::min(limit, rim_limit(mesh_faces[f].most_width_u(), 1 / stretch));
         is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
     }
     const auto bend = [&](double from, double to) {
         double most = 0;
         for (Index k = start[edge]; k < start[edge + 1]; ++k)
-            for (const ContactCurve& c : sheets[in.face[order[k]]].curves) most = std::max(most, c.bend(from, to));
+            for (const ContactCurve& c : mesh_faces[in.face[order[k]]].curves) most = std::max(most, c.bend(from, to));
         return most;
     };
     Samples samples;
@@ -168,12 +168,12 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     return samples;
 }
 
-Mesher::Samples Mesher::samples_of_wall(Index edge) const {
+Mesher::Samples Mesher::samples_of_side(Index edge) const {
     const Index first = order[start[edge]];
     const Complex p = place(first), q = place(after(first));
     Samples best;
     for (Index k = start[edge]; k < start[edge + 1]; ++k) {
-        const Sheet& sheet = sheets[in.face[order[k]]];
+        const MeshFace& sheet = mesh_faces[in.face[order[k]]];
         if (!sheet.is_saddle) continue;
         const double phi = angle(order[k]), s = sheet.position(p, phi), t = sheet.position(q, phi);
         const double from = sheet.u(s), to = sheet.u(t);
@@ -200,22 +200,22 @@ Index Mesher::vertex_of(Index h) {
     return id;
 }
 
-// Vertices for the samples of a coedge and its twin, which the other coedges of the edge do not share.
-void Mesher::add_run(Index h, Index first_coedge, const Samples& samples) {
+// Vertices for the samples of a half-edge and its twin, which the other half-edges of the edge do not share.
+void Mesher::add_run(Index h, Index first_half_edge, const Samples& samples) {
     const Index twin = in.twin[h], count = static_cast<Index>(samples.size());
     const bool curve = is_curve(in.side[h]);
-    const Complex p = place(first_coedge), q = place(after(first_coedge));
+    const Complex p = place(first_half_edge), q = place(after(first_half_edge));
     const auto forwards = [&](Index x) {
         if (curve) return in.side[x] == 1;
         return std::abs(place(x) - p) < std::abs(place(x) - q);
     };
     const auto add = [&](Index x) {
         const Index begin = static_cast<Index>(out.xyz.size() / 3);
-        const Sheet& sheet = sheets[in.face[first_coedge]];
+        const MeshFace& sheet = mesh_faces[in.face[first_half_edge]];
         for (const double sample : samples) {
             const Complex z = !curve             ? p + sample * (q - p)
                               : sheet.is_thin() ? 0.5 * (p + q)
-                                                : sheet.curves[in.side[first_coedge] == 1].at(sample);
+                                                : sheet.curves[in.side[first_half_edge] == 1].at(sample);
             add_vertex(z.real(), z.imag(), curve ? sample : angle(x));
         }
         runs[x] = {begin, count, forwards(x)};
@@ -230,14 +230,14 @@ void Mesher::add_run(Index h, Index first_coedge, const Samples& samples) {
     } else runs[twin] = {runs[h].begin, count, forwards(twin)};
 }
 
-Index Mesher::add_point(const Sheet& sheet, const MeshPoint& p) {
+Index Mesher::add_point(const MeshFace& sheet, const MeshPoint& p) {
     points.push_back(p);
     net.places.push_back({sheet.is_saddle ? (sheet.u(p.s) + sheet.shear * p.phi) / stretch : p.s, stretch * p.phi});
     return static_cast<Index>(points.size()) - 1;
 }
 
 // The largest share of the ideal area at which triangles of the lattice fit everywhere.
-double Mesher::scale_of_lattice(const Sheet& sheet) const {
+double Mesher::scale_of_lattice(const MeshFace& sheet) const {
     const double phi = 0.5 * (sheet.from + sheet.to), unit = lattice_unit();
     const double low = sheet.u(sheet.position(sheet.curves[0].at(phi), phi)), wide = sheet.width_u(phi);
     const auto fits = [&](double scale) {
@@ -259,7 +259,7 @@ double Mesher::scale_of_lattice(const Sheet& sheet) const {
 }
 
 // Points of the lattice of best triangles: edges (1/g, g), (1, -1) and (g, 1/g), g the golden ratio, with |dx dy| = 1.
-void Mesher::add_lattice(const Sheet& sheet) {
+void Mesher::add_lattice(const MeshFace& sheet) {
     const double unit = lattice_unit() * scale_of_lattice(sheet);
     double left = 1e300, right = -1e300;
     for (const auto& p : net.places) left = std::min(left, p.x), right = std::max(right, p.x);
@@ -287,7 +287,7 @@ void Mesher::add_lattice(const Sheet& sheet) {
 
 // Flips edges and puts points on them until every triangle is close.
 void Mesher::improve(Index f, std::size_t most) {
-    const Sheet& sheet = sheets[f];
+    const MeshFace& sheet = mesh_faces[f];
     auto& open = net.changed;
     open.resize(net.triangles.size());
     std::iota(open.rbegin(), open.rend(), 0);
@@ -306,7 +306,7 @@ void Mesher::improve(Index f, std::size_t most) {
 }
 
 // The other diagonal where that makes the worse of the two triangles better.
-bool Mesher::flip_to_better(const Sheet& sheet, Index t) {
+bool Mesher::flip_to_better(const MeshFace& sheet, Index t) {
     int best = -1;
     double least = 1;
     for (int k = 0; k < 3; ++k) {
@@ -324,7 +324,7 @@ bool Mesher::flip_to_better(const Sheet& sheet, Index t) {
 }
 
 // Takes out inner points that are not needed; those amid lattice points are.
-void Mesher::simplify(const Sheet& sheet, Index rim, Index lattice) {
+void Mesher::simplify(const MeshFace& sheet, Index rim, Index lattice) {
     std::vector<Index> at(points.size(), -1);
     for (Index t = 0; t < static_cast<Index>(net.triangles.size()); ++t)
         for (const Index c : net.triangles[t].corner) at[c] = t;
@@ -364,7 +364,7 @@ void Mesher::simplify(const Sheet& sheet, Index rim, Index lattice) {
 // From the rim inwards: a disc zipped between the two curves, points of the lattice where there is room, more where the bound
 // asks for them, none that are not needed.
 void Mesher::triangulate(Index f) {
-    const Sheet& sheet = sheets[f];
+    const MeshFace& sheet = mesh_faces[f];
     net.places.clear(), net.triangles.clear(), points.clear();
     zip(place_rim(f));
     const auto rim_end = static_cast<Index>(points.size());
@@ -382,7 +382,7 @@ void Mesher::triangulate(Index f) {
 
 // Points of the four sides, in the order of the loop, without the half-edges' last ends.
 Mesher::Rim Mesher::place_rim(Index f) {
-    const Sheet& sheet = sheets[f];
+    const MeshFace& sheet = mesh_faces[f];
     Rim rim;
     for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
         const auto add = [&](Index vertex, Complex x, double phi) {
@@ -422,7 +422,7 @@ void Mesher::zip(const Rim& rim) {
 }
 
 // How many triangles the best known density asks for: its integral over the face, by Simpson's rule.
-double Mesher::ideal_triangles(const Sheet& sheet) const {
+double Mesher::ideal_triangles(const MeshFace& sheet) const {
     if (!sheet.is_saddle || sheet.is_thin()) return 0;
     double sum = 0;
     const int parts = 16;
@@ -437,7 +437,7 @@ void Mesher::put_out(Index f) {
         for (const Index c : t.corner) {
             MeshPoint& p = points[c];
             if (p.vertex < 0) {
-                const Complex x = sheets[f].at(p.s, p.phi);
+                const Complex x = mesh_faces[f].at(p.s, p.phi);
                 p.vertex = add_vertex(x.real(), x.imag(), p.phi);
             }
             out.corners.push_back(p.vertex);
@@ -453,7 +453,7 @@ std::vector<Mesher::Samples> Mesher::samples_of_edges() const {
     for (Index e = 0; e < in.edges; ++e) {
         const Index first = order[start[e]];
         heed_stop();
-        samples[e] = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_wall(e);
+        samples[e] = is_curve(in.side[first]) ? samples_of_curve(e) : samples_of_side(e);
         for (Index k = start[e]; samples[e].empty() && k < start[e + 1]; ++k) {
             const auto [p, q] = std::minmax(in.vertex[order[k]], in.vertex[after(order[k])]);
             if (order[k] < in.twin[order[k]]) plain.push_back({p, q, e});
@@ -509,12 +509,12 @@ bool Mesher::part_equal_edges() {
 
 Mesh Mesher::run() {
     early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
-    runs.resize(static_cast<std::size_t>(coedges));
+    runs.resize(static_cast<std::size_t>(half_edges));
     const auto samples = samples_of_edges();
     for (Index e = 0; e < in.edges; ++e)
         for (Index k = start[e]; !samples[e].empty() && k < start[e + 1]; ++k)
             if (order[k] < in.twin[order[k]]) add_run(order[k], order[start[e]], samples[e]);
-    for (Index h = 0; h < coedges; ++h) vertex_of(h);
+    for (Index h = 0; h < half_edges; ++h) vertex_of(h);
     rim_vertices = static_cast<Index>(out.xyz.size() / 3);
     for (Index f = 0; f < faces; ++f) triangulate(f);
     while (part_equal_edges()) {}
@@ -526,9 +526,9 @@ Mesh Mesher::run() {
 }
 
 MeshEstimate Mesher::estimate() const {
-    MeshEstimate result{static_cast<double>(coedges), 0};
+    MeshEstimate result{static_cast<double>(half_edges), 0};
     for (Index f = 0; f < faces; ++f) {
-        const Sheet& sheet = sheets[f];
+        const MeshFace& sheet = mesh_faces[f];
         const double high = sheet.to - sheet.from;
         if (sheet.is_thin()) continue;
         if (sheet.is_saddle) result.triangles += 1.1 * best_density * angle_scale * high * sheet.most_width_u() / error;

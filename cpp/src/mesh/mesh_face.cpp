@@ -1,3 +1,4 @@
+// Bounds of how far a triangle is from its face; theory, "The distance of a triangle".
 #include "cfree/mesh/mesh_face.hpp"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ double most_cosine(double from, double to) {
 }
 }  // namespace
 
-struct Sheet::Spread {
+struct MeshFace::Spread {
     explicit Spread(const Corners& c) {
         const auto [a, b] = std::minmax({c[0]->phi, c[1]->phi, c[2]->phi});
         low = a, high = b, angle = b - a;
@@ -29,7 +30,8 @@ struct Sheet::Spread {
     double low, high, angle, reach;
 };
 
-Sheet::Sheet(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first, double last,
+MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first,
+                   double last,
              double error, double angle_scale)
     : is_saddle(on.kind == Kind::edge_vertex), from(first), to(last), eps(error), w(angle_scale) {
     if (!is_thin())
@@ -47,48 +49,48 @@ Sheet::Sheet(const Places& places, const Feature& on, const Feature& lower, cons
     for (int k = 0; k <= 8 && !is_thin(); ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
 }
 
-double Sheet::position(Complex x, double phi) const {
+double MeshFace::position(Complex x, double phi) const {
     return is_saddle ? -dot(x - fixed, std::polar(1.0, phi) * direction) : dot(x, direction);
 }
 
-Complex Sheet::at(double s, double phi) const {
+Complex MeshFace::at(double s, double phi) const {
     const Complex z = std::polar(1.0, phi), normal = -i_unit * direction;
     if (is_saddle) return fixed - z * (h * normal + s * direction);
     return s * direction + (offset - dot(normal, z * fixed)) * normal;
 }
 
-double Sheet::width_u(double phi) const {
+double MeshFace::width_u(double phi) const {
     return std::max(0.0, u(position(curves[1].at(phi), phi)) - u(position(curves[0].at(phi), phi)));
 }
 
-MeshPoint Sheet::point(double s, double phi) const {
+MeshPoint MeshFace::point(double s, double phi) const {
     const double low = position(curves[0].at(phi), phi), high = position(curves[1].at(phi), phi);
     return {s, phi, {std::max(0.0, s - low), std::max(0.0, high - s)}};
 }
 
 // In its own slice a point with weights l of the corners is off the line by the sum of l_j l_k form(j, k), j < k, up to third
 // order; of a product of two linear forms the extremes over a triangle are in the middles of its edges.
-double Sheet::form(const MeshPoint& p, const MeshPoint& q) const {
+double MeshFace::form(const MeshPoint& p, const MeshPoint& q) const {
     const double phi = q.phi - p.phi;
     return phi * (q.s - p.s + 0.5 * h * phi);
 }
 
-double Sheet::most_form(const Corners& c) const {
+double MeshFace::most_form(const Corners& c) const {
     return std::max({std::abs(form(*c[0], *c[1])), std::abs(form(*c[1], *c[2])), std::abs(form(*c[2], *c[0]))});
 }
 
-double Sheet::third_order(const Spread& d) const {
+double MeshFace::third_order(const Spread& d) const {
     return d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
 }
 
-double Sheet::slice_distance(const Corners& c, const Spread& d) const {
+double MeshFace::slice_distance(const Corners& c, const Spread& d) const {
     if (is_saddle) return most_form(c) / 4 + third_order(d);
     const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
     return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
 }
 
 // How far the foot on the line may be beyond the face's curves.
-double Sheet::beyond(const Corners& c, const Spread& d) const {
+double MeshFace::beyond(const Corners& c, const Spread& d) const {
     double most = 0;
     for (int side = 0; side < 2; ++side) {
         std::array<const MeshPoint*, 3> p = c;
@@ -103,7 +105,7 @@ double Sheet::beyond(const Corners& c, const Spread& d) const {
     return most;
 }
 
-double Sheet::excess(const Corners& c) const {
+double MeshFace::excess(const Corners& c) const {
     if (is_thin()) return 0;
     const Spread d(c);
     if (d.angle > pi / 2) return infinity;
@@ -113,7 +115,7 @@ double Sheet::excess(const Corners& c) const {
 }
 
 // Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
-double Sheet::slice_distance_near_sides(const Corners& c, const Spread& d) const {
+double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) const {
     const double all = slice_distance(c, d), forms = most_form(c), turn = std::cos(d.angle), margin = eps / w;
     double most = 0;
     // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
@@ -138,7 +140,7 @@ double Sheet::slice_distance_near_sides(const Corners& c, const Spread& d) const
 }
 
 // The distance is at most that within the slice over a lower bound G of the gradient near by.
-double Sheet::excess_inside(const Corners& c) const {
+double MeshFace::excess_inside(const Corners& c) const {
     const Spread d(c);
     const double rest = third_order(d);
     const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * std::pow(d.angle, 3) / 48 +

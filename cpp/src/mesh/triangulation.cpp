@@ -1,3 +1,4 @@
+// Flips, splits and fans: combinatorics of one disc; theory, "Meshes".
 #include "cfree/mesh/triangulation.hpp"
 
 #include <algorithm>

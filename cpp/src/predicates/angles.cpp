@@ -1,3 +1,4 @@
+// The order of critical angles, and samples between them; theory, "Degrees".
 #include <stdexcept>
 
 #include "predicates/form.hpp"
@@ -6,7 +7,7 @@ namespace cfree {
 
 namespace {
 
-const Event wall_event(int side) { return {{}, {}, double(side), double(side)}; }
+const Event chart_end(int side) { return {{}, {}, double(side), double(side)}; }
 
 // A direction times a power of two, so that products of two are neither huge nor tiny.
 Vec<Approx> of_unit_size(const Vec<Approx>& d) {
@@ -75,7 +76,7 @@ ParallelAngle parallel_angle(const Scene& scene, Index g, Index f, Counters& cou
 }  // namespace
 
 Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from, const Event& to) {
-    // one in the chart, or two at its walls
+    // one in the chart, or two at its ends
     Roots result;
     const ParallelAngle p = parallel_angle(scene, g, f, counters);
     if (p.side == 0) return result;
@@ -87,7 +88,7 @@ Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from
 int Predicates::order(const Event& x, const Event& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
-    if (x.first.kind == Kind::none && y.first.kind == Kind::none) return ++counters.identity, 0;  // one wall
+    if (x.first.kind == Kind::none && y.first.kind == Kind::none) return ++counters.identity, 0;  // one end
     const bool parallels = x.first.kind == Kind::edge_edge && y.first.kind == Kind::edge_edge;
     if (parallels && same_feature(scene, x.first, y.first)) return ++counters.identity, 0;  // a chart holds one such angle
     return order_of_close(x, y);
@@ -340,8 +341,8 @@ Predicates::RangeEnd Predicates::range_end(const Scene& scene, Index g, Index f,
     const ParallelAngle p = parallel_angle(scene, g, f, counters);  // antiparallel is half a turn further
     if (p.side == 0) {
         const bool quarter = !p.up;  // theta = pi/2, else -pi/2
-        if (is_start) return {quarter ? 1 : 0, wall_event(-1)};
-        return {quarter ? 0 : 1, wall_event(1)};
+        if (is_start) return {quarter ? 1 : 0, chart_end(-1)};
+        return {quarter ? 0 : 1, chart_end(1)};
     }
     return {p.side < 0 ? 0 : 1, {{Kind::edge_edge, g, f}, {}, p.tau - p.half, p.tau + p.half}};
 }

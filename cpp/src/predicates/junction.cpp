@@ -1,3 +1,4 @@
+// Contact lines at one critical angle: the same line, the order along it and around it; theory, "Closed surfaces".
 #include "cfree/predicates/junction.hpp"
 
 #include <algorithm>

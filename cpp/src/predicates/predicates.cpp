@@ -1,3 +1,4 @@
+// Signs of the quadratics: offsets, parallels, curves; theory, "Degrees".
 #include "predicates/form.hpp"
 
 namespace cfree {

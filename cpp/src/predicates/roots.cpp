@@ -1,3 +1,4 @@
+// Where the signs change: roots isolated in doubles, then in balls, then exactly; theory, "Degrees".
 #include <stdexcept>
 
 #include "predicates/form.hpp"

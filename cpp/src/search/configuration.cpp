@@ -1,3 +1,4 @@
+// Poses on a grid, and the one motion between two of them; theory, "Motions".
 #include "cfree/search/configuration.hpp"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Two trees that grow towards each other; theory, "Paths".
 #include "cfree/search/rrt_connect.hpp"
 
 #include <algorithm>
@@ -16,18 +17,19 @@ bool are_one(const Configuration& a, const Configuration& b) {
 
 }  // namespace
 
-Search::Search(const MotionChecker& c, Grid g, Area a, double w, Configuration start, Configuration goal, std::uint64_t seed)
+RrtConnect::RrtConnect(const MotionChecker& c, Grid g, Area a, double w, Configuration start, Configuration goal,
+                       std::uint64_t seed)
     : checker(c), grid(g), area(a), weight(w),
       range(longest_step * (std::hypot(a.x1 - a.x0, a.y1 - a.y0) + w * std::numbers::pi)), random(seed) {
     trees[0] = {{std::move(start)}, {-1}};
     trees[1] = {{std::move(goal)}, {-1}};
 }
 
-double Search::distance(const Configuration& a, const Configuration& b) const {
+double RrtConnect::distance(const Configuration& a, const Configuration& b) const {
     return std::hypot(b.px - a.px, b.py - a.py) + weight * std::abs(turn_between(a, b));
 }
 
-Index Search::nearest(const Tree& tree, const Configuration& q) const {
+Index RrtConnect::nearest(const Tree& tree, const Configuration& q) const {
     Index best = 0;
     double least = HUGE_VAL;
     for (Index k = 0; k < static_cast<Index>(tree.nodes.size()); ++k)
@@ -36,12 +38,12 @@ Index Search::nearest(const Tree& tree, const Configuration& q) const {
 }
 
 // From a node of a tree on; the second tree's motions are run the other way, which matters for half turns.
-bool Search::is_free(bool of_goal, const Configuration& a, const Configuration& b) {
+bool RrtConnect::is_free(bool of_goal, const Configuration& a, const Configuration& b) {
     --left;
     return checker.is_free(of_goal ? motion_between(b, a) : motion_between(a, b));
 }
 
-Configuration Search::towards(const Configuration& a, const Configuration& b) const {
+Configuration RrtConnect::towards(const Configuration& a, const Configuration& b) const {
     const double share = range / distance(a, b);
     if (share >= 1) return b;
     const auto [x, y, theta] = along(a, b, share);
@@ -49,7 +51,7 @@ Configuration Search::towards(const Configuration& a, const Configuration& b) co
 }
 
 // A new node on the way from the nearest one, or -1.
-Index Search::extend(const Configuration& q) {
+Index RrtConnect::extend(const Configuration& q) {
     Tree& tree = trees[turn];
     const Index from = nearest(tree, q);
     Configuration next = towards(tree.nodes[from], q);
@@ -59,7 +61,7 @@ Index Search::extend(const Configuration& q) {
     return static_cast<Index>(tree.nodes.size()) - 1;
 }
 
-Route Search::joined(Index of_first, Index of_second) const {
+Route RrtConnect::joined(Index of_first, Index of_second) const {
     Route route;
     for (Index k = of_first; k >= 0; k = trees[0].parent[k]) route.push_back(trees[0].nodes[k]);
     std::reverse(route.begin(), route.end());
@@ -67,7 +69,7 @@ Route Search::joined(Index of_first, Index of_second) const {
     return route;
 }
 
-Route Search::run(int checks) {
+Route RrtConnect::run(int checks) {
     left = checks;
     while (left > 0) {
         Tree& other = trees[!turn];

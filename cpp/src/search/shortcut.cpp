@@ -1,3 +1,4 @@
+// Poses of a path left out or moved while its motions stay free; theory, "Paths".
 #include <algorithm>
 #include <cmath>
 
@@ -11,22 +12,22 @@ constexpr double least_gain = 1e-9;  // of the length
 
 }  // namespace
 
-Shortener::Shortener(const MotionChecker& c, Grid g, double w, Route r, std::uint64_t seed)
+Shortcut::Shortcut(const MotionChecker& c, Grid g, double w, Route r, std::uint64_t seed)
     : checker(c), grid(g), weight(w), route(std::move(r)), random(seed) {
     measure();
 }
 
-double Shortener::cost(const Configuration& a, const Configuration& b) const {
+double Shortcut::cost(const Configuration& a, const Configuration& b) const {
     return travel_between(a, b) + weight * std::abs(turn_between(a, b));
 }
 
-double Shortener::cost(const Route& r) const {
+double Shortcut::cost(const Route& r) const {
     double sum = 0;
     for (std::size_t k = 1; k < r.size(); ++k) sum += cost(r[k - 1], r[k]);
     return sum;
 }
 
-bool Shortener::is_free(const Route& r) {
+bool Shortcut::is_free(const Route& r) {
     for (std::size_t k = 1; k < r.size(); ++k) {
         --left;
         if (!checker.is_free(motion_between(r[k - 1], r[k]))) return false;
@@ -34,12 +35,12 @@ bool Shortener::is_free(const Route& r) {
     return true;
 }
 
-void Shortener::measure() {
+void Shortcut::measure() {
     at.assign(1, 0);
     for (std::size_t k = 1; k < route.size(); ++k) at.push_back(at.back() + cost(route[k - 1], route[k]));
 }
 
-void Shortener::run(int checks) {
+void Shortcut::run(int checks) {
     left = checks;
     while (left > 0 && route.size() > 1 && length() > 0) {
         --left;
@@ -48,7 +49,7 @@ void Shortener::run(int checks) {
 }
 
 // Two places on the path, joined anew: a turn and a straight way, in either order, or one rotation.
-void Shortener::attempt() {
+void Shortcut::attempt() {
     const auto place = [&](double where) {  // the pose that begins its motion, and it
         const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, where);
         const auto k = static_cast<std::size_t>(after - at.begin()) - 1;

@@ -61,7 +61,7 @@ class Searcher:
 
         (p, at), (q, to) = map(self._configuration, (start, goal))
         grid = self._grid(PLACE_BITS, ANGLE_BITS)
-        return _core.Search(self.checker.core, grid, self._area, self._weight, p, at, q, to, seed)
+        return _core.RrtConnect(self.checker.core, grid, self._area, self._weight, p, at, q, to, seed)
 
     def shortener(self, poses: Sequence[Pose]) -> Any:
         """To be run by ``run(checks)``; ``path()`` is the best so far."""
@@ -69,7 +69,7 @@ class Searcher:
 
         numbers, places = zip(*map(self._configuration, poses), strict=True)
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
-        return _core.Shortener(self.checker.core, grid, self._weight, list(numbers), list(places), 0)
+        return _core.Shortcut(self.checker.core, grid, self._weight, list(numbers), list(places), 0)
 
     def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
         """Exact poses from the core's."""

@@ -28,11 +28,11 @@ using Int = boost::multiprecision::number<
 inline double ratio(const Int& n, const Int& d) {
     if (n.is_zero()) return 0;
     // 62 or 63 bits of the quotient, fewer of a subnormal one; the last tells whether anything is left
-    Int p = abs(n), r = abs(d);
+    const Int p = abs(n), r = abs(d);
     const int up = std::min(62 + static_cast<int>(msb(r)) - static_cast<int>(msb(p)), 1076);
-    (up >= 0 ? p : r) <<= static_cast<unsigned>(std::abs(up));
     Int quotient, rest;
-    divide_qr(p, r, quotient, rest);
+    if (up >= 0) divide_qr(Int(p << static_cast<unsigned>(up)), r, quotient, rest);
+    else divide_qr(p, Int(r << static_cast<unsigned>(-up)), quotient, rest);
     const auto bits = static_cast<std::uint64_t>(quotient) | (rest.is_zero() ? 0u : 1u);
     return n.sign() * d.sign() * std::ldexp(static_cast<double>(bits), -up);
 }

@@ -22,7 +22,7 @@ public:
 private:
     struct Angle {
         double lo, hi;
-        Index trapezoid;  // one that has it; -1: a wall
+        Index trapezoid;  // one that has it; -1: the end of a chart
         bool is_to;
     };
     std::size_t place(Index rank, int chart) const { return static_cast<std::size_t>(rank + chart); }
@@ -33,7 +33,7 @@ private:
     const Scene& scene;
     const Patches& patches;
     const Trapezoids& trapezoids;
-    std::vector<Angle> angles;  // of chart 0, wall to wall, then of chart 1: `middle` is in both
+    std::vector<Angle> angles;  // of chart 0, end to end, then of chart 1: `middle` is in both
 };
 
 }  // namespace cfree

@@ -1,21 +1,21 @@
 // The trapezoids glued into closed surfaces: every side finds its partner by what it is, never by where it is.
 //
-// A trapezoid is a face. Its boundary runs counter-clockwise in (t, theta): the wall at its first angle, the upper curve, the wall
-// at its last angle, the lower curve; each is cut into coedges where its neighbours change. Two coedges that bound one free
-// sector are twins. At a geometric edge where more than two faces meet, they are sorted around it.
+// A trapezoid is a face. Its boundary runs counter-clockwise in (t, theta): the side at its first angle, the upper curve, the side
+// at its last angle, the lower curve; each is cut into half-edges where its neighbours change. Two half-edges that bound one
+// free sector are twins. At a geometric edge where more than two faces meet, they are sorted around it.
 #pragma once
 #include "cfree/forbidden/boundary.hpp"
 
 namespace cfree {
 
-enum class Side : std::uint8_t { first_wall, upper, last_wall, lower };
+enum class Side : std::uint8_t { first, upper, last, lower };
 
 struct CellComplex {
     SharedBoundary boundary;
-    // coedges, face after face in the order of their loops
+    // half-edges, face after face in the order of their loops
     std::vector<Index> face, twin, edge, vertex;  // vertex: where it starts
     std::vector<std::uint8_t> side;
-    std::vector<Index> first;      // coedges of face k: first[k] .. first[k + 1]
+    std::vector<Index> first;      // half-edges of face k: first[k] .. first[k + 1]
     std::vector<Index> component;  // of each face
     std::vector<double> xy, theta;  // of each vertex, rounded; in the user's units, from `Scene::frame`
     Index edges = 0, vertices = 0, components = 0;

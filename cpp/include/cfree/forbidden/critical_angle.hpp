@@ -16,9 +16,9 @@ public:
     double lo, hi;
     Feature first, second;
     int place;
-    bool is_wall() const { return first.kind == Kind::none; }
+    bool is_chart_end() const { return first.kind == Kind::none; }
     int chart() const { return surface.chart; }
-    // What meets there, the same whoever says it: three surfaces, a helix and a surface, two parallel edges, or a wall.
+    // What meets there, the same whoever says it: three surfaces, a helix and a surface, two parallel edges, or the end of a chart.
     using Name = std::array<Code, 3>;
     Name name(const Scene& scene) const;
     // Of angles with one name: whether they are seen to be one. Each is the only root of one polynomial in its interval.

@@ -1,6 +1,6 @@
 // A short name for a curve in C, whoever names it: its point at one fixed orientation, in integers modulo a prime.
 //
-// Equal curves have equal fingerprints. Different ones differ but for a chance of 2^-60, or by an unlucky choice of numbers:
+// Equal curves have equal hashes. Different ones differ but for a chance of 2^-60, or by an unlucky choice of numbers:
 // whoever finds two equal ones asks `is_same_curve`.
 #pragma once
 #include <compare>
@@ -11,9 +11,9 @@
 
 namespace cfree {
 
-struct Fingerprint {
+struct CurveHash {
     std::uint64_t x, y;
-    auto operator<=>(const Fingerprint&) const = default;
+    auto operator<=>(const CurveHash&) const = default;
 };
 
 // A curve as a surface names it: where `other`, a surface or a helix, meets it.
@@ -50,13 +50,13 @@ inline Residue operator-(const Residue& p) { return {p.in->minus(0, p.x), p.in};
 inline Residue operator*(const Residue& p, const Residue& q) { return {p.in->times(p.x, q.x), p.in}; }
 
 // Of `count` curves, modulo the first prime of a fixed sequence for which all have a point.
-class Fingerprints {
+class CurveHashes {
 public:
-    Fingerprints(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve);
-    Fingerprints(const Fingerprints&) = delete;
-    const Fingerprint& operator[](std::size_t k) const { return prints[k]; }
+    CurveHashes(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve);
+    CurveHashes(const CurveHashes&) = delete;
+    const CurveHash& operator[](std::size_t k) const { return hashes[k]; }
     // Whether the curve may lie on a surface; if not, it does not.
-    bool may_lie_on(const Feature& surface, const Fingerprint& curve) const;
+    bool may_lie_on(const Feature& surface, const CurveHash& curve) const;
 
 private:
     struct Reduced {  // coordinates modulo the prime
@@ -69,14 +69,14 @@ private:
         Vec<Residue> P, U;
     };
     void choose(unsigned attempt);
-    std::optional<Fingerprint> of(const NamedCurve& curve) const;
+    std::optional<CurveHash> of(const NamedCurve& curve) const;
     Line line(const Feature& surface) const;
 
     const Scene& scene;
     Residues in{3};
     Reduced reduced;
     Rotation<Residue> turn;
-    std::vector<Fingerprint> prints;
+    std::vector<CurveHash> hashes;
 };
 
 // Whether a curve lies on a surface, and whether two names are of one curve, exactly.

@@ -17,9 +17,9 @@ struct MeshPoint {
 };
 using Corners = std::array<const MeshPoint*, 3>;
 
-class Sheet {
+class MeshFace {
 public:
-    Sheet(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
+    MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
           double error, double angle_scale);
 
     MeshPoint point(double s, double phi) const;

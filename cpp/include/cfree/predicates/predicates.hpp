@@ -49,7 +49,7 @@ struct Filtered {
 };
 
 // A critical angle: the only root in [lo, hi] of the polynomial that its features define on the surface:
-//   none: a chart wall (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
+//   none: an end of the chart (lo = hi = -1 or 1);  edge_edge: the two edges parallel;
 //   vertex_vertex alone: the helix meets the surface;  otherwise the two curves cross.
 // Where doubles cannot hold two roots apart, `fine` is the place of a finer interval kept by the Predicates that found it.
 struct Event {

@@ -25,10 +25,10 @@ private:
     std::mt19937_64 engine;
 };
 
-class Search {
+class RrtConnect {
 public:
     // weight: length per radian
-    Search(const MotionChecker& checker, Grid grid, Area area, double weight, Configuration start, Configuration goal,
+    RrtConnect(const MotionChecker& checker, Grid grid, Area area, double weight, Configuration start, Configuration goal,
            std::uint64_t seed);
     // Check about so many motions; a route, or nothing yet.
     Route run(int checks);
@@ -55,9 +55,9 @@ private:
     int left = 0;
 };
 
-class Shortener {
+class Shortcut {
 public:
-    Shortener(const MotionChecker& checker, Grid grid, double weight, Route route, std::uint64_t seed);
+    Shortcut(const MotionChecker& checker, Grid grid, double weight, Route route, std::uint64_t seed);
     // Check about so many motions.
     void run(int checks);
     const Route& path() const { return route; }
