@@ -65,7 +65,7 @@ static void ties_of_small_integers_are_certain_in_balls() {
 
 // With one thread nobody else could ask.
 static void the_one_who_waits_is_asked() {
-    const auto crowded = scene_of({robot}, triangles(2000));
+    const auto crowded = scene_of({robot}, triangles(1000));
     for (const int threads : {1, 2}) {
         double last = -1;
         const auto wish = [&](Wish what) {

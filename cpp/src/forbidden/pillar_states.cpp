@@ -156,8 +156,9 @@ private:
 template <class T>
 Trimmer::State Trimmer::state_at(Index p, Index k, const Sample& at) const {
     const PillarView<T> pillar(*this, p, k, at);
-    const auto high = pillar.highest(), low = pillar.lowest();
+    const auto high = pillar.highest();
     if (!pillar.is_left(high)) return pillar.missed(Meets::never_left, high);
+    const auto low = pillar.lowest();
     if (!pillar.is_right(low)) return pillar.missed(Meets::never_right, low);
     State state{};
     state.meets = Meets::crosses;
