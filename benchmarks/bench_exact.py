@@ -7,7 +7,6 @@ general position: those are listed without a ratio, and again with every vertex 
 
 from __future__ import annotations
 
-import importlib.util
 import json
 import os
 import subprocess
@@ -82,11 +81,23 @@ def against_generic(exact: Core, rounds: int) -> Report:
 RUNGS = ("identity", "doubles", "intervals (ms)", "exact (ms)")
 
 
+WITH_LIBRARY = f"""
+import sys
+from importlib.util import module_from_spec, spec_from_file_location
+spec = spec_from_file_location("cfree._core", sys.argv[1])
+sys.modules["cfree._core"] = core = module_from_spec(spec)
+spec.loader.exec_module(core)
+sys.path.insert(0, {str(Path(__file__).parent)!r})
+import bench_exact
+bench_exact.serve()
+"""
+
+
 class Core:
     """A process that trims scenes with one build of the core."""
 
     def __init__(self, library: Path | None) -> None:
-        command = [sys.executable, __file__, *([str(library)] if library else [])]
+        command = [sys.executable, __file__] if library is None else [sys.executable, "-c", WITH_LIBRARY, library]
         self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def __enter__(self) -> Core:
@@ -181,14 +192,7 @@ def moved(shapes: Rings, by: float, seed: int) -> Rings:
 
 
 def serve() -> None:
-    """Trim the scenes named on the standard input, with the core given as an argument or the installed one."""
-    if len(sys.argv) > 1:
-        spec = importlib.util.spec_from_file_location("cfree._core", sys.argv[1])
-        assert spec and spec.loader
-        core = importlib.util.module_from_spec(spec)
-        spec.loader.exec_module(core)
-        sys.modules["cfree._core"] = core
-        vars(cfree)["_core"] = core
+    """Trim the scenes named on the standard input."""
     for line in sys.stdin:
         try:
             stats = cfree.boundary(scene_of(line.strip()), threads=1).stats

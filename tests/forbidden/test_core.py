@@ -9,6 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from cfree.contact.kind import Kind
+
 
 def test_the_committed_stub_is_that_of_the_binding(request: pytest.FixtureRequest, tmp_path: Path) -> None:
     fresh = tmp_path / "_core.pyi"
@@ -16,6 +18,12 @@ def test_the_committed_stub_is_that_of_the_binding(request: pytest.FixtureReques
     subprocess.run(command, check=True, cwd=request.config.rootpath)
     committed = request.config.rootpath / "src" / "cfree" / "_core.pyi"
     assert fresh.read_text() == committed.read_text(), "run `make stub`"
+
+
+def test_kinds_are_those_of_the_core() -> None:
+    from cfree import _core
+
+    assert {kind.name: kind.value for kind in Kind} == {kind.name: kind.value for kind in _core.Kind}
 
 
 COMMENT = re.compile(r"//.*")

@@ -14,7 +14,8 @@ import oracles
 import shapes
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden.boundary import Boundary, boundary
-from cfree.forbidden.mesh import COLOURS, Mesh
+from cfree.forbidden.kinds import COLOURS
+from cfree.forbidden.mesh import Mesh
 from cfree.formats.mesh_file import MESH_SUFFIXES, save_mesh
 from cfree.formats.scene_file import load_scene
 from cfree.polygons.polygon import Polygon

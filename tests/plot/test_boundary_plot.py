@@ -16,7 +16,7 @@ from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS
 from cfree.formats.scene_file import load_scene
 from cfree.plot import depth_sort, pieces
 from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure

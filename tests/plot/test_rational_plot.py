@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 
 from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS
 from cfree.plot.rational import SHOWN, plot_models
 from cfree.polygons.polygon import Polygon
 

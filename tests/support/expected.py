@@ -18,12 +18,12 @@ from typing import Any
 import numpy as np
 
 from cfree import Boundary, boundary, load_scene
+from cfree.forbidden.kinds import KINDS, PatchKind
 from compared import plain_of
 from exact_slices import area, ends, exact_slice
 from shapes import PlainScene
 
 CASES = Path(__file__).parents[1] / "cases"
-KINDS = {1: "v-e", 2: "e-v", 3: "bound"}
 
 
 def cases() -> list[Path]:
@@ -55,7 +55,7 @@ def live_surfaces(result: Boundary) -> dict[str, int]:
     )
     codes = kind << np.uint64(61) | i << np.uint64(31) | j
     codes = result.features.core.named(codes)
-    found = {(KINDS[int(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)}
+    found = {(KINDS[PatchKind(kind)], code) for kind, code in zip(result.patch_kind[live], codes.tolist(), strict=True)}
     return {name: sum(kind == name for kind, _ in found) for name in KINDS.values()}
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
-from cfree.forbidden.mesh import KINDS
+from cfree.forbidden.kinds import KINDS
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, scene_features
 

@@ -11,10 +11,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.collision.motion import Motion, Rotation, Translation, motion_between
 from cfree.collision.slide import Slide
 from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.contact.kind import Kind
 from cfree.errors import UnsupportedError
 from cfree.exact.number import common_denominator
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -76,8 +78,6 @@ class MotionChecker(Value):
     """
 
     def __init__(self, scene: Scene) -> None:
-        from cfree import _core
-
         self._scene = scene
         self.features: SceneFeatures = scene_features(scene)
         self.core = _core.MotionChecker(self.features.core)
@@ -148,9 +148,9 @@ class MotionChecker(Value):
         count = len(robot.previous), len(obstacles.previous)
         if kind and obstacle != BOUNDS and i < count[0] and j < count[1] and obstacles.owner_vertex[j] >= 0:
             i, j = int(robot.owner_vertex[i]), int(obstacles.owner_vertex[j])
-            if kind == 1 and obstacle == WORKSPACE and self._scene.workspace:
+            if kind == Kind.VERTEX_EDGE and obstacle == WORKSPACE and self._scene.workspace:
                 j = int(self._scene.workspace.previous[j])  # its complement runs the other way
-            contact = VertexEdge(i, j) if kind == 1 else EdgeVertex(i, j)
+            contact = VertexEdge(i, j) if kind == Kind.VERTEX_EDGE else EdgeVertex(i, j)
         return FirstContact(_crossing(polynomial) if kind else Surd(0), part, obstacle, contact)
 
     def _outside(self, pose: Pose) -> tuple[int, int] | None:

@@ -15,6 +15,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import InvalidPoseError
@@ -99,8 +100,6 @@ class PoseChecker(Value):
     """
 
     def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
-        from cfree import _core
-
         with collection_paused():
             self.scene = scene
             features = features or scene_features(scene)

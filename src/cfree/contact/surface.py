@@ -20,6 +20,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
 from cfree.exact.half_angle import Angle
@@ -92,8 +93,6 @@ class Surface:
         array([[[2., 2.],
                 [0., 2.]]])
         """
-        from cfree import _core
-
         t, phi = np.ascontiguousarray(_on_edge(t, False)), np.ascontiguousarray(finite("phi", phi))
         xy = np.empty((len(phi), len(t), 2))
         _core.evaluate_grid(self.ruled, t, phi, xy)
@@ -116,8 +115,6 @@ class Surface:
 
 def evaluate(ruled: Floats, t: ArrayLike, phi: ArrayLike, *, beyond: bool = False) -> Floats:
     """Points of the surface with the numbers p, q, a, g; see `Surface`."""
-    from cfree import _core
-
     t, phi = np.broadcast_arrays(_on_edge(t, beyond), finite("phi", phi))
     xy = np.empty((t.size, 2))
     _core.evaluate_points(ruled, np.ravel(t), np.ravel(phi), xy)

@@ -19,7 +19,7 @@ from cfree.film.box import INK
 from cfree.film.moves import Moment
 from cfree.film.plane import TOUCH, Plane, edge_number
 from cfree.film.space import FREE, SOLID, Space
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.patch import Contact
 from cfree.plot.boundary import extent, plain, with_unit
 from cfree.plot.pieces import Colours
@@ -127,8 +127,8 @@ def caption(contact: Contact | None) -> str:
 
 def _legend(figure: Figure) -> None:
     handles = [
-        Patch(color=COLOURS[1], label="v-e patch"),
-        Patch(color=COLOURS[2], label="e-v patch"),
+        Patch(color=COLOURS[PatchKind.VERTEX_EDGE], label="v-e patch"),
+        Patch(color=COLOURS[PatchKind.EDGE_VERTEX], label="e-v patch"),
         Line2D([], [], color=Colours.helix, lw=2.5, label="v-v helix"),
         Line2D([], [], color=Colours.edge_edge, lw=2.5, label="e-e line"),
         Patch(facecolor=SOLID, label="forbidden"),

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.surface import Surface
 from cfree.exact.pose import Pose
+from cfree.forbidden.kinds import PatchKind
 from cfree.forbidden.patch import Contact, Patch, Place
 from cfree.plot.strips import strips
 from cfree.polygons.polygon import Polygon
@@ -138,7 +139,7 @@ class Ring:
         order = [first]
         while (after := _next(cut.segments, order[-1])) not in order:
             order.append(after)
-        if after != first or (boundary.patch_kind[cut.patches[order]] == 3).any():
+        if after != first or (boundary.patch_kind[cut.patches[order]] == PatchKind.BOUND).any():
             return None
         offset = float(share[first] * length[first])
         return cls(boundary, theta, cut.trapezoids[order], np.cumsum(length[order]), offset, float(gaps[first]))
@@ -208,7 +209,7 @@ def columns(boundary: Boundary) -> list[Column]:
     last = np.append(first[1:], len(rows.part)) - 1
     patch = table.patch[rows.trapezoid[first]]
     order = np.lexsort((rows.t[first, 0], rows.theta[first], patch))
-    order = order[boundary.patch_kind[patch[order]] != 3]
+    order = order[boundary.patch_kind[patch[order]] != PatchKind.BOUND]
     found: list[list[int]] = []
     for part in order.tolist():
         below = found[-1][-1] if found else part

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from cfree.exact.pose import Pose
 from cfree.film.box import INK
 from cfree.film.moves import Moment, shape_of
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.patch import Contact, Place
 from cfree.plot.boundary import FORBIDDEN
 from cfree.plot.pieces import Colours
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Mark = tuple[Floats, str, Floats]  # points of a feature, its name, where to write it
 
-TOUCH = {"v-e": COLOURS[1], "e-v": COLOURS[2], "v-v": Colours.helix}
+TOUCH = {"v-e": COLOURS[PatchKind.VERTEX_EDGE], "e-v": COLOURS[PatchKind.EDGE_VERTEX], "v-v": Colours.helix}
 PLACE = 0.055, 0.17, 0.38, 0.655
 NAMES = 0.055  # distance of a name from its feature, a part of the width
 

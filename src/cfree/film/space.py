@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from cfree.exact.pose import Pose
 from cfree.film.box import INK, Box
 from cfree.film.eye import Eye
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.plot.depth_sort import paint
 from cfree.plot.pieces import CURVE, OVER, SURFACE, Detail, Pieces, joined, of_line, patches_of
 from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
@@ -109,7 +109,7 @@ class Space:
         kinds = self.boundary.patch_kind[cut.patches]
         ends = np.concatenate((cut.segments, np.full((len(kinds), 2, 1), theta)), axis=2)[kinds != 3]
         self.section.set_segments(list(eye(ends)[0]))
-        self.section.set_color([COLOURS[int(kind)] for kind in kinds[kinds != 3]])
+        self.section.set_color([COLOURS[PatchKind(kind)] for kind in kinds[kinds != PatchKind.BOUND]])
         self.section.set_linewidth(2.0 * min(1.0, max(0.4, math.sqrt(150 / max(1, len(kinds))))))
 
     def _draw_pieces(

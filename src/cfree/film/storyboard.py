@@ -26,6 +26,7 @@ from cfree.exact.pose import Pose
 from cfree.film.eye import AZIMUTHS
 from cfree.film.free_motions import FreeMotions
 from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
+from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.paths.path import Path
 from cfree.plot.boundary import extent
 from cfree.plot.pieces import Colours
@@ -299,7 +300,7 @@ class _Director:
         return None if pose is None else Moment(pose)
 
     def _kind(self, column: Column) -> str:
-        return {1: "v-e", 2: "e-v", 3: "bound"}[int(self.boundary.patch_kind[column.patch])]
+        return KINDS[PatchKind(self.boundary.patch_kind[column.patch])]
 
     def _worth(self, column: Column) -> float:
         """Area, less if it is seen badly, or if there are no lower orientations to begin at."""

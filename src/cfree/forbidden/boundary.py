@@ -13,6 +13,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.collision.pose_checker import PoseChecker
@@ -95,8 +96,6 @@ def _computed(
     max_memory: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Boundary:
-    from cfree import _core
-
     start = time.perf_counter()
     with collection_paused():
         features = scene_features(scene)

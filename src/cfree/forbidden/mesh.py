@@ -15,8 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree import _core
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden.cell_complex import CellComplex
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.scene.scene import robot_radius
 from cfree.value import Value
@@ -24,9 +26,6 @@ from cfree.value import Value
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
 
-KINDS = {1: "v-e", 2: "e-v", 3: "bound"}
-COLOURS = {1: "#d7301f", 2: "#3a9a3a", 3: "#b4b9c1"}
-"""Colour of each kind of patch: the paper's red and green, and light grey for the bounds."""
 
 MOST_TRIANGLES = 10_000_000
 """Larger meshes are refused: they would take some gigabytes."""
@@ -82,7 +81,7 @@ class Mesh(Value):
         The density (sqrt(3)/4) sqrt(-K) / error of Atariah, Rote and Wintraecken holds for small errors: 1.033 is what
         vertices on the surface can reach, and small patches need more for their rims.
         """
-        return int(np.count_nonzero(self.kind == 2)) / self.least if self.least > 0 else math.nan
+        return int(np.count_nonzero(self.kind == PatchKind.EDGE_VERTEX)) / self.least if self.least > 0 else math.nan
 
     @property
     def normals(self) -> Floats:
@@ -101,8 +100,6 @@ class Mesh(Value):
 
 def triangulated(boundary: BoundaryRecord, cells: CellComplex, error: float, angle_scale: float | None) -> Mesh:
     """The mesh of `Boundary.mesh`."""
-    from cfree import _core
-
     scale = robot_radius(boundary.scene) if angle_scale is None else angle_scale
     if not 0 < error < math.inf:
         raise ValueError(f"error: {error}; give a length above 0, such as {robot_radius(boundary.scene) / 100:.1g}")

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.contact.kind import Kind
 from cfree.contact.surface import evaluate
 from cfree.errors import InvariantError
 from cfree.exact.half_angle import theta_in
+from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, unpacked
 from cfree.value import Value
 
 if TYPE_CHECKING:
     from cfree.forbidden.columns import Trapezoids
     from cfree.forbidden.record import BoundaryRecord
-
-KINDS = {1: "v-e", 2: "e-v", 3: "v-v", 4: "e-e"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,8 +173,10 @@ def _angle(boundary: BoundaryRecord, columns: Trapezoids, end: str, k: int) -> C
 def contact(boundary: BoundaryRecord, code: int) -> Contact:
     """The contact that a packed pair of features names."""
     kind, i, j = unpacked(code)
-    robot_edge, obstacle_edge = kind in (2, 4), kind in (1, 4)
-    return Contact(KINDS[kind], robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge))
+    kind = Kind(kind)
+    robot_edge = kind in (Kind.EDGE_VERTEX, Kind.EDGE_EDGE)
+    obstacle_edge = kind in (Kind.VERTEX_EDGE, Kind.EDGE_EDGE)
+    return Contact(kind.short, robot_place(boundary, i, robot_edge), obstacle_place(boundary, j, obstacle_edge))
 
 
 def robot_place(boundary: BoundaryRecord, feature: int, is_edge: bool) -> Place:
@@ -266,10 +268,10 @@ class Patches(Value, Sequence[Patch]):
         if isinstance(index, slice):
             return [self[k] for k in range(*index.indices(len(self)))]
         k, b = range(len(self))[index], self._boundary
-        on_edge = bool(b.contact_kind[k] == 1)
+        on_edge = bool(b.contact_kind[k] == Kind.VERTEX_EDGE)
         return Patch(
             index=k,
-            kind={1: "v-e", 2: "e-v", 3: "bound"}[int(b.patch_kind[k])],
+            kind=KINDS[PatchKind(b.patch_kind[k])],
             robot=robot_place(b, int(b.contact_robot[k]), not on_edge),
             obstacle=obstacle_place(b, int(b.contact_obstacle[k]), on_edge),
             phi_min=float(b.phi_min[k]),

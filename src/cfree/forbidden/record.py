@@ -7,23 +7,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree import _core
 from cfree.arguments import checked
+from cfree.contact.kind import Kind
 from cfree.errors import IncompleteError, InvariantError
 from cfree.exact.half_angle import tau_in
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, Floats, Ints, IsolatedParts, Trapezoids
+from cfree.forbidden.kinds import PatchKind
 from cfree.scene.features import BOUNDS, SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Value
-
-if TYPE_CHECKING:
-    from cfree import _core
-
-VERTEX_EDGE, EDGE_VERTEX, VERTEX_VERTEX, EDGE_EDGE = 1, 2, 3, 4  # the core's kinds of feature pairs
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,8 +116,6 @@ class BoundaryRecord(Value):
     @cached_property
     def core(self) -> _core.Boundary:
         """The same as the core has it: slices, surfaces and cells share it."""
-        from cfree import _core
-
         patches = _core.Patches(self.contact_kind, self.contact_robot, self.contact_obstacle)
         trapezoids = _core.Trapezoids(*(getattr(self.trapezoids, name) for name in COLUMNS))
         parts = _core.Trapezoids(*(getattr(self.isolated, name) for name in COLUMNS))
@@ -136,8 +132,6 @@ class BoundaryRecord(Value):
     @cached_property
     def core_complex(self) -> _core.CellComplex:
         """The trapezoids glued; `cfree.forbidden.cell_complex` tells how."""
-        from cfree import _core
-
         try:
             return _core.glue(self.core)
         except RuntimeError as error:
@@ -169,7 +163,7 @@ class BoundaryRecord(Value):
     @cached_property
     def patch_kind(self) -> NDArray[np.uint8]:
         polygon = self.features.obstacles.owner_polygon
-        return np.where(polygon[self.contact_obstacle] == BOUNDS, 3, self.contact_kind).astype(np.uint8)
+        return np.where(polygon[self.contact_obstacle] == BOUNDS, PatchKind.BOUND, self.contact_kind).astype(np.uint8)
 
     @cached_property
     def patch_start(self) -> NDArray[np.int64]:
@@ -187,7 +181,7 @@ class BoundaryRecord(Value):
     @cached_property
     def _ruled_near(self) -> Floats:
         a, b = self.features.robot, self.features.obstacles
-        on_edge = self.contact_kind == VERTEX_EDGE
+        on_edge = self.contact_kind == Kind.VERTEX_EDGE
         i, j = self.contact_robot, self.contact_obstacle
         ruled = np.zeros((len(i), 8))
         ruled[:, 0:2], ruled[:, 4:6] = b.near[j], a.near[i]
@@ -199,20 +193,20 @@ class BoundaryRecord(Value):
     def phi_min(self) -> Floats:
         """(P,) radians in [0, 2 pi): where each patch begins (paper, 3.1.1 and 3.2.1)."""
         a, b = self.features.robot, self.features.obstacles
-        on_edge = self.contact_kind == VERTEX_EDGE
+        on_edge = self.contact_kind == Kind.VERTEX_EDGE
         f = np.where(on_edge, self.contact_obstacle, b.previous[self.contact_obstacle])
         g, f = (a.near[a.w] - a.near[a.v])[self.contact_robot], (b.near[b.w] - b.near[b.v])[f]
         cross, dot = g[:, 0] * f[:, 1] - g[:, 1] * f[:, 0], (g * f).sum(axis=1)
         angle = np.mod(np.arctan2(-cross, -dot), 2 * np.pi)
-        return np.where(self.patch_kind == 3, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
+        return np.where(self.patch_kind == PatchKind.BOUND, 0.0, np.where(angle < 2 * np.pi, angle, 0.0))
 
     @cached_property
     def phi_range(self) -> Floats:
         """(P,) radians: pi - rho_i, pi - omega_j, or 2 pi for bounds."""
         at_robot = self.features.robot.turning[self.contact_robot]
         at_obstacle = self.features.obstacles.turning[self.contact_obstacle]
-        turning = np.where(self.contact_kind == VERTEX_EDGE, at_robot, at_obstacle)
-        return np.where(self.patch_kind == 3, 2 * np.pi, turning)
+        turning = np.where(self.contact_kind == Kind.VERTEX_EDGE, at_robot, at_obstacle)
+        return np.where(self.patch_kind == PatchKind.BOUND, 2 * np.pi, turning)
 
     @checked
     def evaluate(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
@@ -260,6 +254,4 @@ class BoundaryRecord(Value):
     @cached_property
     def slicer(self) -> _core.Slicer:
         """What slices and limits are asked of."""
-        from cfree import _core
-
         return _core.Slicer(self.core)

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.errors import FormatError
 from cfree.forbidden.boundary import Boundary
@@ -257,6 +258,4 @@ def misfit(
 
 def _inconsistent(boundary: Boundary) -> str:
     """Name of a column that contradicts the scene or the others, exactly, or nothing."""
-    from cfree import _core
-
     return _core.misfit(boundary.core, os.cpu_count() or 1)

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import UnsupportedError
-from cfree.forbidden.mesh import COLOURS, KINDS, Floats, Mesh, unit_vectors
+from cfree.forbidden.kinds import COLOURS, KINDS
+from cfree.forbidden.mesh import Floats, Mesh, unit_vectors
 from cfree.formats.atomic import checked_suffix, replacing
 
 MESH_SUFFIXES = (".glb", ".ply", ".obj", ".stl")

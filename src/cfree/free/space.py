@@ -12,11 +12,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree import _core
 from cfree.arguments import checked
 from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import InvalidPoseError, InvariantError
@@ -28,9 +29,6 @@ from cfree.forbidden.columns import Floats, Ints
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.value import Value
-
-if TYPE_CHECKING:
-    from cfree import _core
 
 FORBIDDEN, NO_CELL = -1, -2
 BLOCK = 1 << 16  # poses between two looks at Ctrl-C
@@ -381,8 +379,6 @@ def free_space(boundary: Boundary) -> FreeSpace:
     >>> space.cells[1].caged, space.cells[1].full_turn
     (True, True)
     """
-    from cfree import _core
-
     boundary.require_complete()
     try:
         core = _core.free_space(bounding_surfaces(boundary).core_complex)
@@ -436,7 +432,5 @@ def _line(p: tuple[int, int], q: tuple[int, int]) -> tuple[int, int, int]:
 def _in_core(
     boundary: Boundary, component: Ints, parent: Ints, free_inside: NDArray[np.bool_], turns: Ints, lift: Ints
 ) -> _core.FreeSpace:
-    from cfree import _core
-
     surfaces = _core.Surfaces(component, parent, free_inside.view(np.uint8), turns, lift)
     return _core.FreeSpace(boundary.core, surfaces)

@@ -10,10 +10,11 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from cfree.contact.kind import Kind
 from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.planning.double_contact import same_line, slide
-from cfree.planning.exact_face import HELIX, Faces, Sheet, between
+from cfree.planning.exact_face import Faces, Sheet, between
 from cfree.planning.face_graph import Landing
 from cfree.scene.features import unpacked
 
@@ -65,7 +66,7 @@ class Departures:
 
     def along_curve(self, pose: Pose, goal: Pose, sheet: Sheet, code: int) -> bool:
         """Is there one free motion to another pose on the same curve of a sheet?"""
-        if int(unpacked(code)[0]) == HELIX:
+        if int(unpacked(code)[0]) == Kind.VERTEX_VERTEX:
             return self.checker.joins([pose, goal])
         return self.slid(pose, goal, sheet, code)
 

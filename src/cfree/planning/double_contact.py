@@ -14,6 +14,7 @@ import numpy as np
 from flint import fmpq, fmpq_poly
 
 from cfree.collision.slide import Slide, Touch, control_points, terms_of
+from cfree.contact.kind import Kind
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import half_angle_rotation
 from cfree.exact.pose import Pose
@@ -41,10 +42,10 @@ def slide(features: SceneFeatures, pose: Pose, first: Contact, last: Contact, ta
 def same_line(features: SceneFeatures, contact: Contact) -> Iterator[Contact]:
     """A contact, and the contacts of other edges on its edge's line: a curve's name stands for all of them."""
     kind, i, j = contact
-    shape, edge = (features.obstacles, j) if kind == 1 else (features.robot, i)
+    shape, edge = (features.obstacles, j) if kind == Kind.VERTEX_EDGE else (features.robot, i)
     line = shape.core.line
     for other in np.flatnonzero(line[: len(shape.previous)] == line[edge]).tolist():
-        yield (kind, i, other) if kind == 1 else (kind, other, j)
+        yield (kind, i, other) if kind == Kind.VERTEX_EDGE else (kind, other, j)
 
 
 def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
@@ -57,7 +58,7 @@ def touch(features: SceneFeatures, kind: int, i: int, j: int) -> Any:
     together = features.robot.core.layer[i] == features.obstacles.core.layer[j]  # only the reference point has bounds
     if not together or min(robot[1], obstacle[1]) < 0:
         return None
-    return Touch("vertex-edge" if kind == 1 else "edge-vertex", robot, obstacle)
+    return Touch("vertex-edge" if kind == Kind.VERTEX_EDGE else "edge-vertex", robot, obstacle)
 
 
 def _meeting(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from flint import fmpq, fmpq_poly
 
+from cfree.contact.kind import Kind
 from cfree.exact.half_angle import half_angle_rotation, tau_in_chart, theta_in
 from cfree.exact.number import simplest_between
 from cfree.exact.pose import Pose
@@ -24,7 +25,6 @@ Vector = tuple[Fraction, Fraction]
 Line = tuple[Vector, Vector, Vector, Vector]  # p, q, a, g of a surface
 Contact = tuple[int, int, int]  # kind, robot feature, obstacle feature
 Curve = tuple[fmpq_poly, fmpq_poly]
-HELIX = 3  # the kind of a curve on which a vertex is on a vertex
 
 
 def between(low: Fraction, high: Fraction) -> Fraction:
@@ -55,7 +55,7 @@ def contact_line(features: SceneFeatures, kind: int, i: int, j: int) -> Line:
     """p, q, a, g of a contact surface, by the features that touch."""
     A, O, scale = features.robot, features.obstacles, features.scale
     zero = Fraction(0), Fraction(0)
-    if kind == 1:
+    if kind == Kind.VERTEX_EDGE:
         p = vertex(O, O.v[j], scale)
         return p, minus(vertex(O, O.w[j], scale), p), vertex(A, i, scale), zero
     a = vertex(A, A.v[i], scale)
@@ -184,7 +184,7 @@ class Sheet:
 
     def _curve(self, code: int) -> Curve:
         kind, i, j = unpacked(code)
-        if kind == HELIX:
+        if kind == Kind.VERTEX_VERTEX:
             p, q, a, g = self.line
             A, O, scale = self.features.robot, self.features.obstacles, self.features.scale
             along, w = (q, minus(vertex(O, j, scale), p)) if any(q) else (g, minus(vertex(A, i, scale), a))

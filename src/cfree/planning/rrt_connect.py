@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from cfree import _core
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
 from cfree.scene.scene import robot_radius
@@ -57,16 +58,12 @@ class Searcher:
 
     def search(self, start: Pose, goal: Pose, seed: int = 0) -> Any:
         """To be run by ``run(checks)``, until it returns poses; see `poses`."""
-        from cfree import _core
-
         (p, at), (q, to) = map(self._configuration, (start, goal))
         grid = self._grid(PLACE_BITS, ANGLE_BITS)
         return _core.RrtConnect(self.checker.core, grid, self._area, self._weight, p, at, q, to, seed)
 
     def shortener(self, poses: Sequence[Pose]) -> Any:
         """To be run by ``run(checks)``; ``path()`` is the best so far."""
-        from cfree import _core
-
         numbers, places = zip(*map(self._configuration, poses), strict=True)
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
         return _core.Shortcut(self.checker.core, grid, self._weight, list(numbers), list(places), 0)

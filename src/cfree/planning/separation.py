@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
+from cfree.contact.kind import Kind
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -102,8 +103,11 @@ def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary
     """What a table's names need and the rings of the scene's polygons do not have."""
     codes = np.unique(np.concatenate([getattr(table, name) for name in CODED]))
     kind, i, j = unpacked(codes[codes > 0])
-    for of, shape, number, first in (("robot", features.robot, i, 1), ("obstacles", features.obstacles, j, 2)):
-        is_vertex = (kind == first) | (kind == 3)
+    for of, shape, number, first in (
+        ("robot", features.robot, i, Kind.VERTEX_EDGE),
+        ("obstacles", features.obstacles, j, Kind.EDGE_VERTEX),
+    ):
+        is_vertex = (kind == first) | (kind == Kind.VERTEX_VERTEX)
         owned = np.append(shape.owner_vertex >= 0, False)
         foreign = ~owned[np.minimum(number, len(owned) - 1)]
         for name, chosen in (("vertex", is_vertex), ("edge", ~is_vertex)):

@@ -21,7 +21,7 @@ from cfree.arguments import checked
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
-from cfree.forbidden.mesh import COLOURS, KINDS
+from cfree.forbidden.kinds import COLOURS, KINDS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
 from cfree.formats.atomic import checked_suffix, replacing
@@ -137,10 +137,10 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     for axis in (space.xaxis, space.yaxis, space.zaxis):
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
     handles = [
-        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (1, 2)),
+        *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX)),
         Line2D([], [], color=Colours.helix, label="v-v helix"),
         Line2D([], [], color=Colours.edge_edge, label="e-e line"),
-        Patch(facecolor=COLOURS[3], edgecolor=CUT, alpha=0.4, label="bounds"),
+        Patch(facecolor=COLOURS[PatchKind.BOUND], edgecolor=CUT, alpha=0.4, label="bounds"),
         Patch(facecolor=SECTION_COLOUR, edgecolor=CUT, label="section at 360°"),
     ]
     if len(boundary.isolated):
@@ -264,8 +264,8 @@ def plain(text: str) -> str:
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text).replace("$", r"\$")
 
 
-def _line_colour(kind: int) -> str:
-    return BOUNDS if KINDS[kind] == "bound" else COLOURS[kind]
+def _line_colour(kind: PatchKind) -> str:
+    return BOUNDS if kind == PatchKind.BOUND else COLOURS[kind]
 
 
 def _draw_fits(ax: Any, lines: list[NDArray[np.float64]]) -> None:

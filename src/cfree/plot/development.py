@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from cfree.arguments import checked
 from cfree.contact.contact import VertexEdge, angle_range
 from cfree.contact.surface import contact_surface
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.geometry.development import develop
 from cfree.polygons.polygon import Polygon
 
@@ -60,7 +60,7 @@ def plot_development(
 
     ax = ax or Figure(figsize=(8, 5), facecolor="white", layout="constrained").add_subplot()
     rim = np.concatenate([helices[0], helices[-1, ::-1]])
-    ax.fill(*rim.T, facecolor=COLOURS[1], alpha=0.25, linewidth=0)
+    ax.fill(*rim.T, facecolor=COLOURS[PatchKind.VERTEX_EDGE], alpha=0.25, linewidth=0)
     ax.add_collection(LineCollection(list(rulings), colors="#e0a800", linewidths=1.2))
     ax.add_collection(LineCollection(list(helices[1:-1]), colors="black", linewidths=0.6))
     ax.add_collection(LineCollection([*helices[[0, -1]], *rulings[[0, -1]]], colors="black", linewidths=1.5))

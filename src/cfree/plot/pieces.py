@@ -10,7 +10,8 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from cfree.forbidden.mesh import COLOURS
+from cfree.contact.kind import Kind
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.plot.strips import Strips, step_for, strips
 from cfree.scene.scene import robot_radius
 
@@ -56,8 +57,8 @@ FINE = Detail(25_000, (math.radians(1.5), math.radians(15)), 100)
 class Colours:
     """Colours of patches and curves: the paper's unless others are given."""
 
-    vertex_edge: str = COLOURS[1]
-    edge_vertex: str = COLOURS[2]
+    vertex_edge: str = COLOURS[PatchKind.VERTEX_EDGE]
+    edge_vertex: str = COLOURS[PatchKind.EDGE_VERTEX]
     helix: str = "#1f3fbf"
     edge_edge: str = "#f5c518"
 
@@ -129,11 +130,13 @@ def patches_of(
     widest = math.hypot(window[2] - window[0], window[3] - window[1]) / detail.cells
     corners, strip, first = _faces(rows, widest)
     kind = boundary.patch_kind[boundary.trapezoids.patch[rows.trapezoid[rows.joined]]][strip]
-    table = np.array([(0.0, 0.0, 0.0), *map(to_rgb, (colours.vertex_edge, colours.edge_vertex, COLOURS[3]))])
+    table = np.array(
+        [(0.0, 0.0, 0.0), *map(to_rgb, (colours.vertex_edge, colours.edge_vertex, COLOURS[PatchKind.BOUND]))]
+    )
     rgb = shaded(table[kind], corners, robot_radius(boundary.scene))
     n = len(corners)
     part = rows.part[rows.joined][strip]
-    faces = Pieces(corners, rgb, np.where(kind == 3, WALL, SURFACE), np.arange(n), np.zeros(n), part)
+    faces = Pieces(corners, rgb, np.where(kind == PatchKind.BOUND, WALL, SURFACE), np.arange(n), np.zeros(n), part)
     curves = _curves(boundary, rows, first, colours) if len(boundary.trapezoids) <= CROWDED else []
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
     split = [_split(replace(part, width=part.width + line * thinner), widest) for part in curves]
@@ -215,13 +218,16 @@ def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours) -> 
         found.append(replace(of_one_colour(corners, colour, CURVE, owner), part=part))
 
     for side, curve in enumerate((table.lower_kind, table.upper_kind)):
-        here, after, on_wall = ends[rows.joined, side], ends[rows.joined + 1, side], kind[of] == 3
-        helix, cut = ((curve[of] == 3) & ~on_wall).nonzero()[0], ((curve[of] != 3) & on_wall).nonzero()[0]
+        here, after, on_wall = ends[rows.joined, side], ends[rows.joined + 1, side], kind[of] == PatchKind.BOUND
+        helix, cut = (
+            ((curve[of] == Kind.VERTEX_VERTEX) & ~on_wall).nonzero()[0],
+            ((curve[of] != Kind.VERTEX_VERTEX) & on_wall).nonzero()[0],
+        )
         add(helix, here, after, colours.helix, first[helix])
         add(cut, here, after, CUT, np.full(len(cut), -1))
     phi_min, phi_max = boundary.phi_min, boundary.phi_min + boundary.phi_range
     for row, angle, phi in ((rows.joined, table.theta_from, phi_min), (rows.joined + 1, table.theta_to, phi_max)):
-        own_end = (kind != 3) & _same_angle(angle, phi[table.patch])
+        own_end = (kind != PatchKind.BOUND) & _same_angle(angle, phi[table.patch])
         (strip,) = np.nonzero(own_end[of] & _same_angle(angle[of], rows.theta[row]))
         add(strip, ends[row, 0], ends[row, 1], colours.edge_edge, first[strip])
     return found

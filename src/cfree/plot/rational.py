@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.exact.orientation import Location
-from cfree.forbidden.mesh import COLOURS
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.polygons.polygon import Polygon
 from cfree.rational.model import RationalSurface, rational_surface, to_rational
 
@@ -60,7 +60,7 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     with rc_context({"grid.color": "#dfe1e6", "grid.linewidth": 0.6}):
         geometrical: Any = figure.add_axes((0.01, 0.09, 0.46, 0.85), projection="3d")
         rational: Any = figure.add_axes((0.48, 0.09, 0.46, 0.85), projection="3d")
-    colour = COLOURS[1] if isinstance(contact, VertexEdge) else COLOURS[2]
+    colour = COLOURS[PatchKind.VERTEX_EDGE if isinstance(contact, VertexEdge) else PatchKind.EDGE_VERTEX]
 
     corners, on_patch = cells(S, 180)
     _draw(geometrical, corners * (1, 1, 180 / math.pi), np.where(on_patch, colour, PSEUDO), 180)

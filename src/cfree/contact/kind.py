@@ -1,0 +1,27 @@
+"""Kinds of pairs of a robot feature and an obstacle feature, numbered as in the core and in files."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class Kind(IntEnum):
+    """What a pair is; it names a surface, a curve or a critical angle."""
+
+    NONE = 0
+    VERTEX_EDGE = 1
+    EDGE_VERTEX = 2
+    VERTEX_VERTEX = 3
+    EDGE_EDGE = 4
+
+    @property
+    def short(self) -> str:
+        """The paper's letters.
+
+        Examples
+        --------
+        >>> Kind.VERTEX_EDGE.short
+        'v-e'
+        """
+        robot, _, obstacle = self.name.lower().partition("_")
+        return f"{robot[0]}-{obstacle[0]}"
