@@ -32,7 +32,9 @@ NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?"
 COMPUTED = ("contact_curve", "mesh", "mesh_face", "slice", "surface", "triangulation")
 # guesses, whose motions are then decided
 GUESSED = ("configuration", "rrt_connect", "shortcut")
-NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED for suffix in (".cpp", ".hpp")}
+# limits and notation of numbers as they come in and go out
+WRITTEN = ("coordinate_range", "ratio")
+NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED + WRITTEN for suffix in (".cpp", ".hpp")}
 
 
 def tolerances(source: str) -> list[str]:

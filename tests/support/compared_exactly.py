@@ -10,9 +10,9 @@ from typing import NamedTuple
 import numpy as np
 
 from cfree import Boundary
+from cfree.contact.kind import Kind
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.patch import contact
-from cfree.forbidden.record import EDGE_EDGE, EDGE_VERTEX, VERTEX_EDGE, VERTEX_VERTEX
 from cfree.scene.features import ShapeFeatures, unpacked
 from compared import Point, cross, minus, plain_of, rotation, turned
 from exact_slices import Segments, both, common, ends, exact_slice, on_some, oriented, united, without
@@ -109,7 +109,7 @@ def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> Point:
     """N and D, as polynomials in tau."""
     (origin, along), (point, direction) = _placed(result, own, at), _placed(result, curve, at)
     u, norm = minus(point, origin), 1 + at.tau * at.tau
-    if curve >> 61 == VERTEX_VERTEX:
+    if curve >> 61 == Kind.VERTEX_VERTEX:
         assert cross(u, along) == 0, f"{contact(result, curve)} is not on the surface of {contact(result, own)}"
         return u[0] * along[0] + u[1] * along[1], along[0] ** 2 + along[1] ** 2
     return norm * cross(u, direction), norm * cross(along, direction)
@@ -122,13 +122,13 @@ def _placed(result: Boundary, code: int, at: Orientation) -> tuple[Point, Point]
     turn, robot, obstacles = rotation(*at), result.features.robot, result.features.obstacles
     a, b = (
         (_corner(robot, robot.v[i]), _corner(obstacles, j))
-        if kind == EDGE_VERTEX
-        else (_corner(robot, i), _corner(obstacles, obstacles.v[j] if kind == VERTEX_EDGE else j))
+        if kind == Kind.EDGE_VERTEX
+        else (_corner(robot, i), _corner(obstacles, obstacles.v[j] if kind == Kind.VERTEX_EDGE else j))
     )
     direction: Point = Fraction(0), Fraction(0)
-    if kind == VERTEX_EDGE:
+    if kind == Kind.VERTEX_EDGE:
         direction = minus(_corner(obstacles, obstacles.w[j]), b)
-    if kind == EDGE_VERTEX:
+    if kind == Kind.EDGE_VERTEX:
         direction = turned(turn, minus(a, _corner(robot, robot.w[i])))
     return minus(b, turned(turn, a)), direction
 
@@ -218,15 +218,15 @@ def condition(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Frac
     patch = getattr(columns, f"{end}_patch", columns.patch)  # an isolated part's angles may be named on others
     turn = rotation(int(columns.chart[k]), tau)
     own, first, *second = (numbered(result, code, turn) for code in (own_code(result, int(patch[k])), *codes) if code)
-    if codes[0] >> 61 == EDGE_EDGE:
+    if codes[0] >> 61 == Kind.EDGE_EDGE:
         return cross(*first)
     (p, u), (q, v) = own, first
     if not second:
         return cross(u, minus(q, p))
     ((r, w),) = second
-    if codes[0] >> 61 == VERTEX_VERTEX:
+    if codes[0] >> 61 == Kind.VERTEX_VERTEX:
         return cross(w, minus(r, q))
-    if codes[1] >> 61 == VERTEX_VERTEX:
+    if codes[1] >> 61 == Kind.VERTEX_VERTEX:
         return cross(v, minus(q, r))
     return cross(minus(q, p), v) * cross(u, w) - cross(minus(r, p), w) * cross(u, v)
 
@@ -244,13 +244,13 @@ def numbered(result: Boundary, code: int, turn: Point) -> tuple[Point, Point]:
     def vector(shape: ShapeFeatures, edge: int) -> Point:
         return minus(shape.vertices[shape.w[edge]], shape.vertices[shape.v[edge]])
 
-    if kind == EDGE_EDGE:
+    if kind == Kind.EDGE_EDGE:
         return turned(turn, vector(robot, i)), vector(obstacles, j)
-    a = robot.vertices[robot.v[i] if kind == EDGE_VERTEX else i]
-    b = obstacles.vertices[obstacles.v[j] if kind == VERTEX_EDGE else j]
+    a = robot.vertices[robot.v[i] if kind == Kind.EDGE_VERTEX else i]
+    b = obstacles.vertices[obstacles.v[j] if kind == Kind.VERTEX_EDGE else j]
     direction: Point = (Fraction(0), Fraction(0))
-    if kind == VERTEX_EDGE:
+    if kind == Kind.VERTEX_EDGE:
         direction = vector(obstacles, j)
-    if kind == EDGE_VERTEX:
+    if kind == Kind.EDGE_VERTEX:
         direction = turned(turn, minus((0, 0), vector(robot, i)))
     return minus(b, turned(turn, a)), direction
