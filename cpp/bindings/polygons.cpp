@@ -126,6 +126,9 @@ void bind_polygons(nb::module_& m) {
             for (const Index e : error.edges) edges.append(e);
             const nb::object ring = error.ring < 0 ? nb::none() : nb::object(nb::int_(error.ring));
             PyErr_SetObject(type.ptr(), type(error.what(), "ring"_a = ring, "edges"_a = nb::tuple(edges)).ptr());
+        } catch (const cfree::BrokenInvariant& error) {
+            const nb::object type = nb::module_::import_("cfree.errors").attr("InvariantError");
+            PyErr_SetObject(type.ptr(), type(error.what()).ptr());
         }
     });
     nb::class_<Polygon>(m, "Polygon")

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <numeric>
-#include <stdexcept>
 
 #include "cfree/exact/ratio.hpp"
 #include "cfree/polygons/segment_sweep.hpp"
@@ -214,7 +213,7 @@ std::vector<Index> twins(const Points& points, const std::vector<std::vector<Ind
 Cover constrained_delaunay(const Points& points, const std::vector<std::vector<Index>>& rings) {
     Triangles triangles = swept_triangles(points, rings);
     std::vector<Index> twin = twins(points, rings, triangles);
-    if (twin.empty()) throw std::logic_error("triangles do not cover their polygon");
+    if (twin.empty()) throw BrokenInvariant("triangles do not cover their polygon");
     const Circles circles(points);
     const auto corner = [&](Index e) -> Index& { return triangles[e / 3][e % 3]; };
     const auto after = [](Index e) { return e % 3 < 2 ? e + 1 : e - 2; };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <stdexcept>
 
 namespace cfree {
 
@@ -124,7 +123,7 @@ private:
         return true;
     }
 
-    [[noreturn]] static void lose() { throw std::logic_error("the sweep over a polygon's rings lost an edge"); }
+    [[noreturn]] static void lose() { throw BrokenInvariant("the sweep over a polygon's rings lost an edge"); }
 
     // Do rings that pass through a point neither cross nor overlap there?
     bool corners_are_apart(Index point, const std::vector<Index>& passing) {

@@ -3,11 +3,17 @@
 // Coordinates of at most 62 bits, which nearly all are, are compared in machine integers; longer ones in doubles with a
 // proven bound first, then exactly.
 #pragma once
+#include <stdexcept>
 #include <vector>
 
 #include "cfree/exact/number.hpp"
 
 namespace cfree {
+
+// A bug of ours.
+struct BrokenInvariant : std::logic_error {
+    using std::logic_error::logic_error;
+};
 
 class Points {
 public:
