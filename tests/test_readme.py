@@ -86,3 +86,8 @@ def test_pages_and_names_in_sources_exist() -> None:
                 assert {*re.findall(r"\btheory, \"([^\"]+)\"", text)} <= titles, file
                 for name in {*re.findall(r"\bcfree(?:\.[A-Za-z_]\w*)+", text)}:
                     assert exists(name), f"{file}: {name}"
+
+
+def test_sources_of_the_core_open_with_what_they_do() -> None:
+    for file in (ROOT / "cpp").rglob("*.?pp"):
+        assert "tests" in file.parts[-2:] or file.read_text().startswith("// "), file

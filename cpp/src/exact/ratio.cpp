@@ -1,3 +1,4 @@
+// Decimals, "p/q" and doubles read as what they say, and rationals rounded once; theory, "Coordinates".
 #include "cfree/exact/ratio.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Vertices joined with those they see to their left, then edges flipped; docs/inside-the-core.md.
 #include "cfree/polygons/constrained_delaunay.hpp"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Diagonals taken out while both sides stay convex, the least useful first; docs/inside-the-core.md.
 #include "cfree/polygons/convex_decomposition.hpp"
 
 #include <algorithm>

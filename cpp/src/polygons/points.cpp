@@ -1,3 +1,4 @@
+// Signs of exact points, in machine integers where these hold them; docs/inside-the-core.md.
 #include "cfree/polygons/points.hpp"
 
 #include <algorithm>

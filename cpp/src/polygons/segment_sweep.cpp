@@ -1,3 +1,4 @@
+// Edges from left to right, compared as they become neighbours; docs/inside-the-core.md.
 #include "cfree/polygons/segment_sweep.hpp"
 
 #include <algorithm>

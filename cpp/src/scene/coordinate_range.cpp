@@ -1,3 +1,4 @@
+// Scenes refused for their numbers, and what is said of them; docs/exact.md.
 #include "cfree/scene/coordinate_range.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Points, lines and directions numbered, frames put around bounds and workspace; theory, "Surfaces that coincide".
 #include "cfree/scene/features.hpp"
 
 #include <algorithm>
