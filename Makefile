@@ -4,6 +4,11 @@ BIN := .venv/bin
 SANITIZED := $(addprefix tests/,polygons scene forbidden collision/test_motion.py collision/test_slide.py collision/test_pose_checker.py formats/test_boundary_file.py contact/test_surface.py free planning/test_plan.py)
 CPP := $(wildcard cpp/*/*.?pp cpp/src/*/*.?pp cpp/include/cfree/*/*.hpp)
 INSTALLED := .venv/installed
+TESTED := .venv/tested
+INSTALL := $(BIN)/pip install -q --disable-pip-version-check
+# With tools of .venv and objects that stay: what is installed again later compiles only what has changed.
+TOOLS := scikit-build-core nanobind boost-headers cmake ninja
+HERE := --no-build-isolation -C build-dir='build/{wheel_tag}' -e
 
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
@@ -18,7 +23,7 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 	$(BIN)/cfree verify $(SWIM) demo/swim.json
 	$(BIN)/cfree boundary $(PARKING) -o demo/parking.npz --mesh demo/parking.glb
 
-test: $(INSTALLED) ctest lint  ## every test
+test: $(TESTED) ctest lint  ## every test
 	$(BIN)/python -m pytest -n 2
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python
@@ -31,7 +36,7 @@ ctest-sanitize: $(INSTALLED)  ## the same under the address and undefined-behavi
 	$(BIN)/cmake --build build/ctest-sanitize -j 2 >> build/ctest-sanitize.log
 	$(BIN)/ctest --test-dir build/ctest-sanitize --output-on-failure
 
-sanitize: ctest-sanitize  ## tests in Python under them, with an extension and an environment of their own
+sanitize: $(TESTED) ctest-sanitize  ## tests in Python under them, with an extension and an environment of their own
 	$(PYTHON) -m venv build/sanitize
 	$(BIN)/python -c "import sysconfig; print(sysconfig.get_path('purelib'))" \
 	  > $$(build/sanitize/bin/python -c "import sysconfig; print(sysconfig.get_path('purelib'))")/installed.pth
@@ -40,36 +45,36 @@ sanitize: ctest-sanitize  ## tests in Python under them, with an extension and a
 	LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
 	  build/sanitize/bin/python -m pytest -n 2 $(SANITIZED)
 
-fuzz: $(INSTALLED)  ## random degenerate scenes against exact slices; SECONDS=600 SEED=0 unless given
+fuzz: $(TESTED)  ## random degenerate scenes against exact slices; SECONDS=600 SEED=0 unless given
 	$(BIN)/python tests/support/fuzz.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
-fuzz-answers: $(INSTALLED)  ## questions whose answers are known, and hard ones, asked both ways and in other words
+fuzz-answers: $(TESTED)  ## questions whose answers are known, and hard ones, asked both ways and in other words
 	$(BIN)/python tests/support/fuzz_answers.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
-fuzz-files: $(INSTALLED)  ## files of boundaries with flipped bits
+fuzz-files: $(TESTED)  ## files of boundaries with flipped bits
 	$(BIN)/python tests/support/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
-lint: $(INSTALLED)
+lint: $(TESTED)
 	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy
 	$(BIN)/mypy tools/check_answer.py
 
-bench: $(INSTALLED)  ## figures against baselines measured in the same run
+bench: $(TESTED)  ## figures against baselines measured in the same run
 	$(BIN)/python benchmarks/run.py
 
 docs: .venv/documented  ## the documentation as pages, into docs/_build/html
 	$(BIN)/python -m sphinx -W --keep-going -q docs docs/_build/html
 
 .venv/documented: $(INSTALLED)
-	$(BIN)/pip install -q --disable-pip-version-check -e '.[test,docs]'
+	$(INSTALL) $(HERE) '.[test,docs]'
 	touch $@
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
-	$(BIN)/pip install -q scikit-build-core nanobind boost-headers cmake ninja
-	$(BIN)/pip install -q --no-build-isolation -C editable.rebuild=true -C editable.verbose=false -C build-dir=build/dev -e '.[test]'
-	touch $(INSTALLED)
+	$(INSTALL) $(TOOLS)
+	$(INSTALL) --no-build-isolation -C editable.rebuild=true -C editable.verbose=false -C build-dir=build/dev -e '.[test]'
+	touch $(INSTALLED) $(TESTED)
 
-stub: $(INSTALLED)  ## after a change of the binding
+stub: $(TESTED)  ## after a change of the binding
 	$(BIN)/python -m nanobind.stubgen -q -m cfree._core -o src/cfree/_core.pyi
 
 clean:
@@ -79,6 +84,10 @@ clean:
 	$(PYTHON) -m venv .venv
 
 $(INSTALLED): pyproject.toml CMakeLists.txt $(CPP) | .venv/bin/python
-	$(BIN)/pip install -q --disable-pip-version-check -e '.[test]'
-	mkdir -p build
+	$(INSTALL) $(TOOLS)
+	$(INSTALL) $(HERE) .
+	touch $@
+
+$(TESTED): $(INSTALLED)
+	$(INSTALL) $(HERE) '.[test]'
 	touch $@
