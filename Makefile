@@ -86,6 +86,7 @@ clean:
 $(INSTALLED): pyproject.toml CMakeLists.txt $(CPP) | .venv/bin/python
 	$(INSTALL) $(TOOLS)
 	$(INSTALL) $(HERE) .
+	$(BIN)/python -m compileall -q src/cfree  # what is not copied pip leaves uncompiled
 	touch $@
 
 $(TESTED): $(INSTALLED)

@@ -52,19 +52,24 @@ class EdgeDistances:
         """The robot's edges, (n, e, 2, 2), at rows x, y, theta."""
         return Poses(rows[:, :2], rows[:, 2]).apply(self.robot.reshape(-1, 2)).reshape(len(rows), *self.robot.shape)
 
-    def nearest(self, placed: Floats) -> tuple[Floats, Ints, Ints]:
+    def nearest(self, placed: Floats, within: float = math.inf) -> tuple[Floats, Ints, Ints]:
         """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); and between which two edges they are.
 
-        The robot's inside must be free of edges, and there must be one at least.
+        The robot's inside must be free of edges, and there must be one at least. Distances of more than `within` are
+        infinite.
         """
         import shapely
 
         lines = shapely.linestrings(placed.reshape(-1, 2, 2) / self._unit)
-        (_, other), distance = self._tree.query_nearest(lines, return_distance=True, all_matches=False)
-        table = self._unit * distance.reshape(len(placed), -1)
+        most = within / self._unit if within < math.inf else None
+        (line, near), distance = self._tree.query_nearest(
+            lines, max_distance=most, return_distance=True, all_matches=False
+        )
+        table, other = np.full(placed.shape[:2], math.inf), np.zeros(placed.shape[:2], np.int64)
+        table.flat[line], other.flat[line] = self._unit * distance, near
         edge = table.argmin(axis=1)
         rows = np.arange(len(placed))
-        return table[rows, edge], edge, other.reshape(table.shape)[rows, edge]
+        return table[rows, edge], edge, other[rows, edge]
 
     def between(self, edge: Floats, other: int) -> Floats:
         """The closest points, (2, 2), of an edge (2, 2) of the placed robot and of an edge of `segments`."""

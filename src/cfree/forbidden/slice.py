@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from functools import cached_property
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry.base import BaseGeometry
 
 from cfree.exact.half_angle import Angle, place_of
 from cfree.forbidden.record import BoundaryRecord
 from cfree.value import Value
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
 
 
 class Slice(Value):

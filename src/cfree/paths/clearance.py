@@ -128,11 +128,12 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
                 .apply(robot.reshape(-1, 2))
                 .reshape(-1, *robot.shape)
             )
-        nearest, edge, other = distances.nearest(placed)
+        part = travel[motion] * (high - low)
+        nearest, edge, other = distances.nearest(placed, best[0] + float(part.max()))  # farther ones change nothing
         k = int(nearest.argmin())
         if nearest[k] < best[0]:
             best = float(nearest[k]), int(motion[k]), float(middle[k]), int(edge[k]), int(other[k])
-        bound = nearest - travel[motion] * (high - low) / 2
+        bound = nearest - part / 2
         open_ = bound < best[0] - tolerance
         if open_.sum() > MOST:
             open_[:] = False

@@ -9,7 +9,6 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-import shapely
 
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
@@ -32,6 +31,8 @@ def inset(polygon: Polygon, by: Fraction) -> list[Polygon]:
     >>> [part.exact_area for part in inset(square, Fraction(1, 4))], inset(square, Fraction(1, 2))
     ([Fraction(1, 4)], [])
     """
+    import shapely  # here: most plans need no inset
+
     grid = Fraction(2) ** (math.frexp(by)[1] - FINER)
 
     def snapped(points: Iterable[tuple[Any, Any]]) -> list[ExactPoint]:

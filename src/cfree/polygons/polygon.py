@@ -8,23 +8,25 @@ polygon is made: every `Polygon` is simple, its outer ring runs counter-clockwis
 from __future__ import annotations
 
 import math
+import reprlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import Polygon as ShapelyPolygon
-from shapely.geometry.base import BaseGeometry
 
 from cfree import _core
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, IntPoint, angle
 from cfree.polygons.rings import Points, Removed, read_rings, restored
+
+if TYPE_CHECKING:
+    import shapely
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -224,7 +226,7 @@ class Polygon:
 
     # other libraries
 
-    def to_shapely(self) -> ShapelyPolygon:
+    def to_shapely(self) -> shapely.Polygon:
         """The same polygon, rounded to doubles."""
         import shapely
 
@@ -232,8 +234,7 @@ class Polygon:
         return shapely.Polygon(outer, holes)
 
     @classmethod
-    @checked
-    def from_shapely(cls, geometry: BaseGeometry) -> Polygon:
+    def from_shapely(cls, geometry: shapely.Geometry) -> Polygon:
         """Polygon of a shapely polygon, whose coordinates are the doubles they are; heights are ignored.
 
         Examples
@@ -244,6 +245,8 @@ class Polygon:
         """
         import shapely
 
+        if not isinstance(geometry, shapely.Geometry):
+            raise TypeError(f"geometry: {reprlib.repr(geometry)} is no shapely geometry; give a Polygon")
         if geometry.geom_type != "Polygon" or geometry.is_empty:
             raise InvalidPolygonError(f"{geometry.wkt:.60} is no polygon; give the parts of a collection one by one")
         return cls(
