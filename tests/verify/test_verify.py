@@ -20,9 +20,10 @@ import oracles
 import strategies
 from cfree import Boundary, FormatError, Polygon, Scene, boundary, load_scene, save
 from cfree.exact.algebraic import Number, between, roots
+from cfree.polygons.minkowski import convex_sum
 from cfree.verify.matching import matched
 from cfree.verify.missing import free_contacts
-from cfree.verify.polygons import Ring, convex_sum, corners, roughly, tile
+from cfree.verify.polygons import Ring, corners, roughly, tile
 from cfree.verify.section import Interval, Pillar, Section, crossing, left_over
 from cfree.verify.surfaces import Line, Turn, Vector, cross, minus
 from cfree.verify.trapezoids import Reader
