@@ -1,8 +1,12 @@
 // Decimals, "p/q" and doubles read as what they say, and rationals rounded once; theory, "Coordinates".
 #include "cfree/exact/ratio.hpp"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
+#include <clocale>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <numeric>
 
 namespace cfree {
@@ -121,22 +125,9 @@ Ratio reduced(Int n, Int d) {
 }
 
 double nearest(const Int& n, const Int& d) {
-    if (n.is_zero()) return 0;
-    const Int p = abs(n);
-    const int bits_p = static_cast<int>(msb(p)), bits_d = static_cast<int>(msb(d));
-    if (bits_p < 53 && bits_d < 53) return static_cast<double>(static_cast<std::int64_t>(n)) / static_cast<double>(static_cast<std::int64_t>(d));
-    // p / d = (q + rest) 2^low with a bit or more beyond the last of the double, 0 <= rest < 1
-    const int low = std::max(bits_p - bits_d - 56, -1076);
-    const Int scaled = low < 0 ? Int(p << static_cast<unsigned>(-low)) : p;
-    const Int unit = low > 0 ? Int(d << static_cast<unsigned>(low)) : d;
-    Int q_wide, rest;
-    divide_qr(scaled, unit, q_wide, rest);
-    auto q = static_cast<std::uint64_t>(q_wide);
-    const int drop = std::max(static_cast<int>(std::bit_width(q)) - 53, -1074 - low);
-    const std::uint64_t half = std::uint64_t{1} << (drop - 1), beyond = q & (2 * half - 1);
-    q >>= drop;
-    if (beyond > half || (beyond == half && (!rest.is_zero() || (q & 1)))) ++q;
-    return n.sign() * std::ldexp(static_cast<double>(q), low + drop);
+    const auto is_short = [](const Int& x) { return x.is_zero() || msb(abs(x)) < 53; };
+    const auto rounded = [](const Int& x) { return static_cast<double>(static_cast<std::int64_t>(x)); };
+    return is_short(n) && is_short(d) ? rounded(n) / rounded(d) : ratio(n, d);
 }
 
 std::string text_of(const Ratio& value) {
@@ -144,15 +135,17 @@ std::string text_of(const Ratio& value) {
 }
 
 std::string text_of(double value) {
-    std::array<char, 32> text;
-    const auto shortest = [&](std::chars_format format) {
-        const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value, format);
-        return std::string(text.data(), end);
-    };
+    std::array<char, 40> text;
+    int digits = 0;  // behind the point: the fewest that read back as the value
+    do std::snprintf(text.data(), text.size(), "%.*e", digits, value);
+    while (std::strtod(text.data(), nullptr) != value && ++digits < 17);
+    const int exponent = std::atoi(std::strchr(text.data(), 'e') + 1);
     const double size = std::abs(value);
-    if (size != 0 && (size < 1e-4 || size >= 1e16)) return shortest(std::chars_format::scientific);
-    const std::string fixed = shortest(std::chars_format::fixed);
-    return fixed.find('.') == std::string::npos ? fixed + ".0" : fixed;
+    if (size == 0 || (size >= 1e-4 && size < 1e16))
+        std::snprintf(text.data(), text.size(), "%.*f", std::max(digits - exponent, 1), value);
+    std::string result = text.data();
+    std::replace(result.begin(), result.end(), *std::localeconv()->decimal_point, '.');
+    return result;
 }
 
 }  // namespace cfree

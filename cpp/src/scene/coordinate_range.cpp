@@ -31,7 +31,7 @@ std::string shown(const Int& value) {
 // "1,110"
 std::string grouped(unsigned n) {
     std::string digits = std::to_string(n);
-    for (int k = static_cast<int>(digits.size()) - 3; k > 0; k -= 3) digits.insert(static_cast<std::size_t>(k), ",");
+    for (int k = static_cast<int>(digits.size()) - 3; k > 0; k -= 3) digits.insert(static_cast<std::size_t>(k), 1, ',');
     return digits;
 }
 
