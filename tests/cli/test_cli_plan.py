@@ -31,6 +31,7 @@ def run() -> Run:
     return lambda *arguments: CliRunner().invoke(app, [str(argument) for argument in arguments])
 
 
+@pytest.mark.slow
 def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path) -> None:
     answer, picture, film = (tmp_path / name for name in ("way.json", "way.png", "way.gif"))
     result = run("plan", CONVEX, "-o", answer, "--picture", picture, "--film", film, "--improve", "50ms")
@@ -56,6 +57,7 @@ def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path) -> None:
     assert run("verify", CONVEX, answer).exit_code == 0
 
 
+@pytest.mark.slow
 def test_a_proof_has_exit_code_1(run: Run, tmp_path: Path) -> None:
     answer = tmp_path / "proof.json"
     result = run("plan", SWIM, "-o", answer, "--json")

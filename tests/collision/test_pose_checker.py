@@ -72,6 +72,7 @@ def thrice(scene: Scene | PoseChecker, poses: object) -> list[bool]:
 # beside exact oracles
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(plain=st.one_of(strategies.scenes(), strategies.bounded_scenes(), strategies.walled_scenes()),
        poses=st.lists(strategies.poses(), min_size=1, max_size=6), seed=st.integers(0, 10**6))  # fmt: skip
@@ -255,6 +256,7 @@ def test_threads_and_what_was_prepared_change_nothing() -> None:
     assert (is_free(built.checker, poses) == is_free(built.scene, poses)).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sofa_corner", "degenerate_island", "nest_swim"])
 def test_boxes_of_poses(name: str) -> None:
     """Where a box of poses is known to be free or forbidden, so is each pose in it."""

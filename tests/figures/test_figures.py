@@ -40,6 +40,7 @@ def drawn() -> dict[int, Figure]:
 # files
 
 
+@pytest.mark.slow
 def test_all_figures_are_written_in_all_formats(tmp_path: Path) -> None:
     shares: list[float] = []
     files = draw_all(tmp_path / "a" / "b", progress=shares.append)

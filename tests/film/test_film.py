@@ -84,6 +84,7 @@ def apart(first: np.ndarray, second: np.ndarray) -> np.ndarray:
 # what is shown is true
 
 
+@pytest.mark.slow
 def test_every_pose_is_free(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     for shot in shots:
@@ -99,6 +100,7 @@ def test_no_pose_of_the_papers_scenes_is_forbidden_by_any_obstacle(name: str) ->
             assert not any(is_forbidden(robot, obstacle, moment.pose) for obstacle in result.scene.obstacles)
 
 
+@pytest.mark.slow
 def test_captions_agree_with_touch(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     scene, seen = result.scene, set()
@@ -118,12 +120,14 @@ def test_captions_agree_with_touch(told: tuple[Boundary, list[Shot]]) -> None:
         assert seen >= {"v-e", "v-v"}
 
 
+@pytest.mark.slow
 def test_a_film_is_as_long_as_it_should_be(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     has_room = len(result.trapezoids) > 0
     assert sum(len(shot.moments) for shot in shots) == (FRAMES if has_room else 0)
 
 
+@pytest.mark.slow
 def test_shots_without_contact_have_no_caption(told: tuple[Boundary, list[Shot]]) -> None:
     _, shots = told
     for shot in shots:
@@ -145,6 +149,7 @@ def test_a_helix_keeps_its_vertex_in_place(fig9: Boundary) -> None:
 # it moves as a robot does
 
 
+@pytest.mark.slow
 def test_motions_are_continuous(told: tuple[Boundary, list[Shot]]) -> None:
     result, shots = told
     x0, y0, x1, y1 = extent(result)
@@ -160,6 +165,7 @@ def test_motions_are_continuous(told: tuple[Boundary, list[Shot]]) -> None:
         assert after.cut or gap < bound, after.kind
 
 
+@pytest.mark.slow
 def test_more_frames_mean_smaller_steps(fig9: Boundary) -> None:
     def largest(frames: int) -> float:
         rows = [places(shot.moments) for shot in storyboard(fig9, frames)]
@@ -323,6 +329,7 @@ def test_a_frame_has_the_papers_colours_and_its_words(fig9: Boundary) -> None:
         assert box.x0 >= 0 and box.x1 <= 640
 
 
+@pytest.mark.slow
 def test_later_scenes_show_what_is_new(fig9: Boundary, five: Boundary) -> None:
     first, second = shots_of([fig9, five], 60, "paper")
     assert [shot.kind for shot in first] == list(STORYBOARDS["paper"])
@@ -341,6 +348,7 @@ def test_orientations_without_contacts_are_left_out() -> None:
     assert [shot.kind for shot in storyboard(found, 40, ("slices", "helix"))] == ["slices", "helix"]
 
 
+@pytest.mark.slow
 def test_a_gif_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
     file, shares = tmp_path / "film.gif", []
     cfree.film.save_film([fig9], file, seconds=2, fps=10, size=(320, 180), progress=shares.append)
@@ -351,6 +359,7 @@ def test_a_gif_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
     assert len(shares) == 20 and shares[-1] == 1 and [f.name for f in file.parent.iterdir()] == ["film.gif"]
 
 
+@pytest.mark.slow
 def test_an_mp4_is_read_back(fig9: Boundary, five: Boundary, tmp_path: Path) -> None:
     av = pytest.importorskip("av")
     file = tmp_path / "film.mp4"

@@ -96,6 +96,7 @@ def test_convex_pieces_tile_any_polygon(shape: strategies.Shape) -> None:
     assert not any(oracles.interiors_meet(tuple(p), tuple(q)) for k, p in enumerate(pieces) for q in pieces[:k])
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(strategies.scenes(), strategies.half_tangents(), st.randoms(use_true_random=False))
 def test_exact_slices_agree_with_overlap_of_triangles(
@@ -144,6 +145,7 @@ def compare(plain: PlainScene, seed: int) -> None:
             continue
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "kind", ["axis_parallel", "congruent", "collinear", "touching", "overlapping", "fitting", "bounded", "walled"]
 )
@@ -156,6 +158,7 @@ def test_slices_are_exact(kind: str) -> None:
     check()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", fuzz.KINDS)
 def test_slices_of_the_kinds_that_are_fuzzed_are_exact(kind: str) -> None:
     compared = 0
