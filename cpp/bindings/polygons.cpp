@@ -132,13 +132,14 @@ void bind_polygons(nb::module_& m) {
         }
     });
     nb::class_<Polygon>(m, "Polygon")
-        .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: object) -> Polygon | None"))
-        .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); })
+        .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: Sequence[typing.Any]) -> Polygon | None"))
+        .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); },
+                     nb::for_getter(nb::sig("def numerators(self) -> tuple[tuple[int, int], ...]")))
         .def_prop_ro("denominator", [](const Polygon& p) { return integer(p.denominator); })
         .def_prop_ro("ring_offsets", [](const Polygon& p) { return p.offsets; })
         .def_prop_ro("removed", [](const Polygon& p) {
-            nb::list removed;
-            for (const auto& r : p.removed) removed.append(nb::make_tuple(r.ring, r.index, r.repeated));
+            std::vector<std::tuple<Index, Index, bool>> removed;
+            for (const auto& r : p.removed) removed.emplace_back(r.ring, r.index, r.repeated);
             return removed;
         })
         .def_prop_ro("vertices", [](const Polygon& p) {

@@ -49,7 +49,8 @@ void bind_scene(nb::module_& m) {
         .def("__init__", &make_shape, "vertices"_a, "shift"_a, "scale"_a, "point"_a, "v"_a, "w"_a, "line"_a, "direction"_a,
              "ring_vertices"_a, "previous"_a, "convex"_a, "emit"_a, "layer"_a, "vertex_rank"_a, "edge_rank"_a, "piece"_a,
              "piece_vertex"_a, "piece_edge"_a, "piece_layer"_a)
-        .def_prop_ro("vertices", [](const cfree::Shape& s) { return integers(s.X, s.Y); })
+        .def_prop_ro("vertices", [](const cfree::Shape& s) { return integers(s.X, s.Y); },
+                     nb::for_getter(nb::sig("def vertices(self) -> tuple[tuple[int, int], ...]")))
         .def_prop_ro("convex", [](const cfree::Shape& s) { return flags(s.convex); })
         .def_prop_ro("emit", [](const cfree::Shape& s) { return flags(s.emit); });
     rows<2>(shape, "xy", &cfree::Shape::xy);
