@@ -67,7 +67,7 @@ def test_what_is_hidden_is_seen() -> None:
             from cfree.film import save_film
         def late():
             import cfree.verify.world
-            from cfree import _core
+            import cfree._core
     """
     lines = [line.removeprefix("        ") for line in text.splitlines()]
     assert set(imported("\n".join(lines))) == {"cfree.film", "cfree.verify.world", CORE}

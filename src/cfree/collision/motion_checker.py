@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.motion import Motion, Rotation, Translation, motion_between
 from cfree.collision.slide import Slide

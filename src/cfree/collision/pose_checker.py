@@ -15,7 +15,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import InvalidPoseError

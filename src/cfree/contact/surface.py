@@ -20,7 +20,7 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
 from cfree.exact.half_angle import Angle

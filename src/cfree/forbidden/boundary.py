@@ -13,7 +13,7 @@ from collections.abc import Callable
 from functools import cached_property
 from typing import Any
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.collision.pose_checker import PoseChecker

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.kinds import COLOURS, PatchKind

@@ -12,7 +12,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.kind import Kind
 from cfree.errors import IncompleteError, InvariantError

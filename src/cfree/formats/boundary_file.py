@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.errors import FormatError
 from cfree.forbidden.boundary import Boundary

@@ -29,7 +29,7 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, PydanticCustomError
 
-from cfree import _core
+import cfree._core as _core
 from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import Pose

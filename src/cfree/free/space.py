@@ -17,7 +17,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import InvalidPoseError, InvariantError

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree import _core
+import cfree._core as _core
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
 from cfree.scene.scene import robot_radius

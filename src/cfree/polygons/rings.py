@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, Number, to_fraction
 

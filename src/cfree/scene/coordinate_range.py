@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from cfree import _core
+import cfree._core as _core
 
 if TYPE_CHECKING:
     from fractions import Fraction

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree import _core
+import cfree._core as _core
 from cfree.errors import UnsupportedError
 from cfree.scene.coordinate_range import core_shapes
 
