@@ -115,7 +115,7 @@ def test_a_signal_ends_long_work(work: str, name: str) -> None:
     def run(result: Boundary) -> float:
         start = time.process_time()
         with contextlib.suppress(TimeoutError):
-            glue(result) if work == "complex" else result.mesh(0.003)
+            glue(result) if work == "complex" else result.mesh(0.0005)
         return time.process_time() - start
 
     result = boundary(load_scene(ROOT / f"examples/scenes/{name}.json"))

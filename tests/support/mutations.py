@@ -114,7 +114,7 @@ def renamed(rng: random.Random, good: Boundary, code: int, *, of_robot: bool) ->
     shape, old, is_edge = (
         (good.features.robot, i, kind in (2, 4)) if of_robot else (good.features.obstacles, j, kind in (1, 4))
     )
-    names = shape.names[is_edge]
+    names = shape.core.line if is_edge else shape.core.point
     others = [k for k in range(len(shape.previous)) if names[k] != names[old]]
     if is_edge:
         others = [k for k in others if shape.v[k] != shape.w[k]]  # the reference point has no edge

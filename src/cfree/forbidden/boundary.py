@@ -119,7 +119,7 @@ def _computed(
     seconds["total"] = time.perf_counter() - start
     counts = {name: getattr(core.tally, name) for name in COUNTS}
     stats = Stats(patches=len(core.trimmed), trapezoids=len(core.trapezoids.patch), seconds=seconds, **counts)
-    return Boundary.of(scene, features, core, stats)
+    return Boundary._of(scene, features, core, stats)
 
 
 def _restored(

@@ -101,7 +101,7 @@ class BoundaryRecord(Value):
             array.flags.writeable = False
 
     @classmethod
-    def of(cls, scene: Scene, features: SceneFeatures, core: _core.Boundary, stats: Stats) -> Self:
+    def _of(cls, scene: Scene, features: SceneFeatures, core: _core.Boundary, stats: Stats) -> Self:
         """What the core has; arrays are views of its memory."""
         patches, parts = core.patches, core.isolated
         contacts = patches.kind, patches.robot, patches.obstacle
@@ -127,7 +127,7 @@ class BoundaryRecord(Value):
     @property
     def shared(self) -> Self:
         """The same with arrays that are views of the core's memory."""
-        return self.of(self.scene, self.features, self.core, self.stats)
+        return self._of(self.scene, self.features, self.core, self.stats)
 
     @cached_property
     def core_complex(self) -> _core.CellComplex:

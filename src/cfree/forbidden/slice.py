@@ -15,6 +15,8 @@ from cfree.value import Value
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
+else:
+    BaseGeometry = Any  # shapely is imported where it is used
 
 
 class Slice(Value):

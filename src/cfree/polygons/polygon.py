@@ -26,7 +26,10 @@ from cfree.exact.number import ExactPoint, IntPoint, angle
 from cfree.polygons.rings import Points, Removed, read_rings, restored
 
 if TYPE_CHECKING:
-    import shapely
+    from shapely import Geometry as ShapelyGeometry
+    from shapely import Polygon as ShapelyPolygon
+else:
+    ShapelyGeometry = ShapelyPolygon = Any  # shapely is imported where it is used
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -226,7 +229,7 @@ class Polygon:
 
     # other libraries
 
-    def to_shapely(self) -> shapely.Polygon:
+    def to_shapely(self) -> ShapelyPolygon:
         """The same polygon, rounded to doubles."""
         import shapely
 
@@ -234,7 +237,7 @@ class Polygon:
         return shapely.Polygon(outer, holes)
 
     @classmethod
-    def from_shapely(cls, geometry: shapely.Geometry) -> Polygon:
+    def from_shapely(cls, geometry: ShapelyGeometry) -> Polygon:
         """Polygon of a shapely polygon, whose coordinates are the doubles they are; heights are ignored.
 
         Examples
