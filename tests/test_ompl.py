@@ -49,6 +49,7 @@ ROOM = Scene(
 PLANNERS = ["RRTConnect", "RRT", "RRTstar", "PRM", "KPIECE1", "LBKPIECE1"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("planner", PLANNERS)
 @pytest.mark.parametrize("kind", ["linear", "rotation"])
 def test_what_planners_find_is_free(exact: Any, planner: str, kind: str) -> None:
@@ -173,6 +174,7 @@ def test_validity_is_exact(exact: Any) -> None:
         assert valid.isValid(state) == expected
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_even_motions_told_free_are_free(kind: str) -> None:
     rng, told = np.random.default_rng(5), 0

@@ -184,6 +184,7 @@ def test_exact_hulls_unite_to_the_slice(kind: str) -> None:
     assert shapely.union_all(rounded).symmetric_difference(slice_).area < 1e-9
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=60)
 @given(scenes(), poses())
 def test_exact_hulls_and_separating_axes_agree_even_in_contact(scene, pose) -> None:  # type: ignore[no-untyped-def]

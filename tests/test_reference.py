@@ -145,6 +145,7 @@ def test_bounds_hold_where_products_underflow() -> None:
 # --- families of hard scenes ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_core_and_the_reference_agree(family: str) -> None:
     for number in range(8):
@@ -152,6 +153,7 @@ def test_the_core_and_the_reference_agree(family: str) -> None:
         assert ask(random_surface(distinct(FAMILIES[family](rng)), rng), rng, 6) > 100
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", FAMILIES)
 def test_the_core_and_the_reference_agree_where_several_surfaces_meet(family: str) -> None:
     asked: Counter[str] = Counter()
@@ -170,6 +172,7 @@ def small_rings(draw: st.DrawFn) -> Rings:
     return Rings([draw(ring)], draw(st.lists(ring, min_size=1, max_size=2)))
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(small_rings(), st.sampled_from([VERTEX_EDGE, EDGE_VERTEX]), st.integers(0, 1), st.integers(0, 99))
 def test_the_core_and_the_reference_agree_on_small_scenes(rings: Rings, kind: int, chart: int, seed: int) -> None:
@@ -213,6 +216,7 @@ def decisions(surface: Surface, *, mirrored: bool = False) -> list[Any]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", ["lattice", "congruent", "collinear", "tangent", "right_angles", "disturbed"])
 @pytest.mark.parametrize("kind", [VERTEX_EDGE, EDGE_VERTEX])
 def test_images_of_a_scene_are_decided_alike(family: str, kind: int) -> None:
@@ -329,6 +333,7 @@ def roots_of(p: fmpz_poly) -> list[tuple[Angle, tuple[list[int], tuple[int, int]
     return result
 
 
+@pytest.mark.slow
 @settings(max_examples=200)
 @given(polynomials(), polynomials())
 def test_roots_of_polynomials_are_ordered_and_put_into_others(p: fmpz_poly, q: fmpz_poly) -> None:

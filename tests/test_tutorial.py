@@ -12,6 +12,7 @@ from cfree import clearance
 GALLERY = Path(__file__).parents[1] / "examples" / "gallery"
 
 
+@pytest.mark.slow
 def test_the_paper_in_15_minutes(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(GALLERY.parents[1])
     runpy.run_path(str(GALLERY / "plot_paper_in_15_minutes.py"))
@@ -29,6 +30,7 @@ def test_ompl_without_collisions(capsys: pytest.CaptureFixture[str], monkeypatch
     assert "motions, free: True" in said and found["clearance"].least > 0
 
 
+@pytest.mark.slow
 def test_from_start_to_goal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(GALLERY.parents[1])
     found = runpy.run_path(str(GALLERY / "plot_from_start_to_goal.py"))

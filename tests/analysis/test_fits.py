@@ -96,6 +96,7 @@ def random_triangle(rng: np.random.Generator, size: int) -> list[Point]:
             return points if area > 0 else points[::-1]
 
 
+@pytest.mark.slow
 def test_triangles_in_triangles() -> None:
     rng, counts = np.random.default_rng(0), set()
     for _ in range(40):

@@ -137,6 +137,7 @@ def test_a_polygon_is_inside_another_only_without_its_holes() -> None:
         assert inner.core.is_inside(outer.core) == expected, (inner, outer)
 
 
+@pytest.mark.slow
 def test_where_the_nest_opens() -> None:
     scene = load_scene(ROOT / "examples/scenes/nest_swim.json")
     start, goal = scene.start, scene.goal

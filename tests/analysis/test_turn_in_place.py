@@ -50,6 +50,7 @@ def check_by_motions(scene: Scene, interval: AngleInterval, pose: Pose, pole: tu
     assert not is_free(scene, at(before.tau)) and not is_free(scene, at(after.tau))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("own_pole", [True, False])
 def test_sampled_orientations_are_free_exactly_in_the_intervals(kind: str, own_pole: bool) -> None:
@@ -128,6 +129,7 @@ def test_a_boundary_is_asked_for_its_scene() -> None:
     assert turn_in_place(cfree.boundary(scene), Pose(0, 0)) == turn_in_place(scene, Pose(0, 0))
 
 
+@pytest.mark.slow
 def test_arcs_agree_with_their_forms_at_random_orientations() -> None:
     rng = np.random.default_rng(7)
     for _ in range(300):

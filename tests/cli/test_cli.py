@@ -59,6 +59,7 @@ def test_the_version_is_the_packages(run: Run) -> None:
     assert in_a_new_process("--version").stdout == f"cfree {cfree.__version__}\n"
 
 
+@pytest.mark.slow
 def test_help_and_import_are_quick() -> None:
     heavy = {"numpy", "matplotlib", "shapely", "pydantic", "trimesh", "flint", "cfree._core"}
     program = (
@@ -102,6 +103,7 @@ def test_check_describes_the_car_park(run: Run) -> None:
     assert "9,004 before trimming" in text and "licence: MIT" in text and "theta 90 degrees: free" in text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", sorted(SCENES.glob("[!n]*.json")), ids=lambda file: file.stem)
 def test_check_expects_the_patches_there_are(file: Path, run: Run) -> None:
     expected = json.loads(run("check", file, "--json").stdout)["patches"]["total"]
@@ -151,6 +153,7 @@ def test_poses_are_checked_against_workspace_and_bounds(
 # boundary
 
 
+@pytest.mark.slow
 def test_boundary_writes_all_files_and_their_names(run: Run, tmp_path: Path) -> None:
     files = {"-o": "fig9.npz", "--mesh": "fig9.glb", "--picture": "fig9.png"}
     result = run("boundary", FIG9, *(x for option, name in files.items() for x in (option, tmp_path / name)))
@@ -308,6 +311,7 @@ def test_an_interrupt_ends_with_one_line_and_leaves_nothing(tmp_path: Path) -> N
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_bar_is_shown_on_terminals_only() -> None:
     pty = pytest.importorskip("pty")
     leader, follower = pty.openpty()
@@ -362,6 +366,7 @@ def test_verify_refuses_bad_files_with_exit_code_2(run: Run, fig9_boundary: Path
         assert result.stderr.startswith("error: ") and result.stderr.count("\n") == 1
 
 
+@pytest.mark.slow
 def test_a_limit_of_time_or_memory_has_exit_code_3_and_a_marked_file(run: Run, tmp_path: Path) -> None:
     scene, file = SCENES / "benchmr_warehouse.json", tmp_path / "part.npz"
     for limit in (("--max-seconds", "0"), ("--max-memory", "1 MB")):

@@ -85,6 +85,7 @@ def test_the_nearest_miss_is_told_when_asked_for(run: Run, tmp_path: Path) -> No
     assert "nearest miss" not in run("plan", scene).stdout
 
 
+@pytest.mark.slow
 def test_a_proof_is_no_path_to_film_or_to_sample(run: Run, tmp_path: Path) -> None:
     result = run("plan", SWIM, "-o", tmp_path / "way.csv", "--film", tmp_path / "way.gif")
     assert result.exit_code == 1
@@ -102,6 +103,7 @@ def test_start_and_goal_are_given_in_any_form(run: Run, tmp_path: Path) -> None:
     assert data["exact"] == {"start": ["1/2", "0", {"tau": "1"}], "goal": ["1/2", "1/10", {"tau": "1/3"}]}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["way.csv", "way.yaml", "way.geojson"])
 def test_paths_for_other_programs(run: Run, tmp_path: Path, name: str) -> None:
     file = tmp_path / name
@@ -182,6 +184,7 @@ def interrupted(after: float, *arguments: str) -> tuple[int, str]:
     return process.returncode, message
 
 
+@pytest.mark.slow
 def test_an_interrupt_ends_improving_and_keeps_the_path(tmp_path: Path) -> None:
     answer = tmp_path / "way.json"
     code, _ = interrupted(4, "plan", PARKING, "-o", str(answer), "--improve", "60s")
@@ -190,6 +193,7 @@ def test_an_interrupt_ends_improving_and_keeps_the_path(tmp_path: Path) -> None:
     assert isinstance(found, cfree.Path) and found.is_free(cfree.MotionChecker(cfree.load_scene(PARKING)))
 
 
+@pytest.mark.slow
 def test_an_interrupt_while_filming_leaves_no_film(tmp_path: Path) -> None:
     film = tmp_path / "way.gif"
     code, message = interrupted(4, "plan", PARKING, "--film", str(film))

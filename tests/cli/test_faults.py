@@ -49,12 +49,14 @@ def with_fault(raised: str, *arguments: str) -> subprocess.CompletedProcess[str]
 # exit codes
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["cfree --help", f"cfree check {FIG9} --json", f"cfree plan {FIG9} --improve 0"])
 def test_a_closed_pipe_has_the_exit_code_of_its_signal(command: str) -> None:
     answer = shell(f"{command} | true; echo ${{PIPESTATUS[0]}}")
     assert (answer.stdout, answer.stderr) == (f"{128 + signal.SIGPIPE}\n", "")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("raised", "code", "said"),
     [
@@ -74,6 +76,7 @@ def test_only_a_proof_and_a_refutation_end_with_1(raised: str, code: int, said: 
     assert result.returncode == code and said in result.stderr and "\x1b" not in result.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["", "--colour", "simplify", "check", "check a b", "plan --improve", "film -o"])
 def test_usage_errors_end_with_2(command: str) -> None:
     result = shell(f"cfree {command}")
@@ -93,6 +96,7 @@ def test_a_fault_outside_of_a_command_is_no_answer() -> None:
 # files that cannot be written
 
 
+@pytest.mark.slow
 def test_a_full_disk_names_the_file_and_nothing_is_left(tmp_path: Path) -> None:
     for option, name in (("-o", "a.npz"), ("--mesh", "a.glb"), ("--picture", "a.png")):
         (tmp_path / name).symlink_to("/dev/full")
@@ -104,6 +108,7 @@ def test_a_full_disk_names_the_file_and_nothing_is_left(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir()) and Path("/dev/full").is_char_device()
 
 
+@pytest.mark.slow
 def test_a_full_disk_under_the_output_is_no_success() -> None:
     for command in (f"check {FIG9}", f"check {FIG9} --json", "--version"):
         result = shell(f"cfree {command} > /dev/full")

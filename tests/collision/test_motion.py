@@ -87,6 +87,7 @@ def check(scene: Scene, pose: Pose, motion: Motion) -> FirstContact | None:
     return found
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(strategies.scenes(), poses, motions)
 def test_motions_are_free_as_exact_poses_between_all_critical_ones_are(
@@ -217,6 +218,7 @@ def test_motions_are_displacements(pose: Pose, motion: Motion) -> None:
             assert arm[0] ** 2 + arm[1] ** 2 == other[0] ** 2 + other[1] ** 2
 
 
+@pytest.mark.slow
 @given(
     poses,
     st.one_of(motions, st.sampled_from([turning(), turning("-1/5"), turning(1).between("1/3", 1)])),

@@ -88,6 +88,7 @@ def test_degenerate_scenes_and_poses(plain: PlainScene, poses: list[tuple], seed
     assert thrice(checker, rounded) == [oracle(plain, pose) for pose in rounded]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", shapes.KINDS)
 def test_random_scenes(kind: str) -> None:
     plain = shapes.random_scene(3, kind)
@@ -117,6 +118,7 @@ def test_contacts_of_one_pair_and_one_hairline_off(seed: int) -> None:
     assert 0 < sum(answers) < len(answers)
 
 
+@pytest.mark.slow
 def test_what_doubles_are_certain_of_is_true() -> None:
     """Poses 1e-9 to 1e-18 off contact: some certain, some not."""
     rng, certain, uncertain = random.Random(5), 0, 0

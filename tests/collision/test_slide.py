@@ -80,6 +80,7 @@ def verdicts(scene: Scene, pose: Pose, slide: Slide) -> tuple[bool, bool]:
 # --- what a slide is ---
 
 
+@pytest.mark.slow
 @settings(max_examples=150, deadline=None)
 @given(curves, poses, shares, shares, shares)
 def test_parts_are_where_the_whole_is(slide: Slide, pose: Pose, u: Fraction, v: Fraction, w: Fraction) -> None:
@@ -96,6 +97,7 @@ def test_parts_are_where_the_whole_is(slide: Slide, pose: Pose, u: Fraction, v: 
     assert place == Pose(pose.x + x, pose.y + y, {"tau": place.tau})
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(curves, poses)
 def test_samples_length_and_reach(slide: Slide, pose: Pose) -> None:
@@ -151,6 +153,7 @@ def test_a_square_turns_in_corridors_as_wide_as_it(tau: object) -> None:
             assert above[0] == above[1] and below[0] == below[1] and False in (*above, *below)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(strategies.scenes(), poses, curves)
 def test_slides_are_free_where_all_their_poses_are(plain: PlainScene, pose: Pose, slide: Slide) -> None:
@@ -173,6 +176,7 @@ def test_slides_along_contacts_are_free_where_all_their_poses_are(plain: PlainSc
             assert all(is_free(scene, slide.at(pose, F(k, 20))) for k in range(21))
 
 
+@pytest.mark.slow
 def test_slides_along_contacts_in_corridors() -> None:
     """Both answers are met, and contacts are kept."""
     features, found = MotionChecker(TEE).features, []
@@ -201,6 +205,7 @@ def test_a_slide_has_no_first_contact() -> None:
 # --- what verify says ---
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.integers(-9, 9), min_size=1, max_size=7))
 def test_polynomials_are_nowhere_positive(terms: list[int]) -> None:
@@ -215,6 +220,7 @@ def test_polynomials_are_nowhere_positive(terms: list[int]) -> None:
     assert positive(square) is None
 
 
+@pytest.mark.slow
 @settings(max_examples=80, deadline=None)
 @given(curves, poses, st.integers(0, 7))
 def test_boxes_hold_the_sweep(slide: Slide, pose: Pose, k: int) -> None:
@@ -297,6 +303,7 @@ def test_the_reference_point_may_slide_on_bounds() -> None:
 # --- files ---
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(st.lists(curves, max_size=3), poses)
 def test_files_hold_slides_exactly(tmp_path_factory: pytest.TempPathFactory, moves: list[Slide], start: Pose) -> None:
@@ -360,6 +367,7 @@ def test_the_example_of_the_format_page_is_a_slide(request: pytest.FixtureReques
     assert json.loads(motion) == again | {"exact": json.loads(motion)["exact"]}
 
 
+@pytest.mark.slow
 def test_a_path_with_slides_is_of_use_everywhere(tmp_path: FilePath) -> None:
     path = way()
     assert path.goal == Pose(0, 7, "90deg") and path.is_free(MotionChecker(TEE))

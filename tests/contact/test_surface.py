@@ -80,6 +80,7 @@ def test_lemma_1_every_pose_that_fixes_a_point_is_on_its_helix(
     assert rotation_about(P, a).pose(theta) == q
 
 
+@pytest.mark.slow
 @given(points, st.lists(st.tuples(numbers, points), min_size=1, max_size=5), angles)
 def test_remark_2_a_combination_of_vertices_stays_where_it_is_fixed(
     P: tuple[Fraction, Fraction], terms: list[tuple[Fraction, tuple[Fraction, Fraction]]], theta: Angle
@@ -130,6 +131,7 @@ def test_ends_of_rulings_lie_on_helices(shapes: tuple[Shape, Shape], theta: Angl
         assert S.pose(1, theta) == there.pose(theta)
 
 
+@pytest.mark.slow
 @given(pairs, st.tuples(inner, inner))
 def test_remark_3_helices_of_one_vertex_are_congruent(
     shapes: tuple[Shape, Shape], t: tuple[Fraction, Fraction]
@@ -206,6 +208,7 @@ def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon
             contact_segment(A, O, EdgeEdge(2, 3))
 
 
+@pytest.mark.slow
 @given(strategies.convex_polygons(), strategies.convex_polygons(), inner)
 def test_a_patch_ends_where_an_edge_lies_on_an_edge(one: Shape, other: Shape, t: Fraction) -> None:
     A, O = Polygon(*one), Polygon(*other)

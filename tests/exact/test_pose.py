@@ -97,6 +97,7 @@ def test_what_is_no_pose_is_refused_with_its_place(x: object, theta: object, sai
 # properties
 
 
+@pytest.mark.slow
 @given(radians)
 def test_the_replaced_angle_is_within_the_stated_error(theta: float) -> None:
     q = Pose(0, 0, theta)

@@ -51,6 +51,7 @@ def test_all_figures_are_written_in_all_formats(tmp_path: Path) -> None:
     assert all(file.read_bytes().startswith(starts[file.suffix]) for file in files)
 
 
+@pytest.mark.slow
 def test_files_have_the_same_bytes_each_time(tmp_path: Path) -> None:
     first, second = (draw_all(tmp_path / name, only=[5]) for name in "ab")
     assert [file.read_bytes() for file in first] == [file.read_bytes() for file in second]
@@ -80,6 +81,7 @@ def test_the_gallery_shows_all_figures(request: pytest.FixtureRequest) -> None:
 # legibility
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS)
 def test_labels_are_on_the_page_and_do_not_overlap(number: int, drawn: dict[int, Figure]) -> None:
     figure = drawn[number]

@@ -300,6 +300,7 @@ def test_what_is_swept_appears_and_stays(fig9: Boundary) -> None:
     assert heights[swept] == pytest.approx(math.degrees(shots[2].swept.angles[-1] - shots[2].swept.angles[0]))  # type: ignore[union-attr]
 
 
+@pytest.mark.slow
 def test_the_camera_is_smooth_and_stays_in_its_quadrant(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 750, "paper")
     azimuth = np.array([view.azimuth for view, _ in views(Stage(fig9, (160, 90)), shots, 25)])
@@ -308,6 +309,7 @@ def test_the_camera_is_smooth_and_stays_in_its_quadrant(fig9: Boundary) -> None:
     assert np.degrees(np.abs(np.diff(azimuth, 2)).max()) < 0.2
 
 
+@pytest.mark.slow
 def test_a_frame_has_the_papers_colours_and_its_words(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 120, "paper")
     stage = Stage(fig9, (640, 360))
@@ -404,6 +406,7 @@ def run(*arguments: object) -> Any:
     return CliRunner().invoke(app, ["film", *(str(argument) for argument in arguments)])
 
 
+@pytest.mark.slow
 def test_the_command_makes_a_film(tmp_path: Path) -> None:
     file = tmp_path / "film.gif"
     result = run(FIG9, "-o", file, "--seconds", 1, "--fps", 10, "--size", "160x90", "--storyboard", "path")
@@ -443,6 +446,7 @@ def test_bad_input_is_one_line_and_exit_code_2(
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["gif", "mp4"])
 def test_an_interrupt_leaves_no_file(suffix: str, tmp_path: Path) -> None:
     if suffix == "mp4":

@@ -101,6 +101,7 @@ def test_a_gif_is_read_back(tmp_path: FilePath) -> None:
     assert [file.name for file in tmp_path.iterdir()] == ["way.gif"]
 
 
+@pytest.mark.slow
 def test_an_mp4_with_its_configuration_space_is_read_back(five: tuple[Path, Boundary], tmp_path: FilePath) -> None:
     av = pytest.importorskip("av")
     path, found = five
@@ -117,6 +118,7 @@ def interrupt(share: float) -> None:
         raise KeyboardInterrupt
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["way.gif", "way.mp4"])
 def test_an_interrupted_film_leaves_what_was_there(name: str, tmp_path: FilePath) -> None:
     if name.endswith("mp4"):
@@ -155,6 +157,7 @@ def test_other_formats_are_refused(tmp_path: FilePath) -> None:
         cfree.film.film_path(WAY, WALL, tmp_path / "way.avi")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("obstacles", [[], [[(4, 0), (5, 0), (5, 1)]]], ids=["nothing", "a triangle"])
 def test_films_of_full_turns_and_of_empty_scenes(obstacles: list[Any], tmp_path: FilePath) -> None:
     scene = Scene(robot=SQUARE, obstacles=obstacles)

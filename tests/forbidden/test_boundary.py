@@ -133,6 +133,7 @@ def test_widths_of_vertex_patches_over_one_edge_tile_the_circle() -> None:
 # --- laws ---
 
 
+@pytest.mark.slow
 @quick
 @given(strategies.scenes(), st.integers(-9, 9), st.integers(-9, 9))
 def test_moving_all_obstacles_moves_the_slices(plain: PlainScene, dx: int, dy: int) -> None:
@@ -145,6 +146,7 @@ def test_moving_all_obstacles_moves_the_slices(plain: PlainScene, dx: int, dy: i
         assert np.allclose(p.segments + np.array([dx, dy]), q.segments, atol=1e-9)
 
 
+@pytest.mark.slow
 @quick
 @given(strategies.scenes(), st.integers(-9, 9), st.integers(-9, 9))
 def test_moving_the_reference_point_moves_each_slice(plain: PlainScene, dx: int, dy: int) -> None:
@@ -162,6 +164,7 @@ def rotated(shape: Shape) -> Shape:
     return mapped(shape, lambda x, y: (COSINE * x - SINE * y, SINE * x + COSINE * y))
 
 
+@pytest.mark.slow
 @quick
 @given(strategies.scenes())
 def test_turning_the_obstacles_turns_the_space(plain: PlainScene) -> None:
@@ -173,6 +176,7 @@ def test_turning_the_obstacles_turns_the_space(plain: PlainScene) -> None:
     assert np.allclose(areas(before), areas(after, turned_angles))
 
 
+@pytest.mark.slow
 @quick
 @given(strategies.scenes())
 def test_turning_the_robot_shifts_the_orientations(plain: PlainScene) -> None:
@@ -181,6 +185,7 @@ def test_turning_the_robot_shifts_the_orientations(plain: PlainScene) -> None:
     assert np.allclose(lengths(before), lengths(after, [angle - TURN for angle in ANGLES]))
 
 
+@pytest.mark.slow
 @quick
 @given(strategies.scenes(), st.sampled_from([Fraction(1, 3), Fraction(7), Fraction(10**6), Fraction(1, 10**6)]))
 def test_scaling_scales_the_slices(plain: PlainScene, factor: Fraction) -> None:
@@ -308,6 +313,7 @@ def test_tiny_and_huge_coordinates_give_the_same_boundary(scale: float) -> None:
     assert np.allclose(lengths(first), np.divide(lengths(result), scale))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scale", "offset"), [(1.0, 1e6), (1e-6, 1.0), (1.0, -1e9)])
 def test_coordinates_far_from_the_origin_agree(scale: float, offset: float) -> None:
     plain = stars(scale, offset)
@@ -377,6 +383,7 @@ def test_an_exception_in_progress_stops_the_work() -> None:
     assert time.perf_counter() - start < 5
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(os.name != "posix", reason="signals")
 def test_ctrl_c_stops_within_a_second() -> None:
     program = """
@@ -429,6 +436,7 @@ def test_a_limit_after_the_last_patch_leaves_no_isolated_part_out() -> None:
     assert found.trimmed.all() and len(found.isolated.parts.patch) == 40
 
 
+@pytest.mark.slow
 def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
     scene = load_scene(TESTS.parent / "examples/scenes/benchmr_warehouse.json")
     for limit in ({"max_seconds": 0.0}, {"max_memory": 1.0}):

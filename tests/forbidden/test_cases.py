@@ -27,6 +27,7 @@ def angles(name: str) -> list[str]:
     return [at["tau"] for at in case(name)[1].scene.check["slices"]]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_cases_have_the_counts_they_say(name: str) -> None:
     plain, result = case(name)
@@ -34,6 +35,7 @@ def test_cases_have_the_counts_they_say(name: str) -> None:
     assert result.scene.check == {**topology(result), "live_patches": result.stats.live_patches, "slices": slices}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_slices_of_cases_are_exact(name: str) -> None:
     plain, result = case(name)
@@ -47,6 +49,7 @@ def test_slices_of_cases_are_those_of_shapely(name: str) -> None:
     assert not [line for k in range(6) for line in mistakes(plain, result, 0.15 + k)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_cases_elsewhere_have_the_same_topology(name: str) -> None:
     plain, result = case(name)

@@ -64,11 +64,13 @@ def check_places(result: Boundary, cells: CellComplex) -> None:
     assert forwards.min(initial=0.0) > -1e-5 * size and (forwards - length).max(initial=0.0) < 1e-5 * size
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SMALL + CASES, ids=lambda path: path.stem)
 def test_boundaries_are_closed(path: Path) -> None:
     check(boundary(load_scene(path), threads=1))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_boundaries_are_closed(kind: str) -> None:
     for seed in range(12):
@@ -107,6 +109,7 @@ def test_pinched_edges_pair_the_sides_of_free_sectors() -> None:
         assert set(cells.twin[around].tolist()) == set(around.tolist())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("work", "name"), [("complex", "nest_swim"), ("mesh", "benchmr_parking1")])
 def test_a_signal_ends_long_work(work: str, name: str) -> None:
     def stop(*_: object) -> None:

@@ -88,6 +88,7 @@ def test_convex_pieces_tile(name: str) -> None:
         assert all(oracles.orient(ring[k - 2], ring[k - 1], ring[k]) >= 0 for k in range(len(ring)))
 
 
+@pytest.mark.slow
 @settings(deadline=None)
 @given(strategies.polygons())
 def test_convex_pieces_tile_any_polygon(shape: strategies.Shape) -> None:
@@ -188,6 +189,7 @@ def without_trapezoid(result: Boundary, k: int) -> Boundary:
     return with_parts(result, trapezoids=rows(result.trapezoids, [*range(k), *range(k + 1, count)]))
 
 
+@pytest.mark.slow
 def test_every_trapezoid_is_missed() -> None:
     plain = PlainScene([box(0, 0, 1, 2)], [box(0, 0, 3, 1), box(3, 0, 4, 4)])
     result = boundary(scene_of(plain), threads=1)

@@ -216,6 +216,7 @@ def test_bounds_and_workspaces_fit_exactly_too() -> None:
     assert kinds(found) == ["segment"] * 4
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["axis_parallel", "integer_grid", "touching", "bounds", "workspace", "overlapping"])
 def test_parts_of_random_scenes_are_isolated(kind: str) -> None:
     for seed in range(20):

@@ -90,6 +90,7 @@ def check_fans(corners: Any) -> None:
     assert set(fans.values()) <= {1}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SMALL + CASES, ids=lambda path: path.stem)
 def test_meshes_are_closed_and_close(path: Path) -> None:
     result = boundary(load_scene(path), threads=1)
@@ -104,6 +105,7 @@ def test_meshes_are_closed_and_close(path: Path) -> None:
         check_error(mesh, result)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", shapes.KINDS)
 def test_random_meshes_are_closed_and_close(kind: str) -> None:
     for seed in range(4):
@@ -339,6 +341,7 @@ def test_areas_of_edge_vertex_patches_are_those_of_theory(triangles: Boundary) -
 # any scene
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["nonconvex", "holed", "overlapping", "several_robots", "bounds", "workspace"])
 def test_triangles_lie_on_the_boundary_and_face_the_free_side(kind: str) -> None:
     plain = shapes.random_scene(3, kind)

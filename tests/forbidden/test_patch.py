@@ -46,6 +46,7 @@ def test_patches_of_two_triangles_name_every_pair_once() -> None:
         patches[18]
 
 
+@pytest.mark.slow
 def test_surfaces_are_those_of_the_features_named() -> None:
     rng = random.Random(1)
     for result in results():
@@ -97,6 +98,7 @@ def inside(result: Boundary, k: int, rng: random.Random) -> Fraction:
     return lo + (hi - lo) * rng.randint(1, 99) / 100
 
 
+@pytest.mark.slow
 def test_curves_of_trapezoids_are_where_the_surfaces_named_meet() -> None:
     rng = random.Random(2)
     for result in results():

@@ -42,6 +42,7 @@ def test_a_unit_square_about_a_unit_square_is_an_octagon_or_a_square() -> None:
     assert np.allclose(np.hypot(*(octagon.segments[:, 1] - octagon.segments[:, 0]).T), 1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_slices_agree_with_united_sums_of_pieces(kind: str) -> None:
     for seed in range(30):
@@ -52,6 +53,7 @@ def test_slices_agree_with_united_sums_of_pieces(kind: str) -> None:
         assert not wrong, (kind, seed, wrong)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_slices_of_the_shipped_scenes_agree(path: Path) -> None:
     scene = load_scene(path)
@@ -61,6 +63,7 @@ def test_slices_of_the_shipped_scenes_agree(path: Path) -> None:
     assert not wrong
 
 
+@pytest.mark.slow
 @thorough
 @given(
     strategies.scenes(),
@@ -74,6 +77,7 @@ def test_slices_of_degenerate_scenes_agree(plain, bounds, workspace, angles) -> 
     assert not [line for angle in angles for line in mistakes(plain, result, angle)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("angle", ["0deg", "90deg", "180deg", "270deg", math.pi, 3 * math.pi / 2, {"tau": "inf"}])
 def test_slices_at_right_angles_are_those_just_after(angle) -> None:
     for kind in ("convex", "touching", "axis_parallel", "integer_grid", "bounds", "workspace"):
@@ -92,6 +96,7 @@ def test_slices_at_right_angles_keep_their_digits() -> None:
     assert np.abs(now.segments - after.segments).max() < 2e-6
 
 
+@pytest.mark.slow
 @thorough
 @given(strategies.scenes(), st.fractions(-1, 1, max_denominator=9), st.booleans())
 def test_segments_are_free_and_forbidden_on_their_left_exactly(plain: PlainScene, tau: Fraction, half: bool) -> None:
@@ -141,6 +146,7 @@ def contact_of(patch: Patch) -> Contact:
     return Contact("v-e" if patch.kind == "bound" else patch.kind, patch.robot, patch.obstacle)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_middles_of_segments_touch_and_do_not_overlap(kind: str) -> None:
     for seed in range(3):

@@ -234,6 +234,7 @@ def test_curves_in_the_wrong_order_are_refused(saved: Path, tmp_path: Path) -> N
     assert "trapezoid 5 does not fit" in refused(changed(saved, tmp_path / "wrong.npz", lower=lower, upper=upper))
 
 
+@pytest.mark.slow
 def test_files_with_flipped_bits_and_right_digests_end(tmp_path: Path) -> None:
     worker = Worker(fuzz_files.used, 60.0)
     came = Counter(worker.ask(number)[1] for number in range(60))

@@ -213,6 +213,7 @@ def test_broken_files_get_one_clear_message(text: str | bytes, expected: str, tm
     assert expected in found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "text",
     [
@@ -239,6 +240,7 @@ def test_missing_files_and_directories_are_refused(tmp_path: Path) -> None:
             load_scene(path)
 
 
+@pytest.mark.slow
 def test_mutated_files_raise_format_errors_only(tmp_path: Path) -> None:
     rng = random.Random(5)
     seeds = {

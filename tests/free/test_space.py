@@ -46,6 +46,7 @@ def check_against_flood(plain: PlainScene, space: FreeSpace, steps: int) -> int:
     return len(np.unique(found.possible))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_cells_are_those_of_a_flood(kind: str) -> None:
     for seed in range(3):
@@ -53,6 +54,7 @@ def test_cells_are_those_of_a_flood(kind: str) -> None:
         check_against_flood(plain, space_of(plain), 90)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SMALL, ids=lambda path: path.stem)
 def test_cells_of_examples_are_those_of_a_flood(path: Path) -> None:
     scene = load_scene(path)
@@ -201,6 +203,7 @@ def test_largest_discs_are_in_their_cells_and_have_that_room() -> None:
             assert not oracles.overlaps(plain.robot, plain.obstacles, (x, y, pose.theta))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["benchmr_parking1", "nest_shirts", "flat"])
 def test_many_poses_are_in_the_cells_that_each_of_them_is_in(name: str) -> None:
     space = free_space(boundary(load_scene(ROOT / f"examples/scenes/{name}.json")))

@@ -100,6 +100,7 @@ def test_e_v_surfaces_are_not_developable() -> None:
 # areas of patches
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("w", [0.3, 1.0, 6.0])
 @pytest.mark.parametrize(("A", "O"), [(TRIANGLE, SQUARE), (SQUARE, TRIANGLE), (FAR, SQUARE)])
 def test_areas_of_patches_are_integrals_of_the_area_element(A: Polygon, O: Polygon, w: float) -> None:
@@ -152,6 +153,7 @@ def test_trapezoids_of_one_convex_pair_add_up_to_the_patches(w: float) -> None:
         np.testing.assert_allclose(parts, whole, rtol=1e-10)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("w", [1e-3, 1.0])
 @pytest.mark.parametrize("name", SCENES)
 def test_more_nodes_change_nothing(name: str, w: float, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -69,6 +69,7 @@ robots = st.one_of(
 )
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(robots, robots, st.tuples(st.integers(-3, 0), st.integers(-3, 0)))
 def test_patches_are_congruent_just_if_an_isometry_is_found(one: Shape, other: Shape, by: tuple[int, int]) -> None:
@@ -108,6 +109,7 @@ def test_equal_surfaces_can_have_different_patches() -> None:
             assert (VertexEdge(2, 0) in found) == expected
 
 
+@pytest.mark.slow
 @given(strategies.polygons(), strategies.polygons())
 def test_classes_of_surfaces_are_unions_of_those_of_patches(one: Shape, other: Shape) -> None:
     A, O = Polygon(*one), Polygon(*other)
@@ -129,6 +131,7 @@ def test_remark_3_helices_of_one_vertex_are_of_one_class(one: Shape, other: Shap
         assert len({classes[VertexVertex(i, j)] for j in range(len(O))}) == 1
 
 
+@pytest.mark.slow
 @given(strategies.polygons(), strategies.half_tangents(), strategies.half_tangents())
 def test_classes_do_not_change_when_the_scene_is_turned(
     shape: Shape, tau: Fraction | None, other: Fraction | None

@@ -122,6 +122,7 @@ def is_zero(expression: sympy.Expr) -> bool:
     return bool(sympy.simplify(sympy.expand(expression)) == 0)
 
 
+@pytest.mark.slow
 def test_lemma_2_symbolically() -> None:
     forms, s = symbolic("e-v")
     E, F, v2, w = forms["E"], s["ax"] * s["ey"] - s["ay"] * s["ex"], forms["v2"], s["w"]

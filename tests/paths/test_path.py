@@ -32,6 +32,7 @@ MOVES = [Translation((2, "1/3")), Rotation((2, 1), "-90deg"), Rotation((0, 0), "
 WAY = Path(Pose(0, 0), MOVES, "m", "map", SQUARE)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(paths)
 def test_files_hold_paths_exactly(tmp_path_factory: pytest.TempPathFactory, path: Path) -> None:
@@ -142,6 +143,7 @@ def test_exports_for_others(tmp_path: FilePath) -> None:
         save(Path(Pose(0, 0), MOVES), tmp_path / "way.json")
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(paths, st.text(st.characters(exclude_categories=["Cs"]), max_size=6))
 def test_yaml_is_the_message_of_ros(tmp_path_factory: pytest.TempPathFactory, path: Path, frame: str) -> None:
@@ -175,6 +177,7 @@ def test_tiny_numbers_are_numbers_in_yaml(tmp_path: FilePath) -> None:
 RING = Polygon([(-1, -1), (2, -1), (2, 1), (-1, 1)], [[("-0.5", "-0.5"), ("0.5", "-0.5"), ("0.5", "0.5")]])
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(paths, st.sampled_from([[RING], [[(0, 0), (3, 0), (0, 1)]], [RING, [(5, 0), (6, 0), (6, 1)]]]))
 def test_geojson_has_the_way_and_the_outlines(

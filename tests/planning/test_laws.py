@@ -24,6 +24,7 @@ HARD = [  # exact fits and hairs, turned by long rationals and far away; the las
 ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("family", "number"), HARD)
 def test_hard_questions_have_the_same_answer_in_other_words(family: str, number: int) -> None:
     """The known one if there is; verified, and replayed from its decimals."""
@@ -31,6 +32,7 @@ def test_hard_questions_have_the_same_answer_in_other_words(family: str, number:
     assert outcome.verdicts and not outcome.faults, outcome.faults
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("family", fuzz.KINDS)
 def test_random_questions_have_the_same_answer_in_other_words(family: str) -> None:
     number = next(number for number in range(10) if question(family, number))

@@ -105,6 +105,7 @@ def gap(clearance: Fraction) -> Case:
 FAMILIES = {"corner": turned_corner, "slot": slot, "gap": gap, "channel": channel, "peg": peg}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FAMILIES)
 @pytest.mark.parametrize("clearance", [*CLEARANCES, Fraction(0)], ids=lambda c: f"{float(c):g}")
 def test_what_fits_gets_through(name: str, clearance: Fraction) -> None:
@@ -134,6 +135,7 @@ def test_a_rectangle_round_an_upright_corner(sign: int) -> None:
         assert isinstance(found, Path if sign > 0 else Separated), digits
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("size", "offset"),
     [(Fraction(1, 10**120), 0), (Fraction(10) ** 120, 0), (Fraction(1, 3**40), 0), (Fraction(1), 10**9)],
@@ -208,6 +210,7 @@ def replaced(scene: Scene, **parts: Any) -> Scene:
     return Scene(**{name: getattr(scene, name) for name in names} | parts)
 
 
+@pytest.mark.slow
 def test_fewer_obstacles_never_separate() -> None:
     for scene in random_questions(12):
         if reachable(scene):
@@ -216,12 +219,14 @@ def test_fewer_obstacles_never_separate() -> None:
                 assert reachable(replaced(scene, obstacles=rest))
 
 
+@pytest.mark.slow
 def test_the_way_back_exists_as_the_way_there_does() -> None:
     for scene in random_questions(12):
         assert scene.start and scene.goal
         assert isinstance(plan(scene, scene.goal, scene.start), Path) == reachable(scene)
 
 
+@pytest.mark.slow
 def test_moving_everything_changes_nothing() -> None:
     turn = Pose(3, "-7/2", {"tau": "1/3"})
     for scene in random_questions(12):
@@ -242,6 +247,7 @@ def carried(turn: Pose, shape: Shape) -> Polygon:
     return Polygon(turn.apply_exact(outer), [turn.apply_exact(hole) for hole in holes])
 
 
+@pytest.mark.slow
 def test_a_smaller_robot_is_never_separated() -> None:
     """Of triangles around their reference point, smaller ones are inside."""
     for seed in range(8):
@@ -275,6 +281,7 @@ def test_a_forbidden_pose_is_named() -> None:
         plan(scene, Pose(5, 5))
 
 
+@pytest.mark.slow
 def test_many_queries_have_the_answers_of_single_ones() -> None:
     scene = load_scene(ROOT / "examples/scenes/flat.json")
     space = free_space(boundary(scene))
@@ -313,6 +320,7 @@ def test_a_forbidden_pose_is_forbidden_to_itself_too() -> None:
 T = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("start", [Pose(-5, 1), Pose(0, 1), Pose(0, 5, "180deg")])
 @pytest.mark.parametrize("goal", [Pose(5, 1, "90deg"), Pose(0, 7), Pose(0, "1.5", "45deg")])
 def test_a_square_turns_in_a_junction_of_corridors_as_wide_as_it(start: Pose, goal: Pose) -> None:
@@ -343,6 +351,7 @@ def feet_on_walls() -> Scene:
     return Scene(robot=feet, obstacles=walls)
 
 
+@pytest.mark.slow
 def test_three_feet_slide_on_three_walls_and_off_them() -> None:
     scene, middle = feet_on_walls(), Pose(-4, 0)
     checker = MotionChecker(scene)
@@ -394,6 +403,7 @@ def test_between_two_poses_is_one_motion() -> None:
     assert half.pole == (1, 0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_every_example_has_an_answer_that_verifies(path: FilePath) -> None:
     scene = load_scene(path)

@@ -120,6 +120,7 @@ def walled(kind: str, seed: int) -> FreeSpace:
     return space_of(plain._replace(obstacles=[*plain.obstacles, frame]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_cells_that_differ_are_separated(kind: str) -> None:
     rng = random.Random(kind)
@@ -148,6 +149,7 @@ def test_the_second_proof_is_quick() -> None:
     assert list(insets._known.values()) == [kept]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "obstacles"), [("nest_swim", (0, 26)), ("street_Berlin", (-1, 0, 1))])
 def test_real_scenes_that_are_not_connected(name: str, obstacles: tuple[int, ...], tmp_path: Path) -> None:
     scene = load_scene(ROOT / f"examples/scenes/{name}.json")

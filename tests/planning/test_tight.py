@@ -64,6 +64,7 @@ def slot(gap: Fraction | int, tau: Fraction, offset: int, reference: int = 0) ->
 # --- in one cell ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k, offset, tau", [(1, 0, F(0)), (42, 10**9, LONG), (100, 0, F(0)), (300, 0, F(1, 3))])
 def test_a_rectangle_turns_in_a_room_hardly_wider_than_its_diagonal(k: int, offset: int, tau: Fraction) -> None:
     side = 5 * (1 + F(1, 2**k))
@@ -87,6 +88,7 @@ def test_a_slot_hardly_wider_than_a_rod_can_be_left(k: int) -> None:
 # --- exact fits ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("offset", [0, 10**9])
 @pytest.mark.parametrize("tau", TURNS)
 def test_a_square_goes_through_a_slot_as_wide_as_it_however_both_are_turned(tau: Fraction, offset: int) -> None:
@@ -96,6 +98,7 @@ def test_a_square_goes_through_a_slot_as_wide_as_it_however_both_are_turned(tau:
     assert answered(scene, posed("3/2", 0, 0, tau, offset), ends[1]) == "path"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("reference", [1, 80, 1000])
 def test_the_reference_point_does_not_matter(reference: int) -> None:
     scene = slot(1, LONG, 0, reference)
@@ -113,6 +116,7 @@ def test_orientations_in_trapezoids_thinner_than_doubles_tell(k: int) -> None:
     assert answered(scene, *ends) == "path"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [30, 170, 300])
 def test_a_slot_narrower_by_however_little_is_closed(k: int) -> None:
     scene = slot(1 - F(1, 2**k), F(1, 3), 0)
@@ -197,6 +201,7 @@ def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
         assert isinstance(plan(scene, start, goal, improve=0), Path)
 
 
+@pytest.mark.slow
 def test_slides_keep_no_vertex_of_the_robot_on_the_bounds() -> None:
     """Though one is at the reference point, which alone is kept in them, and an obstacle's edge is on their line."""
     turn = F(46940192103, 183994963916)

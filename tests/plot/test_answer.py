@@ -56,6 +56,7 @@ def artists(ax: Any) -> dict[str, Any]:
     return {artist.get_label(): artist for artist in found if not artist.get_label().startswith("_")}
 
 
+@pytest.mark.slow
 def test_the_examples_of_the_documentation_draw_what_it_shows(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: FilePath
 ) -> None:
@@ -141,6 +142,7 @@ def test_a_path_that_is_not_free_is_refused(car_park: Boundary) -> None:
             draw(path, car_park.scene)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", ["1e-9", "1", "1e9"])
 def test_pictures_are_alike_in_any_unit(size: str) -> None:
     n = cfree.exact.number.to_fraction(size)
@@ -158,6 +160,7 @@ def test_pictures_are_alike_in_any_unit(size: str) -> None:
     assert len(artists(plane)["ghosts"].get_paths()) == 6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [Path(Pose(0, 0), []), Path(Pose(0, 0), rotations((0, 0), "720deg"))])
 @pytest.mark.parametrize("obstacles", [[], [[(4, 0), (5, 0), (5, 1)]]], ids=["nothing", "a triangle"])
 def test_paths_that_go_nowhere_and_empty_scenes_are_drawn(path: Path, obstacles: list[Any], tmp_path: FilePath) -> None:
@@ -166,6 +169,7 @@ def test_paths_that_go_nowhere_and_empty_scenes_are_drawn(path: Path, obstacles:
     assert ("clearance" in picture(path, scene).texts[1].get_text()) == bool(obstacles)
 
 
+@pytest.mark.slow
 def test_a_path_of_500_motions_is_drawn() -> None:
     random = np.random.default_rng(5)
     moves: list[Any] = []
@@ -178,6 +182,7 @@ def test_a_path_of_500_motions_is_drawn() -> None:
     plot_path(track.path, scene).figure.canvas.draw()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["five_convex", "comb_hook"])
 def test_found_paths_are_drawn_in_every_format(name: str, tmp_path: FilePath) -> None:
     scene = load_scene(SCENES / f"{name}.json")
@@ -219,6 +224,7 @@ def test_theta_is_unrolled_beyond_full_turns() -> None:
     assert all(((faces > low) & (faces < low + 90)).any() for low in range(290, 720, 90))
 
 
+@pytest.mark.slow
 def test_patches_far_from_the_path_are_left_out(car_park: Boundary, parking: Path) -> None:
     ax = plot_path_space(parking, car_park)
     pieces = painting_of(ax)._pieces
@@ -339,6 +345,7 @@ def test_separations_by_bounds_and_workspace_are_marked() -> None:
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 def test_names_that_look_like_formulas_or_control_characters_are_shown_as_written(tmp_path: FilePath) -> None:
     name = "$\\bad{$\x1b"
     box = [(3, -9), (5, -9), (5, 9), (3, 9)]

@@ -44,6 +44,7 @@ def pixels(figure: Figure) -> np.ndarray:
 # the boundary in three dimensions
 
 
+@pytest.mark.slow
 def test_axes_are_labelled_and_the_legend_names_every_colour(fig9: Boundary) -> None:
     ax = plot_boundary(fig9)
     ax.figure.canvas.draw()
@@ -53,6 +54,7 @@ def test_axes_are_labelled_and_the_legend_names_every_colour(fig9: Boundary) -> 
     assert names == ["v-e patch", "e-v patch", "v-v helix", "e-e line", "bounds", "section at 360°"]
 
 
+@pytest.mark.slow
 def test_the_papers_colours_are_seen(fig9: Boundary) -> None:
     ax = plot_boundary(fig9)
     ax.get_legend().remove()
@@ -99,6 +101,7 @@ def test_pieces_of_one_convex_pair_are_those_of_the_paper() -> None:
     assert heights == pytest.approx(2 * np.degrees(2 * np.pi - angles).sum(), rel=1e-9)
 
 
+@pytest.mark.slow
 def test_the_free_side_is_in_front_and_the_forbidden_side_a_ghost(fig9: Boundary) -> None:
     ax = plot_boundary(fig9)
     ax.figure.canvas.draw()
@@ -107,6 +110,7 @@ def test_the_free_side_is_in_front_and_the_forbidden_side_a_ghost(fig9: Boundary
     assert {depth_sort.GHOST, depth_sort.GLASS, 1.0} <= set(np.round(alpha, 12))
 
 
+@pytest.mark.slow
 def test_depth_is_sorted_again_when_the_view_turns(fig9: Boundary) -> None:
     ax = plot_boundary(fig9)
     ax.figure.canvas.draw()
@@ -157,6 +161,7 @@ def test_holes_are_seen_through() -> None:
 # everything at once
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["five_convex", "degenerate_no_obstacles", "degenerate_own_hole", "degenerate_workspace"]
 )
@@ -184,6 +189,7 @@ def test_unknown_formats_are_refused(fig9: Boundary, tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_no_global_state_of_pyplot_is_touched() -> None:
     program = (
         "import sys, cfree\n"
@@ -228,6 +234,7 @@ def legend_of(ax: Any) -> list[str]:
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "file",
     [

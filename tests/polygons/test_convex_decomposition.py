@@ -98,6 +98,7 @@ def test_pieces_are_convex_and_cover_the_polygon(shape: Shape) -> None:
     check(Polygon(*shape))
 
 
+@pytest.mark.slow
 @given(strategies.polygons(), st.tuples(strategies.fractions(), strategies.fractions()))
 def test_a_point_is_in_the_polygon_exactly_if_it_is_in_a_piece(shape: Shape, point: tuple[Fraction, Fraction]) -> None:
     polygon = Polygon(*shape)

@@ -42,6 +42,7 @@ def tau_of(chart: int, local: Fraction) -> Fraction | None:
 # the net is the surface
 
 
+@pytest.mark.slow
 @given(pairs, ts, ts, intervals, st.sampled_from([0, 1]), st.data())
 def test_nets_evaluate_to_the_surface_exactly(
     shapes: tuple[Shape, Shape],
@@ -82,6 +83,7 @@ def test_patches_cover_what_is_inside_phi_and_nothing_else(
         assert min(patch.weights) > 0
 
 
+@pytest.mark.slow
 @given(pairs, intervals, st.data())
 def test_corners_are_points_and_rows_are_tangent(
     shapes: tuple[Shape, Shape], ends: tuple[Fraction, Fraction], data: st.DataObject

@@ -108,6 +108,7 @@ def test_contacts_hold_with_equality(
         assert between(placed(q, a[i]), placed(q, a[int(A.next[i])]), t) == b[j]
 
 
+@pytest.mark.slow
 @given(pairs, taus)
 def test_a_vertex_stays_at_a_vertex_with_equality(shapes: tuple[Shape, Shape], tau: Fraction | None) -> None:
     A, O = polygons(shapes)
@@ -336,6 +337,7 @@ C.point("1/3"), C.locate("1/3"), C(0.5), C.t_range
 # e-e
 
 
+@pytest.mark.slow
 @given(pairs)
 def test_exact_limits_of_segments_are_those_in_doubles(shapes: tuple[Shape, Shape]) -> None:
     A, O = polygons(shapes)
@@ -371,6 +373,7 @@ def test_a_segment_ends_at_an_irrational_t() -> None:
 # doubles
 
 
+@pytest.mark.slow
 @given(pairs, ts, taus, st.data())
 def test_doubles_agree_with_fractions(
     shapes: tuple[Shape, Shape], t: Fraction, tau: Fraction | None, data: st.DataObject

@@ -74,6 +74,7 @@ def test_meshes_far_away_are_those_near_by(offset) -> None:
         space(OFFSETS[3], (0, 0)).boundary.mesh(0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("offset", "point"), AWAY)
 def test_poses_are_located_and_paths_found_anywhere(offset, point) -> None:
     far, here = space(offset, point), near()

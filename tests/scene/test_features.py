@@ -54,6 +54,7 @@ def test_equal_features_and_no_others_share_an_identity(plain: PlainScene) -> No
                 assert (core.line[k] == core.line[m]) == on_line
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [Fraction(1), Fraction(1, 3 * 2**70)])
 @pytest.mark.parametrize("offset", [Fraction(0), Fraction(10**9), Fraction(10**30, 7)])
 @brief

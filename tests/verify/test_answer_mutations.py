@@ -21,6 +21,7 @@ from answer_mutations import (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mutate", [*OF_PATHS, *OF_SLIDES, *OF_SEPARATIONS], ids=lambda mutate: mutate.__name__)
 def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
     """That what is verified is true, by the core, is asserted on the way."""

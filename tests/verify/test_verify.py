@@ -57,6 +57,7 @@ def verified(scene: Scene, **options: object) -> cfree.verify.Verification:
 # --- what cfree computes ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", [*SMALL, *CASES], ids=lambda path: path.stem)
 def test_every_small_scene_verifies(path: Path) -> None:
     """Euler numbers are those of the core's cell complex."""
@@ -67,17 +68,20 @@ def test_every_small_scene_verifies(path: Path) -> None:
     assert list(result.euler) == sorted(good.complex.euler.tolist())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_random_scenes_verify(kind: str) -> None:
     assert not verified(scene_of(random_scene(0, kind)), slices=2).findings
 
 
+@pytest.mark.slow
 @given(strategies.scenes())
 @settings(max_examples=25)
 def test_small_integer_scenes_verify(plain: PlainScene) -> None:
     assert not verified(scene_of(plain), slices=2).findings
 
 
+@pytest.mark.slow
 def test_a_sample_of_the_warehouse_verifies() -> None:
     result = verified(load_scene(SCENES / "benchmr_warehouse.json"), sample=400, slices=1)
     assert not result.findings
@@ -87,6 +91,7 @@ def test_a_sample_of_the_warehouse_verifies() -> None:
     assert result.checks[1].extent.startswith("400 of ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_euler_numbers_of_random_scenes_are_those_of_the_cell_complex(kind: str) -> None:
     for seed in range(100, 108):
@@ -104,6 +109,7 @@ def flat(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 def test_progress_is_reported(flat: Path) -> None:
     shares: list[float] = []
     one, two = cfree.verify.boundary(flat), cfree.verify.boundary(flat, progress=shares.append)
@@ -111,6 +117,7 @@ def test_progress_is_reported(flat: Path) -> None:
     assert shares == sorted(shares) and shares[-1] == 1 and len(shares) > 20
 
 
+@pytest.mark.slow
 def test_the_core_reads_the_scene_and_nothing_else(flat: Path) -> None:
     program = f"{READING_ONLY}\nimport cfree.verify\nprint(cfree.verify.boundary({str(flat)!r}, slices=1).verified)"
     done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
@@ -143,6 +150,7 @@ def test_bad_arguments_and_files_are_refused(flat: Path) -> None:
         cfree.verify.boundary(FLAT)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["triangle_pair", "square_pair", "l_in_u"])
 def test_a_coordinate_that_changes_a_little_is_detected(name: str) -> None:
     good = boundary(load_scene(TESTS / "cases" / f"{name}.json"))

@@ -31,6 +31,7 @@ def good(file: str) -> Boundary:
     return boundary(load_scene(ROOT / file), threads=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mutate", OF_TRAPEZOIDS, ids=lambda mutate: mutate.__name__)
 def test_one_wrong_thing_is_detected(mutate: Mutation) -> None:
     tried = 0
@@ -42,6 +43,7 @@ def test_one_wrong_thing_is_detected(mutate: Mutation) -> None:
     assert tried >= 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mutate", OF_ISOLATED_PARTS, ids=lambda mutate: mutate.__name__)
 def test_a_wrong_isolated_part_is_detected(mutate: Mutation) -> None:
     tried = 0
