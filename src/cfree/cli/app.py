@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
-from cfree.cli.files import bar, boundary_of, check_outputs, is_archive, planner_of
+from cfree.cli.files import bar, boundary_of, check_outputs, planner_of
 from cfree.cli.options import (
     JsonOption,
     MemoryOption,
@@ -22,6 +22,7 @@ from cfree.cli.options import (
 )
 from cfree.cli.terminal import print_json, printable
 from cfree.cli.values import read_angle, read_numbers, read_objective, read_pixels, read_pose, read_seconds, read_size
+from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary

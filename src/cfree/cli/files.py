@@ -10,6 +10,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cfree.formats.archive import is_archive
+
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
     from cfree.planning.planner import Planner
@@ -59,15 +61,6 @@ def bar(name: str) -> Iterator[Callable[[float], object] | None]:
     with Progress(console=Console(stderr=True), transient=True) as shown:
         task = shown.add_task(name, total=None)
         yield lambda share: shown.update(task, completed=share, total=1.0)
-
-
-def is_archive(path: Path) -> bool:
-    """Does the file begin as a NumPy archive does? No scene does."""
-    try:
-        with path.open("rb") as file:
-            return file.read(2) == b"PK"
-    except OSError:
-        return False
 
 
 _CHECKS = {  # of the names of files

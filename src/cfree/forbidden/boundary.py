@@ -158,7 +158,7 @@ class Boundary(BoundaryRecord):
     trimmed : (P,) bool
         Which patches have been trimmed: all of them, unless a limit of time or memory stopped the computation.
     patch_kind : (P,) uint8
-        1 v-e, 2 e-v, 3 the wall of the bounds.
+        1 v-e, 2 e-v, 3 bounds; see `PatchKind`.
     ruled : (P, 8) float64
         Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch.
     """

@@ -55,24 +55,7 @@ class Stats:
 
 
 class BoundaryRecord(Value):
-    """The trimmed patches of a scene.
-
-    Attributes
-    ----------
-    scene : Scene
-    trapezoids : Trapezoids
-        The trimmed patches, as arrays.
-    isolated : IsolatedParts
-        Free poses that no trapezoid reaches: curves, segments at one orientation, and points, where the robot fits
-        exactly.
-    stats : Stats
-    trimmed : (P,) bool
-        Which patches have been trimmed: all of them, unless a limit of time or memory stopped the computation.
-    patch_kind : (P,) uint8
-        1 v-e, 2 e-v, 3 the wall of the bounds.
-    ruled : (P, 8) float64
-        Coefficients p, q, a, g of ``S(t, phi) = p + t q - R(phi) (a + t g)`` for each patch.
-    """
+    """The trimmed patches of a scene; `cfree.forbidden.boundary.Boundary` lists the attributes."""
 
     def __init__(
         self,

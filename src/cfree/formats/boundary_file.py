@@ -103,7 +103,17 @@ def load_space(path: str | os.PathLike[str]) -> FreeSpace:
         If the file is missing, truncated, not of this format and version, or of a boundary without its cells.
     """
     name = os.fspath(path)
+    return _space(name, *_load(name))
+
+
+def load_archive(path: str | os.PathLike[str]) -> Boundary | FreeSpace:
+    """Whichever of the two is in the file."""
+    name = os.fspath(path)
     boundary, arrays = _load(name)
+    return _space(name, boundary, arrays) if _cells(arrays) else boundary
+
+
+def _space(name: str, boundary: Boundary, arrays: Mapping[str, NDArray[Any]]) -> FreeSpace:
     columns = _cells(arrays)
     wrong = _cells_misfit(boundary, **columns) if columns else "no cells are in it"
     if not wrong:
@@ -113,12 +123,6 @@ def load_space(path: str | os.PathLike[str]) -> FreeSpace:
             return space
         wrong = "cells_component does not fit the rest"
     raise FormatError(f"{name}: {wrong}; make it again with `cfree.save`", path=name)
-
-
-def load_archive(path: str | os.PathLike[str]) -> Boundary | FreeSpace:
-    """Whichever of the two is in the file."""
-    boundary, arrays = _load(os.fspath(path))
-    return load_space(path) if _cells(arrays) else boundary
 
 
 def _cells(arrays: Mapping[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:

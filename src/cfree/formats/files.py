@@ -13,6 +13,7 @@ from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.mesh import Mesh
 from cfree.forbidden.slice import Slice
 from cfree.formats.answer_file import save_path, save_separation
+from cfree.formats.archive import is_archive
 from cfree.formats.boundary_file import load_archive, save_boundary, save_space
 from cfree.formats.findings import Findings, read_text
 from cfree.formats.json_text import read_json
@@ -23,8 +24,6 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
-
-ARCHIVE = b"PK\x03\x04"  # how a file of a boundary begins
 
 
 @checked
@@ -101,7 +100,7 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Sep
         If the file cannot be read: place, value and remedy of every fault, ``file:line:column`` first.
     """
     with collection_paused():
-        if _starts(path) == ARCHIVE:
+        if is_archive(path):
             return load_archive(path)
         findings = Findings(fspath(path), read_text(FilePath(path)))
         if '"answer"' in findings.text:
@@ -111,11 +110,3 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Sep
             if isinstance(data, Mapping) and "answer" in data:
                 return answer_from_json(findings, data).answer
         return scene_from(findings)
-
-
-def _starts(path: str | PathLike[str]) -> bytes:
-    try:
-        with open(path, "rb") as file:
-            return file.read(len(ARCHIVE))
-    except OSError:
-        return b""  # reading it says what is wrong

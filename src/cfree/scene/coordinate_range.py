@@ -8,9 +8,10 @@ meet in one scene.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import cfree._core as _core
+from cfree.scene.core_shapes import core_shapes
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -42,18 +43,3 @@ def range_fault(
         return None
     kind, index, message = fault
     return ((kind,) if index < 0 else (kind, index)), message
-
-
-def core_shapes(
-    robot: Sequence[Polygon],
-    obstacles: Sequence[Polygon],
-    workspace: Polygon | None,
-    bounds: Sequence[Fraction] | None,
-) -> tuple[Any, ...]:
-    """What the core makes scenes of."""
-    return (
-        [part.core for part in robot],
-        [obstacle.core for obstacle in obstacles],
-        workspace and workspace.core,
-        bounds and list(bounds),
-    )

@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 
 import cfree._core as _core
 from cfree.errors import UnsupportedError
-from cfree.scene.coordinate_range import core_shapes
+from cfree.scene.core_shapes import core_shapes
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene

@@ -1,0 +1,26 @@
+"""What the core makes a scene of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from cfree.polygons.polygon import Polygon
+
+
+def core_shapes(
+    robot: Sequence[Polygon],
+    obstacles: Sequence[Polygon],
+    workspace: Polygon | None,
+    bounds: Sequence[Fraction] | None,
+) -> tuple[Any, ...]:
+    """Polygons and bounds as the core takes them."""
+    return (
+        [part.core for part in robot],
+        [obstacle.core for obstacle in obstacles],
+        workspace and workspace.core,
+        bounds and list(bounds),
+    )
