@@ -1,13 +1,11 @@
-// The driver: patches listed, trimmed by the pillars near them, gathered, their features named; theory, "The trimmed boundary".
+// The driver: patches trimmed one by one, gathered, their features named; theory, "The trimmed boundary".
 #include "cfree/forbidden/boundary.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "cfree/forbidden/isolated.hpp"
-#include "forbidden/coincident_surfaces.hpp"
-#include "forbidden/pillar_index.hpp"
+#include "forbidden/patch_trimming.hpp"
 #include "support/parallel.hpp"
 
 namespace cfree {
@@ -26,34 +24,13 @@ void gather(std::vector<std::vector<Trapezoid>>& lists, Trapezoids& into) {
 
 }  // namespace
 
-Patches list_patches(const Scene& scene) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    Patches list;
-    const auto add = [&](Kind kind, Index i, Index j) {
-        list.kind.push_back(static_cast<std::uint8_t>(kind)), list.robot.push_back(i), list.obstacle.push_back(j);
-    };
-    for (Index j = 0; j < O.ring_vertices; ++j) {
-        if (!O.emit[j]) continue;
-        for (Index i = 0; i < A.ring_vertices; ++i)
-            if (A.layer[i] == O.layer[j] && A.convex[i]) add(Kind::vertex_edge, i, j);
-        for (Index i = 0; O.convex[j] && i < A.ring_vertices; ++i)
-            if (A.layer[i] == O.layer[j] && A.has_extent(i)) add(Kind::edge_vertex, i, j);
-    }
-    return list;
-}
-
 namespace {
 
 // All patches of a scene, one after another, by any number of threads.
 class Trimming {
 public:
-    Trimming(const Scene& s, bool regularized) : scene(s), neighbours(s), owners(s, regularized), patches(list_patches(s)) {
-        first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
-        for (const Index j : patches.obstacle) ++first_patch[j + 1];
-        std::partial_sum(first_patch.begin(), first_patch.end(), first_patch.begin());
-        found.resize(first_patch.size() - 1), found_thin.resize(first_patch.size() - 1);
-        trimmed.assign(patches.kind.size(), 0);
-    }
+    Trimming(const Scene& scene, bool regularized)
+        : one(scene, regularized), trimmed(one.patches.size(), 0), found(one.first_patch.size() - 1), found_thin(found.size()) {}
 
     // What one thread does: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
@@ -61,10 +38,13 @@ public:
         std::vector<Index> near;
         const auto count = static_cast<Index>(found.size());
         for (Index j = next++; j < count && !stop; j = next++) {
-            if (first_patch[j] == first_patch[j + 1]) continue;
-            neighbours.near(j, near);
+            if (one.first_patch[j] == one.first_patch[j + 1]) continue;
+            one.pillars_near(j, near);
             try {
-                for (Index id = first_patch[j]; id < first_patch[j + 1] && !stop; ++id, ++done) trim(id, near, mine);
+                for (Index id = one.first_patch[j]; id < one.first_patch[j + 1] && !stop; ++id, ++done) {
+                    one.trim(id, near, found[j], found_thin[j], mine);
+                    trimmed[id] = 1;
+                }
             } catch (const Stopped&) {  // in the midst of a patch
             }
         }
@@ -76,52 +56,17 @@ public:
     bool is_complete() const { return std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end(); }
 
 private:
-    void trim(Index id, const std::vector<Index>& near, Tally& mine);
-
-    const Scene& scene;
-    const PillarIndex neighbours;
-    const CoincidentSurfaces owners;
-    std::vector<Index> first_patch;  // of each obstacle ring vertex and the edge that starts there
+    PatchTrimming one;
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};
     std::mutex mutex;
 
 public:
-    Patches patches;
+    Patches& patches = one.patches;
     std::vector<std::uint8_t> trimmed;
     std::vector<std::vector<Trapezoid>> found, found_thin;  // by obstacle ring vertex
     Tally tally;
 };
-
-void Trimming::trim(Index id, const std::vector<Index>& near, Tally& mine) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const Feature contact = patches.contact(id);
-    const std::vector<Feature> before_it = owners.before(contact);
-    const Range range = range_of(scene, contact, mine.decisions);
-    const std::size_t before = found[contact.obstacle].size();
-    for (int r = 0; r < range.count; ++r) {
-        Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
-        for (const Feature& owner : before_it) {
-            const Range shared = range_of(scene, owner, mine.decisions);
-            for (int s = 0; s < shared.count; ++s)
-                if (shared.chart[s] == range.chart[r]) trimmer.cede(owner, shared.from[s], shared.to[s]);
-        }
-        for (Index p = 0; p < A.pieces() && !trimmer.empty(); ++p) {
-            const Box reachable = neighbours.swept(contact, p, range.chart[r], range.from[r].lo, range.to[r].hi);
-            for (const Index k : near) {
-                if (A.piece_layer[p] != O.piece_layer[k] || !reachable.meets(neighbours.box(k))) continue;
-                heed_stop();
-                ++mine.pairs;
-                trimmer.cover(p, k);
-                if (trimmer.empty()) break;
-            }
-        }
-        trimmer.finish(id, found[contact.obstacle], found_thin[contact.obstacle]);
-        mine.decisions += trimmer.decide.counters;
-    }
-    mine.live_patches += found[contact.obstacle].size() > before;
-    trimmed[id] = 1;
-}
 
 }  // namespace
 

@@ -1,0 +1,68 @@
+// A patch against the pillars near it; theory, "The trimmed boundary".
+#include "forbidden/patch_trimming.hpp"
+
+#include <numeric>
+
+namespace cfree {
+
+namespace {
+
+std::vector<Index> first_patches(const Scene& scene, const Patches& patches) {
+    std::vector<Index> first(static_cast<std::size_t>(scene.obstacles.ring_vertices) + 1, 0);
+    for (const Index j : patches.obstacle) ++first[j + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    return first;
+}
+
+}  // namespace
+
+Patches list_patches(const Scene& scene) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    Patches list;
+    const auto add = [&](Kind kind, Index i, Index j) {
+        list.kind.push_back(static_cast<std::uint8_t>(kind)), list.robot.push_back(i), list.obstacle.push_back(j);
+    };
+    for (Index j = 0; j < O.ring_vertices; ++j) {
+        if (!O.emit[j]) continue;
+        for (Index i = 0; i < A.ring_vertices; ++i)
+            if (A.layer[i] == O.layer[j] && A.convex[i]) add(Kind::vertex_edge, i, j);
+        for (Index i = 0; O.convex[j] && i < A.ring_vertices; ++i)
+            if (A.layer[i] == O.layer[j] && A.has_extent(i)) add(Kind::edge_vertex, i, j);
+    }
+    return list;
+}
+
+PatchTrimming::PatchTrimming(const Scene& s, bool regularized)
+    : patches(list_patches(s)), first_patch(first_patches(s, patches)), scene(s), neighbours(s), owners(s, regularized) {}
+
+void PatchTrimming::trim(Index patch, const std::vector<Index>& near, std::vector<Trapezoid>& out,
+                         std::vector<Trapezoid>& thin, Tally& tally) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature contact = patches.contact(patch);
+    const std::vector<Feature> before_it = owners.before(contact);
+    const Range range = range_of(scene, contact, tally.decisions);
+    const std::size_t before = out.size();
+    for (int r = 0; r < range.count; ++r) {
+        Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
+        for (const Feature& owner : before_it) {
+            const Range shared = range_of(scene, owner, tally.decisions);
+            for (int s = 0; s < shared.count; ++s)
+                if (shared.chart[s] == range.chart[r]) trimmer.cede(owner, shared.from[s], shared.to[s]);
+        }
+        for (Index p = 0; p < A.pieces() && !trimmer.empty(); ++p) {
+            const Box reachable = neighbours.swept(contact, p, range.chart[r], range.from[r].lo, range.to[r].hi);
+            for (const Index k : near) {
+                if (A.piece_layer[p] != O.piece_layer[k] || !reachable.meets(neighbours.box(k))) continue;
+                heed_stop();
+                ++tally.pairs;
+                trimmer.cover(p, k);
+                if (trimmer.empty()) break;
+            }
+        }
+        trimmer.finish(patch, out, thin);
+        tally.decisions += trimmer.decide.counters;
+    }
+    tally.live_patches += out.size() > before;
+}
+
+}  // namespace cfree
