@@ -14,6 +14,7 @@ void bind_cell_complex(nb::module_& m);
 void bind_slice(nb::module_& m);
 void bind_free_space(nb::module_& m);
 void bind_search(nb::module_& m);
+void bind_planning(nb::module_& m);
 
 NB_MODULE(_core, m) {
     nb::set_leak_warnings(false);  // objects that globals hold at exit are no news to users
@@ -28,4 +29,5 @@ NB_MODULE(_core, m) {
     bind_slice(m);
     bind_free_space(m);
     bind_search(m);
+    bind_planning(m);
 }

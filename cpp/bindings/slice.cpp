@@ -21,12 +21,14 @@ static std::tuple<Made<double>, Made<int>, Made<int>> rings(const Slicer& s, int
     return {array_of(std::move(r.xy)), array_of(std::move(r.start)), array_of(std::move(r.shell))};
 }
 
-static std::pair<Made<double>, Made<double>> limits(const Slicer& s, const Column<int>& trapezoid, const Column<int>& chart,
-                                                    const Column<double>& tau) {
+static std::pair<Made<double>, Made<double>> limits(const Slicer& s, const Column<int>& trapezoid, const Column<double>& tau) {
     const std::size_t n = trapezoid.shape(0);
-    require(chart.shape(0) == n && tau.shape(0) == n, "trapezoid, chart and tau differ in length");
+    require(tau.shape(0) == n, "trapezoid and tau differ in length");
     std::vector<double> lower(n), upper(n);
-    s.limits(trapezoid.data(), chart.data(), tau.data(), n, lower.data(), upper.data());
+    for (std::size_t k = 0; k < n; ++k) {
+        const auto [low, high] = s.limits().of(trapezoid.data()[k], tau.data()[k]);
+        lower[k] = low, upper[k] = high;
+    }
     return {array_of(std::move(lower)), array_of(std::move(upper))};
 }
 
@@ -35,7 +37,7 @@ void bind_slice(nb::module_& m) {
         .def(nb::init<cfree::SharedBoundary>(), "boundary"_a)
         .def("segments", &segments, "chart"_a, "tau"_a)
         .def("rings", &rings, "chart"_a, "tau"_a)
-        .def("limits", &limits, "trapezoid"_a, "chart"_a, "tau"_a)
+        .def("limits", &limits, "trapezoid"_a, "tau"_a)
         .def("isolated_curve", [](const Slicer& s, int part, const Column<double>& tau) {
             std::vector<double> t(tau.shape(0));
             s.isolated_curve(part, tau.data(), t.size(), t.data());

@@ -124,6 +124,29 @@ Ratio reduced(Int n, Int d) {
     return {std::move(n), std::move(d)};
 }
 
+// The common beginning of the two continued fractions, then the least number that separates them.
+Ratio simplest_between(const Ratio& low, const Ratio& high) {
+    if (low.n.sign() <= 0) return high.n.sign() < 0 ? -simplest_between(-high, -low) : Ratio{};
+    Int a = low.n, b = low.d, c = high.n, d = high.d;
+    Int p = 1, q = 0, before_p = 0, before_q = 1;  // the last two convergents
+    for (;;) {
+        Int floor, rest;
+        divide_qr(a, b, floor, rest);
+        if (!rest.is_zero()) floor += 1;
+        if (floor * d <= c) return {floor * p + before_p, floor * q + before_q};
+        floor -= 1;
+        Int next_p = floor * p + before_p, next_q = floor * q + before_q;
+        before_p = std::move(p), before_q = std::move(q), p = std::move(next_p), q = std::move(next_q);
+        Int next_b = c - floor * d, next_d = a - floor * b;
+        a = std::move(d), c = std::move(b), b = std::move(next_b), d = std::move(next_d);
+    }
+}
+
+Ratio simple_middle(const Ratio& low, const Ratio& high) {
+    const Ratio quarter = (high - low) / Ratio{4};
+    return simplest_between(low + quarter, high - quarter);
+}
+
 double nearest(const Int& n, const Int& d) {
     const auto is_short = [](const Int& x) { return x.is_zero() || msb(abs(x)) < 53; };
     const auto rounded = [](const Int& x) { return static_cast<double>(static_cast<std::int64_t>(x)); };

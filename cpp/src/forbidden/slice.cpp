@@ -21,69 +21,18 @@ std::vector<double> middles(const std::vector<double>& lo, const std::vector<dou
 }  // namespace
 
 Slicer::Slicer(SharedBoundary of)
-    : boundary(std::move(of)), scene(boundary->scene->near()),
+    : boundary(std::move(of)), scene(boundary->scene->near()), lines(*boundary),
       tau_from(middles(boundary->trapezoids.from_lo, boundary->trapezoids.from_hi)),
       tau_to(middles(boundary->trapezoids.to_lo, boundary->trapezoids.to_hi)),
       index(boundary->trapezoids.chart, tau_from, tau_to, 8) {}
-
-Slicer::Line Slicer::line(const Feature& contact, const Turn& r) const {
-    const ContactLine<double> l(scene, contact, UserUnits{});
-    return {l.start(r), l.direction(r)};
-}
-
-// Where the vertex lies along the edge; 0 and 1 for the edge's own ends.
-double Slicer::helix_at(const Feature& contact, const Feature& helix) const {
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Shape& shape = on_edge ? scene.obstacles : scene.robot;
-    const Index e = on_edge ? contact.obstacle : contact.robot, x = on_edge ? helix.obstacle : helix.robot;
-    const Index v = shape.v[e], w = shape.w[e];
-    if (shape.point[x] == shape.point[v]) return 0;
-    if (shape.point[x] == shape.point[w]) return 1;
-    const UserUnits of;
-    const Vec<double> E = of.edge(shape, e), p = of.vertex(shape, x), q = of.vertex(shape, v);
-    return ((p.x - q.x) * E.x + (p.y - q.y) * E.y) / (E.x * E.x + E.y * E.y);
-}
-
-Slicer::Meeting Slicer::meets(const Feature& contact, const Line& l, std::uint64_t curve, const Turn& r) const {
-    const Feature f = unpacked(curve);
-    if (f.kind == Kind::vertex_vertex) return {helix_at(contact, f), 1};
-    const auto [q, v] = line(f, r);
-    const double across = v.x * l.u.y - v.y * l.u.x;
-    const double t = -(v.x * (l.p.y - q.y) - v.y * (l.p.x - q.x)) / across;
-    const double sine = std::abs(across) / (std::hypot(v.x, v.y) * std::hypot(l.u.x, l.u.y));
-    return {t > 0 ? std::min(t, 1.0) : 0.0, sine};  // rounding may lead out of the patch
-}
-
-namespace {
-
-// Curves may have no value at the ends of a trapezoid: look at them a little inside.
-double inside(double tau, double from, double to) {
-    constexpr double a_little = 1e-9;
-    const double margin = a_little * std::abs(to - from);
-    return std::max(from + margin, std::min(tau, to - margin));
-}
-
-}  // namespace
-
-void Slicer::limits(const Index* trapezoid, const int* charts, const double* tau, std::size_t count, double* low,
-                    double* high) const {
-    const Trapezoids& t = boundary->trapezoids;
-    for (std::size_t k = 0; k < count; ++k) {
-        const Index x = trapezoid[k];
-        const Feature contact = boundary->patches.contact(t.patch[x]);
-        const Turn r = rotation_by(charts[k], inside(tau[k], tau_from[x], tau_to[x]));
-        const Line l = line(contact, r);
-        low[k] = meets(contact, l, t.lower[x], r).t, high[k] = meets(contact, l, t.upper[x], r).t;
-    }
-}
 
 void Slicer::isolated_curve(Index part, const double* tau, std::size_t count, double* t) const {
     const IsolatedParts& x = boundary->isolated;
     const Feature contact = boundary->patches.contact(x.lower_patch[part]);
     for (std::size_t k = 0; k < count; ++k) {
-        const double at = inside(tau[k], x.parts.tau_from(part), x.parts.tau_to(part));
+        const double at = Limits::inside(tau[k], x.parts.tau_from(part), x.parts.tau_to(part));
         const Turn r = rotation_by(x.parts.chart[part], at);
-        t[k] = meets(contact, line(contact, r), x.parts.lower[part], r).t;
+        t[k] = lines.meets(contact, lines.line(contact, r), x.parts.lower[part], r).t;
     }
 }
 
@@ -126,10 +75,10 @@ Slicer::Segments Slicer::near(int c, double tau) const {
     for (const Index x : index.at(index.part_of(c, tau))) {
         if (!(tau_from[x] <= tau && tau < tau_to[x])) continue;
         const Feature contact = boundary->patches.contact(t.patch[x]);
-        const Line l = line(contact, asked), beyond = stepped ? line(contact, r) : l;
+        const Line l = lines.line(contact, asked), beyond = stepped ? lines.line(contact, r) : l;
         for (const std::uint64_t curve : {t.lower[x], t.upper[x]}) {
-            Meeting m = meets(contact, l, curve, asked);
-            if (stepped && !(m.sine > steep)) m = meets(contact, beyond, curve, r);
+            auto m = lines.meets(contact, l, curve, asked);
+            if (stepped && !(m.sine > steep)) m = lines.meets(contact, beyond, curve, r);
             result.xy.insert(result.xy.end(), {l.p.x + m.t * l.u.x, l.p.y + m.t * l.u.y});
         }
         result.trapezoid.push_back(x);

@@ -230,9 +230,7 @@ class BoundaryRecord(Value):
         lower, upper : (k,) float64
         """
         chosen = np.ascontiguousarray(trapezoid, np.int32)
-        chart = self.trapezoids.chart[chosen]
-        tau = np.ascontiguousarray(tau_in(chart, theta))
-        return self.slicer.limits(chosen, chart.astype(np.int32), tau)
+        return self.slicer.limits(chosen, np.ascontiguousarray(tau_in(self.trapezoids.chart[chosen], theta)))
 
     @cached_property
     def slicer(self) -> _core.Slicer:

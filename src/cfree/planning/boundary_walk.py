@@ -150,7 +150,7 @@ class Walker:
         landings, takeoffs = self.landings.of(start, cell), self.landings.of(goal, cell)
         links = self.landings.links(cell)
         way = self.corridors.shortest(place_of(start), landings, place_of(goal), takeoffs, links)
-        if way is None:
+        if not way:
             raise InvariantError(f"no way in cell {cell}", state=(start, goal))
         first = next(x for x in landings if x.face == way[0][0])
         last = next(x for x in takeoffs if x.face == way[-1][0])

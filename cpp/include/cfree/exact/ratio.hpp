@@ -1,5 +1,6 @@
-// Rationals as they come in and go out: read from decimals, "p/q" and doubles, rounded to the nearest double.
+// Rationals: read from decimals, "p/q" and doubles, rounded to the nearest double; sums, products and orders of them.
 #pragma once
+#include <compare>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@ namespace cfree {
 struct Ratio {
     Int n = 0, d = 1;
     friend bool operator==(const Ratio&, const Ratio&) = default;
+    friend std::strong_ordering operator<=>(const Ratio& x, const Ratio& y) {
+        return Int(x.n * y.d).compare(Int(y.n * x.d)) <=> 0;
+    }
 };
 
 inline constexpr int most_digits = 4000;  // longer numbers are refused: no coordinate needs them
@@ -20,6 +24,17 @@ inline constexpr int most_digits = 4000;  // longer numbers are refused: no coor
 std::optional<Ratio> ratio_of(std::string_view text);
 Ratio ratio_of(double value);  // finite
 Ratio reduced(Int n, Int d);   // d is not zero
+
+inline Ratio operator-(const Ratio& x) { return {-x.n, x.d}; }
+inline Ratio operator+(const Ratio& x, const Ratio& y) { return reduced(x.n * y.d + y.n * x.d, x.d * y.d); }
+inline Ratio operator-(const Ratio& x, const Ratio& y) { return reduced(x.n * y.d - y.n * x.d, x.d * y.d); }
+inline Ratio operator*(const Ratio& x, const Ratio& y) { return reduced(x.n * y.n, x.d * y.d); }
+inline Ratio operator/(const Ratio& x, const Ratio& y) { return reduced(x.n * y.d, x.d * y.n); }  // y is not zero
+
+// The fraction of the least denominator in [low, high], and of those the nearest to 0.
+Ratio simplest_between(const Ratio& low, const Ratio& high);
+// A simple fraction in the middle half of an interval.
+Ratio simple_middle(const Ratio& low, const Ratio& high);
 
 double nearest(const Int& n, const Int& d);  // n / d rounded once, to even; d > 0, the quotient below 2^1023
 

@@ -3,8 +3,7 @@
 #pragma once
 #include <vector>
 
-#include "cfree/contact/contact_line.hpp"
-#include "cfree/forbidden/boundary.hpp"
+#include "cfree/forbidden/limits.hpp"
 #include "cfree/forbidden/tau_index.hpp"
 
 namespace cfree {
@@ -27,25 +26,15 @@ public:
     };
     Rings rings(int chart, double tau) const;
 
-    // Limits of t for trapezoids at orientations, one each.
-    void limits(const Index* trapezoid, const int* chart, const double* tau, std::size_t count, double* lower,
-                double* upper) const;
+    const Limits& limits() const { return lines; }
     // t along the curve of an isolated part, on the patch that names it.
     void isolated_curve(Index part, const double* tau, std::size_t count, double* t) const;
 
 private:
     using Turn = Rotation<double>;
-    struct Line {
-        Vec<double> p, u;
-    };
+    using Line = Limits::Line;
     Segments near(int chart, double tau) const;
     void move(std::vector<double>& xy, const Turn& r) const;
-    Line line(const Feature& contact, const Turn& r) const;
-    struct Meeting {
-        double t, sine;  // of the angle between the two lines, at least in size
-    };
-    Meeting meets(const Feature& contact, const Line& l, std::uint64_t curve, const Turn& r) const;
-    double helix_at(const Feature& contact, const Feature& helix) const;
     void step_off_events(int& chart, double& tau) const;
 
     struct Name {  // of a point of the outline: the helix, or the two surfaces, that meet there
@@ -64,6 +53,7 @@ private:
 
     SharedBoundary boundary;
     const Scene& scene;  // near
+    const Limits lines;
     std::vector<double> tau_from, tau_to;  // middles of the isolating intervals
     TauIndex index;
 };
