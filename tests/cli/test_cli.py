@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 import cfree
 from cfree.cli.app import app
@@ -83,7 +83,7 @@ def cpu_seconds_of_help() -> float:
 
 
 def test_completion_is_offered() -> None:
-    environment = {**os.environ, "_CFREE_COMPLETE": "complete_bash", "COMP_WORDS": "cfree bou", "COMP_CWORD": "1"}
+    environment = {**os.environ, "_CFREE_COMPLETE": "bash_complete", "COMP_WORDS": "cfree bou", "COMP_CWORD": "1"}
     assert "boundary" in in_a_new_process(env=environment).stdout
 
 

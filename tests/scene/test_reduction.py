@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from typer.testing import CliRunner
+from click.testing import CliRunner
 
 import cfree.forbidden.boundary as forbidden
 from cfree import InvariantError, Scene, boundary, save

@@ -5,37 +5,20 @@ from __future__ import annotations
 import math
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-import typer
+import click
 
+from cfree.cli import options
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
 from cfree.cli.files import bar, boundary_of, check_outputs, planner_of
-from cfree.cli.options import (
-    JsonOption,
-    MemoryOption,
-    PictureOption,
-    SceneArgument,
-    SecondsOption,
-    SourceArgument,
-    ThreadsOption,
-)
+from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import print_json, printable
 from cfree.cli.values import read_angle, read_numbers, read_objective, read_pixels, read_pose, read_seconds, read_size
 from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
-
-app = typer.Typer(
-    name="cfree",
-    no_args_is_help=True,
-    rich_markup_mode="markdown",
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-    help="The exact configuration space of a planar robot that translates and rotates among polygons.",
-    epilog="Example: `cfree boundary examples/scenes/flat.json --picture flat.png`",
-)
 
 
 def main() -> None:
@@ -44,26 +27,38 @@ def main() -> None:
         app(prog_name="cfree")
 
 
-def _print_version(wanted: bool) -> None:
+def _print_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted:
         from importlib.metadata import version
 
         print(f"cfree {version('cfree')}")
-        raise typer.Exit
+        context.exit()
 
 
-@app.callback()
-def _global_options(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_print_version, is_eager=True, help="Print the version and exit.")
-    ] = False,
-) -> None:
-    pass
+@click.group(
+    no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
+    epilog=examples(
+        "cfree boundary examples/scenes/flat.json --picture flat.png",
+        'eval "$(_CFREE_COMPLETE=bash_source cfree)"  # completion; also zsh_source, fish_source',
+    ),
+)
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
+    help="Print the version and exit.",
+)  # fmt: skip
+def app() -> None:
+    """The exact configuration space of a planar robot that translates and rotates among polygons."""
 
 
-@app.command(epilog="Examples: `cfree check scene.json`; `cfree check scene.json --json | jq .patches`")
-def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
-    """Validate a scene and describe it: vertices, pieces, patches to expect, start and goal."""
+@app.command(epilog=examples("cfree check scene.json", "cfree check scene.json --json | jq .patches"))
+@options.scene
+@options.as_json
+def check(scene: Path, as_json: bool) -> None:
+    """Validate a scene and describe it.
+
+    Vertices, pieces, patches to expect; are start and goal free? SCENE is JSON, GeoJSON or WKT.
+    """
     with one_line_faults():
         from cfree.cli.describe import describe
         from cfree.formats.scene_file import load_scene
@@ -81,37 +76,34 @@ def check(scene: SceneArgument, as_json: JsonOption = False) -> None:
 
 
 @app.command(
-    epilog="Examples: `cfree boundary scene.json --picture scene.png`; "
-    "`cfree boundary scene.json -o scene.npz --mesh scene.glb --threads 1`"
+    epilog=examples(
+        "cfree boundary scene.json --picture scene.png",
+        "cfree boundary scene.json -o scene.npz --mesh scene.glb --threads 1",
+    )
 )
+@options.scene
+@file_option("--output", "-o", metavar="FILE", help="Write the boundary, all of it.")
+@options.picture
+@file_option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.")
+@click.option(
+    "--error",
+    type=float,
+    metavar="E",
+    help="Greatest distance of the mesh to the boundary.",
+    show_default="robot's radius / 100",
+)
+@options.threads
+@options.max_seconds
+@options.max_memory
+@options.as_json
 def boundary(
-    scene: SourceArgument,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="Write the boundary, all of it.", show_default=False),
-    ] = None,
-    picture: PictureOption = None,
-    mesh: Annotated[
-        Path | None,
-        typer.Option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.", show_default=False),
-    ] = None,
-    error: Annotated[
-        float | None,
-        typer.Option(
-            "--error",
-            metavar="E",
-            help="Greatest distance of the mesh to the boundary.",
-            show_default="robot's radius / 100",
-        ),
-    ] = None,
-    threads: ThreadsOption = None,
-    max_seconds: SecondsOption = None,
-    max_memory: MemoryOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Compute the boundary of the forbidden space: every contact patch, trimmed.
+    scene: Path, output: Path | None, picture: Path | None, mesh: Path | None, error: float | None,
+    threads: int | None, max_seconds: float | None, max_memory: str | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Compute the boundary of the forbidden space.
 
-    If a limit stops it, what was done so far is written, marked as incomplete, and the exit code is 3.
+    Every contact patch, trimmed. SCENE is JSON, GeoJSON or WKT. If a limit stops the work, what was done so far is
+    written, marked as incomplete, and the exit code is 3.
     """
     with one_line_faults():
         if error is not None and not (mesh and 0 < error < math.inf):
@@ -146,49 +138,50 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 
 
 @app.command(
-    epilog="Examples: `cfree plan scene.json`; "
-    "`cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png`; "
-    "`cfree plan scene.json -o way.csv --improve 2s`. "
-    "Exit code 0: a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch."
+    epilog=examples(
+        "cfree plan scene.json",
+        "cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png",
+        "cfree plan scene.json -o way.csv --improve 2s",
+    )
 )
+@options.scene
+@click.option(
+    "--start", metavar="X,Y,THETA", help='As "1,1/2,30deg"; radians, or "tau:1/3".', show_default="the scene's"
+)
+@click.option("--goal", metavar="X,Y,THETA", help="The same.", show_default="the scene's")
+@file_option("--output", "-o", metavar="FILE", help="Write the answer: path or proof.")
+@click.option(
+    "--format",
+    "form",
+    metavar="FORM",
+    help="Of that file: json, exact; or of a path sampled poses: csv, geojson, ros.",
+    show_default="by the file's name, else json",
+)
+@click.option(
+    "--improve",
+    metavar="TIME",
+    help='How long to improve a path: "2s" or "500ms"; 0 for the first.',
+    show_default="briefly",
+)
+@click.option(
+    "--objective", metavar="WORD", help='"short", or "clear": far from obstacles.', default="short", show_default=True
+)
+@options.picture
+@file_option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.")
+@click.option(
+    "--nearest-miss", "miss", is_flag=True, help="Of a proof: by how much, and where. Takes a dozen times as long."
+)
+@options.max_seconds
+@options.as_json
 def plan(
-    scene: SourceArgument,
-    start: Annotated[
-        str | None,
-        typer.Option(metavar="X,Y,THETA", help='As "1,1/2,30deg"; radians, or "tau:1/3".', show_default="the scene's"),
-    ] = None,
-    goal: Annotated[str | None, typer.Option(metavar="X,Y,THETA", help="The same.", show_default="the scene's")] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option("--output", "-o", metavar="FILE", help="Write the answer: path or proof.", show_default=False),
-    ] = None,
-    form: Annotated[
-        str | None,
-        typer.Option(
-            "--format",
-            metavar="FORM",
-            help="Of that file: json, exact; or of a path sampled poses: csv, geojson, ros.",
-            show_default="by the file's name, else json",
-        ),
-    ] = None,
-    improve: Annotated[
-        str | None,
-        typer.Option(
-            metavar="TIME", help='How long to improve a path: "2s" or "500ms"; 0 for the first.', show_default="briefly"
-        ),
-    ] = None,
-    objective: Annotated[str, typer.Option(metavar="WORD", help='"short", or "clear": far from obstacles.')] = "short",
-    picture: PictureOption = None,
-    film: Annotated[
-        Path | None, typer.Option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.", show_default=False)
-    ] = None,
-    miss: Annotated[
-        bool, typer.Option("--nearest-miss", help="Of a proof: by how much, and where. Takes a dozen times as long.")
-    ] = False,
-    max_seconds: SecondsOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Find a path from start to goal, each motion of it proved free, or prove that there is none."""
+    scene: Path, start: str | None, goal: str | None, output: Path | None, form: str | None, improve: str | None,
+    objective: str, picture: Path | None, film: Path | None, miss: bool, max_seconds: float | None, as_json: bool,
+) -> None:  # fmt: skip
+    """Find a path from start to goal, or prove that there is none.
+
+    Each motion is proved free. SCENE is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o. Exit code 0:
+    a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch.
+    """
     with one_line_faults():
         from cfree.cli.answering import Answering
         from cfree.formats.answer_file import form_of
@@ -208,30 +201,27 @@ def plan(
         rows = found.rows(for_machines=as_json, nearest_miss=miss)
         print_result(found.planner.scene.name or str(scene), scene, rows, written, as_json)
     if found.exit_code:
-        raise typer.Exit(found.exit_code)
+        raise click.exceptions.Exit(found.exit_code)
 
 
 @app.command(
     "slice",
-    epilog="Examples: `cfree slice scene.json --theta 30deg --picture slice.png`; "
-    "`cfree slice scene.npz --theta tau:1/3 -o slice.geojson`",
+    epilog=examples(
+        "cfree slice scene.json --theta 30deg --picture slice.png",
+        "cfree slice scene.npz --theta tau:1/3 -o slice.geojson",
+    ),
 )
-def cut(
-    scene: SourceArgument,
-    theta: Annotated[
-        str, typer.Option(metavar="ANGLE", help='"30deg", "0.5" radians, or "tau:1/3".', show_default=False)
-    ],
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output", "-o", metavar="GEOJSON", help="Write region and contact segments.", show_default=False
-        ),
-    ] = None,
-    picture: PictureOption = None,
-    threads: ThreadsOption = None,
-    as_json: JsonOption = False,
-) -> None:
-    """Cut the forbidden space at one orientation of the robot."""
+@options.scene
+@click.option("--theta", metavar="ANGLE", help='"30deg", "0.5" radians, or "tau:1/3".', required=True)
+@file_option("--output", "-o", metavar="GEOJSON", help="Write region and contact segments.")
+@options.picture
+@options.threads
+@options.as_json
+def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, threads: int | None, as_json: bool) -> None:
+    """Cut the forbidden space at one orientation of the robot.
+
+    SCENE is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o.
+    """
     with one_line_faults():
         angle = read_angle(theta)
         written = check_outputs(scene, {"geojson": output, "picture": picture})
@@ -251,32 +241,30 @@ def cut(
 
 
 @app.command(
-    epilog="Examples: `cfree film scene.json -o film.mp4`; "
-    "`cfree film examples/scenes/paper_fig9.json examples/scenes/five_convex.json -o paper.mp4 --seconds 60`; "
-    "`cfree film scene.json -o path.gif --storyboard path --seconds 5 --fps 10`"
+    epilog=examples(
+        "cfree film scene.json -o film.mp4",
+        "cfree film paper_fig9.json five_convex.json -o paper.mp4 --seconds 60",
+        "cfree film scene.json -o path.gif --storyboard path --seconds 5 --fps 10",
+    )
 )
-def film(
-    scenes: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="SCENE...", help="Scene files, or boundaries, shown one after the other.", show_default=False
-        ),
-    ],
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FILE", help="The film: .mp4 or .gif.", show_default=False)
-    ],
-    storyboard: Annotated[
-        str,
-        typer.Option(metavar="NAME", help='"paper": slices, a helix, patches, all of the boundary, a path; or "path".'),
-    ] = "paper",
-    seconds: Annotated[float, typer.Option(metavar="S", help="Length of the film.")] = 30.0,
-    fps: Annotated[int, typer.Option(metavar="N", help="Frames a second.")] = 25,
-    size: Annotated[
-        str | None,
-        typer.Option(metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF"),
-    ] = None,
-) -> None:
-    """Make a film: the robot among the obstacles, and the point it is in the configuration space."""
+@click.argument("scenes", type=FILE, metavar="SCENE...", nargs=-1, required=True)
+@file_option("--output", "-o", metavar="FILE", help="The film: .mp4 or .gif.", required=True)
+@click.option(
+    "--storyboard",
+    metavar="NAME",
+    help='"paper": slices, a helix, patches, all of the boundary, a path; or "path".',
+    default="paper",
+    show_default=True,
+)
+@click.option("--seconds", type=float, metavar="S", help="Length of the film.", default=30.0, show_default=True)
+@click.option("--fps", type=int, metavar="N", help="Frames a second.", default=25, show_default=True)
+@click.option("--size", metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF")
+def film(scenes: tuple[Path, ...], output: Path, storyboard: str, seconds: float, fps: int, size: str | None) -> None:
+    """Make a film of the robot and of its configuration.
+
+    The robot among the obstacles, and the point it is in the configuration space. Scenes are shown one after the
+    other; each is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o.
+    """
     with one_line_faults():
         from cfree.film import save_film
         from cfree.film.reel import check_options
@@ -294,29 +282,32 @@ def film(
         print_rows(", ".join(map(str, scenes)), rows, written)
 
 
-@app.command(
-    epilog="Examples: `cfree verify scene.json scene.npz`; `cfree verify scene.json answer.json`. "
-    "Exit code 0: verified; 1: refuted; 2: a file that cannot be read."
+@app.command(epilog=examples("cfree verify scene.json scene.npz", "cfree verify scene.json answer.json"))
+@options.scene
+@click.argument("file", type=FILE)
+@click.option(
+    "--sample",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="Of a boundary: check N trapezoids, no sides.",
+    show_default="all",
 )
-def verify(
-    scene: SceneArgument,
-    file: Annotated[
-        Path,
-        typer.Argument(
-            metavar="FILE",
-            help="A boundary (`cfree boundary -o`), or an answer: a path or a proof.",
-            show_default=False,
-        ),
-    ],
-    sample: Annotated[
-        int | None,
-        typer.Option(metavar="N", min=0, help="Of a boundary: check N trapezoids, no sides.", show_default="all"),
-    ] = None,
-    slices: Annotated[int, typer.Option(metavar="N", min=0, help="Of a boundary: orientations to redo.")] = 12,
-    seed: Annotated[int, typer.Option(metavar="N", help="Of the random choices.")] = 0,
-    as_json: JsonOption = False,
-) -> None:
-    """Check a boundary or an answer by independent exact code, and say what is proved and what is sampled."""
+@click.option(
+    "--slices",
+    type=click.IntRange(min=0),
+    metavar="N",
+    help="Of a boundary: orientations to redo.",
+    default=12,
+    show_default=True,
+)
+@click.option("--seed", type=int, metavar="N", help="Of the random choices.", default=0, show_default=True)
+@options.as_json
+def verify(scene: Path, file: Path, sample: int | None, slices: int, seed: int, as_json: bool) -> None:
+    """Check a boundary or an answer by independent exact code.
+
+    What is proved is told from what is sampled. FILE is a boundary written by cfree boundary -o, or an answer: a path
+    or a proof. Exit code 0: verified; 1: refuted; 2: a file that cannot be read.
+    """
     with one_line_faults():
         from cfree.formats.scene_file import load_scene
         from cfree.verify.answers import answer as verified_answer
@@ -336,22 +327,22 @@ def verify(
 
             print_verification(str(file), result)
     if not result.verified:
-        raise typer.Exit(REFUTED)
+        raise click.exceptions.Exit(REFUTED)
 
 
-@app.command(epilog="Examples: `cfree figures -o pictures`; `cfree figures -o pictures --only 7,9 --format svg --safe`")
-def figures(
-    output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="DIR", help="Where to write, made if missing.", show_default=False)
-    ],
-    only: Annotated[
-        str | None, typer.Option(metavar="NUMBERS", help='Some of them: "7" or "7,9".', show_default="all")
-    ] = None,
-    formats: Annotated[str, typer.Option("--format", metavar="FORMATS", help="Of svg, pdf and png.")] = "svg,pdf,png",
-    safe: Annotated[bool, typer.Option("--safe", help="Colours for readers who do not tell red from green.")] = False,
-    as_json: JsonOption = False,
-) -> None:
-    """Draw the figures of the paper, from computed data, and three more."""
+@app.command(epilog=examples("cfree figures -o pictures", "cfree figures -o pictures --only 7,9 --format svg --safe"))
+@file_option("--output", "-o", metavar="DIR", help="Where to write, made if missing.", required=True)
+@click.option("--only", metavar="NUMBERS", help='Some of them: "7" or "7,9".', show_default="all")
+@click.option(
+    "--format", "formats", metavar="FORMATS", help="Of svg, pdf and png.", default="svg,pdf,png", show_default=True
+)
+@click.option("--safe", is_flag=True, help="Colours for readers who do not tell red from green.")
+@options.as_json
+def figures(output: Path, only: str | None, formats: str, safe: bool, as_json: bool) -> None:
+    """Draw the figures of the paper from computed data.
+
+    And three more.
+    """
     with one_line_faults():
         from cfree.figures import FIGURES, draw_all
 

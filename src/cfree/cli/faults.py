@@ -20,7 +20,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, NoReturn
 
-import typer
+import click
 
 from cfree.cli.terminal import printable
 
@@ -53,7 +53,7 @@ def one_line_faults() -> Iterator[None]:
 
     try:
         yield
-    except typer.Exit:
+    except click.exceptions.Exit:
         raise
     except KeyboardInterrupt:
         fail("interrupted; no file was left half-written", INTERRUPTED)

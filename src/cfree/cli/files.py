@@ -51,16 +51,19 @@ def planner_of(source: Path, max_seconds: float | None) -> Planner:
 
 @contextmanager
 def bar(name: str) -> Iterator[Callable[[float], object] | None]:
-    """What to call with the share that is done: it moves a bar on a terminal, which says what is being done."""
+    """What to call with the share that is done: on a terminal a line says it, and what is being done."""
     if not sys.stderr.isatty():
         yield None
         return
-    from rich.console import Console
-    from rich.progress import Progress
 
-    with Progress(console=Console(stderr=True), transient=True) as shown:
-        task = shown.add_task(name, total=None)
-        yield lambda share: shown.update(task, completed=share, total=1.0)
+    def say(text: str) -> None:
+        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+
+    say(f"{name} ...")
+    try:
+        yield lambda share: say(f"{name} {share:.0%}")
+    finally:
+        say("")
 
 
 _CHECKS = {  # of the names of files

@@ -2,37 +2,36 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Any
 
-import typer
+import click
 
-SceneArgument = Annotated[
-    Path, typer.Argument(metavar="SCENE", help="Scene file: JSON, GeoJSON or WKT.", show_default=False)
-]
-SourceArgument = Annotated[
-    Path,
-    typer.Argument(
-        metavar="SCENE", help="Scene file, or a boundary written by `cfree boundary -o`.", show_default=False
-    ),
-]
-PictureOption = Annotated[
-    Path | None,
-    typer.Option("--picture", metavar="PNG", help="Write a figure: .png, .svg, .pdf ...", show_default=False),
-]
-ThreadsOption = Annotated[
-    int | None, typer.Option("--threads", metavar="N", min=1, help="Threads to use.", show_default="all cores")
-]
-SecondsOption = Annotated[
-    float | None,
-    typer.Option(
-        "--max-seconds", metavar="S", min=0, help="Stop trimming after S seconds, incomplete.", show_default="no limit"
-    ),
-]
-MemoryOption = Annotated[
-    str | None,
-    typer.Option(
-        "--max-memory", metavar="SIZE", help='Stop at "500MB" or "4GB" of memory, incomplete.', show_default="no limit"
-    ),
-]
-JsonOption = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
+FILE = click.Path(path_type=Path)
+Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
+
+
+def file_option(*names: str, metavar: str, help: str, required: bool = False) -> Decorator:
+    """A file to write."""
+    return click.option(*names, type=FILE, metavar=metavar, help=help, required=required)
+
+
+scene = click.argument("scene", type=FILE)
+picture = file_option("--picture", metavar="PNG", help="Write a figure: .png, .svg, .pdf ...")
+threads = click.option(
+    "--threads", type=click.IntRange(min=1), metavar="N", help="Threads to use.", show_default="all cores"
+)
+max_seconds = click.option(
+    "--max-seconds", type=click.FloatRange(min=0), metavar="S", help="Stop trimming after S seconds, incomplete.",
+    show_default="no limit",
+)  # fmt: skip
+max_memory = click.option(
+    "--max-memory", metavar="SIZE", help='Stop at "500MB" or "4GB" of memory, incomplete.', show_default="no limit"
+)
+as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON, for machines.")
+
+
+def examples(*lines: str) -> str:
+    """The end of a command's help: lines that are not wrapped."""
+    return "\b\nExamples:\n" + "\n".join(f"  {line}" for line in lines)

@@ -8,10 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from rich.console import Console
-from rich.table import Table
-
-from cfree.cli.terminal import printable
+from cfree.cli.terminal import columns, printable
 from cfree.scene.features import NAMES
 
 if TYPE_CHECKING:
@@ -26,14 +23,12 @@ COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
 
 def print_scene(facts: Mapping[str, Any]) -> None:
     """The facts of `cfree.cli.describe.describe`."""
-    counts = Table(box=None)
-    counts.add_column()
-    for column in COUNTS:
-        counts.add_column(column, justify="right")
-    for row in ("robot", "obstacles", "workspace"):
-        if facts[row]:
-            counts.add_row(row, *(f"{facts[row][column]:,}" for column in COUNTS))
-    _print(facts["name"] or facts["file"], counts, *_lines(facts))
+    counts = [
+        [row, *(f"{facts[row][column]:,}" for column in COUNTS)]
+        for row in ("robot", "obstacles", "workspace")
+        if facts[row]
+    ]
+    _print(facts["name"] or facts["file"], *columns([["", *COUNTS], *counts], "<" + ">" * len(COUNTS)), *_lines(facts))
 
 
 def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
@@ -139,29 +134,23 @@ def part_name(scene: Scene, obstacle: int) -> str:
 
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
     """A title, names with values, and the files written."""
-    table = Table(box=None, show_header=False)
-    table.add_column()
-    table.add_column(justify="right")
+    table = []
     for name, value in rows.items():
         text = f"{value:,}" if isinstance(value, int) else f"{value:,.6g}" if isinstance(value, float) else value
-        table.add_row(name, printable(text))
+        table.append([name, printable(text)])
     sizes = ((name, path, os.stat(path).st_size / 1000) for name, path in files.items())
-    _print(title, table, *(f" {name:<8} {path} ({size:,.1f} kB)" for name, path, size in sizes))
+    _print(title, *columns(table, "<>"), *(f" {name:<8} {path} ({size:,.1f} kB)" for name, path, size in sizes))
 
 
 def print_verification(title: str, result: Verification) -> None:
     """A row for each check, then what is wrong."""
     from cfree.verify import result as verify
 
-    table = Table(box=None)
-    for column in ("check", "", "of what"):
-        table.add_column(column)
-    for check in result.checks:
-        table.add_row(check.name, check.how, printable(check.extent))
-    _print(title, table, *map(str, result.findings[: verify.SHOWN]), result.verdict)
+    checks = [[check.name, check.how, printable(check.extent)] for check in result.checks]
+    table = columns([["check", "", "of what"], *checks], "<<<")
+    _print(title, *table, *map(str, result.findings[: verify.SHOWN]), result.verdict)
 
 
-def _print(*parts: str | Table) -> None:
-    console = Console(soft_wrap=True, highlight=False, markup=False, emoji=False)
-    for part in parts:
-        console.print(printable(part) if isinstance(part, str) else part)
+def _print(*lines: str) -> None:
+    for line in lines:
+        print(printable(line))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import unicodedata
+from collections.abc import Sequence
 from typing import Any
 
 OBEYED = {"Cc", "Cs", "Zl", "Zp"}  # Unicode's categories: controls, halves of characters, ends of lines
@@ -19,6 +20,28 @@ def printable(text: str) -> str:
     bench\\x1b[2J, Stühle
     """
     return text if text.isprintable() else "".join(c if _is_seen(c) else repr(c)[1:-1] for c in text)
+
+
+def columns(rows: Sequence[Sequence[str]], sides: str) -> list[str]:
+    """Lines of a table; `sides` has "<" or ">" for each column.
+
+    Examples
+    --------
+    >>> columns([["robot", "20"], ["Tür", "3"]], "<>")
+    [' robot  20', ' Tür     3']
+    """
+    widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
+    return ["".join(map(_cell, row, widths, sides)).rstrip() for row in rows]
+
+
+def _cell(text: str, width: int, side: str) -> str:
+    blanks = " " * (width - _width(text))
+    return f" {text}{blanks} " if side == "<" else f" {blanks}{text} "
+
+
+def _width(text: str) -> int:
+    """On a terminal, where letters of Chinese are two wide."""
+    return sum(2 if unicodedata.east_asian_width(c) in "FW" else 1 for c in text)
 
 
 def json_text(facts: dict[str, Any]) -> str:
