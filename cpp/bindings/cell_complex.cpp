@@ -22,6 +22,7 @@ void bind_cell_complex(nb::module_& m) {
     column(cells, "component", &CellComplex::component);
     column(cells, "theta", &CellComplex::theta);
     rows<2>(cells, "xy", &CellComplex::xy);
+    cells.def_ro("boundary", &CellComplex::boundary);
     cells.def_ro("edges", &CellComplex::edges).def_ro("vertices", &CellComplex::vertices);
     cells.def_ro("components", &CellComplex::components);
     m.def("glue", [](const cfree::SharedBoundary& boundary) { return watched([&] { return cfree::glue(boundary); }); },

@@ -31,14 +31,17 @@ struct Part {
 
 class Gluer {
 public:
-    explicit Gluer(const Boundary& b)
-        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()) {}
-
-    CellComplex run() {
+    // `whole`: of each trapezoid, whether all that its sides meet is there.
+    Gluer(const Boundary& b, std::vector<char> are_whole)
+        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(std::move(are_whole)) {
         glue_curves();
         glue_levels();
-        return build();
     }
+
+    // Trapezoids from some of them over sides: those that are whole, and beyond them those that are not.
+    std::array<std::vector<Index>, 2> from(const std::vector<Index>& seeds) const;
+    // Of closed surfaces, renumbered: face k is trapezoid faces[k].
+    CellComplex build(const std::vector<Index>& faces);
 
 private:
     Index add(const Part& part) {
@@ -46,8 +49,9 @@ private:
         return static_cast<Index>(parts.size()) - 1;
     }
     void pair(Index p, Index q) { parts[p].twin = q, parts[q].twin = p; }
-    [[noreturn]] void fail(const std::string& what, Index trapezoid) const {
-        throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
+    // What must not be at a trapezoid that is whole; elsewhere something is missing.
+    void fail(const std::string& what, Index trapezoid) const {
+        if (whole[trapezoid]) throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
     }
     Junction junction(Index rank, int chart) {
         return {scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
@@ -87,7 +91,6 @@ private:
     void glue_line(std::vector<Level*>& line, Junction& at);
     void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, Junction& at);
 
-    CellComplex build();
     struct Start {
         Index trapezoid;
         double tau, t;
@@ -99,6 +102,7 @@ private:
     const Patches& patches;
     const Trapezoids& trapezoids;
     const AngleTable& angles;
+    const std::vector<char> whole;
     std::optional<std::pair<std::pair<Index, int>, CriticalAngle>> recent;  // the last that was asked for exactly
     std::vector<Part> parts;
     Index edges = 0;
@@ -128,6 +132,7 @@ void Gluer::glue_curves() {
 
 // Sides with one hash: first those on the first's curve, then others.
 void Gluer::glue_curve(CurveSide* begin, CurveSide* end) {
+    if (std::none_of(begin, end, [&](const CurveSide& s) { return whole[s.trapezoid]; })) return;
     const NamedCurve first = curve(begin->trapezoid, begin->is_upper);
     CurveSide* others = std::stable_partition(begin + 1, end, [&](const CurveSide& s) {
         return is_same_curve(scene, first, curve(s.trapezoid, s.is_upper));
@@ -198,7 +203,7 @@ void Gluer::glue_levels() {
     std::vector<Level> levels;
     for (Index rank = 0; rank < ranks; ++rank) {
         heed_stop();
-        if (start[rank] == start[rank + 1]) continue;
+        if (std::none_of(&member[start[rank]], &member[0] + start[rank + 1], [&](Index m) { return whole[m / 2]; })) continue;
         Junction at = junction(rank, rank > angles.middle ? 1 : 0);
         levels.clear();
         for (Index m = start[rank]; m < start[rank + 1]; ++m) {
@@ -239,6 +244,7 @@ void Gluer::glue_junction(std::vector<Level>& levels, Junction& at) {
 }
 
 void Gluer::glue_line(std::vector<Level*>& line, Junction& at) {
+    if (std::none_of(line.begin(), line.end(), [&](const Level* w) { return whole[w->trapezoid]; })) return;
     const Feature ref = contact(line[0]->trapezoid);
     const int along = line[0]->along;
     for (Level* w : line) w->along *= along;
@@ -327,11 +333,39 @@ void Gluer::place_vertex(const Start& start, CellComplex& result) const {
     result.theta.push_back(2 * std::atan(tau) + on.chart * std::numbers::pi);
 }
 
-CellComplex Gluer::build() {
-    const auto n = static_cast<Index>(trapezoids.patch.size());
-    const auto count = static_cast<Index>(parts.size());
-    std::vector<Index> order(count), number(count);
-    std::iota(order.begin(), order.end(), 0);
+std::array<std::vector<Index>, 2> Gluer::from(const std::vector<Index>& seeds) const {
+    std::vector<Index> first(whole.size() + 1, 0), own(parts.size());
+    for (const Part& p : parts) ++first[p.trapezoid + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    std::vector<Index> place(first.begin(), first.end() - 1);
+    for (std::size_t k = 0; k < parts.size(); ++k) own[place[parts[k].trapezoid]++] = static_cast<Index>(k);
+    std::array<std::vector<Index>, 2> found;
+    std::vector<char> seen(whole.size(), 0);
+    std::vector<Index> stack;
+    const auto see = [&](Index trapezoid) {
+        if (seen[trapezoid]++) return;
+        found[whole[trapezoid] ? 0 : 1].push_back(trapezoid);
+        if (whole[trapezoid]) stack.push_back(trapezoid);
+    };
+    for (const Index seed : seeds) see(seed);
+    while (!stack.empty()) {
+        const Index k = stack.back();
+        stack.pop_back();
+        for (Index x = first[k]; x < first[k + 1]; ++x) {
+            if (parts[own[x]].twin < 0) fail("a side without a partner", k);
+            see(parts[parts[own[x]].twin].trapezoid);
+        }
+    }
+    for (auto& list : found) std::sort(list.begin(), list.end());
+    return found;
+}
+
+CellComplex Gluer::build(const std::vector<Index>& faces) {
+    const auto n = static_cast<Index>(faces.size());
+    std::vector<Index> face_of(whole.size(), -1), order, number(parts.size());
+    for (Index f = 0; f < n; ++f) face_of[faces[f]] = f;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        if (face_of[parts[k].trapezoid] >= 0) order.push_back(static_cast<Index>(k));
     std::sort(order.begin(), order.end(), [&](Index x, Index y) {
         const Part &p = parts[x], &q = parts[y];
         if (p.trapezoid != q.trapezoid) return p.trapezoid < q.trapezoid;
@@ -339,16 +373,20 @@ CellComplex Gluer::build() {
         const bool forwards = p.side == Side::first || p.side == Side::upper;
         return forwards ? p.order < q.order : p.order > q.order;
     });
+    const auto count = static_cast<Index>(order.size());
+    std::vector<Index> edge_of(static_cast<std::size_t>(edges) + 1, 0);  // those that are there, in their order
+    for (const Index x : order) edge_of[parts[x].edge + 1] = 1;
+    std::partial_sum(edge_of.begin(), edge_of.end(), edge_of.begin());
     CellComplex result;
-    result.edges = edges;
+    result.edges = edge_of[edges];
     result.first.assign(static_cast<std::size_t>(n) + 1, 0);
     for (Index k = 0; k < count; ++k) number[order[k]] = k;
     for (const Index x : order) {
         const Part& p = parts[x];
         if (p.twin < 0) fail("a side without a partner", p.trapezoid);
-        result.face.push_back(p.trapezoid), result.side.push_back(static_cast<std::uint8_t>(p.side));
-        result.edge.push_back(p.edge), result.twin.push_back(number[p.twin]);
-        ++result.first[p.trapezoid + 1];
+        result.face.push_back(face_of[p.trapezoid]), result.side.push_back(static_cast<std::uint8_t>(p.side));
+        result.edge.push_back(edge_of[p.edge]), result.twin.push_back(number[p.twin]);
+        ++result.first[face_of[p.trapezoid] + 1];
     }
     std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
     // vertices: around the start of a half-edge, over twins
@@ -391,12 +429,32 @@ CellComplex Gluer::build() {
 
 }  // namespace
 
-std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary) {
-    auto result = std::make_shared<CellComplex>(Gluer(*boundary).run());
+namespace {
+
+std::shared_ptr<const CellComplex> shared(CellComplex&& built, const SharedBoundary& boundary) {
+    auto result = std::make_shared<CellComplex>(std::move(built));
     result->boundary = boundary;
     const double unit = boundary->scene->near().unit();
     for (double& c : result->xy) c *= unit;
     return result;
+}
+
+}  // namespace
+
+std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary) {
+    std::vector<Index> all(boundary->trapezoids.size());
+    std::iota(all.begin(), all.end(), 0);
+    return shared(Gluer(*boundary, std::vector<char>(all.size(), 1)).build(all), boundary);
+}
+
+GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds) {
+    Gluer gluer(*boundary, std::move(whole));
+    auto [faces, missing] = gluer.from(seeds);
+    if (!missing.empty()) return {nullptr, std::move(missing)};
+    Trapezoids rows;
+    for (const Index k : faces) rows.push_row(boundary->trapezoids, k);
+    return {shared(gluer.build(faces), std::make_shared<const Boundary>(boundary->scene, boundary->patches, boundary->trimmed,
+                                                                        std::move(rows), IsolatedParts{})), {}};
 }
 
 }  // namespace cfree

@@ -21,6 +21,14 @@ void Trapezoids::push_back(const Trapezoid& x) {
     to_place.push_back(static_cast<std::uint8_t>(x.to_place));
 }
 
+void Trapezoids::push_row(const Trapezoids& of, Index k) {
+    patch.push_back(of.patch[k]), chart.push_back(of.chart[k]), lower.push_back(of.lower[k]), upper.push_back(of.upper[k]);
+    from_first.push_back(of.from_first[k]), from_second.push_back(of.from_second[k]);
+    to_first.push_back(of.to_first[k]), to_second.push_back(of.to_second[k]);
+    from_lo.push_back(of.from_lo[k]), from_hi.push_back(of.from_hi[k]), to_lo.push_back(of.to_lo[k]);
+    to_hi.push_back(of.to_hi[k]), from_place.push_back(of.from_place[k]), to_place.push_back(of.to_place[k]);
+}
+
 std::uint64_t named(const Representatives& names, std::uint64_t feature) {
     Feature f = unpacked(feature);
     const bool helix = f.kind == Kind::vertex_vertex;

@@ -24,4 +24,13 @@ struct CellComplex {
 // A side without a partner, as a message that names trapezoids, is thrown as std::logic_error.
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary);
 
+// Closed surfaces of a boundary of which only some patches are trimmed: those that hold the seeds. `whole` says of each
+// trapezoid whether all trapezoids that its sides meet are there. If the surfaces go on over one that is not: no complex, but
+// those that are missing.
+struct GluedPart {
+    std::shared_ptr<const CellComplex> complex;
+    std::vector<Index> missing;
+};
+GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds);
+
 }  // namespace cfree

@@ -39,6 +39,7 @@ struct Trapezoids {
     }
     void reserve(std::size_t count);
     void push_back(const Trapezoid& x);
+    void push_row(const Trapezoids& of, Index k);
 };
 
 // Every point and every line under one name, whoever found the trapezoid.
