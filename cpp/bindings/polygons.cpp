@@ -38,7 +38,7 @@ public:
             to = {integer(nb::borrow<nb::int_>(from)), 1};
             return !is_huge(to);
         }
-        if (type == reinterpret_cast<PyObject*>(&PyUnicode_Type)) return read_text(from, to);
+        if (PyUnicode_Check(from)) return read_text(from, to);
         if (type == decimal.ptr()) return read_text(nb::steal(PyObject_Str(from)).ptr(), to);
         if (type != fraction.ptr()) return false;
         const auto pair = nb::cast<nb::tuple>(nb::borrow(from).attr("as_integer_ratio")());

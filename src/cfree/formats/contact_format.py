@@ -6,7 +6,8 @@ from typing import Annotated, Any, Literal
 
 from pydantic import PlainValidator
 
-from cfree.formats.scene_format import Strict, fault
+from cfree.formats.scene_format import Strict
+from cfree.formats.scene_values import Fault
 
 
 def _feature(value: Any) -> tuple[int, int]:
@@ -14,7 +15,7 @@ def _feature(value: Any) -> tuple[int, int]:
         polygon, vertex = value
         if -2 <= polygon < 2**31 and 0 <= vertex < 2**31:
             return polygon, vertex
-    raise fault("expected [polygon, vertex], polygon -1 for the bounds and -2 for the workspace, got {got}")
+    raise Fault("expected [polygon, vertex], polygon -1 for the bounds and -2 for the workspace, got {got}")
 
 
 class ContactModel(Strict):

@@ -16,9 +16,9 @@ from cfree.formats.answer_file import save_path, save_separation
 from cfree.formats.archive import is_archive
 from cfree.formats.boundary_file import load_archive, save_boundary, save_space
 from cfree.formats.findings import Findings, read_text
-from cfree.formats.json_text import read_json
+from cfree.formats.json_text import read_literals, with_numbers
 from cfree.formats.mesh_file import save_mesh
-from cfree.formats.scene_file import save_scene, scene_from
+from cfree.formats.scene_file import is_wkt, save_scene, scene_from_json, scene_from_wkt
 from cfree.formats.slice_geojson import save_slice
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
@@ -103,10 +103,11 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Sep
         if is_archive(path):
             return load_archive(path)
         findings = Findings(fspath(path), read_text(FilePath(path)))
-        if '"answer"' in findings.text:
+        if is_wkt(findings):
+            return scene_from_wkt(findings)
+        data = read_literals(findings)
+        if isinstance(data, Mapping) and "answer" in data:
             from cfree.formats.answer_format import answer_from_json
 
-            data = read_json(findings)
-            if isinstance(data, Mapping) and "answer" in data:
-                return answer_from_json(findings, data).answer
-        return scene_from(findings)
+            return answer_from_json(findings, with_numbers(data)).answer
+        return scene_from_json(findings, data)

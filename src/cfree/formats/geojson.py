@@ -12,7 +12,8 @@ from pydantic import BeforeValidator, TypeAdapter, ValidationError
 from cfree.errors import InvalidPolygonError
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path
-from cfree.formats.scene_format import Point, is_encodable, report
+from cfree.formats.scene_format import Point, report
+from cfree.formats.scene_values import is_encodable
 from cfree.formats.shapes import ROLES, Shape
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import explained, flat_shape

@@ -5,25 +5,30 @@ from __future__ import annotations
 import json
 import re
 from decimal import Decimal, InvalidOperation
+from typing import Any
 
 from cfree.exact.number import MAX_DIGITS
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import shortened
 
 
-def read_json(findings: Findings) -> object:
-    """JSON with exact numbers; what breaks the syntax is raised, what the decoder would let pass is noted."""
+class Literal(str):
+    """A number as it is written."""
+
+    __slots__ = ()
+
+
+def read_json(findings: Findings) -> Any:
+    """JSON with exact numbers: an int, a Decimal, or text where no coordinate may be so long.
+
+    What breaks the syntax is raised, what the decoder would let pass is noted.
+    """
+    return with_numbers(read_literals(findings))
+
+
+def read_literals(findings: Findings) -> Any:
+    """The same with numbers as they are written."""
     irregular = False
-
-    def decimal(literal: str) -> Decimal | str:
-        # a number no coordinate may be: left as text for the validator to refuse
-        try:
-            return Decimal(literal) if len(literal) <= MAX_DIGITS else literal
-        except InvalidOperation:
-            return literal
-
-    def integer(literal: str) -> int | str:
-        return int(literal) if len(literal) <= MAX_DIGITS else literal
 
     def constant(literal: str) -> Decimal:
         nonlocal irregular
@@ -40,8 +45,8 @@ def read_json(findings: Findings) -> object:
     try:
         data = json.loads(
             findings.text,
-            parse_float=decimal,
-            parse_int=integer,
+            parse_float=Literal,
+            parse_int=Literal,
             parse_constant=constant,
             object_pairs_hook=unique,
         )
@@ -54,6 +59,30 @@ def read_json(findings: Findings) -> object:
     if irregular:
         findings.irregular_json()
     return data
+
+
+def with_numbers(data: Any) -> Any:
+    """Decoded JSON, its literals replaced by what they stand for."""
+    whole = [data]
+    waiting: list[Any] = [whole]
+    while waiting:
+        container = waiting.pop()
+        for key, part in container.items() if isinstance(container, dict) else enumerate(container):
+            if isinstance(part, Literal):
+                container[key] = number_of(part)
+            elif isinstance(part, (list, dict)):
+                waiting.append(part)
+    return whole[0]
+
+
+def number_of(literal: Literal) -> int | Decimal | str:
+    """What a literal stands for; one that no coordinate may be is left as text, for others to refuse."""
+    if len(literal) > MAX_DIGITS:
+        return str(literal)
+    try:
+        return int(literal) if literal.lstrip("-").isdigit() else Decimal(literal)
+    except InvalidOperation:
+        return str(literal)
 
 
 def json_line(value: object) -> str:

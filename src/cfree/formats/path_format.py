@@ -33,9 +33,8 @@ from cfree.formats.scene_format import (
     Strict,
     Text,
     Version,
-    fault,
-    list_of,
 )
+from cfree.formats.scene_values import Fault, list_of
 from cfree.paths.path import Path
 from cfree.scene.digest import Stamp
 
@@ -49,7 +48,7 @@ def _turning(value: Any) -> Any:
         rotations((0, 0), value)
         return value
     except (ValueError, OverflowError):
-        raise fault('expected radians or "90deg", got {got}') from None
+        raise Fault('expected radians or "90deg", got {got}') from None
 
 
 def _half_tangent(value: Any) -> Any:
@@ -57,13 +56,13 @@ def _half_tangent(value: Any) -> Any:
         Rotation((0, 0), {"tau": value})
         return value
     except InvalidPoseError:
-        raise fault('expected the tangent of half the angle, "p/q", "inf" or "-inf", got {got}') from None
+        raise Fault('expected the tangent of half the angle, "p/q", "inf" or "-inf", got {got}') from None
 
 
 def _digest(value: str) -> str:
     if re.fullmatch("[0-9a-f]{64}", value):
         return value
-    raise fault("expected 64 digits 0-9 and a-f, got {got}")
+    raise Fault("expected 64 digits 0-9 and a-f, got {got}")
 
 
 Arrival = Annotated[
@@ -139,7 +138,7 @@ class SlideModel(Strict):
         try:
             self._slide = Slide((first, last), self.exact.x, self.exact.y, self.exact.d, self.exact.tau)
         except InvalidPoseError as error:
-            raise fault(str(error)) from None
+            raise Fault(str(error)) from None
         return self
 
     @property
@@ -176,7 +175,7 @@ class AnswerModel(Strict):
     @model_validator(mode="after")
     def _has_a_scene(self) -> Self:
         if self.exact and not self.scene:
-            raise fault('key "scene" is missing, and needed beside "exact"; add it')
+            raise Fault('key "scene" is missing, and needed beside "exact"; add it')
         return self
 
     @property

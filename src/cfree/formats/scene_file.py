@@ -23,7 +23,8 @@ from cfree.exact.number import MAX_DIGITS
 from cfree.exact.pose import Pose
 from cfree.formats.atomic import replacing
 from cfree.formats.findings import Findings, read_text
-from cfree.formats.json_text import read_json
+from cfree.formats.json_text import read_json, read_literals, with_numbers
+from cfree.formats.scene_values import scene_from_plain
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, default_name
 
@@ -58,34 +59,36 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     """
     findings = _open(path)
     with collection_paused():
-        return scene_from(findings)
+        return scene_from_wkt(findings) if is_wkt(findings) else scene_from_json(findings, read_literals(findings))
 
 
-def scene_from(findings: Findings) -> Scene:
-    """The scene that a file in one of the three formats holds."""
-    if _is_wkt(findings):
-        from cfree.formats.shapes import scene_from_shapes
-        from cfree.formats.wkt import wkt_shapes
+def scene_from_wkt(findings: Findings) -> Scene:
+    """The scene that WKT holds."""
+    from cfree.formats.shapes import scene_from_shapes
+    from cfree.formats.wkt import wkt_shapes
 
-        return scene_from_shapes(findings, wkt_shapes(findings), "begin its line with robot:")
-    data = read_json(findings)
+    return scene_from_shapes(findings, wkt_shapes(findings), "begin its line with robot:")
+
+
+def scene_from_json(findings: Findings, data: object) -> Scene:
+    """The scene, or the GeoJSON, that JSON with literals is."""
     if _is_geojson(data):
         from cfree.formats.geojson import geojson_shapes
         from cfree.formats.shapes import scene_from_shapes
 
         remedy = 'give its feature the property "role": "robot"'
-        return scene_from_shapes(findings, geojson_shapes(findings, data), remedy)
-    from cfree.formats.scene_format import scene_from_json
+        return scene_from_shapes(findings, geojson_shapes(findings, with_numbers(data)), remedy)
+    if not findings and (scene := scene_from_plain(data)):
+        return scene
+    from cfree.formats.scene_format import scene_from_models
 
-    return scene_from_json(findings, data)
+    return scene_from_models(findings, with_numbers(data))
 
 
 def scene_from_text(name: str, text: str) -> Scene:
     """Scene from the JSON text that `scene_text` makes; `name` stands for the file in errors."""
-    from cfree.formats.scene_format import scene_from_json
-
     findings = Findings(name, text)
-    return scene_from_json(findings, read_json(findings))
+    return scene_from_json(findings, read_literals(findings))
 
 
 @checked
@@ -98,7 +101,7 @@ def load_polygons(path: str | PathLike[str]) -> tuple[Polygon, ...]:
         As `load_scene` does.
     """
     findings = _open(path)
-    if _is_wkt(findings):
+    if is_wkt(findings):
         from cfree.formats.wkt import wkt_shapes
 
         shapes = wkt_shapes(findings)
@@ -192,7 +195,8 @@ def _open(path: str | PathLike[str]) -> Findings:
     return Findings(os.fspath(path), read_text(Path(path)))
 
 
-def _is_wkt(findings: Findings) -> bool:
+def is_wkt(findings: Findings) -> bool:
+    """By the name of the file, or by what is in it."""
     if Path(findings.file).suffix.lower() == ".wkt":
         return True
     return findings.text.lstrip()[:1] not in "{[" and bool(re.search("POLYGON", findings.text, re.IGNORECASE))

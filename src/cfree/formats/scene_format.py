@@ -8,10 +8,8 @@ import: import this module inside functions.
 from __future__ import annotations
 
 from collections.abc import Callable
-from decimal import Decimal
 from difflib import get_close_matches
 from fractions import Fraction
-from math import isfinite
 from typing import Annotated, Any, Self
 
 from pydantic import (
@@ -27,72 +25,28 @@ from pydantic import (
     WithJsonSchema,
     model_validator,
 )
-from pydantic_core import ErrorDetails, PydanticCustomError
+from pydantic_core import ErrorDetails
 
-import cfree._core as _core
-from cfree.errors import InvalidPolygonError, InvalidPoseError
-from cfree.exact.number import to_fraction
-from cfree.exact.pose import Pose
+from cfree.errors import InvalidPolygonError
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path, shortened
-from cfree.polygons.polygon import Polygon, polygon_of
-from cfree.scene.coordinate_range import LARGEST, range_fault
+from cfree.formats.scene_values import (
+    MAX_NAME,
+    MAX_TEXT,
+    VERSION,
+    Fault,
+    angle,
+    coordinate,
+    known_version,
+    list_of,
+    not_empty,
+    plain,
+    plain_polygon,
+    pose,
+)
+from cfree.polygons.polygon import Polygon
+from cfree.scene.coordinate_range import range_fault
 from cfree.scene.scene import Scene, explained
-
-VERSION = 1
-MAX_NESTING = 32
-MAX_NAME = 1000
-
-
-def fault(message: str, **context: object) -> PydanticCustomError:
-    """A problem for `report`; ``{got}`` in the message becomes the value as written in the file."""
-    return PydanticCustomError("cfree", "{message}", {"message": message, **context})
-
-
-def _coordinate(value: object) -> Fraction:
-    if isinstance(value, (int, Decimal, str)) and not isinstance(value, bool):
-        try:
-            return to_fraction(value)
-        except ValueError as error:
-            if "is no number" not in str(error):
-                raise fault(str(error).replace(repr(value), "{got}")) from None
-    raise fault('expected a number or "p/q", got {got}')
-
-
-def list_of(length: int, form: str) -> Callable[[object], object]:
-    """A validator of lists of a fixed length."""
-
-    def check(value: object) -> object:
-        if isinstance(value, list) and len(value) == length:
-            return value
-        raise fault(f"expected {form}, got {{got}}")
-
-    return check
-
-
-def _angle(value: Any) -> Any:
-    """What `Pose` takes as an angle; checked alone, so that a fault in it is found where it stands."""
-    if isinstance(value, (int, Decimal, str, dict)) and not isinstance(value, bool) and value != {"tau": None}:
-        try:
-            Pose(0, 0, value)
-            return value
-        except InvalidPoseError as error:
-            if "is no " not in str(error):
-                raise fault(str(error).replace(repr(value), "{got}")) from None
-    raise fault('expected radians, "90deg" or {"tau": "p/q"}, got {got}')
-
-
-def _pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
-    if max(abs(value[0]), abs(value[1])) > LARGEST:
-        raise fault("a position beyond 1e150; give one nearer to the scene")
-    return Pose(*value)
-
-
-def _not_empty(value: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
-    xmin, ymin, xmax, ymax = value
-    if xmin >= xmax or ymin >= ymax:
-        raise fault("{got} is empty; give [xmin, ymin, xmax, ymax] with xmin < xmax and ymin < ymax")
-    return value
 
 
 def _robot_parts(value: object) -> list[object]:
@@ -100,40 +54,12 @@ def _robot_parts(value: object) -> list[object]:
         return [value]
     if isinstance(value, list) and value:
         return value
-    raise fault(f"expected {_POLYGON} or a list of them, at least one, got {{got}}")
+    raise Fault(f"expected {_POLYGON} or a list of them, at least one, got {{got}}")
 
 
 def _or_one(schema: dict[str, Any]) -> None:
     parts = {"type": schema.pop("type"), "items": schema.pop("items"), "minItems": 1}
     schema["anyOf"] = [parts["items"], parts]
-
-
-def _known_version(value: object) -> int:
-    if type(value) is not int or value != VERSION:
-        raise fault(f"expected version {VERSION}, the only one this cfree reads, got {{got}}")
-    return value
-
-
-def is_encodable(text: str) -> bool:
-    """No half of a surrogate pair?"""
-    return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
-
-
-def _plain(value: Any, depth: int = MAX_NESTING) -> Any:
-    """Free-form JSON with floats, shallow and encodable, so that it can be saved again."""
-    if depth == 0:
-        raise fault(f"nested more than {MAX_NESTING} deep; flatten it")
-    if isinstance(value, dict):
-        return {_plain(key): _plain(part, depth - 1) for key, part in value.items()}
-    if isinstance(value, list):
-        return [_plain(part, depth - 1) for part in value]
-    if isinstance(value, str) and not is_encodable(value):
-        raise fault("there is half a surrogate pair in {got}; give whole characters")
-    if isinstance(value, Decimal) and value.is_finite():  # others have been noted while decoding
-        value = float(value)
-        if not isfinite(value):
-            raise fault("a number in {got} is too large for a double; give smaller ones")
-    return value
 
 
 _POLYGON = 'a polygon {"outer": [[x, y], ...], "holes": []}'
@@ -157,42 +83,28 @@ _ANGLE_SCHEMA = {
         },
     ]
 }
-Coordinate = Annotated[Fraction, PlainValidator(_coordinate), WithJsonSchema(_NUMBER_SCHEMA)]
+Coordinate = Annotated[Fraction, PlainValidator(coordinate), WithJsonSchema(_NUMBER_SCHEMA)]
 Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(list_of(2, "a point [x, y]"))]
 Bounds = Annotated[
     tuple[Coordinate, Coordinate, Coordinate, Coordinate],
     BeforeValidator(list_of(4, "[xmin, ymin, xmax, ymax]")),
-    AfterValidator(_not_empty),
+    AfterValidator(not_empty),
 ]
-Angle = Annotated[Any, PlainValidator(_angle), WithJsonSchema(_ANGLE_SCHEMA)]
+Angle = Annotated[Any, PlainValidator(angle), WithJsonSchema(_ANGLE_SCHEMA)]
 Configuration = Annotated[
     tuple[Coordinate, Coordinate, Angle],
     BeforeValidator(list_of(3, "[x, y, theta]")),
-    AfterValidator(_pose),
+    AfterValidator(pose),
 ]
-Version = Annotated[int, PlainValidator(_known_version), WithJsonSchema({"const": VERSION})]
-Text = Annotated[str, Field(max_length=100_000)]
-Plain = Annotated[dict[str, Any], AfterValidator(_plain)]
+Version = Annotated[int, PlainValidator(known_version), WithJsonSchema({"const": VERSION})]
+Text = Annotated[str, Field(max_length=MAX_TEXT)]
+Plain = Annotated[dict[str, Any], AfterValidator(plain)]
 
 
 class Strict(BaseModel):
     """Keys that are not known are faults."""
 
     model_config = ConfigDict(extra="forbid")
-
-
-def _without_fault(data: Any, model: type[BaseModel]) -> Polygon | None:
-    """The polygon of a model in which nothing is wrong: the core has read it, so nobody looks at each number."""
-    if not isinstance(data, dict) or not data.keys() <= model.model_fields.keys():
-        return None
-    name, holes = data.get("name") or "", data.get("holes", [])
-    if not isinstance(holes, list) or not isinstance(name, str) or len(name) > MAX_NAME or not is_encodable(name):
-        return None
-    try:
-        core = _core.Polygon.of([data.get("outer"), *holes])
-    except InvalidPolygonError:
-        return None
-    return None if core is None else polygon_of(core)
 
 
 class PolygonModel(Strict):
@@ -205,14 +117,14 @@ class PolygonModel(Strict):
     @model_validator(mode="wrap")
     @classmethod
     def _build(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        if polygon := _without_fault(data, cls):
+        if polygon := plain_polygon(data, cls.model_fields.keys()):
             model = cls.model_construct(name=data.get("name"))
         else:
             model = handler(data)
             try:
                 polygon = Polygon(model.outer, model.holes)
             except InvalidPolygonError as error:
-                raise fault(explained(error), ring=error.ring) from None
+                raise Fault(explained(error), error.ring) from None
         model._polygon = polygon
         return model
 
@@ -234,7 +146,7 @@ class SceneModel(Strict):
     name: Text = ""
     note: Text = ""
     units: Text = ""
-    source: Annotated[dict[str, Text], AfterValidator(_plain)] = {}
+    source: Annotated[dict[str, Text], AfterValidator(plain)] = {}
     robot: Annotated[list[PolygonModel], BeforeValidator(_robot_parts), Field(json_schema_extra=_or_one)]
     obstacles: list[ObstacleModel] = []
     workspace: PolygonModel | None = None
@@ -244,7 +156,7 @@ class SceneModel(Strict):
     check: Plain = {}
 
 
-def scene_from_json(findings: Findings, data: object) -> Scene:
+def scene_from_models(findings: Findings, data: object) -> Scene:
     """Scene of a decoded JSON value; raises every problem there is through `findings`."""
     single_robot = isinstance(data, dict) and isinstance(data.get("robot"), dict)
     try:
@@ -287,10 +199,10 @@ def report(findings: Findings, path: Path, item: ErrorDetails, keys_at: Callable
         guess = get_close_matches(key, known, 1)
         remedy = f'did you mean "{guess[0]}"?' if guess else f"the keys here are {', '.join(known)}"
         findings.under(path, f'unknown key "{shortened(key)}"; {remedy}', key=True)
-    elif kind == "cfree":
-        ring = context.get("ring")
+    elif kind == "value_error":
+        ring = getattr(context["error"], "ring", None)
         within: Path = () if ring is None else ("outer",) if ring == 0 else ("holes", ring - 1)
-        findings.under((*path, *within), context["message"])
+        findings.under((*path, *within), str(context["error"]))
     elif kind == "string_too_long":
         findings.under(path, f"{{got}} has more than {context['max_length']} characters; shorten it")
     else:

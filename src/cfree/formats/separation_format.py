@@ -18,7 +18,8 @@ from cfree.formats.contact_format import ContactModel
 from cfree.formats.effect import Effect
 from cfree.formats.json_text import json_line
 from cfree.formats.path_format import AnswerModel, answer_head
-from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict, fault
+from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict
+from cfree.formats.scene_values import Fault
 from cfree.paths.path import Path
 from cfree.planning.separation import Auxiliary, Pieces, Separated
 from cfree.polygons.polygon import Polygon
@@ -35,7 +36,7 @@ def _code(value: Any) -> int:
         kind, i, j = value
         if 1 <= kind <= 4 and 0 <= i < MOST_ROBOT_FEATURES and 0 <= j < MOST_OBSTACLE_FEATURES:
             return int(kind << 61 | i << 31 | j)
-    raise fault("expected [kind, robot feature, obstacle feature], kind from 1 to 4, got {got}")
+    raise Fault("expected [kind, robot feature, obstacle feature], kind from 1 to 4, got {got}")
 
 
 def _interval(value: Any) -> tuple[float, float]:
@@ -43,7 +44,7 @@ def _interval(value: Any) -> tuple[float, float]:
         lo, hi = (float(max(-3, min(c, 3))) for c in value)
         if -2 <= lo <= hi <= 2:
             return lo, hi
-    raise fault("expected an interval [lo, hi] with -2 <= lo <= hi <= 2, got {got}")
+    raise Fault("expected an interval [lo, hi] with -2 <= lo <= hi <= 2, got {got}")
 
 
 def _is_finite(value: Any) -> bool:
@@ -97,7 +98,7 @@ class AuxiliaryModel(Strict):
     @model_validator(mode="after")
     def _fits(self) -> AuxiliaryModel:
         if not len(set(self.points)) == len(self.points) == {"vertex": 1, "edge": 2}[self.kind]:
-            raise fault("expected one point of a vertex, two of an edge, got {got}")
+            raise Fault("expected one point of a vertex, two of an edge, got {got}")
         return self
 
     @property
@@ -120,13 +121,13 @@ class SeparationModel(AnswerModel):
     @model_validator(mode="after")
     def _fits(self) -> SeparationModel:
         if (self.of == "closed") != bool(self.smaller_robot):
-            raise fault('"smaller_robot" belongs to what is "of": "closed", and to nothing else; correct one of them')
+            raise Fault('"smaller_robot" belongs to what is "of": "closed", and to nothing else; correct one of them')
         if self.of == "interior" and self.larger_bounds:
-            raise fault('"larger_bounds" belong to what is "of": "closed"; leave them out')
+            raise Fault('"larger_bounds" belong to what is "of": "closed"; leave them out')
         if sorted(set(self.obstacles)) != sorted({piece.contact.obstacle[0] for piece in self.surface}):
-            raise fault('"obstacles" are not those of the surface; correct one of them')
+            raise Fault('"obstacles" are not those of the surface; correct one of them')
         if len({(item.of, item.kind, item.number) for item in self.auxiliary}) < len(self.auxiliary):
-            raise fault("one of the auxiliary features is there twice; keep one")
+            raise Fault("one of the auxiliary features is there twice; keep one")
         return self
 
     @property

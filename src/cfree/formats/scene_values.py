@@ -1,0 +1,189 @@
+"""The values of JSON scenes, each with what is wrong with it; `docs/scene-format.md` describes them.
+
+`scene_from_plain` reads a scene in which nothing is wrong, which nearly all are, and nothing else. What is wrong, and
+where, `scene_format.py` finds out, which takes longer.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Set
+from decimal import Decimal
+from fractions import Fraction
+from math import isfinite
+from typing import Any
+
+import cfree._core as _core
+from cfree.errors import CfreeError, InvalidPolygonError, InvalidPoseError
+from cfree.exact.number import to_fraction
+from cfree.exact.pose import Pose
+from cfree.formats.json_text import Literal, number_of
+from cfree.polygons.polygon import Polygon, polygon_of
+from cfree.scene.coordinate_range import LARGEST
+from cfree.scene.scene import Scene
+
+VERSION = 1
+MAX_NESTING = 32
+MAX_NAME = 1000
+MAX_TEXT = 100_000
+POLYGON = frozenset({"outer", "holes"})
+OBSTACLE = POLYGON | {"name"}
+
+
+class Fault(ValueError):
+    """What is wrong with a value; ``{got}`` in the message becomes the value as written in the file."""
+
+    def __init__(self, message: str, ring: int | None = None) -> None:
+        super().__init__(message)
+        self.ring = ring
+
+
+def coordinate(value: object) -> Fraction:
+    if isinstance(value, (int, Decimal, str)) and not isinstance(value, bool):
+        try:
+            return to_fraction(value)
+        except ValueError as error:
+            if "is no number" not in str(error):
+                raise Fault(str(error).replace(repr(value), "{got}")) from None
+    raise Fault('expected a number or "p/q", got {got}')
+
+
+def list_of(length: int, form: str) -> Callable[[object], list[Any]]:
+    """A check of lists of a fixed length."""
+
+    def check(value: object) -> list[Any]:
+        if isinstance(value, list) and len(value) == length:
+            return value
+        raise Fault(f"expected {form}, got {{got}}")
+
+    return check
+
+
+def angle(value: Any) -> Any:
+    """What `Pose` takes as an angle; checked alone, so that a fault in it is found where it stands."""
+    value = number_of(value) if isinstance(value, Literal) else value
+    if isinstance(value, (int, Decimal, str, dict)) and not isinstance(value, bool) and value != {"tau": None}:
+        try:
+            Pose(0, 0, value)
+            return value
+        except InvalidPoseError as error:
+            if "is no " not in str(error):
+                raise Fault(str(error).replace(repr(value), "{got}")) from None
+    raise Fault('expected radians, "90deg" or {"tau": "p/q"}, got {got}')
+
+
+def pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
+    if max(abs(value[0]), abs(value[1])) > LARGEST:
+        raise Fault("a position beyond 1e150; give one nearer to the scene")
+    return Pose(*value)
+
+
+def not_empty(value: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+    xmin, ymin, xmax, ymax = value
+    if xmin >= xmax or ymin >= ymax:
+        raise Fault("{got} is empty; give [xmin, ymin, xmax, ymax] with xmin < xmax and ymin < ymax")
+    return value
+
+
+def known_version(value: object) -> int:
+    if type(value) is not int or value != VERSION:
+        raise Fault(f"expected version {VERSION}, the only one this cfree reads, got {{got}}")
+    return value
+
+
+def is_encodable(text: str) -> bool:
+    """No half of a surrogate pair?"""
+    return text.isascii() or not any("\ud800" <= character <= "\udfff" for character in text)
+
+
+def plain(value: Any, depth: int = MAX_NESTING) -> Any:
+    """Free-form JSON with floats, shallow and encodable, so that it can be saved again."""
+    value = number_of(value) if isinstance(value, Literal) else value
+    if depth == 0:
+        raise Fault(f"nested more than {MAX_NESTING} deep; flatten it")
+    if isinstance(value, dict):
+        return {plain(key): plain(part, depth - 1) for key, part in value.items()}
+    if isinstance(value, list):
+        return [plain(part, depth - 1) for part in value]
+    if isinstance(value, str) and not is_encodable(value):
+        raise Fault("there is half a surrogate pair in {got}; give whole characters")
+    if isinstance(value, Decimal) and value.is_finite():  # others have been noted while decoding
+        value = float(value)
+        if not isfinite(value):
+            raise Fault("a number in {got} is too large for a double; give smaller ones")
+    return value
+
+
+# what nothing is wrong with
+
+
+def scene_from_plain(data: object) -> Scene | None:
+    """The scene of a decoded JSON value, if nothing is wrong with it."""
+    if not isinstance(data, dict) or not data.keys() <= _READERS.keys() | _SHAPES:
+        return None
+    robot, obstacles, workspace = data.get("robot"), data.get("obstacles", []), data.get("workspace")
+    robot = [robot] if isinstance(robot, dict) else robot
+    if not isinstance(robot, list) or not isinstance(obstacles, list):
+        return None
+    parts, bodies = [plain_polygon(part, POLYGON) for part in robot], [plain_polygon(o, OBSTACLE) for o in obstacles]
+    room = None if workspace is None else plain_polygon(workspace, POLYGON)
+    if None in parts or None in bodies or (room is None and workspace is not None):
+        return None
+    names = [obstacle.get("name") for obstacle in obstacles]
+    try:
+        others = {key: read(data[key]) for key, read in _READERS.items() if key in data}
+        return Scene(parts, bodies, obstacle_names=names, workspace=room, **others)
+    except (CfreeError, Fault):
+        return None
+
+
+def plain_polygon(data: Any, keys: Set[str]) -> Polygon | None:
+    """The polygon of a decoded JSON value, if nothing is wrong with it: the core reads it."""
+    if not isinstance(data, dict) or not data.keys() <= keys:
+        return None
+    name, holes = data.get("name"), data.get("holes", [])
+    if not isinstance(holes, list) or not (name is None or is_text(name, MAX_NAME)):
+        return None
+    try:
+        core = _core.Polygon.of([data.get("outer"), *holes])
+    except InvalidPolygonError:
+        return None
+    return None if core is None else polygon_of(core)
+
+
+def is_text(value: Any, most: int) -> bool:
+    """No number, and not too long?"""
+    return type(value) is str and len(value) <= most and is_encodable(value)
+
+
+def _text(value: Any) -> str:
+    if is_text(value, MAX_TEXT):
+        return str(value)
+    raise Fault("no text")
+
+
+def _object(value: Any) -> dict[str, Any]:
+    if isinstance(value, dict):
+        return {**plain(value)}
+    raise Fault("no object")
+
+
+def _bounds(value: Any) -> tuple[Fraction, ...] | None:
+    return None if value is None else not_empty(tuple(map(coordinate, list_of(4, "bounds")(value))))
+
+
+def _configuration(value: Any) -> Pose | None:
+    if value is None:
+        return None
+    x, y, theta = list_of(3, "a configuration")(value)
+    return pose((coordinate(x), coordinate(y), angle(theta)))
+
+
+_SHAPES = {"robot", "obstacles", "workspace"}
+_READERS: dict[str, Callable[[Any], Any]] = {
+    "version": lambda value: known_version(number_of(value) if isinstance(value, Literal) else value),
+    **dict.fromkeys(("name", "note", "units"), _text),
+    "source": lambda value: {key: _text(text) for key, text in _object(value).items()},
+    "bounds": _bounds,
+    **dict.fromkeys(("start", "goal"), _configuration),
+    "check": _object,
+}
