@@ -10,14 +10,12 @@ What has to be believed: this file; Python's integers, `fractions`, `decimal`, `
 below. Nothing is computed in floating point but the rational that an angle in radians or degrees stands for ("Angles").
 All signs are signs of integers. No part of cfree is used, and none of its code is here.
 
-A robot is a set of polygons that turn and move together: a point a of it is at R(theta) a + r. A pose is forbidden if
-the interior of one of them meets the interior of an obstacle, or leaves the workspace, or if r leaves the bounds.
+A point a of the robot is at R(theta) a + r. A pose is forbidden if the interior of one of its polygons meets the
+interior of an obstacle, or leaves the workspace, or if r leaves the bounds.
 
-Paths. With tau = tan(theta / 2), cos = (1 - tau^2) / (1 + tau^2) and sin = 2 tau / (1 + tau^2), every motion is a
-quotient of polynomials. Robot and obstacles are cut into convex pieces. Two of these do not overlap exactly if a side
-of one of them has all of the other on its outer side; whether a vertex is there is the sign of a polynomial. So nothing
-changes between two neighbouring zeros of all these polynomials, and one moment stands for all between them. Where one
-side does for some time, no zeros are needed.
+Paths. With tau = tan(theta / 2) every motion is a quotient of polynomials. Robot and obstacles are cut into convex
+pieces. Two of these do not overlap exactly if a side of one of them has all of the other on its outer side; whether a
+vertex is there is the sign of a polynomial. So one moment stands for all between two neighbouring zeros of these.
 
 Proofs that there is none. A contact surface is a set of poses at which a vertex is on an edge. A piece of it is {(t,
 theta): lower(theta) <= t <= upper(theta), from <= theta <= to}, t the place on the edge. If every part of an edge of
@@ -25,7 +23,8 @@ one of the pieces is one of an even number of them, then they have no boundary, 
 number of times, if it crosses them properly. If a ray from the start does so an odd number of times, and one from the
 goal an even number, every path between these poses meets a piece: there the robot touches something. That is why
 "interior" proofs exclude paths that keep a distance. "closed" ones are made of contacts of a robot strictly inside the
-real one: where it touches, the real one overlaps.
+real one: where it touches, the real one overlaps. A clearance is kept by a robot larger by a polygon around a disc; it
+is not if a robot all of which is nearer to the real one touches.
 """
 
 from __future__ import annotations
@@ -65,6 +64,14 @@ class BadFileError(Exception):
 class RefutedError(Exception):
     """The answer is wrong, or not proved."""
 
+def refuse_if(wrong: Any, text: str) -> None:
+    if wrong:
+        raise BadFileError(text)
+
+def refute_if(wrong: Any, text: str) -> None:
+    if wrong:
+        raise RefutedError(text)
+
 # === Files: JSON with exact numbers, no unknown and no repeated keys ===
 MAX_DIGITS = 4000
 LARGEST = 10**150  # of a coordinate
@@ -83,8 +90,7 @@ def decoded(text: str) -> Any:
 
     def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         found = dict(pairs)
-        if len(found) < len(pairs):
-            raise BadFileError(f"a key is there twice, one of {list(found)!a:.60}")
+        refuse_if(len(found) < len(pairs), f"a key is there twice, one of {list(found)!a:.60}")
         return found
 
     try:
@@ -94,29 +100,24 @@ def decoded(text: str) -> Any:
 
 def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
     """The members of an object; `known` holds the keys, each with what counts if it is not there."""
-    if not isinstance(value, dict):
-        raise BadFileError(f"{place}: expected an object")
+    refuse_if(not isinstance(value, dict), f"{place}: expected an object")
     for key in value:
-        if key not in known:
-            raise BadFileError(f"{place}: unknown key {key!a}")
+        refuse_if(key not in known, f"{place}: unknown key {key!a}")
     for key, default in known.items():
-        if default is REQUIRED and key not in value:
-            raise BadFileError(f"{place}: {key!a} is missing")
+        refuse_if(default is REQUIRED and key not in value, f"{place}: {key!a} is missing")
     return {key: value.get(key, default) for key, default in known.items()}
 
-def items(value: Any, place: str, least: int = 0, most: int | None = None) -> list[Any]:
-    if not isinstance(value, list) or len(value) < least or (most is not None and len(value) > most):
-        raise BadFileError(f"{place}: expected a list" + (f" of {least} to {most}" if most is not None else ""))
-    return value
+def items(value: Any, place: str, least: int = 0, most: float = math.inf) -> list[Any]:
+    refuse_if(not isinstance(value, list) or not least <= len(value) <= most, f"{place}: expected a list")
+    return value  # type: ignore[no-any-return]
 
 def one_of(value: Any, place: str, *choices: Any) -> Any:
     if not any(type(value) is type(choice) and value == choice for choice in choices):
         raise BadFileError(f"{place}: expected one of {', '.join(map(repr, choices))}")
     return value
 
-def whole(value: Any, place: str, least: int, most: int = 2**31 - 1) -> int:
-    if type(value) is not int or not least <= value <= most:
-        raise BadFileError(f"{place}: expected an integer of at least {least}")
+def whole(value: Any, place: str, least: int, most: int = 2**31 - 1) -> Any:
+    refuse_if(type(value) is not int or not least <= value <= most, f"{place}: expected an integer from {least} on")
     return value
 
 def number(value: Any, place: str) -> Fraction:
@@ -139,8 +140,7 @@ def numbers(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
 
 def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     """Numbers that are not in quotes."""
-    if any(isinstance(c, str) for c in items(value, place, count, count)):
-        raise BadFileError(f"{place}: expected numbers without quotes")
+    refuse_if(any(isinstance(c, str) for c in items(value, place, count, count)), f"{place}: expected no text")
     return numbers(value, place, count)
 
 # === Angles: tau = tan(theta / 2), a Fraction, or None for the half turn ===
@@ -234,8 +234,7 @@ def read_tau(value: Any, place: str) -> Fraction | None:
 
 def read_pose(value: Any, place: str) -> Pose:
     x, y = numbers(items(value, place, 3, 3)[:2], place, 2)
-    if max(abs(x), abs(y)) > LARGEST:
-        raise BadFileError(f"{place}: a position beyond 1e150")
+    refuse_if(max(abs(x), abs(y)) > LARGEST, f"{place}: a position beyond 1e150")
     return Pose(x, y, read_angle(value[2], place))
 
 # === Polygons ===
@@ -265,8 +264,7 @@ class Polygon:
             is_left = sum(cross(p, q) for p, q in edges_of(ring)) > 0
             self.rings.append(ring if is_left == (not self.rings) else [ring[0], *ring[:0:-1]])
         self.unit = math.lcm(*(c.denominator for ring in self.rings for point in ring for c in point))
-        if self.unit.bit_length() > MAX_BITS:
-            raise BadFileError(f"{place}: the common denominator of its coordinates is too long")
+        refuse_if(self.unit.bit_length() > MAX_BITS, f"{place}: its common denominator is too long")
         check_rings(self.integers(self.unit), place)
 
     def integers(self, scale: int) -> list[Ring]:
@@ -283,8 +281,7 @@ def clean(points: Ring, place: str) -> Ring:
     around = list(zip(ring[-1:] + ring[:-1], ring, ring[1:] + ring[:1], strict=True))
     kept = [q for p, q, r in around if side(p, q, r)]
     spikes = (side(p, q, r) == 0 > dot(minus(q, p), minus(r, q)) for p, q, r in around)
-    if len(points) < 3 or len(kept) < 3 or any(spikes):
-        raise BadFileError(f"{place}: a ring without area, or with a spike")
+    refuse_if(len(points) < 3 or len(kept) < 3 or any(spikes), f"{place}: a ring without area, or with a spike")
     return kept
 
 def check_rings(rings: list[Ring], place: str) -> None:
@@ -308,8 +305,7 @@ def check_rings(rings: list[Ring], place: str) -> None:
         for a, b in pairwise(sorted({p, q, *touching[k, i]})):
             middle = Fraction(a[0] + b[0]) / 2, Fraction(a[1] + b[1]) / 2
             for m, other in enumerate(rings):
-                if m != k and encloses([other], middle) != (k > 0 and m == 0):
-                    raise BadFileError(f"{place}: its rings cross, or do not lie in each other as they should")
+                refuse_if(m != k and encloses([other], middle) != (k > 0 and m == 0), f"{place}: rings that cross")
 
 def common_points(p: Point, q: Point, r: Point, s: Point) -> list[Point] | None:
     """Those in which two edges touch, p < q and r < s; None if they cross or overlap."""
@@ -331,10 +327,8 @@ def encloses(rings: Iterable[Ring], point: Point) -> bool:
     return inside
 
 def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
-    """Is all of one polygon, with its boundary, in the interior of another?
-
-    Exactly if their boundaries have no point in common, the rings of the one are inside the other, and no ring of the
-    other is inside the one, where it would be a hole.
+    """Is all of one polygon, with its boundary, in the interior of another: do their boundaries not meet, are the rings
+    of the one inside the other, and is no ring of the other, a hole, inside the one?
     """
     unit = math.lcm(inner.unit, outer.unit)
     one, other = inner.integers(unit), outer.integers(unit)
@@ -343,6 +337,24 @@ def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
         if any(r[0] <= q[0] and p[0] <= s[0] and common_points(p, q, r, s) != [] for r, s in edges[1]):
             return False
     return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
+
+def is_near(point: Point, core: Ring, distance: Fraction) -> bool:
+    """Is a point nearer to a convex ring than a distance, or inside?"""
+    seen = [(minus(p, point), minus(q, p)) for p, q in edges_of(core)]
+    feet = [(p, v, min(max(-dot(p, v) / dot(v, v), ZERO), ONE)) for p, v in seen]
+    away = ((p[0] + share * v[0], p[1] + share * v[1]) for p, v, share in feet)
+    return all(cross(p, v) >= 0 for p, v in seen) or any(dot(p, p) < distance**2 for p in away)
+
+def is_convex(rings: list[Ring]) -> bool:
+    """One ring, counter-clockwise, all of whose points are corners of their hull?"""
+    hull, ring = convex_hull(rings[0]), rings[0]
+    first = ring.index(hull[0])
+    return len(rings) == 1 and ring[first:] + ring[:first] == hull
+
+def is_around_disc(ring: Ring, radius: Fraction) -> bool:
+    """Is it convex, with a disc about the origin inside?"""
+    sides = ((cross(p, q), minus(q, p)) for p, q in edges_of(ring))
+    return is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
 
 # === Scenes ===
 class Scene:
@@ -353,7 +365,7 @@ class Scene:
     ) -> None:
         self.robot, self.obstacles, self.workspace, self.bounds = robot, obstacles, workspace, bounds
         self.asked: dict[str, Pose] = {}
-        polygons = [*robot, *obstacles, *([workspace] if workspace else [])]
+        polygons = [*robot, *obstacles, *filter(None, [workspace])]
         self.scale = math.lcm(*(p.unit for p in polygons), *(b.denominator for b in bounds or ()))
         coordinates = [c for p in polygons for ring in p.rings for point in ring for c in point]
         largest = max(abs(c) for c in (*coordinates, *(bounds or ())))
@@ -373,16 +385,13 @@ class Scene:
         kinds = ("robot", self.robot), ("obstacle", self.obstacles), ("workspace", filter(None, [self.workspace]))
         for word, polygon in ((word, polygon) for word, polygons in kinds for polygon in polygons):
             lines.append(word)
-            lines += [f"{'hole' if k else 'outer'} {joined(chain(*ring))}" for k, ring in enumerate(polygon.rings)]
-        lines += [f"bounds {joined(self.bounds)}"] if self.bounds else []
+            for k, ring in enumerate(polygon.rings):
+                lines.append(" ".join(["hole" if k else "outer", *map(str, chain(*ring))]))
+        lines += [f"bounds {' '.join(map(str, self.bounds))}"] if self.bounds else []
         return hashlib.sha256("".join(f"{line}\n" for line in lines).encode("ascii")).hexdigest()
 
-def joined(numbers: Iterable[Fraction]) -> str:
-    return " ".join(map(str, numbers))
-
 def read_scene(data: Any) -> Scene:
-    if isinstance(data, dict) and "type" in data:
-        raise BadFileError("GeoJSON is not read here; save the scene as a JSON scene")
+    refuse_if(isinstance(data, dict) and "type" in data, "GeoJSON is not read here; save the scene as a JSON scene")
     optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
     got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], **optional)
     one_of(got["version"], "version", 1)
@@ -405,8 +414,7 @@ def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
 
 def read_bounds(value: Any, place: str) -> tuple[Fraction, ...]:
     x0, y0, x1, y1 = found = numbers(value, place, 4)
-    if x0 >= x1 or y0 >= y1:
-        raise BadFileError(f"{place}: they are empty")
+    refuse_if(x0 >= x1 or y0 >= y1, f"{place}: they are empty")
     return found
 
 # === Polynomials with integer coefficients, and their roots ===
@@ -499,10 +507,6 @@ def mapped(p: Sequence[int], interval: Interval) -> list[int]:
     """
     return [sum(map(mul, row, p)) for row in mapping(len(p) - 1, *interval)]
 
-def changes(coefficients: Sequence[int]) -> int:
-    signs = [c > 0 for c in coefficients if c]
-    return sum(a != b for a, b in pairwise(signs))
-
 class Root:
     """A real algebraic number: the only root of a squarefree polynomial in [lo, hi].
 
@@ -563,7 +567,8 @@ def roots_in(p: Poly, lo: Fraction, hi: Fraction) -> list[Root]:
             if sign_at(q, end) == 0:  # divided out, so that ends are no roots
                 rational.add(end)
                 q = quotient(q, (-end.numerator, end.denominator))
-        count = changes(mapped(q, (lo, hi))) if lo < hi else 0
+        signs = [c > 0 for c in mapped(q, (lo, hi)) if c] if lo < hi else []
+        count = sum(a != b for a, b in pairwise(signs))
         if count == 1:
             found.append(Root(q, lo, hi))
         elif count:
@@ -688,13 +693,18 @@ class World:
             self.walls += [piece for hole in holes for piece in convex_pieces([hole])]
         self.boxes = [box_around(piece.corners) for piece in self.walls]
 
+    def larger(self, ring: Ring) -> World:
+        """For a robot larger by a convex polygon, in its own frame."""
+        found, moves = copy(self), [(x * self.scale, y * self.scale) for x, y in ring]
+        found.robot = [
+            Piece(convex_hull((x + dx, y + dy) for x, y in piece.points for dx, dy in moves)) for piece in self.robot
+        ]
+        return found
+
     def roomier(self, leeway: Fraction) -> World:
         """For a robot larger by the square [-leeway, leeway]^2, within bounds smaller by leeway on every side."""
-        found, by = copy(self), leeway * self.scale
-        signs = [(-by, -by), (by, -by), (by, by), (-by, by)]
-        found.robot = [
-            Piece(convex_hull((x + dx, y + dy) for x, y in piece.points for dx, dy in signs)) for piece in self.robot
-        ]
+        by = leeway * self.scale
+        found = self.larger([(-leeway, -leeway), (leeway, -leeway), (leeway, leeway), (-leeway, leeway)])
         found.bounds = [b + (by if k < 2 else -by) for k, b in enumerate(self.bounds)]
         if self.bounds and (found.bounds[0] >= found.bounds[2] or found.bounds[1] >= found.bounds[3]):
             raise RefutedError("its decimals are not free, as it says: of smaller bounds nothing would be left")
@@ -795,8 +805,7 @@ def read_slide(exact: Any, contacts: list[tuple[Any, ...]], place: str) -> Motio
     unit = -1 if terms[2][0] < 0 else 1
     x, y, d = ([unit * c * tau**k for k, c in enumerate(p)] for p in terms)
     common = math.lcm(*(c.denominator for c in d))
-    if min(mapped([int(c * common) for c in d], ALL)) <= 0:
-        raise BadFileError(f"{place}: d may be zero on the way")
+    refuse_if(min(mapped([int(c * common) for c in d], ALL)) <= 0, f"{place}: d may be zero on the way")
     return Motion(vector=(sum(x, ZERO) / sum(d), sum(y, ZERO) / sum(d)), tau=tau, slide=(x, y, d), contacts=contacts)
 
 # === Collisions ===
@@ -898,19 +907,19 @@ class Answer:
     """Start, goal, for which scene, and all decimals by place."""
 
     def __init__(self, data: dict[str, Any], **more: Any) -> None:
-        if data.get("exact") is None:
-            raise BadFileError("decimals alone are not read here; cfree saves exact numbers beside them")
+        refuse_if(data.get("exact") is None, "decimals alone are not read here; cfree saves exact numbers, too")
         required = dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED)
-        self.got = got = members(data, "answer", **required, version=1, units="", frame="world", **more)
+        self.got = got = members(data, "answer", **required, version=1, units="", frame="world", clearance=None, **more)
         one_of(got["version"], "version", 1)
-        if not all(isinstance(got[key], str) for key in ("units", "frame")):
-            raise BadFileError("units, frame: expected texts")
+        refuse_if(not all(isinstance(got[key], str) for key in ("units", "frame")), "units, frame: expected texts")
+        self.clearance = ZERO if got["clearance"] is None else number(got["clearance"], "clearance")
+        refuse_if(self.clearance <= 0 and got["clearance"] is not None, "clearance: expected a length above 0")
         ends = members(got["exact"], "exact", start=REQUIRED, goal=REQUIRED)
         self.start, self.goal = (read_pose(ends[end], f"exact.{end}") for end in ("start", "goal"))
         stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED)
         self.sha256, self.box = stamp["sha256"], read_bounds(stamp["robot"], "scene.robot")
-        if not isinstance(self.sha256, str) or not re.fullmatch("[0-9a-f]{64}", self.sha256):
-            raise BadFileError("scene.sha256: expected 64 digits 0-9 and a-f")
+        is_hash = isinstance(self.sha256, str) and re.fullmatch("[0-9a-f]{64}", self.sha256)
+        refuse_if(not is_hash, "scene.sha256: expected 64 digits 0-9 and a-f")
         self.size = max(self.box[2] - self.box[0], self.box[3] - self.box[1])
         self.reach = sum(max(abs(self.box[k]), abs(self.box[k + 2])) for k in (0, 1))
         self.decimals: dict[Any, Fraction] = {}
@@ -929,10 +938,8 @@ class Answer:
             raise BadFileError(f"{place}: the decimals are another pose than the exact numbers")
 
     def check_asked(self, scene: Scene) -> None:
-        if self.sha256 != scene.sha256:
-            raise RefutedError("it is an answer for another scene")
-        if self.box != scene.box:
-            raise RefutedError("scene.robot is not the box around the robot")
+        refute_if(self.sha256 != scene.sha256, "it is an answer for another scene")
+        refute_if(self.box != scene.box, "scene.robot is not the box around the robot")
         for name, pose in scene.asked.items():
             if pose != getattr(self, name):
                 raise RefutedError(f"the {name} is {getattr(self, name)}, and {pose} in the scene")
@@ -953,18 +960,18 @@ class PathAnswer(Answer):
     """A start, and motions that lead to the goal."""
 
     def __init__(self, data: dict[str, Any]) -> None:
-        super().__init__(data, decimals=REQUIRED, motions=REQUIRED)
+        super().__init__(data, decimals=REQUIRED, motions=REQUIRED, disc=[])
+        self.disc: Ring = [numbers(p, "disc", 2) for p in items(self.got["disc"], "disc")]  # type: ignore[misc]
+        refuse_if(bool(self.clearance) != (len(self.disc) > 2), '"clearance" and "disc" belong together')
         one_of(self.got["decimals"], "decimals", "free", "approximate")
         self.motions = [self.read_motion(k, m) for k, m in enumerate(items(self.got["motions"], "motions"))]
-        if self.effect(self.decimals) > self.size / 10**9:
-            raise BadFileError("the decimals lead elsewhere than the exact numbers")
+        refuse_if(self.effect(self.decimals) > self.size / 10**9, "the decimals lead elsewhere")
         circle, given, exact = 2 * angle_to(None), self.decimals["start", 2], angle_to(self.start.tau)
         pose, theta = self.start, exact + circle * round((given - exact) / circle)
         for k, motion in enumerate(self.motions):
             pose, theta = motion.end(pose), theta + motion.angle
             self.check_decimals((k, "to"), pose, theta)
-        if pose != self.goal:
-            raise BadFileError("the motions do not lead to the exact goal")
+        refuse_if(pose != self.goal, "the motions do not lead to the exact goal")
 
     def read_motion(self, k: int, data: Any) -> Motion:
         kind, place = data.get("type") if isinstance(data, dict) else None, f"motions[{k}]"
@@ -1015,23 +1022,33 @@ class PathAnswer(Answer):
 
 def check_path(answer: PathAnswer, scene: Scene) -> str:
     """What is proved, in a sentence."""
-    world, said, only = World(scene), "the robot is where it may not be", "; its decimals are approximate"
+    world, only = World(scene), "; its decimals are approximate"
     check_pose(world, answer.start, "start")
     check_pose(world, answer.goal, "goal")
+    worlds = {"the robot is where it may not be": world}
     if answer.got["decimals"] == "free":
-        world, only = world.roomier(answer.leeway()), ""
+        worlds, only = {}, ""
         said = "its decimals are not free, as it says, or the robot is where it may not be"
-        check_pose(world, answer.start, "start, with the room that decimals need")
+        worlds[said] = world.roomier(answer.leeway())
+    if answer.clearance:
+        if not is_around_disc(answer.disc, answer.clearance):
+            raise RefutedError("disc: it is not convex, or not around a disc of that radius")
+        worlds["the robot is nearer to something than the clearance"] = world.larger(answer.disc)
+    for said, there in worlds.items():
+        check_pose(there, answer.start, f"start: {said}")
     pose = answer.start
     for k, motion in enumerate(answer.motions):
         for course in motion.courses(pose, world.scale):
             for contact in motion.contacts:
                 check_kept(scene, course, contact, f"motion {k}")
-            if (u := collision(world, course)) is not None:
-                raise RefutedError(f"motion {k}: {said}, near u = {float(u):.6g}")
+            for said, there in worlds.items():
+                if (u := collision(there, course)) is not None:
+                    raise RefutedError(f"motion {k}: {said}, near u = {float(u):.6g}")
         pose = motion.end(pose)
     count = f"{len(answer.motions):,} motion{'s' * (len(answer.motions) != 1)}"
-    return f"A path of {count} leads from {answer.start} to {answer.goal}, and is free of collisions{only}."
+    kept = f"keeps {float(answer.clearance):g} from obstacles and workspace"
+    only = (kept if answer.clearance else "is free of collisions") + only
+    return f"A path of {count} leads from {answer.start} to {answer.goal}, and {only}."
 
 def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> None:
     """A slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
@@ -1043,11 +1060,9 @@ def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> Non
         W, C, S, X, Y = course.back
     # from where the edge begins to the vertex, times W
     x, y = combined((1, ax, -ay, -bx), X, C, S, W), combined((1, ay, ax, -by), Y, C, S, W)
-    if any(combined((u, -v), y, x)):
-        raise RefutedError(f"{what}: the vertex of a contact is not on the edge's line all the way")
+    refute_if(any(combined((u, -v), y, x)), f"{what}: the vertex of a contact is not on the edge's line all the way")
     for past in (combined((-u, -v), x, y), combined((u, v, -u * u - v * v), x, y, W)):
-        if positive_place(past) is not None:
-            raise RefutedError(f"{what}: the vertex of a contact is beyond the end of its edge")
+        refute_if(positive_place(past) is not None, f"{what}: the vertex of a contact is beyond the end of its edge")
 
 # === Contact surfaces, and the names of their curves and angles ===
 Form = tuple[int, int, int]  # (f, g, h) stands for f + g cos + h sin
@@ -1080,8 +1095,7 @@ class Surface:
     def cut(self, other: Surface) -> tuple[Form, Form]:
         """Numerator and denominator of t where another surface's line meets this one's."""
         n, d = other.form(minus(self.b, other.b), minus(self.a, other.a)), other.form(self.q, self.g)
-        if not any(d):
-            raise RefutedError("a curve is cut out by a surface that is parallel at every angle")
+        refute_if(not any(d), "a curve is cut out by a surface that is parallel at every angle")
         return (-n[0], -n[1], -n[2]), d
 
 @dataclass
@@ -1172,14 +1186,12 @@ class Features:
             return surface.cut(Surface(self.point("robot", i), (0, 0), *self.edge("obstacles", j)))
         if kind == 2:
             return surface.cut(Surface(*self.edge("robot", i), self.point("obstacles", j), (0, 0)))
-        if kind != 3:
-            raise RefutedError("a curve that is named by two edges")
+        refute_if(kind != 3, "a curve that is named by two edges")
         # the reference point where two vertices meet: on the surface if t is the same for all of it
         alpha, beta = minus(self.point("robot", i), surface.a), minus(self.point("obstacles", j), surface.b)
         n, d = dot(beta, surface.q) + dot(alpha, surface.g), dot(surface.q, surface.q) + dot(surface.g, surface.g)
         at, along = (*beta, *alpha), (*surface.q, *surface.g)
-        if any(d * c != n * u for c, u in zip(at, along, strict=True)):
-            raise RefutedError("a curve that does not lie on its surface")
+        refute_if(any(d * c != n * u for c, u in zip(at, along, strict=True)), "a curve off its surface")
         return (n, 0, 0), (d, 0, 0)
 
     def zero(self, surface: Surface, names: Sequence[tuple[int, int, int]], chart: int) -> Poly:
@@ -1204,8 +1216,7 @@ class Features:
     def angle(self, contact: Contact, chart: int, names: Any, lo: Fraction, hi: Fraction, place: int) -> Root:
         """The only root in an interval, or the one that is counted."""
         if not names:
-            if lo != hi or abs(lo) != 1 or place:
-                raise RefutedError("an angle without a name is no end of a chart")
+            refute_if(lo != hi or abs(lo) != 1 or place, "an angle without a name is no end of a chart")
             return Root.rational(lo)
         poly = trimmed(self.zero(self.surface(contact), names, chart))
         found = ordered(roots_in(poly, lo, hi)) if poly and lo > -2 and hi < 2 else []
@@ -1215,8 +1226,7 @@ class Features:
         for end in (Root.rational(-ONE), Root.rational(ONE)):
             if (order := root.compared(end)) == 0:
                 return end
-            if order == end.lo:
-                raise RefutedError("an angle beyond its chart")
+            refute_if(order == end.lo, "an angle beyond its chart")
         return root
 
     def trapezoid(self, piece: dict[str, Any]) -> Trapezoid:
@@ -1249,8 +1259,7 @@ class Curve:
 
     def at(self, tau: Fraction) -> Fraction:
         d = value(self.d, tau)
-        if d == 0:
-            raise RefutedError("a curve leaves its surface's line to infinity")
+        refute_if(d == 0, "a curve leaves its surface's line to infinity")
         return value(self.n, tau) / d
 
 @dataclass
@@ -1270,19 +1279,16 @@ class Trapezoid:
         So it is at one angle between them, strictly; and no polynomial that says so changes its sign on the way.
         """
         p, q, limits = self.lower, self.upper, [poly_of(form, self.chart) for form in self.surface.limits]
-        if self.start.compared(self.stop) >= 0:
-            raise RefutedError("it does not end after it begins")
+        refute_if(self.start.compared(self.stop) >= 0, "it does not end after it begins")
         gap = combined((1, -1), times(q.n, p.d), times(p.n, q.d))
-        if not any(gap):
-            raise RefutedError("its two curves are one")
+        refute_if(not any(gap), "its two curves are one")
         tau = between(self.start.hi, self.stop.lo)
         while p.at(tau) == q.at(tau):
             tau = between(self.start.hi, tau)
         if not 0 <= p.at(tau) < q.at(tau) <= 1 or any(sign_at(limit, tau) >= 0 for limit in limits):
             raise RefutedError("it is no part of its contact: t or the angle is out of range")
         for root in (root for curve in (p, q) for root in self.roots(curve.d)):
-            if root.compared(self.start) >= 0 >= root.compared(self.stop):
-                raise RefutedError("a curve leaves its surface's line to infinity")
+            refute_if(root.compared(self.start) >= 0 >= root.compared(self.stop), "a curve leaves for infinity")
         for poly in map(trimmed, (p.n, combined((1, -1), q.d, q.n), gap, *limits)):
             for root in self.roots(poly):
                 if root.compared(self.start) > 0 > root.compared(self.stop) and root.is_change(poly):
@@ -1298,7 +1304,7 @@ class Proof(Answer):
 
     def __init__(self, data: dict[str, Any]) -> None:
         required = dict.fromkeys(("of", "cells", "obstacles", "surface"), REQUIRED)
-        super().__init__(data, **required, smaller_robot=[], larger_bounds=None, auxiliary=[])
+        super().__init__(data, **required, smaller_robot=[], larger_bounds=None, auxiliary=[], cores=[])
         self.check_decimals("start", self.start)
         got = self.got
         self.is_closed = one_of(got["of"], "of", "closed", "interior") == "closed"
@@ -1306,12 +1312,14 @@ class Proof(Answer):
             whole(k, "cells or obstacles", -2)
         parts = items(got["smaller_robot"], "smaller_robot")
         self.robot = [read_polygon(part, f"smaller_robot[{k}]") for k, part in enumerate(parts)]
+        self.cores = [read_polygon(part, f"cores[{k}]") for k, part in enumerate(items(got["cores"], "cores"))]
+        wanted = len(self.robot) if self.clearance else 0
+        refuse_if(len(self.cores) != wanted, '"clearance" belongs to as many "cores" as "smaller_robot" has polygons')
         self.bounds = None if got["larger_bounds"] is None else read_bounds(got["larger_bounds"], "larger_bounds")
-        if self.is_closed != bool(self.robot) or (self.bounds and not self.is_closed):
-            raise BadFileError('"smaller_robot" and "larger_bounds" belong to what is "closed"')
+        if self.is_closed != bool(self.robot) or (not self.is_closed and (self.bounds or self.clearance)):
+            raise BadFileError('"smaller_robot", "larger_bounds" and "clearance" belong to what is "closed"')
         self.auxiliary = dict(read_auxiliary(item) for item in items(got["auxiliary"], "auxiliary"))
-        if len(self.auxiliary) < len(got["auxiliary"]):
-            raise BadFileError("one of the auxiliary features is there twice")
+        refuse_if(len(self.auxiliary) < len(got["auxiliary"]), "one of the auxiliary features is there twice")
         self.pieces = [read_piece(piece, f"surface[{k}]") for k, piece in enumerate(items(got["surface"], "surface"))]
         if set(got["obstacles"]) != {piece["contact"][2][0] for piece in self.pieces}:
             raise BadFileError('"obstacles" are not those of the surface')
@@ -1321,8 +1329,7 @@ def read_auxiliary(data: Any) -> tuple[tuple[str, str, int], Ring]:
     of, kind = one_of(got["of"], "of", "robot", "obstacles"), one_of(got["kind"], "kind", "vertex", "edge")
     count = 1 + (kind == "edge")
     points = [numbers(point, "auxiliary", 2) for point in items(got["points"], "auxiliary", count, count)]
-    if len(set(points)) < count:
-        raise BadFileError("an auxiliary edge between two equal points")
+    refuse_if(len(set(points)) < count, "an auxiliary edge between two equal points")
     return (of, kind, whole(got["number"], "auxiliary", 0)), points  # type: ignore[return-value]
 
 def read_piece(data: Any, place: str) -> dict[str, Any]:
@@ -1336,8 +1343,7 @@ def read_piece(data: Any, place: str) -> dict[str, Any]:
         names = tuple(read_name(name, f"{place}.{key}") for name in items(angle["names"], f"{place}.{key}", 0, 2))
         ends = literals(angle["tau"], f"{place}.{key}.tau", 2)
         lo, hi = (Fraction(float(max(-3 * ONE, min(c, 3 * ONE)))) for c in ends)  # doubles, as they were
-        if not -2 <= lo <= hi <= 2:
-            raise BadFileError(f"{place}.{key}.tau: expected an interval between -2 and 2")
+        refuse_if(not -2 <= lo <= hi <= 2, f"{place}.{key}.tau: expected an interval between -2 and 2")
         got[key] = names, lo, hi, whole(angle["place"], f"{place}.{key}.place", 0, 4)
     return got
 
@@ -1346,10 +1352,8 @@ def read_name(data: Any, place: str) -> tuple[int, int, int]:
     return whole(kind, place, 1, 4), whole(i, place, 0, 2**30 - 1), whole(j, place, 0)
 
 def check_closed(pieces: list[Trapezoid]) -> None:
-    """Every part of a side of a piece is one of an even number of others.
-
-    Sides lie on curves, told apart by their keys, or on lines at one angle. A sum mod 2 of intervals of one curve is
-    zero if every end of one is that of an even number of them; so it is with segments of one line.
+    """Every part of a side of a piece is one of an even number of others: a sum mod 2 of intervals of one curve, or of
+    segments of one line at one angle, is zero if every end of one is that of an even number of them.
     """
     angles: dict[int, tuple[Any, Root]] = {}  # by identity of roots: a number, and one root for all that are equal
     for chart in (0, 1):
@@ -1366,8 +1370,7 @@ def check_closed(pieces: list[Trapezoid]) -> None:
         for root in (p.start, p.stop):
             angle, one = angles[id(root)]
             walls[angle].append((p, one))
-    if any(n % 2 for n in ends.values()):
-        raise RefutedError("the surface is not closed: sides on a curve end without a partner")
+    refute_if(any(n % 2 for n in ends.values()), "the surface is not closed: sides on a curve end without a partner")
     for wall in walls.values():
         check_wall(wall)
 
@@ -1388,8 +1391,7 @@ def check_wall(wall: list[tuple[Trapezoid, Root]]) -> None:
                 key = next((k for k, other in odd.items() if is_one_point(curve, other, root)), key)
             if odd.pop(key, None) is None:
                 odd[key] = curve
-    if any(odd for _, odd in lines):
-        raise RefutedError("the surface is not closed: sides at an angle end without a partner")
+    refute_if(any(odd for _, odd in lines), "the surface is not closed: sides at an angle end without a partner")
 
 def is_one_line(p: Trapezoid, other: Trapezoid, root: Root) -> bool:
     """At an angle of p."""
@@ -1402,10 +1404,7 @@ def is_one_point(one: Curve, other: Curve, root: Root) -> bool:
     return all(root.sign(combined((1, -1), times(p, other.Z), times(q, one.Z))) == 0 for p, q in both)
 
 def crosses(p: Trapezoid, tau: Fraction, x: Fraction, y: Fraction) -> bool:
-    """Does a ray from (x, y) towards -x meet a piece just after an angle?
-
-    A piece whose lower end is level with the ray counts as below it, and so do others that end there.
-    """
+    """Does a ray from (x, y) towards -x meet a piece just after an angle? Pieces that end level with it are below."""
     S, unit = p.surface, math.lcm(x.denominator, y.denominator)
     above = []
     for curve in (p.lower, p.upper):
@@ -1421,10 +1420,7 @@ def sign_after(p: Poly, tau: Fraction) -> int:
     return (sign_at(p, tau) or sign_after(derivative(p), tau)) if any(p) else 0
 
 def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
-    """Does a ray from a pose meet the surface an odd number of times, just after the angle of the pose?
-
-    The pose is not on the surface, as the robot touches nothing there, and so it is on the same side just after.
-    """
+    """Does a ray from a pose meet the surface an odd number of times, just after its angle? It is not on it."""
     chart, tau = 0, pose.tau
     if tau is None or not -1 <= tau < 1:
         chart, tau = 1, ZERO if tau is None else -1 / tau
@@ -1438,14 +1434,17 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     check_pose(world, proof.start, "start")
     check_pose(world, proof.goal, "goal")
     if proof.is_closed:
-        for k, part in enumerate(proof.robot):
+        for k, part in enumerate(proof.cores or proof.robot):
             if not any(strictly_inside(part, polygon) for polygon in scene.robot):
-                raise RefutedError(f"smaller_robot[{k}] is not strictly inside one of the robot's polygons")
+                what = "cores" if proof.cores else "smaller_robot"
+                raise RefutedError(f"{what}[{k}] is not strictly inside one of the robot's polygons")
+        for part, core in zip(proof.robot, proof.cores, strict=False):
+            if not is_convex(core.rings) or not all(is_near(p, core.rings[0], proof.clearance) for p in part.rings[0]):
+                raise RefutedError("a core is not convex, or not all of smaller_robot nearer to it than the clearance")
         if proof.bounds:
             x0, y0, x1, y1 = scene.bounds or proof.bounds
             left, bottom, right, top = proof.bounds
-            if min(x0 - left, y0 - bottom, right - x1, top - y1) <= 0:
-                raise RefutedError("the scene's bounds are not strictly inside larger_bounds")
+            refute_if(min(x0 - left, y0 - bottom, right - x1, top - y1) <= 0, "larger_bounds are not larger")
         inner = Scene(proof.robot, scene.obstacles, scene.workspace, proof.bounds)
     else:
         apart = touches(world, proof.start) or touches(world, proof.goal)
@@ -1460,6 +1459,8 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     if not apart and is_inside(proof.start, inner.scale, pieces) == is_inside(proof.goal, inner.scale, pieces):
         raise RefutedError("start and goal are on one side of the surface")
     from_to = f"leads from {proof.start} to {proof.goal}"
+    if proof.clearance:
+        return f"No path that keeps {float(proof.clearance):g} from obstacles and workspace {from_to}."
     if proof.is_closed:
         return f"No path {from_to}, not even one that touches."
     return f"No path that keeps a distance from everything {from_to}; one that touches may."

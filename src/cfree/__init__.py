@@ -31,6 +31,7 @@ if TYPE_CHECKING:
     from cfree.errors import InvalidPolygonError as InvalidPolygonError
     from cfree.errors import InvalidPoseError as InvalidPoseError
     from cfree.errors import InvariantError as InvariantError
+    from cfree.errors import UndecidedError as UndecidedError
     from cfree.errors import UnsupportedError as UnsupportedError
     from cfree.exact.pose import Pose as Pose
     from cfree.exact.pose import Poses as Poses
@@ -63,7 +64,7 @@ __version__ = "0.1.0"
 
 _HOMES = {
     "errors": "CfreeError FormatError IncompleteError "
-    "InvalidPolygonError InvalidPoseError InvariantError UnsupportedError",
+    "InvalidPolygonError InvalidPoseError InvariantError UndecidedError UnsupportedError",
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",
     "scene.scene": "Scene",

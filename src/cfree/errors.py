@@ -7,6 +7,7 @@
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
       IncompleteError     (RuntimeError)   a question to a boundary whose computation was stopped by a limit
+        UndecidedError                     a question about a clearance too near to the largest; carries lo and hi
       InvariantError      (RuntimeError)   our bug, please report; carries the smallest state seen
 
 Messages give the place, the value and the remedy.
@@ -65,6 +66,22 @@ class UnsupportedError(CfreeError, NotImplementedError):
 
 class IncompleteError(CfreeError, RuntimeError):
     """A question that only a complete boundary can answer, asked of one that a limit of time or memory stopped."""
+
+
+class UndecidedError(IncompleteError):
+    """Whether a path keeps a clearance, and that is too near to the largest that one keeps.
+
+    Parameters
+    ----------
+    message : str
+    lo, hi : float
+        Some path keeps `lo`, or it is 0; none keeps more than `hi`, or it is infinite.
+    """
+
+    def __init__(self, message: str, *, lo: float, hi: float) -> None:
+        super().__init__(message)
+        self.lo = lo
+        self.hi = hi
 
 
 class InvariantError(CfreeError, RuntimeError):

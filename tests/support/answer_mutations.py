@@ -28,7 +28,9 @@ from cfree import (
     Slide,
     Translation,
     boundary,
+    clearance,
     free_space,
+    plan,
     save,
     separation,
 )
@@ -36,8 +38,10 @@ from cfree.collision import Touch
 from cfree.collision.motion import Motion
 from cfree.errors import InvalidPoseError
 from cfree.formats.answer_file import load_answer
+from cfree.scene.dilation import grown
+from cfree.scene.scene import with_robot
 from compared import scene_of
-from shapes import PlainScene, box
+from shapes import PlainScene, box, l_shape
 from spaces import ROD, TIGHT, hollow
 
 Answer = dict[str, Any]
@@ -400,6 +404,55 @@ OF_SEPARATIONS: tuple[Mutation, ...] = (
 )  # fmt: skip
 
 
+# --- clearances ---
+
+
+@cache
+def distances() -> tuple[tuple[Scene, Path | Separated], ...]:
+    """A path and a proof in a gate that a robot of two convex pieces has 1/2 to spare in, on both sides."""
+    robot, walls = l_shape("3/2", "1/2")[0], [box(-9, -1, "-5/4", 1)[0], box("5/4", -1, 9, 1)[0]]
+    scene = Scene([(Fraction(x) - 1, Fraction(y) - 1) for x, y in robot], walls, workspace=box(-9, -9, 9, 9)[0])
+    answers = [plan(scene, (-1, 4, 0), (0, -4, 0), clearance=c) for c in ("1/4", "3/5")]
+    assert [type(answer) for answer in answers] == [Path, Separated]
+    return tuple((scene, answer) for answer in answers)
+
+
+def change_the_clearance(rng: random.Random, answer: Answer) -> bool:
+    answer["clearance"] = str(Fraction(answer["clearance"]) * rng.choice([Fraction(9, 10), Fraction(11, 10), -1]))
+    return True
+
+
+def move_a_vertex_of_the_disc(rng: random.Random, answer: Answer) -> bool:
+    """Of a proof: of a core."""
+    ring = answer["disc"] if "disc" in answer else rng.choice(answer["cores"])["outer"]
+    k, far = rng.randrange(len(ring)), rng.choice([Fraction(-1), Fraction(9, 10), Fraction(1001, 1000), Fraction(30)])
+    ring[k] = [str(Fraction(c) * far) for c in ring[k]]
+    return True
+
+
+def turn_the_disc_round(rng: random.Random, answer: Answer) -> bool:
+    """Of a proof: exchange cores."""
+    (answer["disc"] if "disc" in answer else answer["cores"]).reverse()
+    return True
+
+
+def drop_a_vertex_of_the_disc(rng: random.Random, answer: Answer) -> bool:
+    """Of a proof: a core."""
+    ring = answer["disc"] if "disc" in answer else answer["cores"]
+    ring.pop(rng.randrange(len(ring)))
+    return True
+
+
+def repeat_the_disc(rng: random.Random, answer: Answer) -> bool:
+    answer["disc"] = answer.get("disc", [["0", "1"], ["-1", "-1"], ["1", "-1"]]) * 2
+    return True
+
+
+OF_DISTANCES: tuple[Mutation, ...] = (
+    change_the_clearance, move_a_vertex_of_the_disc, turn_the_disc_round, drop_a_vertex_of_the_disc, repeat_the_disc,
+)  # fmt: skip
+
+
 # --- trying them ---
 
 
@@ -437,7 +490,10 @@ def is_true(scene: Scene, answer: Path | Separated) -> bool:
     """Judged by the core."""
     if isinstance(answer, Path):
         ends = scene.start in (None, answer.start) and scene.goal in (None, answer.goal)
-        return ends and answer.is_free(MotionChecker(scene))
+        least = clearance(answer, scene) if answer.clearance else None
+        return ends and answer.is_free(MotionChecker(scene)) and (not least or least.found >= 0.999 * answer.clearance)
+    if answer.clearance:  # apart for a robot that is larger by a little more
+        scene = with_robot(scene, grown(scene, answer.clearance * Fraction("1.001")), scene.bounds)
     cells = space_of(scene).locate([answer.start, answer.goal]).tolist()
     return min(cells) != -1 and cells[0] != cells[1]
 
@@ -459,12 +515,22 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
     """What found the mutants; "" is for those that are verified, and true. Paths also where no ends are asked for."""
     rng = random.Random(mutate.__name__)
     goods: list[tuple[Scene, Path | Separated]] = (
-        [corridor()] if mutate in OF_PATHS else [tee()] if mutate in OF_SLIDES else list(separations())
+        [corridor()]
+        if mutate in OF_PATHS
+        else [tee()]
+        if mutate in OF_SLIDES
+        else list(distances())
+        if mutate in OF_DISTANCES
+        else list(separations())
     )
     found: Counter[str] = Counter()
     for scene, good in goods:
         for bad in mutants(rng, good, mutate, count):
-            if isinstance(good, Path) and mutate not in UNREPAIRED and verdict(scene, bad) == "bad file":
+            if (
+                isinstance(good, Path)
+                and mutate not in (*UNREPAIRED, *OF_DISTANCES)
+                and verdict(scene, bad) == "bad file"
+            ):
                 with suppress(InvalidPoseError):  # no slide at all
                     bad = repaired(scene, bad)
             found[verdict(scene, bad)] += 1
@@ -475,7 +541,7 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
 
 def main(count: int = 20) -> None:
     print("| mutation | tried | rejected | still true | found by |", "|---|--:|--:|--:|---|", sep="\n")
-    for mutate in OF_PATHS + OF_SLIDES + OF_SEPARATIONS:
+    for mutate in OF_PATHS + OF_SLIDES + OF_SEPARATIONS + OF_DISTANCES:
         found = tried(mutate, count if mutate in OF_SEPARATIONS else count * 2)
         true = found.pop("", 0)
         checks = ", ".join(f"{check} {n}" for check, n in found.most_common(3))

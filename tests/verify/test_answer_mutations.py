@@ -8,11 +8,13 @@ import pytest
 
 import cfree.verify
 from answer_mutations import (
+    OF_DISTANCES,
     OF_PATHS,
     OF_SEPARATIONS,
     OF_SLIDES,
     Mutation,
     corridor,
+    distances,
     separations,
     tee,
     text_of,
@@ -22,7 +24,9 @@ from answer_mutations import (
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("mutate", [*OF_PATHS, *OF_SLIDES, *OF_SEPARATIONS], ids=lambda mutate: mutate.__name__)
+@pytest.mark.parametrize(
+    "mutate", [*OF_PATHS, *OF_SLIDES, *OF_SEPARATIONS, *OF_DISTANCES], ids=lambda mutate: mutate.__name__
+)
 def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
     """That what is verified is true, by the core, is asserted on the way."""
     found = tried(mutate, 6)
@@ -31,6 +35,6 @@ def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
 
 
 def test_what_is_right_is_verified() -> None:
-    for scene, answer in (corridor(), tee(), *separations()):
+    for scene, answer in (corridor(), tee(), *separations(), *distances()):
         assert verdict(scene, json.loads(text_of(answer))) == ""
         assert cfree.verify.answer(scene, answer).proved

@@ -13,7 +13,6 @@ from cfree.cli.terminal import printable
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
-    from cfree.paths.path import Objective
     from cfree.paths.path import Path as Motions
     from cfree.planning.planner import Planner
     from cfree.planning.separation import Separated
@@ -40,16 +39,19 @@ class Answering:
 
     @classmethod
     def of(
-        cls, planner: Planner, ends: tuple[Pose | None, Pose | None], files: dict[str, str], *,
-        seconds: float | None, objective: Objective,
-    ) -> Answering:  # fmt: skip
-        """The answer, unless a limit leaves the command without one."""
+        cls,
+        planner: Planner,
+        ends: tuple[Pose | None, Pose | None],
+        files: dict[str, str],
+        options: dict[str, Any],
+    ) -> Answering:
+        """The answer, with options of `Planner.plan`, unless a limit leaves the command without one."""
         from cfree.errors import IncompleteError
         from cfree.scene.scene import required
 
         start, goal = required(planner.scene, *ends)
         try:
-            answer = planner.plan(start, goal, improve=seconds, objective=objective)
+            answer = planner.plan(start, goal, **options)
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
         return cls(planner, start, goal, files, answer)

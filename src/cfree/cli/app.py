@@ -14,7 +14,16 @@ from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exi
 from cfree.cli.files import bar, boundary_of, check_outputs, planner_of
 from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import print_json, printable
-from cfree.cli.values import read_angle, read_numbers, read_objective, read_pixels, read_pose, read_seconds, read_size
+from cfree.cli.values import (
+    read_angle,
+    read_length,
+    read_numbers,
+    read_objective,
+    read_pixels,
+    read_pose,
+    read_seconds,
+    read_size,
+)
 from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
@@ -142,6 +151,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json",
         "cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png",
         "cfree plan scene.json -o way.csv --improve 2s",
+        "cfree plan scene.json --clearance 0.3",
     )
 )
 @options.scene
@@ -157,6 +167,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     help="Of that file: json, exact; or of a path sampled poses: csv, geojson, ros.",
     show_default="by the file's name, else json",
 )
+@click.option("--clearance", metavar="LENGTH", help="A distance that the path keeps from obstacles and workspace.")
 @click.option(
     "--improve",
     metavar="TIME",
@@ -174,13 +185,15 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @options.max_seconds
 @options.as_json
 def plan(
-    scene: Path, start: str | None, goal: str | None, output: Path | None, form: str | None, improve: str | None,
-    objective: str, picture: Path | None, film: Path | None, miss: bool, max_seconds: float | None, as_json: bool,
+    scene: Path, start: str | None, goal: str | None, output: Path | None, form: str | None, clearance: str | None,
+    improve: str | None, objective: str, picture: Path | None, film: Path | None, miss: bool, max_seconds: float | None,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
     Each motion is proved free. SCENE is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o. Exit code 0:
-    a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch.
+    a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch, or a clearance that is
+    too near to the largest.
     """
     with one_line_faults():
         from cfree.cli.answering import Answering
@@ -191,7 +204,9 @@ def plan(
         seconds = None if improve is None else read_seconds(improve)
         wanted = read_objective(objective)
         ends = read_pose(start, "--start"), read_pose(goal, "--goal")
-        found = Answering.of(planner_of(scene, max_seconds), ends, written, seconds=seconds, objective=wanted)
+        room = None if clearance is None else read_length(clearance, "--clearance")
+        options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
+        found = Answering.of(planner_of(scene, max_seconds), ends, written, options)
         if output:
             found.write(output, kind)
         if picture:

@@ -82,14 +82,17 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
         what = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
+        if answer.clearance:
+            what = f"no path that keeps {float(answer.clearance):g}{unit}, proved"
         return {
             "answer": what,
             "cells of start and goal": ", ".join(map(str, answer.cells)),
             "surface between them": f"{len(answer.pieces):,} pieces of contact surfaces",
             "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
         }
+    kept = f" and to keep {float(answer.clearance):g}{unit}" if answer.clearance else ""
     rows: dict[str, int | float | str] = {
-        "answer": "a path, each motion proved free",
+        "answer": f"a path, each motion proved free{kept}",
         **{name: count for name, count in motion_counts(answer).items() if count or name != "slides"},
         "way of the reference point": f"{answer.length:.6g}{unit}",
         "turning": f"{math.degrees(answer.turning):.6g} degrees",
@@ -97,7 +100,7 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
     if least := clearance(answer, scene):
         name = part_name(scene, least.obstacle[0])
         rows["least clearance"] = f"{least.found:.6g}{unit}, to {name} in motion {least.motion}"
-        rows["proved, at least"] = f"{least.least:.6g}{unit}"
+        rows["proved, at least"] = f"{max(least.least, float(answer.clearance)):.6g}{unit}"
     return rows
 
 
@@ -107,18 +110,18 @@ def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
     from cfree.paths.path import Path
 
     if not isinstance(answer, Path):
-        facts = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
+        facts: dict[str, Any] = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
+        facts |= {"asked clearance": float(answer.clearance)} if answer.clearance else {}
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
-    least = clearance(answer, scene)
-    return {
-        "answer": "path",
-        **motion_counts(answer),
-        "length": answer.length,
-        "turning": answer.turning,
-        "clearance": None
-        if least is None
-        else {"found": least.found, "proved": least.least, "motion": least.motion, "obstacle": least.obstacle[0]},
-    }
+    found: dict[str, Any] = {"answer": "path", **motion_counts(answer)}
+    found |= {"length": answer.length, "turning": answer.turning, "clearance": None}
+    if answer.clearance:
+        found["asked clearance"] = float(answer.clearance)
+    if least := clearance(answer, scene):
+        proved = max(least.least, float(answer.clearance))
+        place = {"motion": least.motion, "obstacle": least.obstacle[0]}
+        found["clearance"] = {"found": least.found, "proved": proved, **place}
+    return found
 
 
 def motion_counts(path: Path) -> dict[str, int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -52,6 +53,19 @@ def read_seconds(text: str) -> float:
     if not 0 <= seconds < math.inf:
         raise ValueError(f'--improve: {text!r}; give a time such as "2s" or "500ms"')
     return seconds
+
+
+def read_length(text: str, name: str) -> Fraction:
+    """A length above 0, as it is written."""
+    from cfree.exact.number import to_fraction
+
+    try:
+        length = to_fraction(text)
+    except ValueError:
+        length = Fraction(0)
+    if length <= 0:
+        raise ValueError(f'{name}: {text!r}; give a length above 0 such as "0.3" or "1/3"')
+    return length
 
 
 def read_objective(text: str) -> Objective:

@@ -70,6 +70,15 @@ Arrival = Annotated[
 ]
 
 
+def _length(value: Fraction) -> Fraction:
+    if value > 0:
+        return value
+    raise Fault("expected a length above 0, got {got}")
+
+
+Length = Annotated[Coordinate, AfterValidator(_length)]
+
+
 class ExactTranslation(Strict):
     """The vector as it is."""
 
@@ -194,13 +203,22 @@ class PathModel(AnswerModel):
 
     answer: Literal["path"]
     decimals: Literal["free", "approximate"] | None = None
+    clearance: Length | None = None
+    disc: Annotated[list[Point], Field(default_factory=list)]
     motions: list[Annotated[TranslationModel | RotationModel | SlideModel, Field(discriminator="type")]]
+
+    @model_validator(mode="after")
+    def _has_a_disc(self) -> Self:
+        if bool(self.clearance) != (len(self.disc) > 2):
+            raise Fault('"clearance" and "disc", a polygon around it, belong together; give both, or neither')
+        return self
 
     @cached_property
     def moved(self) -> Path:
         """Where the motions lead."""
         motions = (m for model in self.motions for m in model.motions)
-        return Path(self.ends[0], motions, self.units, self.frame, stamp=self.stamp)
+        kept = self.clearance or Fraction(0), tuple(self.disc)
+        return Path(self.ends[0], motions, self.units, self.frame, None, self.stamp, *kept)
 
 
 def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> str:
@@ -219,6 +237,8 @@ def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> st
     leeway = effect.leeway(decimals)
     head = answer_head("path", path, stamp, decimals)
     head["decimals"] = "free" if leeway is not None and keeps(leeway) else "approximate"
+    if path.clearance:
+        head |= {"clearance": _exactly(path.clearance), "disc": [_exactly(point) for point in path.disc]}
     lines = ",\n".join(f"  {json_line(_record(k, motion, decimals))}" for k, motion in enumerate(path.motions))
     members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"motions": [\n{lines}\n]']
     return "{" + ",\n ".join(members) + "}\n"

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 from decimal import Decimal
+from fractions import Fraction
 from itertools import pairwise
 from typing import Annotated, Any, Literal
 
@@ -17,7 +18,7 @@ from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.effect import Effect
 from cfree.formats.json_text import json_line
-from cfree.formats.path_format import AnswerModel, answer_head
+from cfree.formats.path_format import AnswerModel, Length, answer_head
 from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict
 from cfree.formats.scene_values import Fault
 from cfree.paths.path import Path
@@ -115,6 +116,8 @@ class SeparationModel(AnswerModel):
     obstacles: list[Annotated[int, Field(strict=True, ge=-2, lt=2**31)]]
     smaller_robot: Annotated[list[PolygonModel], Field(default_factory=list)]
     larger_bounds: Bounds | None = None
+    clearance: Length | None = None
+    cores: Annotated[list[PolygonModel], Field(default_factory=list)]
     auxiliary: Annotated[list[AuxiliaryModel], Field(default_factory=list)]
     surface: list[PieceModel]
 
@@ -122,8 +125,10 @@ class SeparationModel(AnswerModel):
     def _fits(self) -> SeparationModel:
         if (self.of == "closed") != bool(self.smaller_robot):
             raise Fault('"smaller_robot" belongs to what is "of": "closed", and to nothing else; correct one of them')
-        if self.of == "interior" and self.larger_bounds:
-            raise Fault('"larger_bounds" belong to what is "of": "closed"; leave them out')
+        if self.of == "interior" and (self.larger_bounds or self.clearance):
+            raise Fault('"larger_bounds" and "clearance" belong to what is "of": "closed"; leave them out')
+        if len(self.cores) != (len(self.smaller_robot) if self.clearance else 0):
+            raise Fault('"clearance" belongs to as many "cores" as "smaller_robot" has polygons; correct one of them')
         if sorted(set(self.obstacles)) != sorted({piece.contact.obstacle[0] for piece in self.surface}):
             raise Fault('"obstacles" are not those of the surface; correct one of them')
         if len({(item.of, item.kind, item.number) for item in self.auxiliary}) < len(self.auxiliary):
@@ -142,6 +147,8 @@ class SeparationModel(AnswerModel):
             pieces=_pieces(self.surface, tuple(item.result for item in self.auxiliary)),
             robot=tuple(part.polygon for part in self.smaller_robot),
             bounds=self.larger_bounds,
+            clearance=self.clearance or Fraction(0),
+            cores=tuple(part.polygon for part in self.cores),
             units=self.units,
             frame=self.frame,
             stamp=self.stamp,
@@ -175,6 +182,8 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
         head["smaller_robot"] = [_polygon(part) for part in proof.robot]
     if proof.bounds:
         head["larger_bounds"] = [*map(str, proof.bounds)]
+    if proof.clearance:
+        head |= {"clearance": str(proof.clearance), "cores": [_polygon(part) for part in proof.cores]}
     if proof.pieces.auxiliary:
         head["auxiliary"] = [
             {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from fractions import Fraction
 from functools import cached_property
 from typing import Literal
 
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.exact.number import Number, to_fraction
+from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
 from cfree.scene.scene import Scene
@@ -44,6 +45,11 @@ class Path:
         In which it is a path; None if it was read from a file.
     stamp : Stamp, optional
         What the file said of the scene.
+    clearance : Fraction, optional
+        It is said to keep at least this distance from obstacles and workspace; 0 if nothing is said.
+    disc : tuple of exact points, optional
+        A convex polygon around a disc of that radius, in the robot's frame: the path is free for the robot's Minkowski
+        sum with it.
 
     Examples
     --------
@@ -59,6 +65,8 @@ class Path:
     frame: str = field(default="world", compare=False)
     scene: Scene | None = field(default=None, compare=False)
     stamp: Stamp | None = field(default=None, compare=False)
+    clearance: Fraction = Fraction(0)
+    disc: tuple[ExactPoint, ...] = ()
 
     def __init__(
         self,
@@ -68,10 +76,12 @@ class Path:
         frame: str = "world",
         scene: Scene | None = None,
         stamp: Stamp | None = None,
+        clearance: Fraction = Fraction(0),
+        disc: tuple[ExactPoint, ...] = (),
     ) -> None:
-        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp)
-        for name, value in zip(("start", "motions", "units", "frame", "scene", "stamp"), values, strict=True):
-            object.__setattr__(self, name, value)
+        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp, clearance, disc)
+        for item, value in zip(fields(self), values, strict=True):
+            object.__setattr__(self, item.name, value)
 
     def __repr__(self) -> str:
         n = len(self.motions)

@@ -23,11 +23,13 @@ from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.nearest_free import require_free
 from cfree.collision.slide import Slide
 from cfree.errors import IncompleteError, InvalidPoseError, InvariantError
+from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.planning.boundary_walk import Walker
+from cfree.planning.clearance import plan_at_distance
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
 from cfree.planning.separation import InsetSpaces, Separated, inset_powers, separation
@@ -52,6 +54,7 @@ def plan(
     start: PoseLike | None = None,
     goal: PoseLike | None = None,
     *,
+    clearance: Number | None = None,
     improve: float | None = None,
     objective: Objective = "short",
     max_seconds: float | None = None,
@@ -65,6 +68,8 @@ def plan(
         With its free space known, which of the two it is takes two calls of `locate`, unless exact fits join cells.
     start, goal : Pose or (x, y, theta), optional
         Those of the scene unless given.
+    clearance : number, optional
+        A distance that the path keeps from obstacles and workspace; not from bounds. Or no path does, proved.
     improve : float, seconds, optional
         How long to improve a path, 0 for the first one found. A fixed number of attempts unless given. Ctrl-C ends it
         early, and the path so far is the answer.
@@ -82,9 +87,10 @@ def plan(
     Raises
     ------
     InvalidPoseError
-        If there is no start or goal, or the robot overlaps an obstacle there.
+        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance.
     IncompleteError
-        If `max_seconds` were not enough.
+        If `max_seconds` were not enough. If the largest clearance of a path is within 0.1 % of the one asked for this
+        is an `UndecidedError`, which has the interval.
 
     Notes
     -----
@@ -104,7 +110,7 @@ def plan(
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
     planner = Planner(scene, space, max_seconds=max_seconds, progress=progress)
-    return planner.plan(*required(scene, start, goal), improve=improve, objective=objective)
+    return planner.plan(*required(scene, start, goal), clearance=clearance, improve=improve, objective=objective)
 
 
 @checked
@@ -186,7 +192,13 @@ class Planner(Value):
 
     @checked
     def plan(
-        self, start: PoseLike, goal: PoseLike, *, improve: float | None = None, objective: Objective = "short"
+        self,
+        start: PoseLike,
+        goal: PoseLike,
+        *,
+        clearance: Number | None = None,
+        improve: float | None = None,
+        objective: Objective = "short",
     ) -> Path | Separated:
         """See `cfree.plan`."""
         start = to_pose(start, "start")
@@ -198,9 +210,20 @@ class Planner(Value):
         for pose, name in ((start, "start"), (goal, "goal")):
             if max(abs(pose.x), abs(pose.y)) > LARGEST:
                 raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
+        if clearance is not None:
+            if (distance := to_fraction(clearance)) <= 0:
+                raise ValueError(f"clearance {clearance}: give a length above 0")
+            return plan_at_distance(self.scene, start, goal, distance, self._of, improve, objective)
         way = self._way(start, goal)
-        if not isinstance(way, list):
-            return way
+        return self.improved(way, improve, objective) if isinstance(way, list) else way
+
+    def _of(self, scene: Scene) -> Planner:
+        """For the same question with another robot."""
+        return Planner(scene, None, self.max_seconds, self.progress, self.phase, self.stop)
+
+    @checked
+    def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path:
+        """A path from poses of one."""
         parts = self._without_slides(way)
         seconds = improve and improve / len(parts)
         with self.phase("clearer paths" if objective == "clear" else "shorter paths"):
@@ -313,7 +336,7 @@ class Planner(Value):
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
             larger = Planner(scene)
-            found = larger.checker.first_free(simple_ways(start, goal)) or larger._searched(start, goal)
+            found = larger.quick(start, goal)
             is_small = larger.checker.features.patches <= COMPLETE
             if found is None and is_small and (cell := larger.free_space.common_cell(start, goal)) is not None:
                 found = larger.walker.walk(start, goal, cell)
@@ -327,6 +350,11 @@ class Planner(Value):
     def _checks(self) -> int:
         """Motions that a search may check: these take about as long as the free space does."""
         return min(SEARCH, 500 + 3 * self.checker.features.patches // 2)
+
+    @checked
+    def quick(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+        """Poses of a path, if simple ways or a search find one."""
+        return self.checker.first_free(simple_ways(start, goal)) or self._searched(start, goal)
 
     def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])

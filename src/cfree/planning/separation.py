@@ -134,7 +134,8 @@ class Separated:
     obstacles : tuple of int
         Whose contacts form it; -1 is the bounds, -2 the workspace.
     robot : tuple of Polygon
-        If closed: the surface is one of contacts of this robot, which is strictly inside the scene's.
+        If closed: the surface is one of contacts of this robot, which is strictly inside the scene's; or, if it is
+        about a clearance, of one whose parts are each nearer to one of `cores` than that.
     bounds : four numbers, optional
         If closed, and the scene has bounds: these, of which the scene's are strictly inside.
     units, frame : str
@@ -143,6 +144,10 @@ class Separated:
         What it is a proof for; None if it was read from a file.
     stamp : Stamp, optional
         What the file said of the scene.
+    clearance : Fraction
+        If not 0: no path joins them that keeps at least this distance from obstacles and workspace.
+    cores : tuple of Polygon
+        Then: convex polygons inside the scene's robot, one for each polygon of `robot`.
     """
 
     start: Pose
@@ -156,6 +161,8 @@ class Separated:
     frame: str = field(default="world", compare=False, repr=False)
     scene: Scene | None = field(default=None, compare=False, repr=False)
     stamp: Stamp | None = field(default=None, compare=False, repr=False)
+    clearance: Fraction = field(default=Fraction(0), repr=False)
+    cores: tuple[Polygon, ...] = field(default=(), repr=False)
 
     def __repr__(self) -> str:
         return f"Separated(of={self.of!r}, cells={self.cells}, {len(self.pieces)} pieces of {self.obstacles})"

@@ -14,8 +14,8 @@ from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, stamp_of
 from cfree.scene.scene import Scene
-from cfree.verify.leeway import roomier
-from cfree.verify.motions import CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
+from cfree.verify.leeway import is_around_disc, roomier, with_disc
+from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.world import World
@@ -25,7 +25,10 @@ if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
 
 SCENE, ASKED, PIECES = "scene", "poses asked for", "convex pieces"
-NO_ROOM = 'they are said to be "free", and no room is enough for that; say "approximate"'
+NO_ROOM = {
+    DECIMALS: 'they are said to be "free", and no room is enough for that; say "approximate"',
+    CLEARANCE: "its polygon is not convex, or not around a disc of that radius; correct one of them",
+}
 
 
 @checked
@@ -86,11 +89,13 @@ def answer(
     findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
     findings += end_findings(given, world)
     if isinstance(given, Path):
-        roomy = None
+        larger: dict[str, World | None] = {}
         if read and read.decimals == "free":
-            roomy = None if read.leeway is None else roomier(world, read.leeway)
-            findings += [Finding(DECIMALS, "decimals", NO_ROOM)] * (roomy is None)
-        findings += path_findings(given, world, report, roomy)
+            larger[DECIMALS] = None if read.leeway is None else roomier(world, read.leeway)
+        if given.clearance:
+            larger[CLEARANCE] = with_disc(world, given.disc) if is_around_disc(given.disc, given.clearance) else None
+        findings += [Finding(name, name, NO_ROOM[name]) for name, there in larger.items() if there is None]
+        findings += path_findings(given, world, report, {name: there for name, there in larger.items() if there})
     else:
         findings += separation_findings(given, world, report)
     report(1.0)
@@ -153,6 +158,8 @@ def _of_decimals(read: Read | None) -> dict[str, str]:
 def _of_path(path: Path) -> dict[str, str]:
     slides = sum(motion.kind == "slide" for motion in path.motions)
     kept = {KEPT: f"{slides:,} slides: their two vertices are on their edges all the way"} if slides else {}
+    text = f"{len(path.motions):,} motions: they keep {float(path.clearance):g} from obstacles and workspace"
+    kept |= {CLEARANCE: text} if path.clearance else {}
     return kept | {
         CONTINUOUS: f"{len(path.motions):,} motions lead from the start to the goal, one after the other",
         FREE: f"{len(path.motions):,} motions: at no pose does the robot overlap anything",
@@ -161,7 +168,9 @@ def _of_path(path: Path) -> dict[str, str]:
 
 def _of_separation(proof: Separated) -> dict[str, str]:
     count = f"{len(proof.pieces):,} pieces"
-    smaller = {INSIDE: "strictly inside the robot; bounds, if any, are larger"} if proof.of == "closed" else {}
+    inside = f"{'everywhere nearer to' if proof.clearance else 'strictly inside'} the robot"
+    inside += f" than {float(proof.clearance):g}" if proof.clearance else ""
+    smaller = {INSIDE: f"{inside}; bounds, if any, are larger"} if proof.of == "closed" else {}
     return smaller | {
         CONTACTS: f"{count}: the robot touches something at every pose of them",
         CLOSED: f"{count} without a boundary mod 2",
@@ -172,11 +181,14 @@ def _of_separation(proof: Separated) -> dict[str, str]:
 
 
 def _sentence(given: Path | Separated, read: Read | None) -> str:
-    ends = _text(given.start), _text(given.goal)
+    ends, far = (_text(given.start), _text(given.goal)), f"{float(given.clearance):g} from obstacles and workspace"
     if isinstance(given, Path):
         count = f"{len(given.motions):,} motion{'s' * (len(given.motions) != 1)}"
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
-        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and is free of collisions{only}."
+        keeps = f"keeps {far}" if given.clearance else "is free of collisions"
+        return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}."
+    if given.clearance:
+        return f"No path that keeps {far} leads from {ends[0]} to {ends[1]}."
     if given.of == "closed":
         return f"No path leads from {ends[0]} to {ends[1]}, not even one that touches."
     return f"No path that keeps a distance from everything leads from {ends[0]} to {ends[1]}; one that touches may."

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
+from fractions import Fraction
 from itertools import chain, pairwise
 
 import numpy as np
 
 from cfree.polygons.polygon import Polygon
-from cfree.verify.polygons import Ring, boxes, near
+from cfree.verify.polygons import Ring, boxes, corners, is_convex, near
 from cfree.verify.surfaces import Vector, cross, dot, minus
 
 
@@ -34,6 +36,39 @@ def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
         if any(_meet(edge, edges[1][k]) for k in near(around, np.asarray(box))):
             return False
     return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
+
+
+def is_near(polygon: Polygon, core: Polygon, distance: Fraction) -> bool:
+    """Is one polygon convex, and all of another nearer to it than a distance?
+
+    Notes
+    -----
+    Exactly if its vertices are: what is nearer to a convex set is convex.
+
+    Examples
+    --------
+    >>> core, triangle = Polygon([(0, 0), (1, 0), (1, 1), (0, 1)]), Polygon([(-3, -4), (1, 0), (0, 1)])
+    >>> is_near(triangle, core, Fraction(5)), is_near(triangle, core, Fraction("5.01"))
+    (False, True)
+    """
+    unit = math.lcm(polygon.denominator, core.denominator)
+    (ring, *_), others = (_rings(p, unit // p.denominator) for p in (polygon, core))
+    edges, square = _edges(others[0]), (distance * unit) ** 2
+    return (
+        len(others) == 1
+        and all(map(is_convex, corners(others[0])))
+        and all(
+            all(_side(p, q, point) >= 0 for p, q in edges) or any(_square(point, p, q) < square for p, q in edges)
+            for point in ring
+        )
+    )
+
+
+def _square(point: Vector, a: Vector, b: Vector) -> Fraction:
+    """Of the distance of a point from a segment."""
+    u, v = minus(point, a), minus(b, a)
+    share = min(max(Fraction(int(dot(u, v)), int(dot(v, v))), Fraction(0)), Fraction(1))
+    return sum(((p - share * q) ** 2 for p, q in zip(u, v, strict=True)), Fraction(0))
 
 
 def _rings(polygon: Polygon, factor: int) -> list[Ring]:

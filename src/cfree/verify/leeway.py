@@ -1,12 +1,17 @@
-"""What a path keeps its distance from: the scene, for a robot larger by a square, in smaller bounds."""
+"""What a path keeps its distance from: the scene, for a robot larger by a square or a disc, in smaller bounds."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from copy import copy
 from fractions import Fraction
+from itertools import pairwise
+from math import lcm
 
+from cfree.exact.number import ExactPoint
 from cfree.polygons.minkowski import convex_sum
 from cfree.verify.polygons import Ring, rectangle
+from cfree.verify.surfaces import cross, dot, minus
 from cfree.verify.world import World
 
 
@@ -15,19 +20,44 @@ def roomier(world: World, leeway: Fraction) -> World | None:
 
     The robot is larger by the square [-leeway, leeway]^2 in its own frame, and so by a disc of that radius.
     """
-    factor = leeway.denominator
-    found = copy(world)
-    found.scale, found.unit = factor * world.scale, factor * world.unit
+    found = _finer(world, leeway.denominator)
     by = int(leeway * found.scale)
     if world.bounds:
-        x0, y0, x1, y1 = (factor * b for b in world.bounds)
+        x0, y0, x1, y1 = found.bounds
         found.bounds = [x0 + by, y0 + by, x1 - by, y1 - by]
         if x0 + by >= x1 - by or y0 + by >= y1 - by:
             return None
-    found.walls = [_scaled(ring, factor) for ring in world.walls]
-    found.parts = [_scaled(ring, factor) for ring in world.parts]
     if by:
         found.parts = [convex_sum(ring, rectangle(-by, -by, by, by)) for ring in found.parts]
+    return found
+
+
+def with_disc(world: World, disc: Sequence[ExactPoint]) -> World:
+    """A world in which the robot is larger by a convex polygon in its own frame."""
+    found = _finer(world, lcm(*(c.denominator for point in disc for c in point)))
+    ring = [(int(x * found.scale), int(y * found.scale)) for x, y in disc]
+    found.parts = [convex_sum(part, ring) for part in found.parts]
+    return found
+
+
+def is_around_disc(ring: Sequence[ExactPoint], radius: Fraction) -> bool:
+    """Is a ring a convex polygon, counter-clockwise, with a disc about the origin inside?"""
+    ends = list(pairwise([*ring, *ring[:2]]))
+    turns = (cross(minus(q, p), minus(s, q)) > 0 for (p, q), (_, s) in pairwise(ends))
+    heights = (cross(p, q) for p, q in ends)
+    squares = (radius**2 * dot(minus(q, p), minus(q, p)) for p, q in ends)
+    far = (h > 0 and h * h >= square for h, square in zip(heights, squares, strict=True))
+    upwards = sum(p[1] < 0 <= q[1] for p, q in ends[:-1])  # once around, and not twice
+    return all(turns) and all(far) and upwards == 1
+
+
+def _finer(world: World, factor: int) -> World:
+    """The same world in other coordinates."""
+    found = copy(world)
+    found.scale, found.unit = factor * world.scale, factor * world.unit
+    found.bounds = [factor * b for b in world.bounds]
+    found.walls = [_scaled(ring, factor) for ring in world.walls]
+    found.parts = [_scaled(ring, factor) for ring in world.parts]
     return found
 
 

@@ -36,19 +36,31 @@ if TYPE_CHECKING:
     from cfree.verify.world import World
 
 ENDS, CONTINUOUS, FREE, KEPT = "start and goal", "continuous", "free of collisions", "contacts kept"
-DECIMALS, TOO_NEAR = "decimals", 'they are said to be "free", and this is too near to something; say "approximate"'
+DECIMALS, CLEARANCE = "decimals", "clearance"
+TOO_NEAR = {
+    DECIMALS: 'they are said to be "free", and this is too near to something; say "approximate"',
+    CLEARANCE: "it is nearer to something than that, or for its polygon around a disc; say less",
+}
 STANDING, ZERO = Translation((0, 0)), Fraction(0)
 HALVINGS = 16
 
 
 def path_findings(
-    path: Path, world: World, report: Callable[[float], object], roomy: World | None = None
+    path: Path, world: World, report: Callable[[float], object], larger: dict[str, World] | None = None
 ) -> Iterator[Finding]:
-    """All that is wrong with a path in a scene; if its decimals are said to be free, also in a roomier one."""
-    placed = place_of(path.start, world.scale)
-    if roomy and collision(roomy, _course_in(roomy, placed, STANDING, world)) is not None:
-        yield Finding(DECIMALS, "start", TOO_NEAR)
-        roomy = None
+    """All that is wrong with a path in a scene, and in worlds of larger robots that it is said to be free in, too.
+
+    Each of these has the name of its check, and who is free there is free in the scene.
+    """
+    placed, open_ = place_of(path.start, world.scale), dict(larger or {})
+
+    def too_near(motion: Motion, place: str) -> Iterator[Finding]:
+        for name, there in list(open_.items()):
+            if collision(there, _course_in(there, placed, motion, world)) is not None:
+                yield Finding(name, place, TOO_NEAR[name])
+                del open_[name]
+
+    yield from too_near(STANDING, "start")
     for k, motion in enumerate(path.motions):
         report(k / len(path.motions))
         course = Course(placed, motion, world.scale)
@@ -58,21 +70,19 @@ def path_findings(
         for touch in motion.contacts:
             if (why := _not_kept(world, course, touch)) is not None:
                 yield Finding(KEPT, f"motion {k}", f"{touch.kind} {touch.robot}, {touch.obstacle}: {why}")
-        if roomy and collision(roomy, _course_in(roomy, placed, motion, world)) is not None:
-            yield Finding(DECIMALS, f"motion {k}", TOO_NEAR)
-            roomy = None
-        if not roomy and (u := collision(world, course)) is not None:
+        yield from too_near(motion, f"motion {k}")
+        if not open_ and (u := collision(world, course)) is not None:
             yield Finding(FREE, f"motion {k}", f"it is forbidden at u = {u}, near {float(u):.6g}")
         placed = course.at(Fraction(1))
     if placed != place_of(path.goal, world.scale):
         yield Finding(CONTINUOUS, "goal", "the motions do not lead to it")
 
 
-def _course_in(roomy: World, placed: Placed, motion: Motion, world: World) -> Course:
-    """The same motion in the coordinates of a roomier world."""
+def _course_in(there: World, placed: Placed, motion: Motion, world: World) -> Course:
+    """The same motion in the coordinates of another world."""
     x, y, c, s = placed
-    factor = roomy.scale // world.scale
-    return Course((factor * x, factor * y, c, s), motion, roomy.scale)
+    factor = there.scale // world.scale
+    return Course((factor * x, factor * y, c, s), motion, there.scale)
 
 
 def end_findings(given: Path | Separated, world: World) -> Iterator[Finding]:

@@ -12,7 +12,7 @@ from cfree.exact.algebraic import Exact
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.planning.separation import Pieces
 from cfree.scene.scene import Scene
-from cfree.verify.inside import strictly_inside
+from cfree.verify.inside import is_near, strictly_inside
 from cfree.verify.motions import touches
 from cfree.verify.parity import is_inside
 from cfree.verify.result import Finding
@@ -34,8 +34,8 @@ def separation_findings(proof: Separated, world: World, report: Callable[[float]
     if proof.of == "closed":
         yield from _not_inside(proof, scene)
         scene = Scene(proof.robot or scene.robot, scene.obstacles, bounds=proof.bounds, workspace=scene.workspace)
-    elif proof.of != "interior" or proof.robot or proof.bounds:
-        yield Finding(INSIDE, proof.of, 'a smaller robot belongs to "closed"')
+    elif proof.of != "interior" or proof.robot or proof.bounds or proof.clearance:
+        yield Finding(INSIDE, proof.of, 'a smaller robot, and a clearance, belong to "closed"')
     else:
         apart = any(touches(world, pose) for pose in (proof.start, proof.goal))
     try:
@@ -64,9 +64,13 @@ def separation_findings(proof: Separated, world: World, report: Callable[[float]
 
 
 def _not_inside(proof: Separated, scene: Scene) -> Iterator[Finding]:
-    if not proof.robot:
-        yield Finding(INSIDE, "smaller robot", "there is none")
-    for k, part in enumerate(proof.robot):
+    """Of a clearance: what is inside are cores, and the robot is nearer to them than the clearance."""
+    if not proof.robot or len(proof.cores) != (len(proof.robot) if proof.clearance else 0):
+        yield Finding(INSIDE, "smaller robot", "there is none, or not as many cores as its polygons")
+    for k, (part, core) in enumerate(zip(proof.robot, proof.cores, strict=False)):
+        if not is_near(part, core, proof.clearance):
+            yield Finding(INSIDE, f"polygon {k}", "its core is not convex, or it is not everywhere nearer to that")
+    for k, part in enumerate(proof.cores or proof.robot):
         if not any(strictly_inside(part, polygon) for polygon in scene.robot):
             yield Finding(INSIDE, f"polygon {k}", "it is not strictly inside one of the robot's polygons")
     if proof.bounds:
