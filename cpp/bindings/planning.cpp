@@ -1,37 +1,78 @@
-// Ways along the boundary of a cell.
+// Ways along the boundary of a cell. A pose is (x, y, p / q) as (numerator, denominator) of x and of y, and q, p: integers.
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include "cfree/planning/face_graph.hpp"
+#include "cfree/planning/boundary_walk.hpp"
+#include "integers.hpp"
 #include "watched.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using cfree::FaceGraph, cfree::Mark, cfree::Place;
+using cfree::BoundaryWalker, cfree::Feature, cfree::RationalPose, cfree::Way;
 
-// A place is (x, y, theta); a mark the face as well.
-using Numbers = std::array<double, 3>;
-using FaceAt = std::pair<int, Numbers>;
+using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
 
-static Place place(const Numbers& n) { return {n[0], n[1], n[2]}; }
-static std::vector<Mark> marks(const std::vector<FaceAt>& given) {
-    std::vector<Mark> result;
-    for (const auto& [face, at] : given) result.push_back({face, place(at)});
-    return result;
+static RationalPose pose(const std::array<nb::int_, 6>& n) {
+    const auto at = [&](std::size_t k) { return integer(n[k]); };
+    return {{at(0), at(1)}, {at(2), at(3)}, {at(4), at(5)}};
+}
+static PoseTuple tuple_of(const RationalPose& q) {
+    return {integer(q.x.n), integer(q.x.d), integer(q.y.n), integer(q.y.d), integer(q.half.q), integer(q.half.p)};
+}
+static std::vector<PoseTuple> list_of(const Way& way) {
+    std::vector<PoseTuple> poses;
+    for (const auto& q : way) poses.push_back(tuple_of(q));
+    return poses;
+}
+
+// A pose and (x, y, theta), the same rounded.
+using End = std::pair<std::array<nb::int_, 6>, std::array<double, 3>>;
+static BoundaryWalker::End end(const End& given) {
+    const auto [x, y, theta] = given.second;
+    return {pose(given.first), {x, y, theta}};
+}
+
+// slide(from, to, contact, curve) tells whether one leads there.
+static std::vector<PoseTuple> walk(const BoundaryWalker& walker, const End& start, const End& goal, int cell,
+                                   const nb::typed<nb::callable, bool(PoseTuple, PoseTuple, std::array<int, 3>, std::uint64_t)>& slide) {
+    Raised raised;
+    const cfree::Slides slides = [&](const RationalPose& from, const RationalPose& to, const Feature& contact, std::uint64_t curve) {
+        const nb::gil_scoped_acquire lock;
+        try {
+            const std::array<int, 3> on{static_cast<int>(contact.kind), contact.robot, contact.obstacle};
+            return nb::cast<bool>(slide(tuple_of(from), tuple_of(to), on, curve));
+        } catch (nb::python_error& error) {
+            raised.keep(std::move(error));
+            throw cfree::Stopped();
+        }
+    };
+    const auto first = end(start), last = end(goal);
+    try {
+        return list_of(watched([&] { return walker.walk(first, last, cell, slides); }));
+    } catch (const cfree::Stopped&) {
+        raised.rethrow();
+        throw;
+    }
+}
+
+// A face, and whether its last angle is meant or its first.
+using Wall = std::pair<int, bool>;
+static std::optional<std::vector<PoseTuple>> turn(const BoundaryWalker& walker, const Wall& from, const Wall& to, int attempts) {
+    const auto found = watched([&] { return walker.turn({from.first, from.second}, {to.first, to.second}, attempts); });
+    if (!found) return {};
+    return list_of(*found);
 }
 
 void bind_planning(nb::module_& m) {
-    nb::class_<FaceGraph>(m, "FaceGraph")
-        .def(nb::init<std::shared_ptr<const cfree::CellComplex>, double>(), "cells"_a, "angle_scale"_a)
-        .def("shortest", [](const FaceGraph& graph, const Numbers& start, const std::vector<FaceAt>& starts, const Numbers& goal,
-                            const std::vector<FaceAt>& goals, const std::vector<FaceAt>& links) {
-            const auto from = marks(starts), to = marks(goals), ends = marks(links);
-            const auto way = watched([&] { return graph.shortest(place(start), from, place(goal), to, ends); });
-            std::vector<std::pair<int, int>> found;
-            for (const auto& [face, by] : way) found.emplace_back(face, by);
-            return found;
-        }, "start"_a, "starts"_a, "goal"_a, "goals"_a, "links"_a);
+    nb::class_<BoundaryWalker>(m, "BoundaryWalker")
+        .def(nb::init<std::shared_ptr<const cfree::FreeSpace>, std::shared_ptr<const cfree::CellComplex>,
+                      std::shared_ptr<const cfree::MotionChecker>, double>(),
+             "space"_a, "cells"_a, "checker"_a, "angle_scale"_a)
+        .def("walk", &walk, "start"_a, "goal"_a, "cell"_a, "slide"_a)
+        .def("turn", &turn, "start"_a, "goal"_a, "attempts"_a);
 }

@@ -37,7 +37,31 @@ static void two_contacts_slide() {
     CHECK(!MotionChecker(junction(-10)).is_free(lower));
 }
 
+static void translations_end_at_their_first_collision() {
+    const MotionChecker checker(scene_of({{{-7, -5}, {9, -6}, {3, 8}}}, {{{-90, -60}, {80, -70}, {85, -50}, {-80, -40}},
+                                                                         {{30, 30}, {60, 35}, {40, 70}}, {{-70, 10}, {-30, 0}, {-40, 60}}}));
+    unsigned state = 1;
+    const auto number = [&](int size) {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<int>((state >> 16) % static_cast<unsigned>(2 * size + 1)) - size;
+    };
+    int stopped = 0, at_once = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const int q = number(9), p = 1 + abs(number(9));
+        const Motion move{q * q - p * p, 2 * q * p, q * q + p * p, number(100), number(100), 1, false, number(150), number(150), 1, 1, 0};
+        const auto found = checker.first_collision(move);
+        const auto share = checker.free_share(move);
+        CHECK(found.has_value() == share.has_value());
+        if (!found || !share) continue;
+        ++(share->n.is_zero() ? at_once : stopped);
+        if (found->kind == 0) CHECK(share->n.is_zero());
+        else CHECK(found->at.p[0] * share->d + found->at.p[1] * share->n == 0);
+    }
+    CHECK(stopped > 100 && at_once > 100);
+}
+
 int main() {
+    translations_end_at_their_first_collision();
     touching_is_free();
     two_contacts_slide();
     return failures != 0;

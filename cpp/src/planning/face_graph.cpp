@@ -19,6 +19,7 @@ constexpr double pi = std::numbers::pi;
 // How far positions are from those of the frame.
 Vec<double> moved(const Scene& scene, double theta) {
     const auto [x, y, a, b] = scene.frame;
+    if (x == 0 && y == 0 && a == 0 && b == 0) return {0, 0};
     const double c = std::cos(theta), s = std::sin(theta);
     return {x - (c * a - s * b), y - (s * a + c * b)};
 }
@@ -33,6 +34,11 @@ Place surface_at(const Scene& scene, const Feature& contact, double t, double th
 
 }  // namespace
 
+Vec<double> position(const CellComplex& cells, Index v) {
+    const Vec<double> by = moved(*cells.boundary->scene, cells.theta[v]);
+    return {cells.xy[2 * v] + by.x, cells.xy[2 * v + 1] + by.y};
+}
+
 FaceGraph::FaceGraph(std::shared_ptr<const CellComplex> of, double scale)
     : cells(std::move(of)), scene(cells->boundary->scene->near()), limits(*cells->boundary), angle_scale(scale) {}
 
@@ -44,12 +50,11 @@ Place FaceGraph::middle(Index h) const {
     const Index ends[2] = {cells->vertex[h], cells->vertex[after]};
     const auto side = static_cast<Side>(cells->side[h]);
     Place result{};
-    const Scene& whole = *cells->boundary->scene;
     if (side == Side::first || side == Side::last) {
         result.theta = side == Side::first ? low : high;
         for (const Index v : ends) {
-            const Vec<double> by = moved(whole, cells->theta[v]);
-            result.x += cells->xy[2 * v] + by.x, result.y += cells->xy[2 * v + 1] + by.y;
+            const Vec<double> end = position(*cells, v);
+            result.x += end.x, result.y += end.y;
         }
         result.x /= 2, result.y /= 2;
         return result;
@@ -63,7 +68,7 @@ Place FaceGraph::middle(Index h) const {
     const auto t = limits.of(face, std::tan((result.theta - table.chart[face] * pi) / 2));
     const Feature contact = cells->boundary->patches.contact(table.patch[face]);
     const Place at = surface_at(scene, contact, t[side == Side::upper], result.theta);
-    const Vec<double> by = moved(whole, result.theta);
+    const Vec<double> by = moved(*cells->boundary->scene, result.theta);
     return {at.x + by.x, at.y + by.y, at.theta};
 }
 

@@ -135,13 +135,13 @@ class FreeSpace(Value):
     ) -> None:
         self.boundary = boundary
         self.surfaces = bounding_surfaces(boundary)
-        self._core = core or _in_core(self.surfaces, component, parent, free_inside, turns, lift)
-        surfaces = self._core.surfaces
+        self.core = core or _in_core(self.surfaces, component, parent, free_inside, turns, lift)
+        surfaces = self.core.surfaces
         self.component, self.parent, self.turns, self.lift = (
             getattr(surfaces, name) for name in ("component", "parent", "turns", "lift")
         )
         self.free_inside = surfaces.free_inside.view(np.bool_)
-        self.cell_of, self.depth = self._core.cell_of, self._core.depth
+        self.cell_of, self.depth = self.core.cell_of, self.core.depth
         self.outside = 0 if boundary.features.rim is None else FORBIDDEN
 
     @property
@@ -269,7 +269,7 @@ class FreeSpace(Value):
             verdicts = self.boundary.checker.verdicts(np.column_stack([xy, theta]), threads)
             asked = np.flatnonzero(verdicts != CERTAINLY_FORBIDDEN)
             chart, tau = chart_of(theta[asked])
-            cell = self._core.locate(xy[asked], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
+            cell = self.core.locate(xy[asked], chart.astype(np.int32), tau, threads or os.cpu_count() or 1)
             for m in np.flatnonzero(cell == FORBIDDEN).tolist():
                 x, y = xy[asked[m]].tolist()
                 if self.boundary.checker.is_free(Pose(x, y, {"tau": tau_in_chart(int(chart[m]), Fraction(tau[m]))})):
@@ -280,7 +280,7 @@ class FreeSpace(Value):
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
-        cell = self._core.locate_exactly(*self._place(pose))
+        cell = self.core.locate_exactly(*self._place(pose))
         return NO_CELL if cell == FORBIDDEN else cell
 
     def _place(self, pose: Pose) -> tuple[tuple[int, ...], int]:
@@ -294,7 +294,7 @@ class FreeSpace(Value):
     def nearby(self, pose: PoseLike) -> Nearby:
         """The trapezoids of `surfaces` that hold a pose, and those that a ray from it crosses; exactly."""
         pose = to_pose(pose, "pose")
-        return Nearby(*self._core.nearby(*self._place(pose)))
+        return Nearby(*self.core.nearby(*self._place(pose)))
 
     @checked
     def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
@@ -311,7 +311,7 @@ class FreeSpace(Value):
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:
         """An interval of tau, in its chart, no wider than 2**-bits, around the first or last angle of a trapezoid."""
-        low, p, high, q = self._core.angle(face, last, bits)
+        low, p, high, q = self.core.angle(face, last, bits)
         return Fraction(low, 1 << p), Fraction(high, 1 << q)
 
     @checked

@@ -17,7 +17,6 @@ from cfree.scene.features import SceneFeatures, ShapeFeatures, unpacked
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
-    from cfree.free.space import FreeSpace
 
 FINEST = 32  # bits of tau that doubles are trusted with
 AngleOf = Callable[[int, bool, int], tuple[Fraction, Fraction]]
@@ -219,30 +218,6 @@ class Sheet:
         """A simple t well within."""
         return between(*self.limits(tau))
 
-    def away(self, tau: Fraction) -> Vector:
-        """The direction off the contact: to the right of U."""
-        _, (x, y) = self.at(tau)
-        return y, -x
-
-    def local(self, pose: Pose) -> Fraction:
-        """tau of a pose in the chart: at the end of a chart it has one in both."""
-        chart, tau = pose.chart
-        return tau if chart == self.chart else -tau
-
-    def t_of(self, pose: Pose, tau: Fraction) -> Fraction:
-        """t of a pose on its line, at this orientation."""
-        P, U = self.at(tau)
-        return dot(minus((pose.x, pose.y), P), U) / dot(U, U)
-
-    def contact_point(self, t: Fraction) -> Vector:
-        """In the robot's own coordinates."""
-        _, _, a, g = self.line
-        return a[0] + t * g[0], a[1] + t * g[1]
-
-    def turned(self, t: Fraction, tau: Fraction, to: Fraction) -> Pose:
-        """The pose at (t, tau) turned about its point of contact."""
-        return rotated(self.pose(t, tau), self.contact_point(t), tau_in_chart(self.chart, to))
-
 
 def contact_of(boundary: Boundary, patch: int) -> Contact:
     """What touches on a patch."""
@@ -258,13 +233,6 @@ def isolated_end(boundary: Boundary, k: int, last: bool, tau: Fraction) -> Pose:
     return sheet.pose(sheet.limits(tau)[0], tau)
 
 
-def rotated(pose: Pose, point: Vector, tau: Fraction | None) -> Pose:
-    """The pose turned to an orientation about a point of the robot."""
-    ((X, Y),) = pose.apply_exact([point])
-    ((x, y),) = Pose(0, 0, {"tau": tau}).apply_exact([point])
-    return Pose(X - x, Y - y, {"tau": tau})
-
-
 def common_tau(*sheets: Sheet) -> Fraction:
     """An orientation strictly within sheets that share a part of a curve."""
     bits = FINEST
@@ -273,38 +241,3 @@ def common_tau(*sheets: Sheet) -> Fraction:
         for f in sheets:
             f.refine(bits)
     return between(low, high)
-
-
-def common_part(f: Sheet, sigma: Fraction, g: Sheet, tau: Fraction) -> tuple[Fraction, Fraction] | None:
-    """t on two sheets at orientations of theirs where one is beside the other: in the middle of what they share."""
-    low, high = f.limits(sigma)
-    beside = sorted(f.t_of(g.pose(t, tau), sigma) for t in g.limits(tau))
-    low, high = max(low, beside[0]), min(high, beside[1])
-    if low >= high:
-        return None
-    t = between(low, high)
-    s = g.t_of(f.pose(t, sigma), tau)
-    least, most = g.limits(tau)
-    return (t, s) if least < s < most else None
-
-
-FAR = -1  # in place of a face: to the left of everything
-
-
-class Faces:
-    """The trapezoids that bound the cells of a free space.
-
-    Parameters
-    ----------
-    space : FreeSpace
-    """
-
-    def __init__(self, space: FreeSpace) -> None:
-        self.space = space
-
-    def sheet(self, face: int) -> Sheet:
-        return Sheet.of(self.space.surfaces, face, self.space.angle)
-
-    def cell_at(self, face: int) -> int:
-        """The cell that a face bounds; at `FAR` the one that is unbounded."""
-        return self.space.outside if face == FAR else int(self.space.cell_of[self.space.component[face]])

@@ -21,13 +21,13 @@ from cfree.forbidden.columns import Ints
 from cfree.forbidden.critical_angle import rational_critical_angle
 from cfree.planning.clusters import clusters
 from cfree.planning.exact_face import Sheet, between, common_tau
-from cfree.planning.face_graph import LAST, LOWER, UPPER
 from cfree.planning.thin_parts import ThinPart
 
 if TYPE_CHECKING:
     from cfree.planning.boundary_walk import Walker
 
 NEAR = 1e-9  # of the scene's size: what doubles do not tell apart
+UPPER, LOWER = 1, 3  # sides of a trapezoid
 MOST_TURNS = 256  # attempts at one, nearer and nearer to the critical angle
 HALVINGS = (4, 16, 64)  # of the way to the other end: how near to an irrational orientation a slide begins
 
@@ -70,12 +70,12 @@ class Places:
 
     def holders(self, pose: Pose) -> list[Holder]:
         """What holds a free pose: cells on whose boundary it is, or that it is in, and isolated parts."""
-        found: list[Holder] = [*dict.fromkeys(self.walker.faces.cell_at(face) for face in self.space.nearby(pose).on)]
+        found: list[Holder] = [*dict.fromkeys(self.walker.cell_at(face) for face in self.space.nearby(pose).on)]
         if not found and (cell := self.space.locate(pose)) >= 0:
             return [cell]
         if self.slits:
             faces = self.slits.space.nearby(pose).on
-            found += dict.fromkeys(Surface(self.slits.faces.cell_at(face)) for face in faces)
+            found += dict.fromkeys(Surface(self.slits.cell_at(face)) for face in faces)
         return [*found, *(Part(k) for k in self._parts_near(pose) if self.parts[k].holds(pose))]
 
     def way(self, start: Pose, goal: Pose, holder: Holder) -> list[Pose] | None:
@@ -111,7 +111,7 @@ class Places:
         if self.slits is None:
             return
         for face in range(len(self.slits.space.component)):
-            sheet = self.slits.faces.sheet(face)
+            sheet = self.slits.sheet(face)
             tau = between(sheet.low, sheet.high)
             yield sheet.pose(sheet.middle(tau), tau)
             yield from _corners(self.slits, face)
@@ -136,7 +136,7 @@ class Places:
     def meetings(self) -> list[Meeting]:
         """Of vertices that bound several cells, or are near to isolated parts."""
         cells, (face, first) = self.space.complex, self._faces_at
-        cell = np.array([self.walker.faces.cell_at(int(face[k])) for k in first[:-1]], np.int32)
+        cell = np.array([self.walker.cell_at(int(face[k])) for k in first[:-1]], np.int32)
         ends = np.array([end for part in self.parts for end in part.rounded], float).reshape(-1, 3)
         xyt = np.vstack((np.column_stack((cells.x, cells.y, cells.theta)), ends))
         points = np.column_stack((xyt[:, :2] / self.size, np.cos(xyt[:, 2]), np.sin(xyt[:, 2])))
@@ -167,8 +167,8 @@ class Places:
             coedges = cells.at_edge(edge)
             faces = cells.face[coedges].tolist()
             side = int(cells.side[coedges[0]])
-            if side in (1, 3) and len({walker.faces.cell_at(face) for face in faces}) > 1:
-                f, *others = (walker.faces.sheet(face) for face in faces)
+            if side in (1, 3) and len({walker.cell_at(face) for face in faces}) > 1:
+                f, *others = (walker.sheet(face) for face in faces)
                 tau = common_tau(f, *others)
                 yield f.pose(f.limits(tau)[side == 1], tau)
 
@@ -211,7 +211,7 @@ class Places:
                     continue
                 for h, k in combinations(coedges, 2):
                     f, g = (int(cells.face[c]) for c in (h, k))
-                    if walker.faces.cell_at(f) != walker.faces.cell_at(g) and (way := _turn(walker, f, g, h, k)):
+                    if walker.cell_at(f) != walker.cell_at(g) and (way := walker.turn(h, k, MOST_TURNS)):
                         yield way
 
     def _curves(self, meeting: Meeting) -> Iterator[Tail]:
@@ -222,7 +222,7 @@ class Places:
             return
         thin = (self.parts[k] for k in meeting.parts)
         parts: list[tuple[Sheet, Holder]] = [(part.sheet, Part(part.k)) for part in thin if part.is_curve]
-        parts += [(self.walker.faces.sheet(face), self.walker.faces.cell_at(face)) for face in meeting.faces]
+        parts += [(self.walker.sheet(face), self.walker.cell_at(face)) for face in meeting.faces]
         for sheet, holder in parts:
             apart = [math.remainder(theta - meeting.theta, math.tau) for theta in sheet.theta]
             for last, side in product((False, True), (0, 1)):
@@ -237,7 +237,7 @@ class Places:
     def _slid(self, one: Tail, other: Tail) -> Iterator[tuple[Pose, Pose]]:
         for halvings in HALVINGS:
             a, b = one.pose(halvings), other.pose(halvings)
-            if self.walker.departures.along_curve(a, b, one.sheet, one.sheet.codes[one.side]):
+            if self.walker.curves.along(a, b, one.sheet, one.sheet.codes[one.side]):
                 yield a, b
                 return
 
@@ -264,26 +264,9 @@ class Tail:
         return self.sheet.pose(self.sheet.limits(tau)[self.side], tau)
 
 
-def _turn(walker: Walker, face: int, other: int, h: int, k: int) -> list[Pose] | None:
-    """From one face to another, over sides of theirs that are one edge."""
-    f, g = walker.faces.sheet(face), walker.faces.sheet(other)
-    at_end = [bool(walker.space.complex.side[c] == LAST) for c in (h, k)]
-    aims = [between(sheet.low, sheet.high) for sheet in (f, g)]
-    found = walker.across(f, g, at_end, aims, MOST_TURNS)
-    if found is None:
-        return None
-    sigma, poses, tau = found
-    return [
-        f.pose(f.middle(sigma), sigma),
-        walker.landings.off(f, f.middle(sigma), sigma),
-        *poses,
-        g.pose(g.middle(tau), tau),
-    ]
-
-
 def _corners(walker: Walker, face: int) -> tuple[Pose, ...]:
     """Of a face, at its first and last orientations as far as they are rational."""
-    sheet, surfaces = walker.faces.sheet(face), walker.space.surfaces
+    sheet, surfaces = walker.sheet(face), walker.space.surfaces
     ends = (rational_critical_angle(surfaces, surfaces.trapezoids, face, last) for last in (False, True))
     taus = [tau for tau in ends if tau is not None]
     return tuple(dict.fromkeys(sheet.pose(t, tau) for tau in taus for t in sheet.limits(tau)))

@@ -130,7 +130,7 @@ class ThinPart:
         way, stack = [start], [last]
         while stack and len(stack) + len(way) < MOST_PARTS:
             end = goal if stack[-1] == last else self.at(stack[-1])
-            if self.walker.departures.along_curve(way[-1], end, self.sheet, code):
+            if self.walker.curves.along(way[-1], end, self.sheet, code):
                 way.append(end)
                 stack.pop()
             else:

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cfree/exact/algebraic.hpp"
+#include "cfree/exact/ratio.hpp"
 #include "cfree/scene/scene.hpp"
 
 namespace cfree {
@@ -50,6 +51,8 @@ public:
     bool is_free(const Motion& motion) const;
     bool is_free(const Slide& slide) const;
     std::optional<Collision> first_collision(const Motion& motion) const;
+    // Of a translation: the parameter of the first collision.
+    std::optional<Ratio> free_share(const Motion& translation) const;
 
 private:
     template <int N>

@@ -5,21 +5,21 @@
 #include <span>
 #include <vector>
 
-#include "cfree/forbidden/limits.hpp"
 #include "cfree/forbidden/cell_complex.hpp"
+#include "cfree/forbidden/limits.hpp"
+#include "cfree/search/configuration.hpp"
 
 namespace cfree {
 
 inline constexpr Index far_away = -1;  // in place of a face: to the left of everything
 
-struct Place {
-    double x, y, theta;
-};
 // Where a free way ends on a face, or far away.
 struct Mark {
     Index face;
     Place at;
 };
+
+Vec<double> position(const CellComplex& cells, Index vertex);
 
 class FaceGraph {
 public:

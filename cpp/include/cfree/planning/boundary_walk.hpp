@@ -1,0 +1,49 @@
+// A path on the boundary of a cell, made of translations and rotations that are proved free.
+//
+// A trapezoid's lines of constant theta are translations, its lines of constant t rotations about the point of contact; steps
+// along them are free because the trapezoid is part of the boundary. They are taken where nothing better is: poses off the
+// contact, by half of the room there, are joined by one motion where that is free.
+#pragma once
+#include <map>
+#include <mutex>
+
+#include "cfree/planning/landing.hpp"
+
+namespace cfree {
+
+class BoundaryWalker {
+public:
+    // Lengths are travel plus angle_scale, the robot's radius, times turning.
+    BoundaryWalker(std::shared_ptr<const FreeSpace> space, std::shared_ptr<const CellComplex> cells,
+                   std::shared_ptr<const MotionChecker> checker, double angle_scale);
+
+    // Poses from the start to the goal, both in the cell or on its boundary; the motions between them are free. Places: the
+    // same in doubles. Throws std::logic_error if no way is found. Calls from several threads are fine.
+    struct End {
+        RationalPose pose;
+        Place place;
+    };
+    Way walk(const End& start, const End& goal, Index cell, const Slides& slides) const;
+
+    // From the middle of one face to the middle of another, over their last or first angles, nearer and nearer to these. Nothing if
+    // none was found.
+    struct Wall {
+        Index face;
+        bool is_last;
+    };
+    std::optional<Way> turn(const Wall& from, const Wall& to, int attempts) const;
+
+private:
+    class Run;
+    std::shared_ptr<const std::vector<Link>> links(const Landings& landings, Index cell) const;
+
+    const std::shared_ptr<const FreeSpace> space;
+    const std::shared_ptr<const CellComplex> cells;
+    const std::shared_ptr<const MotionChecker> checker;
+    const FaceGraph graph;
+    const Extent extent;
+    mutable std::mutex lock;  // of what is kept for later
+    mutable std::map<Index, std::shared_ptr<const std::vector<Link>>> known;
+};
+
+}  // namespace cfree

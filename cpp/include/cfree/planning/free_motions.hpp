@@ -1,0 +1,33 @@
+// Motions between rational poses, decided exactly.
+#pragma once
+#include <functional>
+
+#include "cfree/planning/sheet.hpp"
+
+namespace cfree {
+
+using Way = std::vector<RationalPose>;
+
+// Whether a slide along a contact's surface and a curve on it leads from one pose freely to another.
+using Slides = std::function<bool(const RationalPose& from, const RationalPose& to, const Feature& contact, std::uint64_t curve)>;
+
+class FreeMotions {
+public:
+    // Both are referred to.
+    FreeMotions(const Scene& of, const MotionChecker& by, const Slides& along) : scene(of), checker(by), slides(along) {}
+
+    // Whether the one motion from each pose to the next is free.
+    bool join(const Way& way) const;
+    std::optional<Way> first_free(std::initializer_list<Way> ways) const;
+    // Whether there is one free motion to another pose on the same curve of a sheet.
+    bool along_curve(const RationalPose& from, const RationalPose& to, const Sheet& sheet, std::size_t side) const;
+    // A share of the vector, at most 1, as far as a translation is free; nothing if all of it is.
+    std::optional<Ratio> free_share(const RationalPose& from, const Ratio& dx, const Ratio& dy) const;
+
+private:
+    const Scene& scene;
+    const MotionChecker& checker;
+    const Slides& slides;
+};
+
+}  // namespace cfree

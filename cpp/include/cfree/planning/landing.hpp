@@ -1,0 +1,58 @@
+// Where a straight way from a pose meets the boundary of its cell, ways off a free pose onto trapezoids that it can go on along,
+// and free segments that link a cell's closed surfaces.
+#pragma once
+#include <map>
+
+#include "cfree/free/free_space.hpp"
+#include "cfree/planning/face_graph.hpp"
+#include "cfree/planning/free_motions.hpp"
+
+namespace cfree {
+
+// A free way to a pose on a face, strictly between its first and last orientation, or far away.
+struct Landing {
+    Index face;
+    Way way;
+    const RationalPose& pose() const { return way.back(); }
+    Mark mark() const { return {face, pose().place()}; }
+};
+// From one landing to another: the first one's way backwards, then the second one's.
+struct Link {
+    Landing first, second;
+};
+
+// How far things are: no point of the robot is farther than `reach` from its reference point; `length` is more than any free
+// straight way that ends, and `far` is x to the left of everything.
+struct Extent {
+    Ratio reach, length, far;
+    Extent(const CellComplex& cells, const Ratio& reach);
+};
+
+class Landings {
+public:
+    // All are referred to.
+    Landings(const FreeSpace& space, const Extent& extent, const FreeMotions& motions);
+
+    Sheet sheet(Index face) const { return Sheet::of(*space.boundary, space.points(), face); }
+    // Half way from the contact at (t, tau) to the next.
+    RationalPose off(const Sheet& sheet, const Ratio& t, const Ratio& tau) const;
+    // Ways from a pose, in a cell or on its boundary, to the boundary.
+    std::vector<Landing> of(const RationalPose& pose, Index cell) const;
+    // Free segments that link all closed surfaces of a cell, and what is far away if it is unbounded: all that lie on one ray
+    // towards -x, for each surface but the outer one. The ray leaves the cell and comes back over the same surface, as no other
+    // bounds that part of the forbidden space from there: so they link its ends.
+    std::vector<Link> links(Index cell) const;
+
+private:
+    std::vector<Landing> departures(const RationalPose& pose, Index cell) const;
+    std::vector<Landing> straight(const RationalPose& pose, int x, int y, Index cell) const;
+    void link(Index widest, Index cell, std::vector<Link>& found) const;
+    std::optional<Ratio> crossing(Index face, const RationalPose& pose) const;
+    Way inwards(const Sheet& sheet, const RationalPose& pose, int end) const;
+
+    const FreeSpace& space;
+    const Extent& extent;
+    const FreeMotions& motions;
+};
+
+}  // namespace cfree

@@ -1,0 +1,59 @@
+// A trapezoid of a boundary, exactly: poses on it at rational t and tau, rational ends included.
+#pragma once
+#include <optional>
+#include <utility>
+
+#include "cfree/forbidden/cell_complex.hpp"
+#include "cfree/planning/rational_pose.hpp"
+
+namespace cfree {
+
+class Sheet {
+public:
+    // Ends: all orientations from the first to the second, in its chart, are strictly within.
+    Sheet(const Scene& scene, const Feature& contact, int chart, std::array<std::uint64_t, 2> curves, Ratio low, Ratio high);
+    // Of a face, with `points` to know its ends better.
+    static Sheet of(const Boundary& boundary, const PointLocation& points, Index face);
+
+    const Feature contact;
+    const int chart;
+    const std::array<std::uint64_t, 2> curves;  // below and above
+    const Index face = -1;
+    Ratio low, high;
+    // Comes as near as 2^-bits to the first and the last orientation, if it is a face.
+    void refine(unsigned bits);
+
+    // Positions (P + t U) / w in the scene's integers.
+    struct Line {
+        Vec<Int> P, U;
+        Int w;
+    };
+    Line at(const HalfAngle& half) const;
+    Line at(const Ratio& tau) const { return at(HalfAngle::of(chart, tau)); }
+    // Limits of t at an orientation from the first to the last: where a curve's formula has no value, that around there.
+    std::pair<Ratio, Ratio> limits(const Ratio& tau) const;
+    Ratio middle(const Ratio& tau) const;  // a simple t well within
+    RationalPose pose(const Ratio& t, const Ratio& tau) const { return pose(t, HalfAngle::of(chart, tau)); }
+    // Of another orientation than its own as well: the same points touch, on their lines.
+    RationalPose pose(const Ratio& t, const HalfAngle& half) const;
+    // t of a pose on its line, at this orientation.
+    Ratio t_of(const RationalPose& pose, const Ratio& tau) const;
+
+private:
+    Sheet(const Boundary& boundary, const PointLocation& points, Index face);
+    Ratio limit(std::uint64_t curve, const HalfAngle& half, const Line& line, const Ratio& tau) const;
+    Ratio limit_around(const ContactLine<Int>& other, const Ratio& tau) const;
+    Ratio along(const Feature& helix) const;
+
+    const Scene& scene;
+    const PointLocation* points = nullptr;
+    unsigned bits = 0;
+    const ContactLine<Int> line;
+};
+
+// An orientation strictly within two sheets that share a part of a curve; refines them.
+Ratio common_tau(Sheet& f, Sheet& g);
+// t on two sheets at orientations of theirs where one is beside the other: in the middle of what they share, if they do.
+std::optional<std::pair<Ratio, Ratio>> common_part(const Sheet& f, const Ratio& sigma, const Sheet& g, const Ratio& tau);
+
+}  // namespace cfree

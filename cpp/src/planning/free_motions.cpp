@@ -1,0 +1,34 @@
+// Rational poses as motions of integers; theory, "Motions".
+#include "cfree/planning/free_motions.hpp"
+
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+bool FreeMotions::join(const Way& way) const {
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        heed_stop();
+        if (!checker.is_free(motion_between(way[k - 1].configuration(scene), way[k].configuration(scene)))) return false;
+    }
+    return true;
+}
+
+std::optional<Way> FreeMotions::first_free(std::initializer_list<Way> ways) const {
+    for (const Way& way : ways)
+        if (join(way)) return way;
+    return {};
+}
+
+bool FreeMotions::along_curve(const RationalPose& from, const RationalPose& to, const Sheet& sheet, std::size_t side) const {
+    const auto curve = sheet.curves[side];
+    return unpacked(curve).kind == Kind::vertex_vertex ? join({from, to}) : slides(from, to, sheet.contact, curve);
+}
+
+std::optional<Ratio> FreeMotions::free_share(const RationalPose& from, const Ratio& dx, const Ratio& dy) const {
+    const auto r = from.half.rotation();
+    const Int unit = lcm(lcm(from.x.d, from.y.d), lcm(dx.d, dy.d));
+    const auto whole = [&](const Ratio& x) { return Int(x.n * (unit / x.d) * scene.scale); };
+    return checker.free_share({r.c, r.s, r.w, whole(from.x), whole(from.y), unit, false, whole(dx), whole(dy), 1, 1, 0});
+}
+
+}  // namespace cfree

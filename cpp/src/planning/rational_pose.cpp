@@ -1,0 +1,42 @@
+// Poses as the planner has them, and as the rest of the core takes them; theory, "Poses, exactly".
+#include "cfree/planning/rational_pose.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace cfree {
+
+HalfAngle HalfAngle::of(int chart, const Ratio& tau) {
+    if (chart == 0) return {tau.d, tau.n};
+    // half a right angle further: tau becomes -1 / tau
+    if (tau.n.is_zero()) return {0, 1};
+    return tau.n.sign() > 0 ? HalfAngle{tau.n, -tau.d} : HalfAngle{-tau.n, tau.d};
+}
+
+Ratio HalfAngle::tau() const {
+    if (chart() == 0) return {p, q};
+    return p.sign() > 0 ? Ratio{-q, p} : Ratio{q, -p};
+}
+
+double HalfAngle::theta() const {
+    constexpr double pi = std::numbers::pi;
+    if (q.is_zero()) return pi;
+    const Ratio local = tau();
+    if (chart() == 1) return pi + 2 * std::atan(nearest(local.n, local.d));
+    const double theta = 2 * std::atan(nearest(local.n, local.d));
+    const double positive = theta < 0 ? theta + 2 * pi : theta;
+    return positive < 2 * pi ? positive : 0;
+}
+
+ExactPose RationalPose::exact(const Scene& scene) const {
+    const Int unit = x.d == y.d ? x.d : lcm(x.d, y.d);
+    const Ratio tau = half.tau();
+    return {x.n * (unit / x.d) * scene.scale, y.n * (unit / y.d) * scene.scale, unit, half.chart(), tau.n, tau.d};
+}
+
+Configuration RationalPose::configuration(const Scene& scene) const {
+    const Int unit = x.d == y.d ? x.d : lcm(x.d, y.d);
+    return {half.q, half.p, x.n * (unit / x.d) * scene.scale, y.n * (unit / y.d) * scene.scale, unit, 0, 0, 0};
+}
+
+}  // namespace cfree
