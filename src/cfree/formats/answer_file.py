@@ -90,7 +90,7 @@ def save_path(
     ValueError
         If step or scene is missing.
     """
-    from cfree.formats.path_format import path_text
+    from cfree.formats.path_text import path_text
     from cfree.formats.poses_text import csv_text, geojson_text, ros_text
 
     kind, scene = form_of(file, form), scene or path.scene
@@ -121,7 +121,7 @@ def save_separation(proof: Separated, file: str | PathLike[str]) -> None:
     ValueError
         If there is no scene.
     """
-    from cfree.formats.separation_format import separation_text
+    from cfree.formats.separation_text import separation_text
 
     if FilePath(file).suffix.lower() != ".json":
         raise UnsupportedError(f"{file}: separations are written as .json; name the file so")

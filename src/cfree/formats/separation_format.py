@@ -5,10 +5,8 @@ Import this module inside functions.
 
 from __future__ import annotations
 
-import json
 from decimal import Decimal
 from fractions import Fraction
-from itertools import pairwise
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -16,19 +14,12 @@ from pydantic import BeforeValidator, Field, PlainValidator, model_validator
 
 from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
 from cfree.formats.contact_format import ContactModel
-from cfree.formats.effect import Effect
-from cfree.formats.json_text import json_line
-from cfree.formats.path_format import AnswerModel, Length, answer_head
+from cfree.formats.path_format import AnswerModel, Length
 from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict
 from cfree.formats.scene_values import Fault
-from cfree.paths.path import Path
+from cfree.formats.separation_text import KINDS
 from cfree.planning.separation import Auxiliary, Pieces, Separated
-from cfree.polygons.polygon import Polygon
-from cfree.scene.digest import Stamp
-from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES, unpacked
-
-KINDS = {1: "vertex-edge", 2: "edge-vertex"}
-ENDS = ("from", "to")
+from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES
 
 
 def _code(value: Any) -> int:
@@ -167,50 +158,3 @@ def _pieces(models: list[PieceModel], auxiliary: tuple[Auxiliary, ...]) -> Piece
         dtype = np.uint64 if name in CODED else np.float64 if name.endswith(("lo", "hi")) else np.uint8
         columns[name] = np.array(values, dtype)
     return Pieces(kind, robot, obstacle, Trapezoids(**columns), auxiliary)
-
-
-def separation_text(proof: Separated, stamp: Stamp) -> str:
-    """JSON of a separation; an equal one is read from it."""
-    decimals = Effect(Path(proof.start, ()), proof.goal, stamp).decimals()
-    head: dict[str, Any] = {
-        **answer_head("separated", proof, stamp, decimals),
-        "of": proof.of,
-        "cells": proof.cells,
-        "obstacles": proof.obstacles,
-    }
-    if proof.robot:
-        head["smaller_robot"] = [_polygon(part) for part in proof.robot]
-    if proof.bounds:
-        head["larger_bounds"] = [*map(str, proof.bounds)]
-    if proof.clearance:
-        head |= {"clearance": str(proof.clearance), "cores": [_polygon(part) for part in proof.cores]}
-    if proof.pieces.auxiliary:
-        head["auxiliary"] = [
-            {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
-            for a in proof.pieces.auxiliary
-        ]
-    lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
-    members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
-    return "{" + ",\n ".join(members) + "}\n"
-
-
-def _polygon(polygon: Polygon) -> dict[str, Any]:
-    points = [[str(x), str(y)] for x, y in polygon.exact_vertices]
-    outer, *holes = (points[i:j] for i, j in pairwise(polygon.ring_offsets))
-    return {"outer": outer, "holes": holes} if holes else {"outer": outer}
-
-
-def _records(pieces: Pieces) -> list[dict[str, Any]]:
-    t, records = pieces.table, []
-    rows = zip(pieces.kind.tolist(), pieces.robot.tolist(), pieces.obstacle.tolist(), strict=True)
-    columns = zip(*(getattr(t, name).tolist() for name in COLUMNS), strict=True)
-    for (kind, robot, obstacle), values in zip(rows, columns, strict=True):
-        row = dict(zip(COLUMNS, values, strict=True))
-        record: dict[str, Any] = {"contact": {"kind": KINDS[kind], "robot": robot, "obstacle": obstacle}}
-        record["chart"] = row["chart"]
-        for end in ENDS:
-            codes = [row[f"{end}_first"], row[f"{end}_second"]]
-            angle = {"names": [unpacked(c) for c in codes if c], "tau": [row[f"{end}_lo"], row[f"{end}_hi"]]}
-            record[end] = angle | ({"place": row[f"{end}_place"]} if row[f"{end}_place"] else {})
-        records.append(record | {side: unpacked(row[side]) for side in ("lower", "upper")})
-    return records

@@ -1,0 +1,93 @@
+"""Paths as JSON text, exactly; `docs/answer-format.md` describes it, `path_format.py` reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict
+from decimal import Decimal
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from cfree.collision.motion import Motion
+from cfree.errors import UnsupportedError
+from cfree.exact.number import MAX_DIGITS
+from cfree.exact.pose import Pose
+from cfree.formats.effect import Effect, Written
+from cfree.formats.json_positions import Path as Place
+from cfree.formats.json_text import json_line
+from cfree.paths.path import Path
+from cfree.scene.digest import Stamp
+
+if TYPE_CHECKING:
+    from cfree.planning.separation import Separated
+
+
+def path_text(path: Path, stamp: Stamp, keeps: Callable[[Fraction], bool]) -> str:
+    """JSON of a path; an equal one is read from it.
+
+    Parameters
+    ----------
+    path : Path
+    stamp : Stamp
+        Of its scene.
+    keeps : callable
+        Does the path keep so much room to everything, on all sides?
+    """
+    effect = Effect(path, path.goal, stamp)
+    decimals = effect.decimals()
+    leeway = effect.leeway(decimals)
+    head = answer_head("path", path, stamp, decimals)
+    head["decimals"] = "free" if leeway is not None and keeps(leeway) else "approximate"
+    if path.clearance:
+        head |= {"clearance": _exactly(path.clearance), "disc": [_exactly(point) for point in path.disc]}
+    lines = ",\n".join(f"  {json_line(_record(k, motion, decimals))}" for k, motion in enumerate(path.motions))
+    members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"motions": [\n{lines}\n]']
+    return "{" + ",\n ".join(members) + "}\n"
+
+
+def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Written) -> dict[str, Any]:
+    """What every answer begins with."""
+    return {
+        "version": 1,
+        "units": answer.units,
+        "frame": answer.frame,
+        "answer": kind,
+        "scene": {"sha256": stamp.sha256, "robot": _exactly(stamp.robot)},
+        "start": _numbers(decimals, ("start",), 3),
+        "goal": _numbers(decimals, ("goal",), 3),
+        "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
+    }
+
+
+def _record(k: int, motion: Motion, decimals: Written) -> dict[str, Any]:
+    place, point = ("motions", k), "vector" if motion.pole is None else "pole"
+    contacts = [asdict(contact) for contact in motion.contacts]
+    return {
+        "type": motion.kind,
+        **({"contacts": contacts} if contacts else {}),
+        point: _numbers(decimals, (*place, point)),
+        **({} if motion.kind == "translation" else {"angle": decimals[(*place, "angle")]}),
+        "to": _numbers(decimals, (*place, "to"), 3),
+        "exact": {name: _exactly(value) for name, value in motion.numbers.items()},
+    }
+
+
+def _numbers(decimals: Written, place: Place, count: int = 2) -> list[Decimal]:
+    return [decimals[(*place, k)] for k in range(count)]
+
+
+def _exact(pose: Pose) -> list[Any]:
+    return [_exactly(pose.x), _exactly(pose.y), {"tau": "inf" if pose.tau is None else _exactly(pose.tau)}]
+
+
+def _exactly(value: Any) -> Any:
+    """A number, text that stands for one, or a tuple of them."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, tuple):
+        return [*map(_exactly, value)]
+    bits = value.numerator.bit_length() + value.denominator.bit_length()
+    if bits > 3 * MAX_DIGITS:  # a digit has 3.3 bits
+        digits = f"about {bits * 0.301:.0f} digits, and files hold {MAX_DIGITS}"
+        raise UnsupportedError(f"a number of the path has {digits}; give start and goal in fewer")
+    return str(value)

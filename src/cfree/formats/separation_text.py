@@ -1,0 +1,67 @@
+"""Separations as JSON text, exactly; `docs/answer-format.md` describes it, `separation_format.py` reads it."""
+
+from __future__ import annotations
+
+import json
+from itertools import pairwise
+from typing import Any
+
+from cfree.forbidden.columns import COLUMNS
+from cfree.formats.effect import Effect
+from cfree.formats.json_text import json_line
+from cfree.formats.path_text import answer_head
+from cfree.paths.path import Path
+from cfree.planning.separation import Pieces, Separated
+from cfree.polygons.polygon import Polygon
+from cfree.scene.digest import Stamp
+from cfree.scene.features import unpacked
+
+KINDS = {1: "vertex-edge", 2: "edge-vertex"}
+ENDS = ("from", "to")
+
+
+def separation_text(proof: Separated, stamp: Stamp) -> str:
+    """JSON of a separation; an equal one is read from it."""
+    decimals = Effect(Path(proof.start, ()), proof.goal, stamp).decimals()
+    head: dict[str, Any] = {
+        **answer_head("separated", proof, stamp, decimals),
+        "of": proof.of,
+        "cells": proof.cells,
+        "obstacles": proof.obstacles,
+    }
+    if proof.robot:
+        head["smaller_robot"] = [_polygon(part) for part in proof.robot]
+    if proof.bounds:
+        head["larger_bounds"] = [*map(str, proof.bounds)]
+    if proof.clearance:
+        head |= {"clearance": str(proof.clearance), "cores": [_polygon(part) for part in proof.cores]}
+    if proof.pieces.auxiliary:
+        head["auxiliary"] = [
+            {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
+            for a in proof.pieces.auxiliary
+        ]
+    lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
+    members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
+    return "{" + ",\n ".join(members) + "}\n"
+
+
+def _polygon(polygon: Polygon) -> dict[str, Any]:
+    points = [[str(x), str(y)] for x, y in polygon.exact_vertices]
+    outer, *holes = (points[i:j] for i, j in pairwise(polygon.ring_offsets))
+    return {"outer": outer, "holes": holes} if holes else {"outer": outer}
+
+
+def _records(pieces: Pieces) -> list[dict[str, Any]]:
+    t, records = pieces.table, []
+    rows = zip(pieces.kind.tolist(), pieces.robot.tolist(), pieces.obstacle.tolist(), strict=True)
+    columns = zip(*(getattr(t, name).tolist() for name in COLUMNS), strict=True)
+    for (kind, robot, obstacle), values in zip(rows, columns, strict=True):
+        row = dict(zip(COLUMNS, values, strict=True))
+        record: dict[str, Any] = {"contact": {"kind": KINDS[kind], "robot": robot, "obstacle": obstacle}}
+        record["chart"] = row["chart"]
+        for end in ENDS:
+            codes = [row[f"{end}_first"], row[f"{end}_second"]]
+            angle = {"names": [unpacked(c) for c in codes if c], "tau": [row[f"{end}_lo"], row[f"{end}_hi"]]}
+            record[end] = angle | ({"place": row[f"{end}_place"]} if row[f"{end}_place"] else {})
+        records.append(record | {side: unpacked(row[side]) for side in ("lower", "upper")})
+    return records
