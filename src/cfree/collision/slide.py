@@ -10,10 +10,9 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
-from flint import fmpq, fmpq_poly
 from numpy.polynomial import polynomial
 from numpy.typing import ArrayLike, NDArray
 
@@ -22,6 +21,9 @@ from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import to_rational
 from cfree.exact.number import ExactPoint, Number, angle, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
+
+if TYPE_CHECKING:
+    from flint import fmpq_poly
 
 DEGREE = 4
 PARTS = 16  # for which speeds are bounded
@@ -149,7 +151,7 @@ class Slide:
         """The part of the motion from u to v, backwards if v is less."""
         first, last = to_fraction(u) * self.tau, to_fraction(v) * self.tau
         x, y, d = (_beyond(terms, first) for terms in (self.x, self.y, self.d))
-        dx, dy = (_flint(c) for c in self.moved(first))
+        dx, dy = (_poly((c,)) for c in self.moved(first))
         tau = (last - first) / (1 + last * first)
         return Slide(self.contacts, terms_of(x - dx * d), terms_of(y - dy * d), terms_of(d), tau)
 
@@ -205,10 +207,9 @@ def _speed(slide: Slide) -> float:
     The derivative of x / d is (x' d - x d') / d^2, that of t is 1 + t^2. Polynomials are between their Bernstein
     coefficients.
     """
-    d = fmpq_poly([*map(_flint, slide.d)])
+    d = _poly(slide.d)
     most = []
-    for terms in (slide.x, slide.y):
-        f = fmpq_poly([*map(_flint, terms)])
+    for f in map(_poly, (slide.x, slide.y)):
         slope = terms_of(f.derivative() * d - f * d.derivative())
         most.append(
             float(max(map(abs, control_points(slope, slide.tau))) / min(control_points(slide.d, slide.tau)) ** 2)
@@ -262,10 +263,12 @@ def _values(slide: Slide, t: Floats, derivative: int = 0) -> Floats:
 
 def _beyond(terms: Terms, s: Fraction) -> fmpq_poly:
     """A polynomial of (r + s) / (1 - r s), times the power of the denominator that makes it one of r."""
-    above, below = fmpq_poly([_flint(s), 1]), fmpq_poly([1, -_flint(s)])
-    parts = (_flint(c) * above**k * below ** (DEGREE - k) for k, c in enumerate(terms))
-    return sum(parts, fmpq_poly())
+    above, below = _poly((s, Fraction(1))), _poly((Fraction(1), -s))
+    parts = (_poly((c,)) * above**k * below ** (DEGREE - k) for k, c in enumerate(terms))
+    return sum(parts, _poly(()))
 
 
-def _flint(value: Fraction) -> fmpq:
-    return fmpq(value.numerator, value.denominator)
+def _poly(terms: Iterable[Fraction]) -> fmpq_poly:
+    from flint import fmpq, fmpq_poly  # here: most paths have no slides
+
+    return fmpq_poly([fmpq(c.numerator, c.denominator) for c in terms])

@@ -11,12 +11,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from fractions import Fraction
-from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.errors import InvalidPoseError
+from cfree.exact.arctangent import pi
 from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
 
 Floats = NDArray[np.float64]
@@ -240,7 +240,7 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     if (text := number_of_degrees(theta)) is not None:
         degrees = to_rational("theta", text)
         quarter_turns = round(degrees / 90)
-        rest = (degrees - 90 * quarter_turns) / 180 * _pi(128)
+        rest = (degrees - 90 * quarter_turns) / 180 * pi(128)
         return _rationalize(quarter_turns, rest)
     radians = to_rational("theta", theta)
     try:
@@ -248,7 +248,7 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     except OverflowError:
         raise InvalidPoseError(f"theta: {theta!r} is too large; give an angle in [0, 2 pi)") from None
     size = int(abs(radians)).bit_length()
-    right_angle = _pi(192 + size - size % 64) / 2
+    right_angle = pi(192 + size - size % 64) / 2
     quarter_turns = round(radians / right_angle)
     rest = radians - quarter_turns * right_angle
     return _rationalize(quarter_turns, rest if abs(rest) > ulp else Fraction(0))
@@ -286,7 +286,7 @@ def _rationalize(quarter_turns: int, rest: Fraction) -> tuple[Fraction | None, f
     for _ in range(quarter_turns % 4):
         tau = sum_of_angles(tau, Fraction(1))
     quarters = 4 if rest < 0 and quarter_turns % 4 == 0 else quarter_turns % 4
-    theta = float(quarters * _pi(128) / 2 + rest)
+    theta = float(quarters * pi(128) / 2 + rest)
     return tau, theta if theta < math.tau else 0.0, abs(float(rest)) * 2.0**-50
 
 
@@ -317,19 +317,3 @@ def to_rational(name: str, value: Number) -> Fraction:
         return to_fraction(value)
     except ValueError as error:
         raise InvalidPoseError(f"{name}: {error}") from None
-
-
-@cache
-def _pi(bits: int) -> Fraction:
-    """Pi with an error below 2^-bits, by Machin's formula pi / 4 = 4 atan(1/5) - atan(1/239)."""
-    unit = 1 << (bits + 32)
-
-    def arctan_of_inverse(n: int) -> int:
-        total, power, k = 0, unit // n, 1
-        while power:
-            total += power // k if k % 4 == 1 else -(power // k)
-            power //= n * n
-            k += 2
-        return total
-
-    return Fraction(4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239)), unit)

@@ -7,15 +7,14 @@ each unit that it is off. Angles are irrational, and enclosed in intervals.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 
-from flint import arb, ctx, fmpq
-
 from cfree.collision.motion import Motion
+from cfree.exact.arctangent import arctangent, pi
 from cfree.exact.pose import Pose
 from cfree.formats.json_positions import Path as Place
 from cfree.paths.path import Path
@@ -140,7 +139,7 @@ class Effect:
 
     def _counted(self, pose: Pose, decimal: Fraction) -> Enclosed:
         """The angle of a pose with as many turns as bring it nearest to the decimal one."""
-        angle, turn = self._angle(pose.tau), self._enclosed(lambda: 2 * arb.pi())
+        angle, turn = self._angle(pose.tau), self._half_turn.times(2)
         return angle + turn.times(round((decimal - angle.middle) / turn.middle))
 
     def _pose(self, place: Place, pose: Pose, theta: Enclosed) -> Iterator[Term]:
@@ -158,13 +157,16 @@ class Effect:
 
     def _angle(self, tau: Fraction | None) -> Enclosed:
         if tau is None:
-            return self._enclosed(arb.pi)
-        return self._enclosed(lambda: 2 * arb(fmpq(tau.numerator, tau.denominator)).atan())
+            return self._half_turn
+        return Enclosed(arctangent(tau, self._bits + 1), self._radius / 2).times(2) if tau else Enclosed(tau)
 
-    def _enclosed(self, value: Callable[[], arb]) -> Enclosed:
-        with ctx.workprec(self._bits):
-            found = value()
-            return Enclosed(_fraction(found.mid()), _fraction(found.rad()))
+    @property
+    def _half_turn(self) -> Enclosed:
+        return Enclosed(pi(self._bits), self._radius)
+
+    @property
+    def _radius(self) -> Fraction:
+        return Fraction(1, 1 << self._bits)
 
 
 def decimal_near(value: Enclosed, tolerance: Fraction) -> Decimal:
@@ -199,8 +201,3 @@ def _arm(pose: Pose, motion: Motion) -> Fraction:
     if motion.pole is None:
         return Fraction(0)
     return abs(pose.x - motion.pole[0]) + abs(pose.y - motion.pole[1])
-
-
-def _fraction(value: arb) -> Fraction:
-    mantissa, exponent = map(int, value.man_exp())
-    return Fraction(mantissa) * Fraction(2) ** exponent

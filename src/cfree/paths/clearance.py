@@ -121,7 +121,7 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
     while len(motion):
         middle = (low + high) / 2
         placed = np.empty((len(motion), *robot.shape))
-        for k in np.unique(motion):
+        for k in set(motion.tolist()):
             placed[motion == k] = (
                 motions[k]
                 .sample(path.poses[k], middle[motion == k])

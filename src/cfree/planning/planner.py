@@ -28,7 +28,6 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
-from cfree.planning.boundary_walk import Walker
 from cfree.planning.clearance import plan_at_distance
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
@@ -38,6 +37,7 @@ from cfree.scene.scene import Scene, required, robot_radius
 from cfree.value import Value
 
 if TYPE_CHECKING:
+    from cfree.planning.boundary_walk import Walker
     from cfree.planning.exact_fits import Passages
 
 Phase = Callable[[str], AbstractContextManager[Any]]
