@@ -136,9 +136,9 @@ def test_outputs_are_checked_before_anything_is_computed(
         raise AssertionError("computed")
 
     for place in (
+        "cfree.planning.planner.Planner",  # first: it imports the others as they are
         "cfree.formats.scene_file.load_scene",
         "cfree.forbidden.boundary.boundary",
-        "cfree.planning.planner.Planner",
     ):
         monkeypatch.setattr(place, too_late)
     missing = run(*command.split(), tmp_path / "new" / file)

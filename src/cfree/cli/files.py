@@ -22,10 +22,11 @@ def boundary_of(
 ) -> Boundary:
     """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
     from cfree.forbidden.boundary import boundary
-    from cfree.formats.boundary_file import load_boundary
     from cfree.formats.scene_file import load_scene
 
     if is_archive(source):
+        from cfree.formats.boundary_file import load_boundary
+
         return load_boundary(source)
     with bar("reading"):
         scene = load_scene(source)
@@ -35,12 +36,13 @@ def boundary_of(
 
 def planner_of(source: Path, max_seconds: float | None) -> Planner:
     """For the scene in a file, with its free space if the file is a boundary."""
-    from cfree.formats.boundary_file import load_boundary
     from cfree.formats.scene_file import load_scene
-    from cfree.free.space import free_space
     from cfree.planning.planner import Planner
 
     if is_archive(source):
+        from cfree.formats.boundary_file import load_boundary
+        from cfree.free.space import free_space
+
         with bar("cells"):
             space = free_space(load_boundary(source))
         return Planner(space.boundary.scene, space, phase=bar)

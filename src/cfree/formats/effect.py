@@ -178,8 +178,9 @@ def decimal_near(value: Enclosed, tolerance: Fraction) -> Decimal:
     >>> decimal_near(third, Fraction(1, 10**9)), decimal_near(third, Fraction(1, 10**18))
     (Decimal('0.3333333333333333'), Decimal('0.3333333333333333333'))
     """
+    middle = value.middle if abs(value.middle) > value.radius else Fraction(0)  # not what is left of a sum
     try:
-        short = Decimal(repr(float(value.middle)))
+        short = Decimal(repr(float(middle)))
     except OverflowError:
         short = Decimal(0)
     if value.off(Fraction(short)) <= tolerance:
