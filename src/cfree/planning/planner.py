@@ -28,7 +28,6 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
-from cfree.planning.clearance import plan_at_distance
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
 from cfree.planning.separation import InsetSpaces, Separated, inset_powers, separation
@@ -213,6 +212,8 @@ class Planner(Value):
         if clearance is not None:
             if (distance := to_fraction(clearance)) <= 0:
                 raise ValueError(f"clearance {clearance}: give a length above 0")
+            from cfree.planning.clearance import plan_at_distance
+
             return plan_at_distance(self.scene, start, goal, distance, self._of, improve, objective)
         way = self._way(start, goal)
         return self.improved(way, improve, objective) if isinstance(way, list) else way
