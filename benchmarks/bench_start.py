@@ -6,9 +6,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from measure import Report, timed
+from measure import SCENES, Report, timed
 
-AT_MOST = 0.3
+AT_MOST = {"import cfree": 0.3, "cfree --help": 0.3, "cfree plan": 0.35}
 COMMAND = str(Path(sys.executable).with_name("cfree"))
 
 
@@ -18,6 +18,7 @@ def run(quick: bool) -> Report:
         "python -c pass": [sys.executable, "-c", "pass"],
         "import cfree": [sys.executable, "-c", "import cfree"],
         "cfree --help": [COMMAND, "--help"],
+        "cfree plan": [COMMAND, "plan", str(Path(SCENES) / "benchmr_parking1.json")],
     }
     calls = [
         lambda command=command: subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
@@ -25,6 +26,6 @@ def run(quick: bool) -> Report:
     ]
     for name, times in zip(commands, timed(*calls, rounds=5 if quick else 11), strict=True):
         report.rows.append((name, times.text("s")))
-        if name != "python -c pass":
-            report.figure("start, seconds", name, times.best, "<=", AT_MOST, " s")
+        if name in AT_MOST:
+            report.figure("start, seconds", name, times.best, "<=", AT_MOST[name], " s")
     return report

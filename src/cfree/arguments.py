@@ -7,7 +7,6 @@ function sees to itself.
 from __future__ import annotations
 
 import collections.abc
-import inspect
 import os
 import reprlib
 from collections.abc import Callable
@@ -55,9 +54,8 @@ def checked(function: T) -> T:
     if isinstance(function, type):
         cast(Any, function).__init__ = checked(cast(Any, function).__init__)
         return function
-    parameters, checks = inspect.signature(function).parameters.values(), dict[str, _Check]()
-    names = [parameter.name for parameter in parameters if parameter.kind is not parameter.KEYWORD_ONLY]
-    checks_of = _checks_of
+    code, checks = function.__code__, dict[str, _Check]()
+    names, checks_of = code.co_varnames[: code.co_argcount], _checks_of
 
     def call(*arguments: Any, **named: Any) -> Any:
         if not checks:  # at the first call: some hints name what is imported late
@@ -94,7 +92,9 @@ class _Check:
 
 def _checks_of(function: Any) -> dict[str, _Check]:
     hints = get_type_hints(function)
-    return {name: _Check(hints.get(name, Any)) for name in inspect.signature(function).parameters}
+    code = function.__code__
+    names = code.co_varnames[: code.co_argcount + code.co_kwonlyargcount]
+    return {name: _Check(hints.get(name, Any)) for name in names}
 
 
 def _is_plain(hint: Any) -> bool:

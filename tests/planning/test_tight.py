@@ -49,7 +49,7 @@ def walked(scene: Scene, start: Pose, goal: Pose) -> Path:
     cell = space.common_cell(start, goal)
     assert cell is not None
     planner = Planner(space.boundary.scene, space)
-    return planner.path(planner.walker.walk(start, goal, cell))
+    return planner.path(planner._walker.walk(start, goal, cell))
 
 
 def slot(gap: Fraction | int, tau: Fraction, offset: int, reference: int = 0) -> Scene:

@@ -156,7 +156,7 @@ class Planner(Value):
         return robot_radius(self.scene)
 
     @cached_property
-    def walker(self) -> Walker:
+    def _walker(self) -> Walker:
         """Of the free space."""
         from cfree.planning.boundary_walk import Walker
 
@@ -170,7 +170,7 @@ class Planner(Value):
     def _passages(self) -> Passages:
         from cfree.planning.exact_fits import Passages
 
-        return Passages(self.walker)
+        return Passages(self._walker)
 
     @property
     def free_space(self) -> FreeSpace:
@@ -259,7 +259,7 @@ class Planner(Value):
         space = self.free_space
         with self.phase("path in a cell"):
             if (cell := space.common_cell(start, goal)) is not None:
-                return self.walker.walk(start, goal, cell)
+                return self._walker.walk(start, goal, cell)
         quick, *others = inset_powers(self.scene)
         with self.phase("proof"):
             proof = separation(space, start, goal, [quick], self._insets)
@@ -340,7 +340,7 @@ class Planner(Value):
             found = larger.quick(start, goal)
             is_small = larger.checker.features.patches <= COMPLETE
             if found is None and is_small and (cell := larger.free_space.common_cell(start, goal)) is not None:
-                found = larger.walker.walk(start, goal, cell)
+                found = larger._walker.walk(start, goal, cell)
             if found is None or len(larger._without_slides(found)) > 1:
                 return None
             return larger.shortened(found, seconds and max(0.0, end - time.perf_counter()) / 3)
