@@ -25,8 +25,9 @@ void bind_cell_complex(nb::module_& m) {
     cells.def_ro("boundary", &CellComplex::boundary);
     cells.def_ro("edges", &CellComplex::edges).def_ro("vertices", &CellComplex::vertices);
     cells.def_ro("components", &CellComplex::components);
-    m.def("glue", [](const cfree::SharedBoundary& boundary) { return watched([&] { return cfree::glue(boundary); }); },
-          "boundary"_a);
+    m.def("glue", [](const cfree::SharedBoundary& boundary, int threads) {
+        return watched([&] { return cfree::glue(boundary, threads); });
+    }, "boundary"_a, "threads"_a);
 
     nb::class_<Mesh> mesh(m, "Mesh");
     rows<3>(mesh, "xyz", &Mesh::xyz);

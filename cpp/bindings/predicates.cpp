@@ -74,7 +74,7 @@ class AtAngle {  // a junction at a critical angle of a surface
 public:
     AtAngle(const OnScene& on, const EventTuple& x, bool knows)
         : exact(on.angle(x)), at(on.scene, on.surface.chart, exact.lo, exact.hi, [this, &on] { return exact.exact(on.scene); }) {
-        if (knows) at.know(exact.name(on.scene));
+        if (knows) know(at, on.scene, exact);
     }
     AtAngle(const AtAngle&) = delete;
     cfree::Spot spot(const PlaceTuple& x) const { return at.spot(cfree::unpacked(x.first), cfree::unpacked(x.second)); }
@@ -156,11 +156,18 @@ static void bind_junction(nb::module_& m) {
         .def("__init__", [](AtAngle* j, const OnScene& on, const EventTuple& x, bool knows) {
             new (j) AtAngle(on, x, knows);
         }, "on"_a, "angle"_a, "knows"_a, nb::keep_alive<1, 2>())
+        .def("turn", [](AtAngle& j, Code x, Code y) {
+            return j.at.turn(cfree::unpacked(x), cfree::unpacked(y));
+        }, "x"_a, "y"_a)
         .def("parallel", [](AtAngle& j, Code x, Code y) {
             return j.at.parallel(cfree::unpacked(x), cfree::unpacked(y));
         }, "x"_a, "y"_a)
         .def("side", [](AtAngle& j, Code x, Code y) {
             return j.at.side(cfree::unpacked(x), cfree::unpacked(y));
+        }, "x"_a, "y"_a)
+        .def("offset", [](const AtAngle& j, Code x, Code y) {
+            const auto [lo, hi] = j.at.offset(cfree::unpacked(x), cfree::unpacked(y));
+            return std::pair(lo, hi);
         }, "x"_a, "y"_a)
         .def("side_of_helix", [](AtAngle& j, Code x, Index a, Index b) {
             return j.at.side(cfree::unpacked(x), a, b);
@@ -176,6 +183,10 @@ static void bind_junction(nb::module_& m) {
         }, "x"_a, "y"_a, "p"_a, "q"_a, "after"_a)
         .def("value", [](AtAngle& j, Code line, const PlaceTuple& p) {
             return j.at.value(cfree::unpacked(line), j.spot(p));
+        }, "line"_a, "place"_a)
+        .def("range", [](const AtAngle& j, Code line, const PlaceTuple& p) {
+            const auto [lo, hi] = j.at.range(cfree::unpacked(line), j.spot(p));
+            return std::pair(lo, hi);
         }, "line"_a, "place"_a);
 }
 

@@ -15,6 +15,7 @@ import pytest
 import fuzz
 from cfree import Boundary, Scene, boundary, load_scene
 from cfree.forbidden.cell_complex import CellComplex, glue
+from cfree.forbidden.record import glue_by
 from compared import scene_of
 from shapes import KINDS, PlainScene, box, random_scene
 
@@ -169,7 +170,17 @@ def test_a_lost_trapezoid_is_noticed() -> None:
         rest = Trapezoids(*(np.delete(getattr(result.trapezoids, name), lost) for name in COLUMNS))
         part = Boundary(result.scene, result.features, *contacts, rest, result.isolated, result.stats, result.trimmed)
         with pytest.raises(RuntimeError, match=r"partner|alternate"):
-            _core.glue(part.core)
+            _core.glue(part.core, 1)
+
+
+def test_any_number_of_threads_gives_the_same_complex() -> None:
+    scene = load_scene(ROOT / "examples/scenes/benchmr_parking1.json")  # several blocks of everything
+    found = []
+    for threads in (1, 2, 5):
+        result = boundary(scene, threads=1)
+        glue_by(threads, result)
+        found.append(result.complex)
+    assert found[0] == found[1] == found[2]
 
 
 def test_euler_numbers_do_not_depend_on_the_robots_frame() -> None:

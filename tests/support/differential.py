@@ -351,8 +351,12 @@ def ask_junctions(surface: Surface, rng: random.Random, queries: int = 20) -> Co
         for _ in range(queries):
             x, y = rng.choice(lines), rng.choice([*lines, any_line()])
             one_line = False
+            check("turn", core.turn(pack(x), pack(y)), true.turn(x, y), x, y)
             if check("parallel", core.parallel(pack(x), pack(y)), true.parallel(x, y), x, y):
-                one_line = check("side", core.side(pack(x), pack(y)), true.side(x, y), x, y) == 0
+                side = check("side", core.side(pack(x), pack(y)), true.side(x, y), x, y)
+                low, high = core.offset(pack(x), pack(y))
+                assert (low <= 0 or side > 0) and (high >= 0 or side < 0), ("offset", event, x, y, low, high, side)
+                one_line = side == 0
             a, b = rng.choice(vertices[0]), rng.choice(vertices[1])
             check("side_of_helix", core.side_of_helix(pack(x), a, b), true.side_of_helix(x, a, b), x, a, b)
             c, d = curve_on(x), curve_on(x)
@@ -366,6 +370,17 @@ def ask_junctions(surface: Surface, rng: random.Random, queries: int = 20) -> Co
             check("lies_on", _core.lies_on(surface.core, first, pack(z)), true.lies_on(p, z), x, c, z)
             check("side_of_place", core.side_of_place(pack(z), first), true.side_of_place(z, p), z, x, c)
             order = check("order", core.order(pack(x), first, last), true.order(x, p, q), x, c, d)
+            low, high = core.range(pack(x), first)
+            for t, beyond in ((low, 1), (high, -1)):
+                assert math.isinf(t) or true.order_to(x, p, Fraction(t)) in (0, beyond), (
+                    "range",
+                    event,
+                    x,
+                    c,
+                    low,
+                    high,
+                )
+            asked["range"] += math.isfinite(low) and high - low < 1e-6
             value = true.value(x, p)
             if abs(value) < 2:  # on the patch, and a little beyond
                 error = abs(Fraction(core.value(pack(x), first)) - value)

@@ -368,6 +368,10 @@ class Junction:
     def sign(self, polynomial: fmpz_poly) -> int:
         return sign_at(polynomial, self.angle)
 
+    def turn(self, x: Feature, y: Feature) -> int:
+        """1 if the direction of y is to the left of that of x, -1 to its right, 0 if they are parallel."""
+        return self.sign(cross(self.on(x).U, self.on(y).U))
+
     def parallel(self, x: Feature, y: Feature) -> int:
         """1 the same direction, -1 the opposite, 0 not parallel."""
         U, V = self.on(x).U, self.on(y).U
@@ -412,6 +416,11 @@ class Junction:
     def order(self, line: Feature, p: Place, q: Place) -> int:
         (n, d), (m, e) = self.along(line, p), self.along(line, q)
         return self.sign(n * e - m * d) * self.sign(d) * self.sign(e)
+
+    def order_to(self, line: Feature, place: Place, t: Fraction) -> int:
+        """Of a place and the one at t."""
+        n, d = self.along(line, place)
+        return self.sign(n * t.denominator - t.numerator * d) * self.sign(d)
 
     def is_on_patch(self, line: Feature, place: Place) -> bool:
         n, d = self.along(line, place)

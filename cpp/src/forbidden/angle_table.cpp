@@ -3,15 +3,16 @@
 
 #include <algorithm>
 
-#include "cfree/support/stop.hpp"
+#include "support/parallel.hpp"
 
 namespace cfree {
 
-AngleTable::AngleTable(const Scene& s, const Patches& p, const Trapezoids& t) : scene(s), patches(p), trapezoids(t) {
+AngleTable::AngleTable(const Scene& s, const Patches& p, const Trapezoids& t, int threads)
+    : scene(s), patches(p), trapezoids(t) {
     from.resize(t.patch.size()), to.resize(t.patch.size());
-    sort_chart(0);
+    sort_chart(0, threads);
     middle = static_cast<Index>(angles.size()) - 1;
-    sort_chart(1);
+    sort_chart(1, threads);
     last = static_cast<Index>(angles.size()) - 2;
 }
 
@@ -20,7 +21,7 @@ CriticalAngle AngleTable::critical(const Angle& x) const {
     return x.is_to ? angle_to(patches, trapezoids, x.trapezoid) : angle_from(patches, trapezoids, x.trapezoid);
 }
 
-void AngleTable::sort_chart(int chart) {
+void AngleTable::sort_chart(int chart, int threads) {
     const auto& t = trapezoids;
     std::vector<Angle> ends{{-1, -1, -1, false}, {1, 1, -1, false}};
     for (std::size_t k = 0; k < t.patch.size(); ++k) {
@@ -29,14 +30,32 @@ void AngleTable::sort_chart(int chart) {
         ends.push_back({t.to_lo[k], t.to_hi[k], static_cast<Index>(k), true});
     }
     std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) { return x.lo < y.lo; });
-    for (std::size_t begin = 0, end; begin < ends.size(); begin = end) {  // runs of intervals that overlap
-        double reach = ends[begin].hi;
-        for (end = begin + 1; end < ends.size() && ends[end].lo <= reach; ++end) reach = std::max(reach, ends[end].hi);
-        order_cluster(&ends[begin], &ends[begin] + (end - begin), chart);
+    constexpr std::size_t block = 4096;  // or more: of whole clusters, runs of intervals that overlap
+    std::vector<std::size_t> clusters, first;  // where they start, and the first clusters of blocks
+    double reach = -2;
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        if (ends[k].lo > reach) {
+            if (first.empty() || k - clusters[first.back()] >= block) first.push_back(clusters.size());
+            clusters.push_back(k);
+        }
+        reach = std::max(reach, ends[k].hi);
+    }
+    first.push_back(clusters.size()), clusters.push_back(ends.size());
+    std::vector<std::vector<Angle>> ordered(first.size() - 1);
+    for_each_in_parallel(threads, ordered.size(), [&](std::size_t b) {
+        for (std::size_t c = first[b]; c < first[b + 1]; ++c)
+            order_cluster(&ends[clusters[c]], ends.data() + clusters[c + 1], ordered[b]);
+    });
+    for (std::size_t b = 0; b < ordered.size(); ++b) {
+        const auto before = static_cast<Index>(angles.size()) - chart;
+        for (std::size_t k = clusters[first[b]]; k < clusters[first[b + 1]]; ++k)
+            if (ends[k].trapezoid >= 0) rank_of(ends[k]) += before;
+        angles.insert(angles.end(), ordered[b].begin(), ordered[b].end());
     }
 }
 
-void AngleTable::order_cluster(const Angle* begin, const Angle* end, int chart) {
+// Appends the angles of a cluster in order, and ranks its members by their places there.
+void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered) {
     // one of each name stands for all that agree with it
     std::vector<std::pair<CriticalAngle::Name, const Angle*>> named;
     for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).name(scene), x});
@@ -71,10 +90,9 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, int chart) 
             for (std::size_t x = k; x < next; ++x) add(x, x + 1);
     }
     for (const Class& c : classes) {
-        const auto rank = static_cast<Index>(angles.size()) - chart;
         for (const Angle* x : c.members)
-            if (x->trapezoid >= 0) (x->is_to ? to : from)[x->trapezoid] = rank;
-        angles.push_back(*c.members[0]);
+            if (x->trapezoid >= 0) rank_of(*x) = static_cast<Index>(ordered.size());
+        ordered.push_back(*c.members[0]);
     }
 }
 

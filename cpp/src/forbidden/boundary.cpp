@@ -77,8 +77,8 @@ Boundary::Boundary(std::shared_ptr<const Scene> s, Patches p, std::vector<std::u
 
 bool Boundary::is_complete() const { return std::find(trimmed.begin(), trimmed.end(), 0) == trimmed.end(); }
 
-const AngleTable& Boundary::angles() const {
-    std::call_once(ordered, [&] { table = std::make_unique<const AngleTable>(scene->near(), patches, trapezoids); });
+const AngleTable& Boundary::angles(int threads) const {
+    std::call_once(ordered, [&] { table = std::make_unique<const AngleTable>(scene->near(), patches, trapezoids, threads); });
     return *table;
 }
 
@@ -103,7 +103,7 @@ AngleRanks angle_ranks(const Boundary& boundary) {
     const std::size_t faces = rows.size(), parts = boundary.isolated.parts.size();
     for (const bool is_to : {false, true})
         for (std::size_t k = 0; k < parts; ++k) push_angle(rows, boundary.isolated, static_cast<Index>(k), is_to);
-    const AngleTable table(boundary.scene->near(), boundary.patches, rows);
+    const AngleTable table(boundary.scene->near(), boundary.patches, rows, 1);
     AngleRanks ranks{table.from, table.to, table.middle, table.last};
     ranks.from.resize(faces + parts), ranks.to.resize(faces);
     ranks.to.insert(ranks.to.end(), table.to.begin() + static_cast<std::ptrdiff_t>(faces + parts), table.to.end());

@@ -44,6 +44,11 @@ const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     return *root;
 }
 
+void know(Junction& at, const Scene& scene, const CriticalAngle& angle) {
+    if (angle.first.kind == Kind::edge_edge) at.know_parallel(angle.first.robot, angle.first.obstacle);
+    else at.know(angle.name(scene));
+}
+
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;

@@ -4,7 +4,7 @@
 #include <boost/multiprecision/miller_rabin.hpp>
 #include <stdexcept>
 
-#include "cfree/support/stop.hpp"
+#include "support/parallel.hpp"
 
 namespace cfree {
 
@@ -39,20 +39,24 @@ bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
 
 }  // namespace
 
-CurveHashes::CurveHashes(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve)
-    : scene(sc), reduced{&sc, {}, {}} {
-    hashes.reserve(count);
-    for (unsigned attempt = 0; hashes.size() < count; ++attempt) {
+CurveHashes::CurveHashes(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve, int threads)
+    : scene(sc), reduced{&sc, {}, {}}, hashes(count) {
+    constexpr std::size_t block = 4096;
+    std::atomic<bool> unlucky = count > 0;
+    for (unsigned attempt = 0; unlucky; ++attempt) {
         choose(attempt);
-        for (hashes.clear(); hashes.size() < count;) {
+        unlucky = false;
+        for_each_in_parallel(threads, (count + block - 1) / block, [&](std::size_t b) {
             heed_stop();
-            const NamedCurve next = curve(hashes.size());
-            const auto hash = of(next);
-            if (!hash && are_parallel(scene, next.on, next.other)) 
-                throw std::logic_error("a curve of two parallel surfaces");
-            if (!hash) break;
-            hashes.push_back(*hash);
-        }
+            for (std::size_t k = b * block; k < std::min(count, (b + 1) * block) && !unlucky; ++k) {
+                const NamedCurve next = curve(k);
+                const auto hash = of(next);
+                if (!hash && are_parallel(scene, next.on, next.other))
+                    throw std::logic_error("a curve of two parallel surfaces");
+                if (hash) hashes[k] = *hash;
+                else unlucky = true;
+            }
+        });
     }
 }
 

@@ -41,7 +41,7 @@ class Finder {
 public:
     Finder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t)
         : scene(s), patches(p), live(l), thin(t),
-          hashes(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }),
+          hashes(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }, 1),
           tree(boxes()) {
         first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
         for (const Index j : p.obstacle) ++first_patch[j + 1];
@@ -129,7 +129,7 @@ private:
             if (!reaches(k, angle)) return;
             End first{at.spot(other, unpacked(live.lower[k])), p}, last{at.spot(other, unpacked(live.upper[k])), p};
             if (along == 0) {  // a point, and a line across
-                const Spot here{own, 0, false, {}, 0, 1};
+                const Spot here{own};
                 if (at.order(other, first.spot, here) <= 0 && at.order(other, here, last.spot) <= 0) left.clear();
                 return;
             }
@@ -279,7 +279,7 @@ private:
 
     bool is_listed(const Flat& point, const std::vector<Flat>& kept, std::size_t start, Junction& at) const {
         const Feature own = contact(point.patch);
-        const Spot &p = point.low.spot, crossing{own, 0, false, {}, 0, 1};
+        const Spot &p = point.low.spot, crossing{own};
         // the point as a place on another line
         const auto place_on = [&](const Feature& other) { return at.parallel(own, other) != 0 ? p : crossing; };
         for (std::size_t k = start; k < kept.size(); ++k) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "predicates/form.hpp"
@@ -12,6 +13,15 @@ namespace cfree {
 namespace {
 
 bool is_on_edge(const Feature& x) { return x.kind == Kind::vertex_edge; }
+
+template <class T>
+T number(const Int& n) {
+    if constexpr (std::is_same_v<T, Ball>) return ball(n, 0);
+    else return n;
+}
+
+// Ends that were rounded once.
+Interval widened(double lo, double hi) { return {lo - 4 * u * std::abs(lo) - tiny, hi + 4 * u * std::abs(hi) + tiny}; }
 
 template <class T>
 Trig<T> times(const T& k, const Trig<T>& f) { return {k * f.a, k * f.b, k * f.c}; }
@@ -30,7 +40,26 @@ Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtere
 template <class F>
 int Junction::sign(const F& trig) const {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
+    if (const Ball* tau = dyadic())
+        if (const auto s = certain_sign(value_at(trig(Ball{}), *tau))) return *s;
     return sign_at(polynomial(trig(Int{})), here());
+}
+
+// The angle, if it is a number of few digits: then balls often decide, ties as well.
+const Ball* Junction::dyadic() const {
+    if (here().is_dyadic() && !few_digits) few_digits = ball(root->lo.n, static_cast<int>(root->lo.k));
+    return few_digits && few_digits->radius == 0 ? &*few_digits : nullptr;
+}
+
+Ball Junction::value_at(const Trig<Ball>& f, const Ball& tau) const {
+    const auto p = on({}).coefficients(f);
+    return p.c[0] + tau * (p.c[1] + tau * p.c[2]);
+}
+
+// Of f times 1 + tau^2: between its Bernstein coefficients, each within err.
+Interval Junction::range(const Filtered& f) const {
+    const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
+    return widened(std::min({p, q, r}) - f.err, std::max({p, q, r}) + f.err);
 }
 
 RealRoot& Junction::here() const {
@@ -72,21 +101,84 @@ Trig<T> Junction::directions_cross(const Feature& x, const Feature& y) const {
     return {T{}, -cross(E, F), dot(E, F)};                      // -R E x F
 }
 
+int Junction::turn(const Feature& x, const Feature& y) {
+    if (x.kind == y.kind) return turn_of_kind(x, y);
+    const auto name = is_on_edge(x) ? parallels(y.robot, x.obstacle) : parallels(x.robot, y.obstacle);
+    if (known.contains(name)) return 0;
+    const int found = sign([&](auto T) { return directions_cross<decltype(T)>(x, y); });
+    if (found == 0) know(name);
+    return found;
+}
+
+int Junction::turn_of_kind(const Feature& x, const Feature& y) const {
+    const bool of_obstacles = is_on_edge(x);
+    const Shape& shape = of_obstacles ? scene.obstacles : scene.robot;
+    const Index e = of_obstacles ? x.obstacle : x.robot, f = of_obstacles ? y.obstacle : y.robot;
+    return shape.direction[e] == shape.direction[f] ? 0 : on(x).cross_sign(shape, e, f);
+}
+
 int Junction::parallel(const Feature& x, const Feature& y) {
-    if (x.kind == y.kind) {
-        const bool same = is_on_edge(x) ? scene.obstacles.direction[x.obstacle] == scene.obstacles.direction[y.obstacle]
-                                        : scene.robot.direction[x.robot] == scene.robot.direction[y.robot];
-        if (!same) return 0;
-    } else if (sign([&](auto T) { return directions_cross<decltype(T)>(x, y); }) != 0) {
-        return 0;
-    }
+    if (turn(x, y) != 0) return 0;
     return sign([&](auto T) { return directions_dot<decltype(T)>(x, y); });
 }
 
 int Junction::side(const Feature& x, const Feature& y) {
     if (code(scene, x) == code(scene, y)) return 0;
+    if (are_one_line(x, y)) return 0;
     const auto [kind, a, b] = end_helix(scene, y, 0);
-    return side(x, a, b);
+    const int found = side(x, a, b);
+    if (found != 0) return found;
+    const auto on_x = helices(x), on_y = helices(y);
+    for (const int k : {0, 1}) know_meeting(x, on_y[k]), know_meeting(y, on_x[k]);
+    return 0;
+}
+
+void Junction::know_meeting(const Feature& surface, Code helix) {
+    const Code own = code(scene, surface);
+    know({0, std::min(own, helix), std::max(own, helix)});
+}
+
+std::array<Code, 2> Junction::helices(const Feature& f) const {
+    if (f.kind == Kind::vertex_vertex) return {code(scene, f), code(scene, f)};
+    return {code(scene, end_helix(scene, f, 0)), code(scene, end_helix(scene, f, 1))};
+}
+
+// Whether a helix is known to be on a surface here.
+bool Junction::meets(const Feature& surface, Code helix) const {
+    const auto ends = helices(surface);
+    if (helix == ends[0] || helix == ends[1]) return true;
+    const Code own = code(scene, surface);
+    return known.contains({0, std::min(own, helix), std::max(own, helix)});
+}
+
+// Whether two surfaces are known to have one line here.
+bool Junction::are_one_line(const Feature& x, const Feature& y) const {
+    const Feature &on_edge = is_on_edge(x) ? x : y, &of_edge = is_on_edge(x) ? y : x;
+    if (x.kind == y.kind ? turn_of_kind(x, y) != 0 : !known.contains(parallels(of_edge.robot, on_edge.obstacle))) return false;
+    const auto on_x = helices(x), on_y = helices(y);
+    return meets(x, on_y[0]) || meets(x, on_y[1]) || meets(y, on_x[0]) || meets(y, on_x[1]);
+}
+
+std::array<Code, 3> Junction::parallels(Index g, Index f) const { return {0, 0, code(scene, {Kind::edge_edge, g, f})}; }
+
+// Surfaces of the ends of two parallel edges have one line, and all helices of these ends are on it.
+void Junction::know_parallel(Index g, Index f) {
+    know(parallels(g, f));
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const auto [a, b] = std::array{A.v[g], A.w[g]};
+    const auto [v, w] = std::array{O.v[f], O.w[f]};
+    const auto helix = [&](Index of_robot, Index of_obstacles) { return code(scene, {Kind::vertex_vertex, of_robot, of_obstacles}); };
+    for (const Index end : {v, w}) {
+        know_meeting({Kind::vertex_edge, a, f}, helix(b, end)), know_meeting({Kind::vertex_edge, b, f}, helix(a, end));
+    }
+    for (const Index end : {a, b}) {
+        know_meeting({Kind::edge_vertex, g, v}, helix(end, w)), know_meeting({Kind::edge_vertex, g, w}, helix(end, v));
+    }
+}
+
+Interval Junction::offset(const Feature& x, const Feature& y) const {
+    const auto [kind, a, b] = end_helix(scene, y, 0);
+    return range(filtered(on(x).offset_trig<Approx>(a, b)));
 }
 
 int Junction::side(const Feature& x, Index a, Index b) {
@@ -94,36 +186,38 @@ int Junction::side(const Feature& x, Index a, Index b) {
 }
 
 Spot Junction::spot(const Feature& surface, const Feature& curve) const {
-    Spot result{curve, code(scene, curve), false, surface, 0, 1};
+    Spot result{curve, code(scene, curve), surface};
     if (curve.kind == Kind::vertex_vertex) return result;
     if (sign([&](auto T) { return on(surface).curve_trig<decltype(T)>(curve)[1]; }) != 0) return result;
     // t = N / D, both zero here: either t is constant, or their common root is rational and t = N' / D' there
-    result.is_given = true;
+    Int n, d;
     const auto [N, D] = on(surface).curve_trig<Int>(curve);
     const Poly p = polynomial(N), q = polynomial(D);
     const auto at = [](const Poly& f, int k) { return k < f.size() ? f[k] : Int(0); };
     const auto minor = [&](int k, int l) -> Int { return at(p, k) * at(q, l) - at(p, l) * at(q, k); };
     if (minor(0, 1).is_zero() && minor(0, 2).is_zero() && minor(1, 2).is_zero()) {
         if (q.empty()) throw std::logic_error("a curve on a surface parallel to it");
-        result.n = at(p, q.size() - 1), result.d = q.back();
+        n = at(p, q.size() - 1), d = q.back();
     } else {
         const Int c0 = minor(0, 2), c1 = minor(1, 2);  // (p q2 - q p2) is linear
         // without it p and q are linear, with the one root of either
         const Poly& linear = q.size() == 2 ? q : p;
         const Int r0 = c1.is_zero() ? at(linear, 0) : c0, r1 = c1.is_zero() ? at(linear, 1) : c1;
-        result.n = at(p, 1) * r1 - 2 * at(p, 2) * r0, result.d = at(q, 1) * r1 - 2 * at(q, 2) * r0;
+        n = at(p, 1) * r1 - 2 * at(p, 2) * r0, d = at(q, 1) * r1 - 2 * at(q, 2) * r0;
     }
-    if (result.d.is_zero()) throw std::logic_error("a curve has no end");
+    if (d.is_zero()) throw std::logic_error("a curve has no end");
+    result.given = std::make_shared<const Spot::Place>(n, d);
     return result;
 }
 
 template <class T>
 std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) const {
-    if constexpr (std::is_same_v<T, Int>) {
-        if (p.is_given) {
+    if constexpr (!std::is_same_v<T, Approx>) {
+        if (p.given) {
+            const T n = number<T>(p.given->n), d = number<T>(p.given->d);
             const auto [kind, a, b] = end_helix(scene, p.on, 0);
-            const Trig<Int> N = sum(times(p.d, along<Int>(line, a, b)), times(p.n, directions_dot<Int>(line, p.on)));
-            return {N, times(p.d, directions_dot<Int>(line, line))};
+            const Trig<T> N = sum(times(d, along<T>(line, a, b)), times(n, directions_dot<T>(line, p.on)));
+            return {N, times(d, directions_dot<T>(line, line))};
         }
     }
     if (p.curve.kind != Kind::vertex_vertex) return on(line).curve_trig<T>(p.curve);
@@ -131,7 +225,7 @@ std::array<Trig<T>, 2> Junction::position(const Feature& line, const Spot& p) co
 }
 
 double Junction::value(const Feature& line, const Spot& p) const {
-    if (!p.is_given) {
+    if (!p.given) {
         const auto [N, D] = position<Approx>(line, p);
         const double tau = 0.5 * (lo + hi), d = filtered(D).polar(tau, tau), t = filtered(N).polar(tau, tau) / d;
         if (filtered(N).err + std::abs(t) * filtered(D).err < 0x1p-32 * std::abs(d)) return t;
@@ -156,28 +250,36 @@ double Junction::value(const Feature& line, const Spot& p) const {
     }
 }
 
-// Whether what is known to meet here says that two places are one: the two curves and the line's surface, or a helix that both
-// curves pass through and that surface.
+// N / D, whatever they are within their ranges.
+Interval Junction::range(const Feature& line, const Spot& p) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (p.given) return {-infinity, infinity};
+    const auto [N, D] = position<Approx>(line, p);
+    const Interval n = range(filtered(N)), d = range(filtered(D));
+    if (!(d.lo > 0 || d.hi < 0) || !std::isfinite(n.hi - n.lo + d.hi - d.lo)) return {-infinity, infinity};
+    const double a = n.lo / d.lo, b = n.lo / d.hi, c = n.hi / d.lo, e = n.hi / d.hi;
+    return widened(std::min({a, b, c, e}), std::max({a, b, c, e}));
+}
+
+// Whether what is known to meet here says that two places are one: the two curves and the line's surface, a helix and the other
+// curve, or a helix that both curves pass through and that surface.
 bool Junction::is_known(const Feature& line, const Spot& p, const Spot& q) const {
-    const auto knows = [&](Code x, Code y, Code z) {
-        std::array<Code, 3> name{x, y, z};
-        std::sort(name.begin(), name.end());
-        return known.contains(name);
-    };
-    const Code own = code(scene, line);
-    if (knows(own, p.code, q.code) || knows(p.code, q.code, 0)) return true;
-    const auto helices = [&](const Feature& f) -> std::array<Code, 2> {
-        if (f.kind == Kind::vertex_vertex) return {code(scene, f), code(scene, f)};
-        return {code(scene, end_helix(scene, f, 0)), code(scene, end_helix(scene, f, 1))};
-    };
+    std::array<Code, 3> name{code(scene, line), p.code, q.code};
+    std::sort(name.begin(), name.end());
+    if (known.contains(name)) return true;
+    const bool p_is_helix = p.curve.kind == Kind::vertex_vertex, q_is_helix = q.curve.kind == Kind::vertex_vertex;
+    if (p_is_helix != q_is_helix) return p_is_helix ? meets(q.curve, p.code) : meets(p.curve, q.code);
+    if (!p_is_helix && are_one_line(p.curve, q.curve)) return true;
     for (const Code x : helices(p.curve))
         for (const Code y : helices(q.curve))
-            if (x == y && knows(own, x, 0)) return true;
+            if (x == y && meets(line, x)) return true;
     return false;
 }
 
+// A tie is remembered by what meets in that point: the line's surface and the two curves, each a surface or a helix. Neither
+// surface's line is parallel to this one, so that all three meet there and nowhere else, whichever of them is asked about next.
 int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
-    if (!p.is_given && !q.is_given) {
+    if (!p.given && !q.given) {
         if (p.code == q.code) return 0;
         const auto [Np, Dp] = position<Approx>(line, p);
         const auto [Nq, Dq] = position<Approx>(line, q);
@@ -185,6 +287,23 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
         const int signs = Predicates::sign_on(form.q, lo, hi) * Predicates::sign_on(form.s, lo, hi);
         if (const int s = form.sign_on(lo, hi); signs * s != 0) return signs * s;
         if (is_known(line, p, q)) return 0;
+    }
+    const int found = order_exactly(line, p, q);
+    if (found == 0 && !p.given && !q.given && p.code != 0 && q.code != 0) {
+        std::array<Code, 3> name{code(scene, line), p.code, q.code};
+        std::sort(name.begin(), name.end());
+        know(name);
+    }
+    return found;
+}
+
+int Junction::order_exactly(const Feature& line, const Spot& p, const Spot& q) {
+    if (const Ball* tau = dyadic()) {
+        const auto [Np, Dp] = position<Ball>(line, p);
+        const auto [Nq, Dq] = position<Ball>(line, q);
+        const Ball dp = value_at(Dp, *tau), dq = value_at(Dq, *tau);
+        const auto s = certain_sign(value_at(Np, *tau) * dq - value_at(Nq, *tau) * dp), of_p = certain_sign(dp), of_q = certain_sign(dq);
+        if (s && of_p && of_q) return *s * *of_p * *of_q;
     }
     const auto [Np, Dp] = position<Int>(line, p);
     const auto [Nq, Dq] = position<Int>(line, q);
@@ -195,7 +314,7 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
 int Junction::side(const Feature& x, const Feature& line, const Spot& p) {
     // U_x x (P + t U - P_x) = offset of the line's start + t U_x x U, with t = N / D
     const auto [kind, a, b] = end_helix(scene, line, 0);
-    if (!p.is_given) {
+    if (!p.given) {
         const auto [N, D] = position<Approx>(line, p);
         const Predicates::Form form{{4, filtered(on(x).offset_trig<Approx>(a, b)), filtered(D), filtered(N),
                                     -filtered(directions_cross<Approx>(x, line))}};
@@ -211,15 +330,16 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
     // a rational place on x between the two
     const bool upwards = order(x, p, q) < 0;
     const Spot &first = upwards ? p : q, &last = upwards ? q : p;
-    Spot at{x, 0, true, x, 0, 1};
-    for (Int low = 0, high = 1;;) {  // over the denominator at.d
-        at.n = low + high, at.d *= 2, low *= 2, high *= 2;
+    Int n, d = 1;
+    for (Int low = 0, high = 1;;) {  // over d
+        n = low + high, d *= 2, low *= 2, high *= 2;
+        const Spot at{x, 0, x, std::make_shared<const Spot::Place>(n, d)};
         const bool above = order(x, first, at) < 0, below = order(x, at, last) < 0;
         if (above && below) break;
-        (above ? high : low) = at.n;
+        (above ? high : low) = n;
     }
     const auto [kind, a, b] = end_helix(scene, x, 0);
-    const Trig<Int> g = sum(times(at.d, on(y).offset_trig<Int>(a, b)), times(at.n, directions_cross<Int>(y, x)));
+    const Trig<Int> g = sum(times(d, on(y).offset_trig<Int>(a, b)), times(n, directions_cross<Int>(y, x)));
     const Poly offset = polynomial(g);
     if (offset.empty()) return 0;
     return after ? sign_after(offset, here()) : sign_before(offset, here());

@@ -135,6 +135,7 @@ Coefficients<T> Predicates::coefficients(const Feature& first, const Feature& se
     return result;
 }
 template Coefficients<Int> Predicates::coefficients(const Trig<Int>&) const;
+template Coefficients<Ball> Predicates::coefficients(const Trig<Ball>&) const;
 template Coefficients<Ball> Predicates::coefficients(const Feature&, const Feature&) const;
 template Coefficients<Int> Predicates::coefficients(const Feature&, const Feature&) const;
 

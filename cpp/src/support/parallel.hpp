@@ -1,5 +1,6 @@
 // Work divided among threads; one thread is this one, and no other is made.
 #pragma once
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -47,6 +48,16 @@ void in_parallel(int threads, std::atomic<bool>& stop, Work&& work) {
     }
     for (std::thread& t : pool) t.join();
     if (error) std::rethrow_exception(error);
+}
+
+// work(0) to work(count - 1), in no order.
+template <class Work>
+void for_each_in_parallel(int threads, std::size_t count, Work&& work) {
+    std::atomic<bool> stop = false;
+    std::atomic<std::size_t> next = 0;
+    in_parallel(static_cast<int>(std::min(static_cast<std::size_t>(threads), count)), stop, [&] {
+        for (std::size_t k; (k = next++) < count && !stop;) work(k);
+    });
 }
 
 }  // namespace cfree

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -126,6 +127,10 @@ def boundary(
         if not result.complete:
             kept = f"; what was done is in {output}" if output else ""
             fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
+        if mesh:
+            from cfree.forbidden.record import glue_by
+
+            glue_by(threads or os.cpu_count() or 1, result)
         _draw_boundary(result, mesh, error, picture)
         from cfree.cli.report import boundary_facts, boundary_rows
 

@@ -259,3 +259,10 @@ class Boundary(BoundaryRecord):
         """
         self.require_complete()
         return triangulated(self, self.complex, error, angle_scale)
+
+
+def regularize_by(threads: int, boundary: Boundary) -> None:
+    """Find `regularized` with so many threads, unless it is there."""
+    boundary.require_complete()
+    if "regularized" not in boundary.__dict__:
+        boundary.regularized = _computed(boundary.scene, True, threads)

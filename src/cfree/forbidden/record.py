@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Self
@@ -115,10 +116,7 @@ class BoundaryRecord(Value):
     @cached_property
     def core_complex(self) -> _core.CellComplex:
         """The trapezoids glued; `cfree.forbidden.cell_complex` tells how."""
-        try:
-            return _core.glue(self.core)
-        except RuntimeError as error:
-            raise InvariantError(f"the boundary is not closed: {error}", state=self.scene) from error
+        return _glued(self, os.cpu_count() or 1)
 
     @property
     def _content(self) -> tuple[Any, ...]:
@@ -236,3 +234,16 @@ class BoundaryRecord(Value):
     def slicer(self) -> _core.Slicer:
         """What slices and limits are asked of."""
         return _core.Slicer(self.core)
+
+
+def glue_by(threads: int, boundary: BoundaryRecord) -> None:
+    """Find `core_complex` with so many threads, unless it is there."""
+    if "core_complex" not in boundary.__dict__:
+        boundary.core_complex = _glued(boundary, threads)
+
+
+def _glued(boundary: BoundaryRecord, threads: int) -> _core.CellComplex:
+    try:
+        return _core.glue(boundary.core, threads)
+    except RuntimeError as error:
+        raise InvariantError(f"the boundary is not closed: {error}", state=boundary.scene) from error

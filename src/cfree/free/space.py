@@ -23,9 +23,10 @@ from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import InvalidPoseError, InvariantError
 from cfree.exact.half_angle import chart_of, tau_in_chart
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
-from cfree.forbidden.boundary import Boundary
+from cfree.forbidden.boundary import Boundary, regularize_by
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.columns import Floats, Ints
+from cfree.forbidden.record import glue_by
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.value import Value
@@ -347,13 +348,15 @@ class FreeSpace(Value):
 
 
 @checked
-def free_space(boundary: Boundary) -> FreeSpace:
+def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
     """Cells of the free space of a boundary.
 
     Parameters
     ----------
     boundary : Boundary
         Complete.
+    threads : int, optional
+        All cores by default. The result does not depend on it.
 
     Returns
     -------
@@ -361,6 +364,8 @@ def free_space(boundary: Boundary) -> FreeSpace:
 
     Raises
     ------
+    ValueError
+        If there are no threads.
     IncompleteError
         If the boundary is incomplete.
     InvariantError
@@ -379,9 +384,13 @@ def free_space(boundary: Boundary) -> FreeSpace:
     >>> space.cells[1].caged, space.cells[1].full_turn
     (True, True)
     """
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; give at least 1")
     boundary.require_complete()
+    bounding = bounding_surfaces(boundary, threads)
+    glue_by(threads or os.cpu_count() or 1, bounding)
     try:
-        core = _core.free_space(bounding_surfaces(boundary).core_complex)
+        core = _core.free_space(bounding.core_complex)
     except RuntimeError as error:
         raise InvariantError(str(error), state=boundary.scene) from error
     surfaces = core.surfaces
@@ -404,9 +413,12 @@ def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
     return space
 
 
-def bounding_surfaces(boundary: Boundary) -> Boundary:
+def bounding_surfaces(boundary: Boundary, threads: int | None = None) -> Boundary:
     """The boundary of the interior of the free space."""
-    return boundary.regularized if _may_have_slits(boundary) else boundary
+    if not _may_have_slits(boundary):
+        return boundary
+    regularize_by(threads or os.cpu_count() or 1, boundary)
+    return boundary.regularized
 
 
 def _may_have_slits(boundary: Boundary) -> bool:

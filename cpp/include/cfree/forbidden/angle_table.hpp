@@ -6,7 +6,8 @@ namespace cfree {
 
 class AngleTable {
 public:
-    AngleTable(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids);
+    // The same with any number of threads.
+    AngleTable(const Scene& scene, const Patches& patches, const Trapezoids& trapezoids, int threads);
 
     // Ranks from 0 (theta = -pi/2) over `middle` (pi/2, where the charts meet) to `last` (3 pi/2, which is -pi/2 again).
     std::vector<Index> from, to;  // of each trapezoid
@@ -26,8 +27,9 @@ private:
         bool is_to;
     };
     std::size_t place(Index rank, int chart) const { return static_cast<std::size_t>(rank + chart); }
-    void sort_chart(int chart);
-    void order_cluster(const Angle* begin, const Angle* end, int chart);
+    void sort_chart(int chart, int threads);
+    void order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered);
+    Index& rank_of(const Angle& x) { return (x.is_to ? to : from)[x.trapezoid]; }
     CriticalAngle critical(const Angle& x) const;
 
     const Scene& scene;

@@ -31,8 +31,8 @@ public:
     const Tally tally;
 
     bool is_complete() const;
-    // All critical angles in one order; found when first asked for.
-    const AngleTable& angles() const;
+    // All critical angles in one order; found when first asked for, by so many threads.
+    const AngleTable& angles(int threads = 1) const;
 
 private:
     mutable std::once_flag ordered;

@@ -21,8 +21,9 @@ struct CellComplex {
     Index edges = 0, vertices = 0, components = 0;
 };
 
-// A side without a partner, as a message that names trapezoids, is thrown as std::logic_error.
-std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary);
+// The same for any number of threads. A side without a partner, as a message that names trapezoids, is thrown as
+// std::logic_error.
+std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads = 1);
 
 // Closed surfaces of a boundary of which only some patches are trimmed: those that hold the seeds. `whole` says of each
 // trapezoid whether all trapezoids that its sides meet are there. If the surfaces go on over one that is not: no complex, but

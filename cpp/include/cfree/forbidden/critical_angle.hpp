@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "cfree/forbidden/columns.hpp"
+#include "cfree/predicates/junction.hpp"
 
 namespace cfree {
 
@@ -31,6 +32,9 @@ private:
     Surface surface;
     mutable std::shared_ptr<RealRoot> root;  // once needed
 };
+
+// What meets at an angle, told to a junction there.
+void know(Junction& at, const Scene& scene, const CriticalAngle& angle);
 
 // Sign of x - y, of one chart.
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y);

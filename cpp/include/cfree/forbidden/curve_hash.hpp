@@ -49,10 +49,10 @@ inline Residue operator-(const Residue& p, const Residue& q) { return {p.in->min
 inline Residue operator-(const Residue& p) { return {p.in->minus(0, p.x), p.in}; }
 inline Residue operator*(const Residue& p, const Residue& q) { return {p.in->times(p.x, q.x), p.in}; }
 
-// Of `count` curves, modulo the first prime of a fixed sequence for which all have a point.
+// Of `count` curves, modulo the first prime of a fixed sequence for which all have a point. Both numbers are below 2^62.
 class CurveHashes {
 public:
-    CurveHashes(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve);
+    CurveHashes(const Scene& scene, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve, int threads);
     CurveHashes(const CurveHashes&) = delete;
     const CurveHash& operator[](std::size_t k) const { return hashes[k]; }
     // Whether the curve may lie on a surface; if not, it does not.

@@ -1,6 +1,7 @@
 // What several contact lines look like at one critical angle, and just before and after it.
 #pragma once
 #include <functional>
+#include <memory>
 #include <set>
 
 #include "cfree/predicates/predicates.hpp"
@@ -9,11 +10,18 @@ namespace cfree {
 
 // A place on a contact line at the critical angle: where a curve of the surface arrives.
 struct Spot {
+    struct Place {  // t = n / d
+        Int n, d;
+    };
     Feature curve;
-    Code code;
-    bool is_given = false;  // where the curve runs along the line: at t = n / d of the surface `on`, by continuity
-    Feature on;
-    Int n = 0, d = 1;
+    Code code = 0;  // or none
+    Feature on = {};
+    std::shared_ptr<const Place> given = nullptr;  // where the curve runs along the line: t of the surface `on`, by continuity
+};
+
+// What a number certainly lies in.
+struct Interval {
+    double lo, hi;
 };
 
 class Junction {
@@ -23,17 +31,24 @@ public:
 
     // Three surfaces, or a helix and a surface and nothing, known to meet here: see CriticalAngle::name.
     void know(const std::array<Code, 3>& name) { known.insert(name); }
+    // An edge of the robot and one of the obstacles, known to be parallel here.
+    void know_parallel(Index g, Index f);
 
-    // Directions of two contact lines: 1 the same, -1 opposite, 0 not parallel.
+    // Directions of two contact lines: 1 if y's is to the left of x's, -1 to the right, 0 parallel.
+    int turn(const Feature& x, const Feature& y);
+    // 1 the same, -1 opposite, 0 not parallel.
     int parallel(const Feature& x, const Feature& y);
     // Of parallel lines: y is left of x (1), right (-1), or the same line.
     int side(const Feature& x, const Feature& y);
     // The side of x's line on which the point b_b - R a_a lies.
     int side(const Feature& x, Index a, Index b);
+    // Of parallel lines: how far y is to the left of x, in a unit that depends on x alone.
+    Interval offset(const Feature& x, const Feature& y) const;
     // Where a curve on a surface ends.
     Spot spot(const Feature& on, const Feature& curve) const;
     // About where that is: t on a surface whose line goes through it.
     double value(const Feature& line, const Spot& p) const;
+    Interval range(const Feature& line, const Spot& p) const;
     // The side of x's line on which a place on another surface's line lies.
     int side(const Feature& x, const Feature& line, const Spot& p);
     // Order of two places along a line, that of a surface through both.
@@ -54,7 +69,17 @@ private:
     Trig<T> directions_cross(const Feature& x, const Feature& y) const;
     template <class T>
     std::array<Trig<T>, 2> position(const Feature& line, const Spot& p) const;
+    Interval range(const Filtered& f) const;
     RealRoot& here() const;
+    const Ball* dyadic() const;
+    Ball value_at(const Trig<Ball>& f, const Ball& tau) const;
+    int order_exactly(const Feature& line, const Spot& p, const Spot& q);
+    std::array<Code, 2> helices(const Feature& f) const;  // both ends of a surface, or the helix itself
+    bool meets(const Feature& surface, Code helix) const;
+    void know_meeting(const Feature& surface, Code helix);
+    std::array<Code, 3> parallels(Index g, Index f) const;
+    bool are_one_line(const Feature& x, const Feature& y) const;
+    int turn_of_kind(const Feature& x, const Feature& y) const;
     bool is_known(const Feature& line, const Spot& p, const Spot& q) const;
     template <class F>
     int sign(const F& trig) const;
@@ -66,6 +91,7 @@ private:
     double lo, hi;
     std::function<RealRoot()> exact;
     mutable std::optional<RealRoot> root;  // once needed
+    mutable std::optional<Ball> few_digits;
     std::set<std::array<Code, 3>> known;
 };
 

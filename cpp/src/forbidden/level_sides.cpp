@@ -1,0 +1,324 @@
+// Sides at one angle grouped by line: first by surface, then by direction, then by offset; theory, "Closed surfaces".
+#include "forbidden/level_sides.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+
+#include "support/parallel.hpp"
+
+namespace cfree {
+
+namespace {
+
+// Where curves arrive on a line, each once; t on that line.
+struct Place {
+    Spot spot;
+    Interval t;
+    Index number;  // along the line: places that are one have one
+};
+
+struct Level {
+    Index trapezoid;
+    bool is_above;
+    Code low_code, high_code;
+    Index low, high;    // its ends among the places, in the order of its own line
+    int along = 1;      // direction of its line against that of the line's first level
+    Index first, last;  // numbers of its ends along that
+};
+
+// The levels on one surface: at this angle they are on one line.
+struct Sheet {
+    Code code;
+    std::vector<Index> levels;  // in order, as lists of numbers are everywhere below
+    Feature contact;            // of the first
+    int along = 1;              // direction against that of the first sheet parallel to it
+    Interval offset;            // from that one
+};
+
+class LevelGluer {
+public:
+    LevelGluer(const Boundary& b, const Whole& w)
+        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w) {}
+
+    // sides: twice a trapezoid that begins there, 1 more for one that ends
+    void glue(Index rank, std::span<const Index> sides);
+    Parts parts;
+
+private:
+    Feature contact(const Level& of) const { return surface_of(patches, trapezoids, of.trapezoid).contact; }
+    std::vector<Sheet> sheets_of(std::vector<Index>&& chosen) const;
+    void find_places(Sheet& sheet, Junction& at);
+    std::vector<std::vector<Sheet*>> parallels(std::vector<Sheet>& sheets, Junction& at) const;
+    void glue_parallels(const std::vector<Sheet*>& sheets, Junction& at);
+    void glue_line(std::span<Sheet* const> sheets, Junction& at);
+    void number_places(const Feature& line, std::vector<Index>& on_it, Junction& at);
+    void pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q, Junction& at);
+
+    const Scene& scene;
+    const Patches& patches;
+    const Trapezoids& trapezoids;
+    const AngleTable& angles;
+    const Whole& whole;
+    std::vector<Level> levels;
+    std::vector<Place> places;
+};
+
+void LevelGluer::glue(Index rank, std::span<const Index> sides) {
+    if (std::ranges::none_of(sides, [&](Index s) { return whole[s / 2]; })) return;
+    const int chart = rank > angles.middle ? 1 : 0;
+    Junction at(scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
+                [&] { return angles.critical(rank, chart).exact(scene); });
+    levels.clear(), places.clear();
+    for (const Index s : sides) {
+        const Index k = s / 2;
+        const bool is_above = s % 2 == 0;
+        know(at, scene, (is_above ? angle_from : angle_to)(patches, trapezoids, k));
+        levels.push_back({k, is_above, code(scene, unpacked(trapezoids.lower[k])), code(scene, unpacked(trapezoids.upper[k])),
+                          0, 0, 1, 0, 0});
+    }
+    std::vector<Index> all(levels.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<Sheet> sheets = sheets_of(std::move(all));
+    for (Sheet& s : sheets) find_places(s, at);
+    std::erase_if(sheets, [](const Sheet& s) { return s.levels.empty(); });
+    std::sort(sheets.begin(), sheets.end(), [](const Sheet& x, const Sheet& y) { return x.levels[0] < y.levels[0]; });
+    for (const auto& direction : parallels(sheets, at)) glue_parallels(direction, at);
+}
+
+std::vector<Sheet> LevelGluer::sheets_of(std::vector<Index>&& chosen) const {
+    std::vector<std::pair<Code, Index>> by_code;
+    for (const Index k : chosen) by_code.push_back({code(scene, contact(levels[k])), k});
+    std::sort(by_code.begin(), by_code.end());
+    std::vector<Sheet> result;
+    for (const auto& [own, k] : by_code) {
+        if (result.empty() || result.back().code != own) result.push_back({own, {}, contact(levels[k]), 1, {}});
+        result.back().levels.push_back(k);
+    }
+    return result;
+}
+
+// Where the levels of a sheet end; those without width are left out.
+void LevelGluer::find_places(Sheet& sheet, Junction& at) {
+    struct End {
+        Code curve;
+        Index level;
+        bool is_high;
+        auto operator<=>(const End&) const = default;
+    };
+    std::vector<End> ends;
+    for (const Index k : sheet.levels)
+        if (levels[k].low_code != levels[k].high_code)
+            ends.push_back({levels[k].low_code, k, false}), ends.push_back({levels[k].high_code, k, true});
+    std::sort(ends.begin(), ends.end());
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+        const auto& [curve, of, is_high] = ends[k];
+        if (k == 0 || ends[k - 1].curve != curve) {
+            const Index trapezoid = levels[of].trapezoid;
+            const Feature named = unpacked((is_high ? trapezoids.upper : trapezoids.lower)[trapezoid]);
+            const Spot spot = at.spot(contact(levels[of]), named);
+            places.push_back({spot, at.range(sheet.contact, spot), 0});
+        }
+        (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
+    }
+    std::erase_if(sheet.levels, [&](Index k) {
+        if (levels[k].low_code == levels[k].high_code) return true;
+        const Place &low = places[levels[k].low], &high = places[levels[k].high];
+        return !(low.t.hi < high.t.lo) && at.order(sheet.contact, low.spot, high.spot) == 0;
+    });
+}
+
+// Sheets by the direction of their lines. Those of one kind are parallel if their edges are; of the directions of the
+// obstacles' edges at most one is also that of an edge of the robot, turned: it is found among them by halving.
+std::vector<std::vector<Sheet*>> LevelGluer::parallels(std::vector<Sheet>& sheets, Junction& at) const {
+    struct Direction {
+        Index number;
+        std::vector<Sheet*> sheets;
+        int half = 1;  // where it is on the left of the first: 1, or its opposite: -1
+        const Feature& line() const { return sheets[0]->contact; }
+    };
+    const auto directions = [&](Kind kind) {
+        std::vector<std::pair<Index, Sheet*>> by_number;
+        for (Sheet& s : sheets) {
+            if (s.contact.kind != kind) continue;
+            const Index number = kind == Kind::vertex_edge ? scene.obstacles.direction[s.contact.obstacle]
+                                                           : scene.robot.direction[s.contact.robot];
+            by_number.push_back({number, &s});
+        }
+        std::sort(by_number.begin(), by_number.end());
+        std::vector<Direction> result;
+        for (const auto& [number, s] : by_number) {
+            if (result.empty() || result.back().number != number) result.push_back({number, {}, 1});
+            result.back().sheets.push_back(s);
+        }
+        return result;
+    };
+    auto of_obstacles = directions(Kind::vertex_edge), of_robot = directions(Kind::edge_vertex);
+    if (!of_obstacles.empty() && !of_robot.empty()) {
+        const Feature zero = of_obstacles[0].line();
+        for (auto d = of_obstacles.begin() + 1; d != of_obstacles.end(); ++d) d->half = at.turn(zero, d->line());
+        std::sort(of_obstacles.begin() + 1, of_obstacles.end(), [&](const Direction& x, const Direction& y) {
+            return x.number != y.number && at.turn(x.line(), y.line()) * x.half * y.half > 0;
+        });
+        for (Direction& d : of_robot) {
+            d.half = at.turn(zero, d.line());
+            const auto turn_from = [&](const Direction& x) { return at.turn(x.line(), d.line()) * x.half * d.half; };
+            auto found = of_obstacles.begin();
+            if (d.half != 0) {
+                found = std::partition_point(found + 1, of_obstacles.end(), [&](const Direction& x) { return turn_from(x) > 0; });
+                if (found == of_obstacles.end() || turn_from(*found) != 0) continue;
+            }
+            found->sheets.insert(found->sheets.end(), d.sheets.begin(), d.sheets.end());
+            d.sheets.clear();
+        }
+    }
+    std::vector<std::vector<Sheet*>> result;
+    for (auto* each : {&of_obstacles, &of_robot})
+        for (Direction& d : *each) {
+            if (d.sheets.empty()) continue;
+            std::sort(d.sheets.begin(), d.sheets.end());
+            result.push_back(std::move(d.sheets));
+        }
+    std::sort(result.begin(), result.end());
+    return result;
+}
+
+// Line after line, from right to left of the first.
+void LevelGluer::glue_parallels(const std::vector<Sheet*>& sheets, Junction& at) {
+    const Feature& front = sheets[0]->contact;
+    for (Sheet* s : sheets) {
+        s->along = s == sheets[0] ? 1 : at.parallel(front, s->contact);
+        s->offset = at.offset(front, s->contact);
+    }
+    const auto is_right = [&](const Sheet* x, const Sheet* y) {
+        if (x->offset.hi < y->offset.lo || y->offset.hi < x->offset.lo) return x->offset.hi < y->offset.lo;
+        return at.side(x->contact, y->contact) * x->along > 0;
+    };
+    std::vector<Sheet*> sorted = sheets;
+    std::stable_sort(sorted.begin(), sorted.end(), is_right);
+    for (std::size_t begin = 0, end; begin < sorted.size(); begin = end) {
+        for (end = begin + 1; end < sorted.size() && !is_right(sorted[begin], sorted[end]);) ++end;
+        glue_line(std::span(sorted).subspan(begin, end - begin), at);
+    }
+}
+
+void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
+    std::vector<Index> chosen;
+    for (const Sheet* s : sheets)
+        for (const Index k : s->levels) chosen.push_back(k), levels[k].along = s->along;
+    if (std::ranges::none_of(chosen, [&](Index k) { return whole[levels[k].trapezoid]; })) return;
+    std::sort(chosen.begin(), chosen.end());
+    const Feature line = contact(levels[chosen[0]]);
+    const int along = levels[chosen[0]].along;
+    std::vector<Index> on_it;
+    for (const Index k : chosen) {
+        levels[k].along *= along;
+        on_it.push_back(levels[k].low), on_it.push_back(levels[k].high);
+    }
+    if (sheets.size() > 1)
+        for (const Index p : on_it) places[p].t = at.range(line, places[p].spot);
+    number_places(line, on_it, at);
+    for (const Index k : chosen) {
+        Level& x = levels[k];
+        x.first = places[x.low].number, x.last = places[x.high].number;
+        if (x.along < 0) std::swap(x.first, x.last);
+        if (x.first >= x.last) fail_to_glue("a side that runs backwards", x.trapezoid, whole);
+    }
+    std::vector<Index> by_first = chosen, there;
+    std::stable_sort(by_first.begin(), by_first.end(), [&](Index x, Index y) { return levels[x].first < levels[y].first; });
+    std::vector<std::pair<const Level*, Index>> live;
+    auto next = by_first.begin();
+    for (Index k = 0; k + 1 < static_cast<Index>(on_it.size()); ++k) {
+        heed_stop();
+        std::erase_if(there, [&](Index x) { return levels[x].last <= k; });
+        for (; next != by_first.end() && levels[*next].first == k; ++next) there.push_back(*next);
+        if (there.empty()) continue;
+        std::sort(there.begin(), there.end());
+        ++parts.edges;
+        live.clear();
+        for (const Index x : there) {
+            const Level& level = levels[x];
+            const bool forwards = level.along > 0;
+            const Side side = level.is_above ? Side::first : Side::last;
+            const Spot& start = places[on_it[is_forwards(side) == forwards ? k : k + 1]].spot;
+            live.push_back({&level, parts.add(level.trapezoid, side, !forwards, at.value(contact(level), start))});
+        }
+        pair_around_line(live, places[on_it[k]].spot, places[on_it[k + 1]].spot, at);
+    }
+}
+
+// Places in order along a line, the first of those that are one; all get their numbers.
+void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, Junction& at) {
+    std::vector<Index> first;  // of each place
+    const auto is_before = [&](Index p, Index q) {
+        if (p == q) return false;
+        const Place &x = places[p], &y = places[q];
+        if (x.t.hi < y.t.lo || y.t.hi < x.t.lo) return x.t.hi < y.t.lo;
+        return at.order(line, x.spot, y.spot) < 0;
+    };
+    std::stable_sort(on_it.begin(), on_it.end(), is_before);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < on_it.size(); ++k) {
+        if (k == 0 || is_before(on_it[count - 1], on_it[k])) on_it[count++] = on_it[k];
+        places[on_it[k]].number = static_cast<Index>(count) - 1;
+    }
+    on_it.resize(count);
+}
+
+// Around the line, seen along it: theta upwards, the line's left to the right. Counter-clockwise from there.
+void LevelGluer::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
+                                  Junction& at) {
+    auto around = live;
+    const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below
+        const int s = at.across(contact(*x), contact(*y), p, q, x->is_above) * y->along;
+        return s != 0 ? s > 0 : x->along > y->along;  // one slit: what is left of its left sheet is forbidden
+    };
+    // stable: a merge stays within its arrays whatever sheets from outside say of their order
+    std::stable_sort(around.begin(), around.end(), [&](const auto& x, const auto& y) {
+        if (x.second == y.second) return false;
+        if (x.first->is_above != y.first->is_above) return x.first->is_above;
+        return x.first->is_above ? is_left(x.first, y.first) : is_left(y.first, x.first);
+    });
+    // forbidden is on the left of a segment
+    const auto free_after = [](const Level* x) { return x->is_above == (x->along > 0); };
+    for (std::size_t k = 0; k < around.size(); ++k) {
+        const auto &x = around[k], &y = around[(k + 1) % around.size()];
+        if (around.size() % 2 != 0 || free_after(x.first) == free_after(y.first))
+            fail_to_glue("a line with " + std::to_string(around.size()) + " sides that do not alternate", x.first->trapezoid, whole);
+        if (free_after(x.first)) parts.pair(x.second, y.second);
+    }
+}
+
+}  // namespace
+
+std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, int threads) {
+    const AngleTable& angles = b.angles();
+    const auto n = static_cast<Index>(b.trapezoids.size());
+    // sides by the angle where trapezoids begin, or end; the last angle is the first
+    const Index ranks = angles.last;
+    const auto round = [&](Index rank) { return rank == angles.last ? 0 : rank; };
+    std::vector<Index> start(static_cast<std::size_t>(ranks) + 1, 0), sides(2 * static_cast<std::size_t>(n));
+    for (Index k = 0; k < n; ++k) ++start[round(angles.from[k]) + 1], ++start[round(angles.to[k]) + 1];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<Index> place(start.begin(), start.end() - 1);
+    for (Index k = 0; k < n; ++k)
+        sides[place[round(angles.from[k])]++] = 2 * k, sides[place[round(angles.to[k])]++] = 2 * k + 1;
+    // lists of whole angles, of about so many sides
+    constexpr Index block = 4096;
+    std::vector<Index> first{0};
+    for (Index rank = 0; rank < ranks; ++rank)
+        if (start[rank + 1] - start[first.back()] >= block || rank + 1 == ranks) first.push_back(rank + 1);
+    std::vector<Parts> result(first.size() - 1);
+    for_each_in_parallel(threads, result.size(), [&](std::size_t k) {
+        LevelGluer gluer(b, whole);
+        for (Index rank = first[k]; rank < first[k + 1]; ++rank) {
+            heed_stop();
+            if (start[rank] < start[rank + 1])
+                gluer.glue(rank, std::span(sides).subspan(start[rank], start[rank + 1] - start[rank]));
+        }
+        result[k] = std::move(gluer.parts);
+    });
+    return result;
+}
+
+}  // namespace cfree
