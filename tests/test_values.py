@@ -44,6 +44,7 @@ def samples(x: int) -> dict[str, Any]:
     ruled = boundary.ruled[:1] * x
     return {
         "AlgebraicAngle": interval.start,
+        "AllSeparated": cfree.AllSeparated((separated,), ((step, step),), "closed"),
         "AngleInterval": interval,
         "AngleRange": cfree.contact.AngleRange(float(step), 1.0, (1, 0), (0, x)),
         "BezierPatch": bezier_patches(surface, bits=8)[0],

@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from cfree.analysis.margins import max_margin as max_margin
     from cfree.analysis.margins import max_scale as max_scale
     from cfree.analysis.margins import nearest_miss as nearest_miss
-    from cfree.analysis.turn_in_place import turn_in_place as turn_in_place
     from cfree.collision.motion import Rotation as Rotation
     from cfree.collision.motion import Translation as Translation
     from cfree.collision.motion import motion_between as motion_between
@@ -48,10 +47,12 @@ if TYPE_CHECKING:
     from cfree.free.space import Cell as Cell
     from cfree.free.space import FreeSpace as FreeSpace
     from cfree.free.space import free_space as free_space
+    from cfree.free.turn_in_place import turn_in_place as turn_in_place
     from cfree.paths.clearance import Clearance as Clearance
     from cfree.paths.clearance import clearance as clearance
     from cfree.paths.clearance import narrowest as narrowest
     from cfree.paths.path import Path as Path
+    from cfree.planning.goals import AllSeparated as AllSeparated
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.planner import plan as plan
     from cfree.planning.planner import plan_many as plan_many
@@ -79,13 +80,14 @@ _HOMES = {
     "forbidden.slice": "Slice",
     "free.space": "Cell FreeSpace free_space",
     "free.largest_disc": "largest_disc",
+    "free.turn_in_place": "turn_in_place",
     "paths.path": "Path",
     "paths.clearance": "Clearance clearance narrowest",
+    "planning.goals": "AllSeparated",
     "planning.planner": "Planner plan plan_many",
     "planning.separation": "Separated separation",
     "analysis.fits": "Fit fits",
     "analysis.margins": "Interval NearestMiss max_margin max_scale nearest_miss",
-    "analysis.turn_in_place": "turn_in_place",
     "formats.files": "load save",
     "formats.scene_file": "load_polygons load_scene",
 }

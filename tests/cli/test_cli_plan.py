@@ -200,3 +200,32 @@ def test_an_interrupt_while_filming_leaves_no_film(tmp_path: Path) -> None:
     assert code == 130
     assert message.splitlines()[-1] == "error: interrupted; no file was left half-written"
     assert not list(tmp_path.iterdir())
+
+
+def test_clearances_and_several_goals(run: Run, tmp_path: Path) -> None:
+    """Verdicts, exit codes, files that are verified, and what is said of bad ones."""
+    walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
+    rod = [("-1/2", -2), ("1/2", -2), ("1/2", 2), ("-1/2", 2)]
+    scene = cfree.Scene(rod, walls, workspace=[(-9, -9), (9, -9), (9, 9), (-9, 9)], start=(0, 5, 0), goal=(0, -5, 0))
+    file, answer = str(tmp_path / "gate.json"), str(tmp_path / "answer.json")
+    cfree.save(scene, file)
+    for options, code, said in (
+        (["--clearance", "1/2"], 0, "each motion proved free and to keep 0.5"),
+        (["--clearance", "0.51"], 1, "no path that keeps 0.51, proved"),
+        (["--goal", "0,-5"], 0, "goal reached"),
+        (["--goal", "3,5", "--goal", "0,-5,0"], 0, "goal reached"),
+    ):
+        result = run("plan", file, *options, "-o", answer)
+        assert result.exit_code == code and said in result.stdout
+        asked = cfree.load_scene(file)
+        if "--goal" not in options:
+            assert run("verify", file, answer).exit_code == 0 and asked.goal
+    for options, said in (
+        (["--clearance", "0"], "--clearance: '0'; give a length above 0"),
+        (["--clearance", "x"], "--clearance: 'x'; give a length above 0"),
+        (["--clearance", "4"], "the workspace is 2 away, and the clearance is 4; move it"),
+        (["--goal", "3"], "--goal: '3': 1 numbers"),
+        (["--goal", "5,0"], "goal (5, 0): no orientation is free there; give another place"),
+    ):
+        result = run("plan", file, *options)
+        assert result.exit_code == 2 and said in result.stderr, result.stderr

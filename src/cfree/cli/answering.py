@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -14,6 +16,7 @@ from cfree.cli.terminal import printable
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.paths.path import Path as Motions
+    from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
     from cfree.planning.separation import Separated
 
@@ -25,36 +28,42 @@ class Answering:
     Attributes
     ----------
     planner : Planner
-    start, goal : Pose
+    start : Pose
+    goal : Pose or None
+        None if any of several will do.
     files : dict
         Names of the files to write; those that there is nothing to write into are taken out.
-    answer : Path or Separated
+    answer : Path, Separated or AllSeparated
     """
 
     planner: Planner
     start: Pose
-    goal: Pose
+    goal: Pose | None
     files: dict[str, str]
-    answer: Motions | Separated
+    answer: Motions | Separated | AllSeparated
 
     @classmethod
     def of(
         cls,
         planner: Planner,
-        ends: tuple[Pose | None, Pose | None],
+        ends: tuple[Pose | None, Sequence[Any]],
         files: dict[str, str],
         options: dict[str, Any],
     ) -> Answering:
         """The answer, with options of `Planner.plan`, unless a limit leaves the command without one."""
         from cfree.errors import IncompleteError
+        from cfree.exact.pose import Pose
         from cfree.scene.scene import required
 
-        start, goal = required(planner.scene, *ends)
+        given, goals = ends
+        is_one = not goals or (len(goals) == 1 and isinstance(goals[0], Pose))
+        start, goal = required(planner.scene, given, goals[0] if is_one and goals else None if is_one else Pose(0, 0))
         try:
-            answer = planner.plan(start, goal, **options)
+            if is_one:
+                return cls(planner, start, goal, files, planner.plan(start, goal, **options))
+            return cls(planner, start, None, files, planner.plan_any(start, goals, **options))
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
-        return cls(planner, start, goal, files, answer)
 
     @property
     def path(self) -> Motions | None:
@@ -83,13 +92,16 @@ class Answering:
             self._leave_out("answer", f"there is no path to write as {form}; a proof is written as .json")
 
     def draw(self, picture: Path) -> None:
-        """The picture, with the configuration space."""
+        """The picture, with the configuration space; of several proofs that of the first."""
+        from cfree.paths.path import Path as Motions
+        from cfree.planning.separation import Separated
         from cfree.plot.answer import picture as drawn
         from cfree.plot.boundary import save_figure
 
         space = self.planner.free_space
+        shown = self.answer if isinstance(self.answer, Motions | Separated) else self.answer.proofs[0]
         with bar("picture"):
-            save_figure(drawn(self.answer, self.planner.scene, space.boundary), picture)
+            save_figure(drawn(shown, self.planner.scene, space.boundary), picture)
 
     def film(self, film: Path) -> None:
         """The film of a path."""
@@ -107,8 +119,13 @@ class Answering:
 
         with bar("least clearance"):
             rows: dict[str, Any] = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+        if self.goal is None and self.path is not None:
+            goal = self.path.goal
+            x, y, theta = float(goal.x), float(goal.y), goal.theta
+            text = f"{x:g}, {y:g}, {math.degrees(theta):g} degrees"
+            rows["goal reached"] = [x, y, theta] if for_machines else text
         if nearest_miss and self.path is None:
-            rows["nearest miss"] = self._nearest_miss()
+            rows["nearest miss"] = self._nearest_miss() if self.goal else "not of several goals; give one, with theta"
         return rows
 
     def _nearest_miss(self) -> str:

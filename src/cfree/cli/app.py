@@ -17,6 +17,7 @@ from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.terminal import print_json, printable
 from cfree.cli.values import (
     read_angle,
+    read_goals,
     read_length,
     read_numbers,
     read_objective,
@@ -157,13 +158,20 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png",
         "cfree plan scene.json -o way.csv --improve 2s",
         "cfree plan scene.json --clearance 0.3",
+        "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
     )
 )
 @options.scene
 @click.option(
     "--start", metavar="X,Y,THETA", help='As "1,1/2,30deg"; radians, or "tau:1/3".', show_default="the scene's"
 )
-@click.option("--goal", metavar="X,Y,THETA", help="The same.", show_default="the scene's")
+@click.option(
+    "--goal",
+    metavar="X,Y[,THETA]",
+    multiple=True,
+    help="The same; of X,Y any orientation will do. Of several --goal any one will.",
+    show_default="the scene's",
+)
 @file_option("--output", "-o", metavar="FILE", help="Write the answer: path or proof.")
 @click.option(
     "--format",
@@ -190,7 +198,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @options.max_seconds
 @options.as_json
 def plan(
-    scene: Path, start: str | None, goal: str | None, output: Path | None, form: str | None, clearance: str | None,
+    scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, clearance: str | None,
     improve: str | None, objective: str, picture: Path | None, film: Path | None, miss: bool, max_seconds: float | None,
     as_json: bool,
 ) -> None:  # fmt: skip
@@ -208,7 +216,7 @@ def plan(
         kind = form_of(output, form) if output else "json"
         seconds = None if improve is None else read_seconds(improve)
         wanted = read_objective(objective)
-        ends = read_pose(start, "--start"), read_pose(goal, "--goal")
+        ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
         found = Answering.of(planner_of(scene, max_seconds), ends, written, options)

@@ -14,6 +14,7 @@ from cfree.scene.features import NAMES
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.path import Path
+    from cfree.planning.goals import AllSeparated
     from cfree.planning.separation import Separated
     from cfree.scene.scene import Scene
     from cfree.verify import Verification
@@ -74,16 +75,24 @@ def boundary_facts(boundary: Boundary) -> dict[str, Any]:
     return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
 
 
-def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float | str]:
+def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
     """An answer in words and numbers."""
     from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
+    from cfree.planning.separation import Separated
 
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
         what = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
         if answer.clearance:
             what = f"no path that keeps {float(answer.clearance):g}{unit}, proved"
+        if not isinstance(answer, Separated):
+            return {
+                "answer": f"to none of the goals: {what}",
+                "goals": f"{len(answer.goals):,}",
+                "proofs": f"{len(answer.proofs):,}",
+                "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
+            }
         return {
             "answer": what,
             "cells of start and goal": ", ".join(map(str, answer.cells)),
@@ -104,16 +113,21 @@ def answer_rows(answer: Path | Separated, scene: Scene) -> dict[str, int | float
     return rows
 
 
-def answer_facts(answer: Path | Separated, scene: Scene) -> dict[str, Any]:
+def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, Any]:
     """The same as numbers, for machines: lengths in the scene's unit, radians."""
     from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
+    from cfree.planning.goals import AllSeparated
 
+    found: dict[str, Any]
+    if isinstance(answer, AllSeparated):
+        found = {"answer": "all separated", "of": answer.of, "goals": len(answer.goals), "proofs": len(answer.proofs)}
+        return found | {"obstacles": list(answer.obstacles)}
     if not isinstance(answer, Path):
         facts: dict[str, Any] = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
         facts |= {"asked clearance": float(answer.clearance)} if answer.clearance else {}
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
-    found: dict[str, Any] = {"answer": "path", **motion_counts(answer)}
+    found = {"answer": "path", **motion_counts(answer)}
     found |= {"length": answer.length, "turning": answer.turning, "clearance": None}
     if answer.clearance:
         found["asked clearance"] = float(answer.clearance)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
@@ -41,6 +42,11 @@ def read_pose(text: str | None, name: str) -> Pose | None:
     except ValueError as error:
         fault = f"{len(parts)} numbers" if len(parts) != 3 else error
         raise ValueError(f'{name}: {text!r}: {fault}; give X,Y,THETA as in "1,1/2,30deg"') from None
+
+
+def read_goals(texts: Sequence[str]) -> list[Any]:
+    """Poses, and places from "1,1/2"."""
+    return [text.split(",") if text.count(",") == 1 else read_pose(text, "--goal") for text in texts]
 
 
 def read_seconds(text: str) -> float:

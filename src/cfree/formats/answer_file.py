@@ -12,6 +12,7 @@ from cfree.errors import UnsupportedError
 from cfree.formats.atomic import replacing
 from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.digest import stamp_for
 from cfree.scene.scene import Scene
@@ -24,8 +25,8 @@ FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"} 
 
 
 @checked
-def load_answer(path: str | PathLike[str]) -> Path | Separated:
-    """Read a path or a separation from a JSON file.
+def load_answer(path: str | PathLike[str]) -> Path | Separated | AllSeparated:
+    """Read a path, a separation, or several from a JSON file.
 
     Raises
     ------
@@ -111,8 +112,8 @@ def save_path(
         unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
-def save_separation(proof: Separated, file: str | PathLike[str]) -> None:
-    """Write a separation to a ``.json`` file, exactly, whole or not at all.
+def save_separation(proof: Separated | AllSeparated, file: str | PathLike[str]) -> None:
+    """Write a separation, or several, to a ``.json`` file, exactly, whole or not at all.
 
     Raises
     ------
@@ -121,11 +122,12 @@ def save_separation(proof: Separated, file: str | PathLike[str]) -> None:
     ValueError
         If there is no scene.
     """
-    from cfree.formats.separation_text import separation_text
+    from cfree.formats.separation_text import all_separated_text, separation_text
 
     if FilePath(file).suffix.lower() != ".json":
         raise UnsupportedError(f"{file}: separations are written as .json; name the file so")
-    text = separation_text(proof, stamp_for(file, proof.scene, proof.stamp))
+    stamp = stamp_for(file, proof.scene, proof.stamp)
+    text = separation_text(proof, stamp) if isinstance(proof, Separated) else all_separated_text(proof, stamp)
     with replacing(file) as unfinished:
         unfinished.write_text(text, encoding="utf-8", newline="\n")
 

@@ -12,14 +12,20 @@ from typing import Any, get_args
 
 from pydantic import BaseModel, ValidationError
 
-from cfree.formats.answer_rules import completed, effect_faults, leeway_of, path_faults
+from cfree.formats.answer_rules import Faults, completed, effect_faults, leeway_of, path_faults
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path as Place
 from cfree.formats.path_format import PathModel
 from cfree.formats.scene_format import report
-from cfree.formats.separation_format import SeparationModel
+from cfree.formats.separation_format import AllSeparatedModel, SeparationModel
 from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
+
+Model = PathModel | SeparationModel | AllSeparatedModel
+_MODELS: dict[str, type[Model]] = {
+    "path": PathModel, "separated": SeparationModel, "all separated": AllSeparatedModel
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -28,14 +34,14 @@ class Read:
 
     Attributes
     ----------
-    answer : Path or Separated
+    answer : Path, Separated or AllSeparated
     decimals : "free", "approximate" or None
         What it claims of the decimals; None if there is nothing else.
     leeway : Fraction or None
         How far the path has to keep from everything for them to be free; None if no distance is enough.
     """
 
-    answer: Path | Separated
+    answer: Path | Separated | AllSeparated
     decimals: str | None = None
     leeway: Fraction | None = None
 
@@ -43,12 +49,13 @@ class Read:
 def answer_from_json(findings: Findings, data: Any) -> Read:
     """What a decoded JSON value says; raises every problem there is through `findings`."""
     kind = data.get("answer") if isinstance(data, dict) else None
-    if kind not in ("path", "separated"):
+    if not isinstance(kind, str) or kind not in _MODELS:
         named = isinstance(data, dict) and "answer" in data
-        fault = 'expected "path" or "separated", got {got}' if named else 'no answer: "answer" is missing'
+        fault = 'no answer: "answer" is missing'
+        fault = 'expected "path", "separated" or "all separated", got {got}' if named else fault
         findings.under(("answer",) if named else (), f"{fault}; give a file that `save` of a path or a proof wrote")
         findings.fail_if_any()
-    kind_of_model: type[PathModel | SeparationModel] = SeparationModel if kind == "separated" else PathModel
+    kind_of_model = _MODELS[str(kind)]
     try:
         model = kind_of_model.model_validate(data)
     except ValidationError as error:
@@ -67,16 +74,22 @@ def answer_from_json(findings: Findings, data: Any) -> Read:
                 report(findings, path, item, lambda place: _keys_at(kind_of_model, place))
         findings.fail_if_any()
         raise
-    if isinstance(model, SeparationModel):
-        faults = effect_faults(model, Path(model.ends[0], ()), data)
-    else:
-        faults = path_faults(model, data)
-    for place, message in faults:
+    for place, message in _faults(model, data):
         findings.under(place, message)
     findings.fail_if_any()
-    if isinstance(model, SeparationModel):
+    if not isinstance(model, PathModel):
         return Read(model.result)
     return Read(completed(model), model.decimals, leeway_of(model, data) if model.decimals == "free" else None)
+
+
+def _faults(model: Model, data: Any) -> Faults:
+    if isinstance(model, PathModel):
+        yield from path_faults(model, data)
+    elif isinstance(model, SeparationModel):
+        yield from effect_faults(model, Path(model.ends[0], ()), data)
+    else:
+        for k, proof in enumerate(model.proofs):
+            yield from ((("proofs", k, *place), text) for place, text in _faults(proof, data["proofs"][k]))
 
 
 def _keys_at(model: type[BaseModel], place: Place) -> list[str]:

@@ -22,13 +22,14 @@ from cfree.formats.scene_file import is_wkt, save_scene, scene_from_json, scene_
 from cfree.formats.slice_geojson import save_slice
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
 
 
 @checked
 def save(
-    value: Scene | Boundary | FreeSpace | Path | Separated | Mesh | Slice,
+    value: Scene | Boundary | FreeSpace | Path | Separated | AllSeparated | Mesh | Slice,
     path: str | PathLike[str],
     *,
     step: float | None = None,
@@ -40,7 +41,7 @@ def save(
 
     Parameters
     ----------
-    value : Scene, Boundary, FreeSpace, Path, Separated, Mesh or Slice
+    value : Scene, Boundary, FreeSpace, Path, Separated, AllSeparated, Mesh or Slice
     path : path
         ``.json`` for scenes, paths and separations, ``.npz`` for boundaries and free spaces, ``.glb``, ``.ply``,
         ``.obj`` or ``.stl`` for meshes, ``.geojson`` for slices. Poses of paths also as ``.csv``, ``.yaml`` (a ROS
@@ -82,7 +83,7 @@ def save(
             save_boundary(value, path)
         case FreeSpace():
             save_space(value, path)
-        case Separated():
+        case Separated() | AllSeparated():
             save_separation(value, path)
         case Mesh():
             save_mesh(value, path)
@@ -91,7 +92,7 @@ def save(
 
 
 @checked
-def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated:
+def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated | AllSeparated:
     """Read a scene, a boundary, a free space, a path or a separation: what is in the file decides.
 
     Raises

@@ -15,9 +15,10 @@ from pydantic import BeforeValidator, Field, PlainValidator, model_validator
 from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.path_format import AnswerModel, Length
-from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict
+from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict, Version
 from cfree.formats.scene_values import Fault
 from cfree.formats.separation_text import KINDS
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Auxiliary, Pieces, Separated
 from cfree.scene.features import MOST_OBSTACLE_FEATURES, MOST_ROBOT_FEATURES
 
@@ -144,6 +145,30 @@ class SeparationModel(AnswerModel):
             frame=self.frame,
             stamp=self.stamp,
         )
+
+
+class AllSeparatedModel(Strict):
+    """Separations from one start, of all goals."""
+
+    version: Version = 1
+    answer: Literal["all separated"]
+    of: Literal["closed", "interior"]
+    places: Annotated[list[Point], Field(default_factory=list)]
+    proofs: Annotated[list[SeparationModel], Field(min_length=1)]
+
+    @model_validator(mode="after")
+    def _fits(self) -> AllSeparatedModel:
+        if any((p.ends[0], p.scene) != (self.proofs[0].ends[0], self.proofs[0].scene) for p in self.proofs):
+            raise Fault("not all proofs have the same start and scene; correct them")
+        if self.of == "closed" and any(proof.of != "closed" for proof in self.proofs):
+            raise Fault('a proof is of "interior", and all of them are said to be "closed"; correct one of them')
+        if not set(self.places) <= {(proof.ends[1].x, proof.ends[1].y) for proof in self.proofs}:
+            raise Fault("there is no proof for one of the places; add it")
+        return self
+
+    @property
+    def result(self) -> AllSeparated:
+        return AllSeparated(tuple(proof.result for proof in self.proofs), tuple(self.places), self.of)
 
 
 def _pieces(models: list[PieceModel], auxiliary: tuple[Auxiliary, ...]) -> Pieces:

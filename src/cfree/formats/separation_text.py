@@ -11,6 +11,7 @@ from cfree.formats.effect import Effect
 from cfree.formats.json_text import json_line
 from cfree.formats.path_text import answer_head
 from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Pieces, Separated
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
@@ -43,6 +44,16 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
     lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
     members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
     return "{" + ",\n ".join(members) + "}\n"
+
+
+def all_separated_text(answer: AllSeparated, stamp: Stamp) -> str:
+    """JSON of separations of all goals; an equal one is read from it."""
+    head = {"version": 1, "answer": "all separated", "of": answer.of}
+    members = [f'"{key}": {json.dumps(value)}' for key, value in head.items()]
+    if answer.places:
+        members.append(f'"places": {json.dumps([[str(x), str(y)] for x, y in answer.places])}')
+    proofs = ",\n".join(separation_text(proof, stamp).rstrip() for proof in answer.proofs)
+    return "{" + ",\n ".join([*members, f'"proofs": [\n{proofs}\n]']) + "}\n"
 
 
 def _polygon(polygon: Polygon) -> dict[str, Any]:

@@ -13,7 +13,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from typing import Protocol
 
 from cfree.collision.nearer import require_distance
 from cfree.collision.nearest_free import require_free
@@ -21,8 +20,8 @@ from cfree.collision.pose_checker import is_free
 from cfree.errors import UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
+from cfree.planning.asked import Planner
 from cfree.planning.separation import Separated, separation
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
@@ -33,16 +32,6 @@ SIDES = (8, 28, 100)  # of the polygons: the last two differ by less than 0.1 % 
 BEYOND = Fraction(1, 2**30)  # of the clearance: how much wider bounds are for a proof
 THINNER = Fraction(1, 2**20)  # of the clearance: how much smaller cores are than the robot's pieces
 ROUNDING = 2.0**-40  # more than that of a radius, relatively
-
-
-class Planner(Protocol):
-    """What is asked about a robot with a polygon around it."""
-
-    @property
-    def free_space(self) -> FreeSpace: ...
-    def quick(self, start: Pose, goal: Pose) -> Sequence[Pose] | None: ...
-    def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path: ...
-    def plan(self, start: Pose, goal: Pose, *, improve: float | None, objective: Objective) -> Path | Separated: ...
 
 
 def plan_at_distance(

@@ -15,7 +15,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 from cfree.arguments import checked
 from cfree.collision.motion import Rotation, motion_between
@@ -28,6 +28,7 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
+from cfree.planning.goals import AllSeparated, plan_any, to_goals
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
 from cfree.planning.separation import InsetSpaces, Separated, inset_powers, separation
@@ -47,18 +48,42 @@ COMPLETE = 30_000  # contact patches at most of a grown robot whose free space i
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 
 
-@checked
+@overload
 def plan(
     scene: Scene | FreeSpace,
     start: PoseLike | None = None,
-    goal: PoseLike | None = None,
+    goal: Pose | tuple[Any, Any, Any] | None = None,
     *,
     clearance: Number | None = None,
     improve: float | None = None,
     objective: Objective = "short",
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
-) -> Path | Separated:
+) -> Path | Separated: ...
+@overload
+def plan(
+    scene: Scene | FreeSpace,
+    start: PoseLike | None = None,
+    goal: PoseLike | Sequence[PoseLike] | None = None,
+    *,
+    clearance: Number | None = None,
+    improve: float | None = None,
+    objective: Objective = "short",
+    max_seconds: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Path | Separated | AllSeparated: ...
+@checked
+def plan(
+    scene: Scene | FreeSpace,
+    start: PoseLike | None = None,
+    goal: PoseLike | Sequence[PoseLike] | None = None,
+    *,
+    clearance: Number | None = None,
+    improve: float | None = None,
+    objective: Objective = "short",
+    max_seconds: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Path | Separated | AllSeparated:
     """A path from start to goal, each motion of it proved free, or a proof that there is none.
 
     Parameters
@@ -66,7 +91,8 @@ def plan(
     scene : Scene or FreeSpace
         With its free space known, which of the two it is takes two calls of `locate`, unless exact fits join cells.
     start, goal : Pose or (x, y, theta), optional
-        Those of the scene unless given.
+        Those of the scene unless given. A goal may also be a place (x, y), at which any orientation will do, or a
+        list of poses and places, any one of which will.
     clearance : number, optional
         A distance that the path keeps from obstacles and workspace; not from bounds. Or no path does, proved.
     improve : float, seconds, optional
@@ -81,7 +107,8 @@ def plan(
 
     Returns
     -------
-    Path or Separated
+    Path, Separated or AllSeparated
+        A path leads to the goal that is reached by the shortest path found. The last is for places and lists.
 
     Raises
     ------
@@ -109,6 +136,9 @@ def plan(
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
     planner = Planner(scene, space, max_seconds=max_seconds, progress=progress)
+    if goal is not None and isinstance(goals := to_goals(goal), tuple):
+        start, _ = required(scene, start, Pose(0, 0))
+        return planner.plan_any(start, goals, clearance=clearance, improve=improve, objective=objective)
     return planner.plan(*required(scene, start, goal), clearance=clearance, improve=improve, objective=objective)
 
 
@@ -217,6 +247,22 @@ class Planner(Value):
             return plan_at_distance(self.scene, start, goal, distance, self._of, improve, objective)
         way = self._way(start, goal)
         return self.improved(way, improve, objective) if isinstance(way, list) else way
+
+    @checked
+    def plan_any(
+        self,
+        start: PoseLike,
+        goals: Sequence[Any],
+        *,
+        clearance: Number | None = None,
+        improve: float | None = None,
+        objective: Objective = "short",
+    ) -> Path | AllSeparated:
+        """See `cfree.plan`, for several goals, or places."""
+        found = to_goals(goals)
+        found = (found,) if isinstance(found, Pose) else found
+        distance = None if clearance is None else to_fraction(clearance)
+        return plan_any(self, to_pose(start, "start"), found, distance, improve, objective)
 
     def _of(self, scene: Scene) -> Planner:
         """For the same question with another robot."""

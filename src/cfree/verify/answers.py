@@ -6,16 +6,19 @@ import math
 import os
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
 from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated, Goal
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, stamp_of
 from cfree.scene.scene import Scene
 from cfree.verify.leeway import is_around_disc, roomier, with_disc
 from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
+from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.world import World
@@ -24,7 +27,7 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.formats.answer_format import Read
 
-SCENE, ASKED, PIECES = "scene", "poses asked for", "convex pieces"
+SCENE, ASKED, PIECES, TURNS = "scene", "poses asked for", "convex pieces", "orientations"
 NO_ROOM = {
     DECIMALS: 'they are said to be "free", and no room is enough for that; say "approximate"',
     CLEARANCE: "its polygon is not convex, or not around a disc of that radius; correct one of them",
@@ -34,7 +37,7 @@ NO_ROOM = {
 @checked
 def answer(
     scene: Scene,
-    answer: Path | Separated | str | os.PathLike[str],
+    answer: Path | Separated | AllSeparated | str | os.PathLike[str],
     *,
     progress: Callable[[float], object] | None = None,
 ) -> Verification:
@@ -44,7 +47,7 @@ def answer(
     ----------
     scene : Scene
         If it has a start and a goal, these have to be the answer's.
-    answer : Path, Separated or path
+    answer : Path, Separated, AllSeparated or path
         A file written by `Path.save` or `Separated.save`, or one in memory: then nobody asks for which scene it was.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
@@ -84,6 +87,8 @@ def answer(
         if progress is not None:
             progress(done)
 
+    if isinstance(given, AllSeparated):
+        return _all_of(scene, given, report, begin)
     findings = _other_poses(scene, given)
     world = World(scene)
     findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
@@ -116,6 +121,42 @@ def answer(
     return Verification(checks, tuple(findings), (), time.perf_counter() - begin, proved)
 
 
+def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object], begin: float) -> Verification:
+    """Each proof by itself; and that at a place their goals stand for all orientations."""
+    findings, checks, world = list[Finding](), list[Check](), World(scene)
+    if scene.start not in (None, given.start):
+        findings.append(Finding(ASKED, "start", f"it is {_text(given.start)}, and another in the scene"))
+    if scene.goal is not None and scene.goal not in given.goals:
+        findings.append(Finding(ASKED, "goal", f"{_text(scene.goal)} in the scene is none of them"))
+    without = Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace)
+    for k, proof in enumerate(given.proofs):
+        report(k / len(given.proofs))
+        result = answer(without, proof)
+        findings += [Finding(found.kind, f"proof {k}: {found.where}", found.text) for found in result.findings]
+        checks.append(Check(f"proof {k}", PROVED if result.verified else REFUTED, result.proved or "see below"))
+        if proof.start != given.start or (given.of == "closed" and proof.of != "closed"):
+            findings.append(Finding(ASKED, f"proof {k}", "it has another start, or proves less than is said of all"))
+    for place in given.places:
+        poses = [proof.goal for proof in given.proofs if (proof.goal.x, proof.goal.y) == place]
+        intervals, single = left_out(world, place, poses)
+        if intervals or (single and given.of == "closed"):
+            text = f"{intervals} intervals and {single} single ones of free orientations have no proof"
+            findings.append(Finding(TURNS, f"({float(place[0]):g}, {float(place[1]):g})", text))
+    if given.places:
+        text = f"at {len(given.places)} places each free orientation is joined by turning to the goal of a proof"
+        checks.append(Check(TURNS, PROVED, text))
+    refuted = {finding.kind for finding in findings}
+    checks = [replace(check, how=REFUTED) if check.name in refuted else check for check in checks]
+    goals = ", ".join(_goal_text(goal) for goal in given.goals)
+    proved = "" if findings else _none_leads(given, f"leads from {_text(given.start)} to any of {goals}")
+    report(1.0)
+    return Verification(tuple(checks), tuple(findings), (), time.perf_counter() - begin, proved)
+
+
+def _goal_text(goal: Goal) -> str:
+    return f"({float(goal[0]):g}, {float(goal[1]):g}, any)" if isinstance(goal, tuple) else _text(goal)
+
+
 def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
     asked = {"start": (scene.start, given.start), "goal": (scene.goal, given.goal)}
     return [
@@ -125,7 +166,7 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
     ]
 
 
-def _other_scene(scene: Scene, given: Path | Separated) -> Finding | None:
+def _other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
     """Is an answer for another scene than this one?"""
     stamp, its = stamp_of(scene), given.stamp
     if its is None or its == stamp:
@@ -187,11 +228,15 @@ def _sentence(given: Path | Separated, read: Read | None) -> str:
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
         keeps = f"keeps {far}" if given.clearance else "is free of collisions"
         return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}."
+    return _none_leads(given, f"leads from {ends[0]} to {ends[1]}")
+
+
+def _none_leads(given: Separated | AllSeparated, anywhere: str) -> str:
     if given.clearance:
-        return f"No path that keeps {far} leads from {ends[0]} to {ends[1]}."
+        return f"No path that keeps {float(given.clearance):g} from obstacles and workspace {anywhere}."
     if given.of == "closed":
-        return f"No path leads from {ends[0]} to {ends[1]}, not even one that touches."
-    return f"No path that keeps a distance from everything leads from {ends[0]} to {ends[1]}; one that touches may."
+        return f"No path {anywhere}, not even one that touches."
+    return f"No path that keeps a distance from everything {anywhere}; one that touches may."
 
 
 def _text(pose: Pose) -> str:

@@ -1,0 +1,35 @@
+"""What is asked of a planner by those who make one answer of several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Protocol
+
+from cfree.exact.pose import Pose
+from cfree.free.space import FreeSpace
+from cfree.paths.path import Objective, Path
+from cfree.planning.separation import Separated
+from cfree.scene.scene import Scene
+
+
+class Planner(Protocol):
+    """See `cfree.Planner`."""
+
+    scene: Scene
+
+    @property
+    def free_space(self) -> FreeSpace: ...
+    @property
+    def angle_scale(self) -> float: ...
+    def quick(self, start: Pose, goal: Pose) -> Sequence[Pose] | None: ...
+    def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path: ...
+    def plan(
+        self,
+        start: Pose,
+        goal: Pose,
+        *,
+        clearance: Fraction | None = None,
+        improve: float | None,
+        objective: Objective,
+    ) -> Path | Separated: ...

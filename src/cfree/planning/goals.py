@@ -1,0 +1,212 @@
+"""Goals any one of which will do: poses, and places at which any orientation will.
+
+The free orientations at a place are closed intervals; all of one are in the closure of one cell, as the robot can turn
+there. So one pose stands for each of them.
+"""
+
+from __future__ import annotations
+
+import math
+import reprlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from cfree.arguments import checked
+from cfree.collision.nearest_free import require_free
+from cfree.errors import InvalidPoseError
+from cfree.exact.number import ExactPoint, to_fraction
+from cfree.exact.pose import Pose, to_pose
+from cfree.paths.path import Objective, Path
+from cfree.planning.separation import Separated
+from cfree.scene.digest import Stamp
+from cfree.scene.scene import Scene
+
+if TYPE_CHECKING:
+    from cfree.exact.angle_interval import AngleInterval
+    from cfree.planning.asked import Planner
+
+Goal = Pose | ExactPoint
+BITS = 20  # of orientations next to the end of an interval, then twice as many, and so on
+INWARD = math.radians(10)  # from the end of an interval, or a quarter of it
+
+
+@checked
+@dataclass(frozen=True, repr=False)
+class AllSeparated:
+    """A proof that no motion leads to any of several goals.
+
+    Parameters
+    ----------
+    proofs : tuple of Separated
+        From one start: of each goal that is a pose, and of each place one for every interval of free orientations.
+    places : tuple of (x, y)
+        Goals at which any orientation will do.
+    of : "closed" or "interior"
+        "closed": no path at all leads to any of them. "interior": no path that keeps a distance; a proof is so, or at a
+        place an orientation is left out at which the robot fits exactly, and whose half-angle tangent is irrational.
+    """
+
+    proofs: tuple[Separated, ...]
+    places: tuple[ExactPoint, ...]
+    of: Literal["closed", "interior"]
+
+    def __repr__(self) -> str:
+        return f"AllSeparated(of={self.of!r}, {len(self.goals)} goals, {len(self.proofs)} proofs)"
+
+    @property
+    def goals(self) -> tuple[Goal, ...]:
+        """Places, and the poses that are at none of them."""
+        poses = (proof.goal for proof in self.proofs)
+        return *self.places, *(pose for pose in poses if (pose.x, pose.y) not in self.places)
+
+    @property
+    def start(self) -> Pose:
+        """The same in all proofs."""
+        return self.proofs[0].start
+
+    @property
+    def clearance(self) -> Fraction:
+        """If not 0: no path leads to any of them that keeps at least this distance from obstacles and workspace."""
+        return max(proof.clearance for proof in self.proofs)
+
+    @property
+    def units(self) -> str:
+        """Unit of length."""
+        return self.proofs[0].units
+
+    @property
+    def scene(self) -> Scene | None:
+        """What it is a proof for; None if it was read from a file."""
+        return self.proofs[0].scene
+
+    @property
+    def stamp(self) -> Stamp | None:
+        """What the file said of the scene."""
+        return self.proofs[0].stamp
+
+    @property
+    def obstacles(self) -> tuple[int, ...]:
+        """Whose contacts form the surfaces; -1 is the bounds, -2 the workspace."""
+        return tuple(sorted({k for proof in self.proofs for k in proof.obstacles}))
+
+
+def to_goals(value: Any) -> tuple[Goal, ...] | Pose:
+    """One pose, or several goals; a pair is a place.
+
+    Raises
+    ------
+    InvalidPoseError, TypeError
+        If it is neither, with the number of the goal.
+
+    Examples
+    --------
+    >>> to_goals((1, 2)), to_goals((1, 2, 0)) == Pose(1, 2), len(to_goals([(1, 2, 0), (1, 2)]))
+    (((Fraction(1, 1), Fraction(2, 1)),), True, 2)
+    """
+    if isinstance(value, Pose) or (_is_row(value) and len(value) == 3):
+        return to_pose(value, "goal")
+    if _is_row(value) and len(value) == 2:
+        return (_place(value, "goal"),)
+    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str) or _is_row(value) or len(value) == 0:
+        to_pose(value, "goal")
+    return tuple(
+        _place(item, f"goal {k}") if _is_row(item) and len(item) == 2 else to_pose(item, f"goal {k}")
+        for k, item in enumerate(value)
+    )
+
+
+def _is_row(value: Any) -> bool:
+    """Is it one goal, and not many?"""
+    return (
+        isinstance(value, Sequence | np.ndarray)
+        and not isinstance(value, str)
+        and len(value) > 0
+        and all(np.ndim(part) == 0 and not isinstance(part, Pose) for part in value)
+    )
+
+
+def _place(value: Any, name: str) -> ExactPoint:
+    try:
+        x, y = map(to_fraction, value)
+    except ValueError as error:
+        raise InvalidPoseError(f"{name}: {reprlib.repr(value)}: {error}") from None
+    return x, y
+
+
+def plan_any(
+    planner: Planner,
+    start: Pose,
+    goals: Sequence[Goal],
+    clearance: Fraction | None,
+    improve: float | None,
+    objective: Objective,
+) -> Path | AllSeparated:
+    """A path to one of the goals, of those that are found the shortest; or a proof for each of them."""
+    require_free(planner.scene, start, "start")
+    if clearance is not None and not all(isinstance(goal, Pose) for goal in goals):
+        raise InvalidPoseError("goal: a place, and a clearance; give it a theta")
+    poses, is_whole = dict[Pose, None](), True
+    for k, goal in enumerate(goals):
+        name = "goal" if len(goals) == 1 else f"goal {k}"
+        if isinstance(goal, Pose):
+            require_free(planner.scene, goal, name)
+            poses[goal] = None
+        else:
+            found = list(_poses_at(planner.scene, goal, start, name))
+            poses |= dict.fromkeys(pose for pose in found if pose is not None)
+            is_whole = is_whole and None not in found
+
+    def shortest(paths: Sequence[Path]) -> Path:
+        return min(paths, key=lambda path: path.length + planner.angle_scale * path.turning)
+
+    asked = list(poses)
+    if clearance is None:
+        ways = [[pose] if pose == start else planner.quick(start, pose) for pose in asked]
+        if quick := [way for way in ways if way]:
+            share = improve and improve / len(quick)
+            return shortest([planner.improved(way, share, objective) for way in quick])
+        space = planner.free_space
+        asked = [pose for pose in poses if space.common_cell(start, pose) is not None] or asked
+    answers = [planner.plan(start, pose, clearance=clearance, improve=improve, objective=objective) for pose in asked]
+    if paths := [answer for answer in answers if isinstance(answer, Path)]:
+        return shortest(paths)
+    proofs = tuple(answer for answer in answers if isinstance(answer, Separated))
+    is_closed = is_whole and all(proof.of == "closed" for proof in proofs)
+    places = tuple(dict.fromkeys(goal for goal in goals if not isinstance(goal, Pose)))
+    return AllSeparated(proofs, places, "closed" if is_closed else "interior")
+
+
+def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterator[Pose | None]:
+    """One pose of each interval of free orientations, turned little from the start; None of one that is irrational."""
+    from cfree.free.turn_in_place import turn_in_place
+
+    x, y = place
+    intervals = turn_in_place(scene, Pose(x, y))
+    if not intervals:
+        raise InvalidPoseError(f"{name} ({float(x):g}, {float(y):g}): no orientation is free there; give another place")
+    for interval in intervals:
+        yield _orientation(interval, start, place)
+
+
+def _orientation(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | None:
+    def pose(tau: Fraction | None) -> Pose:
+        return Pose(*place, {"tau": tau})
+
+    if interval.start is None or interval.stop is None or interval.contains({"tau": start.tau}):
+        return pose(start.tau)
+    if interval.is_single:
+        low, high = interval.start.neighbours(BITS)
+        return pose(low) if low == high else None
+    first, last = interval.theta
+    inward = min(INWARD, (last - first) / 4)
+    to_first, to_last = (abs(math.remainder(start.theta - end, math.tau)) for end in (first, last))
+    near = Pose(*place, first + inward if to_first < to_last else last - inward)
+    bits = BITS
+    while not interval.contains({"tau": near.tau}):  # it is that narrow
+        near = pose(interval.start.neighbours(bits)[1])
+        bits *= 2
+    return near

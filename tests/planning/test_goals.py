@@ -1,0 +1,208 @@
+"""Goals without theta, and several goals: the one that is reached, or proofs that none is."""
+
+from __future__ import annotations
+
+import json
+import math
+import random
+from dataclasses import replace
+from fractions import Fraction
+from itertools import combinations
+from pathlib import Path as FilePath
+from typing import Any
+
+import pytest
+
+import cfree.verify
+from cfree import (
+    AllSeparated,
+    FormatError,
+    InvalidPoseError,
+    MotionChecker,
+    Path,
+    Pose,
+    Scene,
+    Separated,
+    boundary,
+    free_space,
+    is_free,
+    load,
+    plan,
+    save,
+)
+from cfree.exact import AlgebraicAngle, AngleInterval
+from cfree.planning.goals import _orientation
+from cfree.verify.orientations import left_out
+from cfree.verify.world import World
+from compared import scene_of
+from second_opinion import verified_in_a_file
+from shapes import KINDS, box, random_scene
+
+ROD = box("-1/2", -2, "1/2", 2)[0]
+START = Pose(0, 5)
+
+
+def gate(half: Any, robot: Any = ROD, **more: Any) -> Scene:
+    """A rod upright above a gap of twice `half` between two walls."""
+    walls = [box(-9, -1, -Fraction(half), 1)[0], box(Fraction(half), -1, 9, 1)[0]]
+    return Scene(robot, walls, workspace=box(-9, -9, 9, 9)[0], **more)
+
+
+OPEN, SHUT = gate(1), gate("2/5")
+
+
+def test_any_orientation_at_a_place_will_do() -> None:
+    path = plan(OPEN, START, (0, -5))
+    assert isinstance(path, Path) and (path.goal.x, path.goal.y) == (0, -5)
+    assert path.is_free(MotionChecker(OPEN)) and path.turning == 0
+    aside = plan(OPEN, START, ("-8.25", 0 + 4))  # upright, or nearly so: its start's
+    assert isinstance(aside, Path) and aside.goal == Pose("-8.25", 4)
+    turned = plan(OPEN, START, (0, "8.4"))  # only level ones
+    assert isinstance(turned, Path) and is_free(OPEN, turned.goal)
+    assert abs(math.remainder(turned.goal.theta, math.pi)) > math.radians(60)
+
+
+def test_of_several_the_nearest_is_reached() -> None:
+    for goals, best in (
+        ([(8, -5), (3, 5)], (3, 5)),
+        ([(3, 5, 0), (0, 6, 0), (2, 5)], (0, 6)),
+        ([START, (3, 5)], (0, 5)),
+    ):
+        path = plan(OPEN, START, goals)
+        assert isinstance(path, Path) and (path.goal.x, path.goal.y) == best
+    some = plan(SHUT, START, [(0, -5), (3, 5, "30deg")])
+    assert isinstance(some, Path) and some.goal == Pose(3, 5, "30deg")
+    assert some == plan(free_space(boundary(SHUT)), START, [(0, -5), (3, 5, "30deg")], improve=None)
+
+
+def test_if_none_is_there_is_a_proof_for_each_interval() -> None:
+    proof = plan(SHUT, START, [(0, -5), (8, "-4.5", 0), (0, "-2.6")])
+    assert isinstance(proof, AllSeparated) and proof.of == "closed" and len(proof.proofs) == 4
+    assert proof.goals == ((0, -5), (0, Fraction("-2.6")), Pose(8, "-4.5"))
+    result = cfree.verify.answer(SHUT, proof)
+    assert result.verified and result.proved.endswith(
+        "any of (0, -5, any), (0, -2.6, any), (8, -4.5, 0 deg), not even one that touches."
+    )
+    for one in proof.proofs:
+        assert verified_in_a_file(SHUT, one).verified
+
+
+def test_a_proof_that_lacks_an_interval_is_refuted() -> None:
+    proof = plan(SHUT, START, (0, "-2.6"))
+    assert isinstance(proof, AllSeparated) and len(proof.proofs) == 2
+    for k in (0, 1):
+        result = cfree.verify.answer(SHUT, replace(proof, proofs=(proof.proofs[k],)))
+        assert not result.verified and "1 intervals and 0 single ones" in str(result.findings[0])
+    other = replace(proof.proofs[0], start=Pose(0, "5.1"))
+    assert not cfree.verify.answer(SHUT, replace(proof, proofs=(proof.proofs[1], other))).verified
+    assert not cfree.verify.answer(OPEN, proof).verified
+    asked = gate("2/5", start=START, goal=(0, -5, 0))
+    assert "is none of them" in str(cfree.verify.answer(asked, proof).findings[0])
+
+
+def test_one_orientation_stands_for_an_interval() -> None:
+    rod = Scene(box(-5, -1, 5, 1)[0], [box(-20, 4, 20, 5)[0], box(-20, -5, 20, -4)[0]])
+    interval, place = cfree.turn_in_place(rod, (0, 0, 0))[0], (Fraction(0), Fraction(0))
+    end = interval.start
+    assert end and len(end.polynomial) == 3
+    assert _orientation(AngleInterval(end, end), START, place) is None, "single, and irrational"
+    assert _orientation(interval, Pose(0, 0, "180deg"), place) == Pose(0, 0, "180deg")
+    for start in (Pose(0, 0, "135deg"), Pose(0, 0, "225deg"), START):
+        found = _orientation(interval, start, place)
+        assert found and interval.contains({"tau": found.tau})
+    right = AngleInterval(
+        AlgebraicAngle.of((0, 0, "90deg")), AlgebraicAngle.of((0, 0, {"tau": 1 + Fraction(1, 2**90)}))
+    )
+    found = _orientation(right, START, place)
+    assert found and found.tau and right.contains({"tau": found.tau})
+
+
+def test_ends_that_are_not_free_are_named() -> None:
+    for goal, message in (
+        ((0, 0), r"goal \(0, 0\): no orientation is free there; give another place"),
+        ([(3, 5), (0, 0)], r"goal 1 \(0, 0\): no orientation is free there"),
+        ([(3, 5), (0, 0, 0)], r"goal 1 \(0, 0, 0 deg\) is forbidden"),
+        ([(3, 5), (0,)], r"goal 1: \(0,\) is no pose"),
+        ([], r"goal: \[\] is no pose"),
+        ((1, "x"), "goal: .*'x' is no number"),
+    ):
+        with pytest.raises(InvalidPoseError, match=message):
+            plan(SHUT, START, goal)  # type: ignore[call-overload]
+    with pytest.raises(InvalidPoseError, match=r"start .* is forbidden"):
+        plan(SHUT, (0, 0, 0), (3, 5))
+    with pytest.raises(InvalidPoseError, match="goal: a place, and a clearance; give it a theta"):
+        plan(SHUT, START, (0, 5), clearance="0.1")
+
+
+def test_several_goals_and_a_clearance() -> None:
+    goals = [(0, -5, 0), (4, 5, 0)]
+    path = plan(SHUT, START, goals, clearance="1/2")
+    assert isinstance(path, Path) and path.goal == Pose(4, 5) and path.clearance == Fraction(1, 2)
+    proof = plan(SHUT, START, [goals[0], (1, -5, 0)], clearance="1/2")
+    assert isinstance(proof, AllSeparated) and proof.clearance == Fraction(1, 2)
+    assert cfree.verify.answer(SHUT, proof).proved.startswith(
+        "No path that keeps 0.5 from obstacles and workspace leads"
+    )
+
+
+def test_files(tmp_path: FilePath) -> None:
+    proof, file = plan(SHUT, START, [(0, "-2.6"), (8, -5, 0)]), tmp_path / "proofs.json"
+    save(proof, file)
+    assert load(file) == proof and cfree.verify.answer(SHUT, file).verified
+    assert not cfree.verify.answer(OPEN, file).verified
+    text = file.read_text()
+    for old, new, message in (
+        ('"of": "closed",\n "places"', '"of": "open",\n "places"', 'of: expected "closed" or "interior"'),
+        ('"places": [["0", ', '"places": [["1", ', "there is no proof for one of the places"),
+        ('"start": ["0", "5"', '"start": ["0", "5.25"', "not all proofs have the same start and scene"),
+        ('"surface": [', '"surfaces": [', r"proofs\[0\].*surface"),
+        ('"start": [0.0, 5.0', '"start": [0.0, 5.5', r"proofs\[0\].start\[1\].*moves the robot"),
+    ):
+        assert old in text, old
+        file.write_text(text.replace(old, new, 1))
+        with pytest.raises(FormatError, match=message):
+            load(file)
+    file.write_text(json.dumps(json.loads(text) | {"proofs": []}))
+    with pytest.raises(FormatError, match="proofs"):
+        load(file)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_intervals_left_out_are_those_that_turning_finds(kind: str) -> None:
+    """By other code; the poses that stand for them are in each."""
+    for seed in range(4):
+        scene = scene_of(random_scene(seed, kind))
+        world, rng = World(scene), random.Random(seed)
+        for _ in range(4):
+            place = Fraction(rng.randint(-40, 80), 10), Fraction(rng.randint(-4, 8))
+            intervals = cfree.turn_in_place(scene, Pose(*place))
+            if not intervals:
+                continue
+            single = sum(interval.is_single for interval in intervals)
+            assert left_out(world, place, []) == (len(intervals) - single, single)
+            middles = [Pose(*place, sum(i.theta) / 2) for i in intervals if not i.is_single]
+            assert left_out(world, place, middles) == (0, single)
+            assert left_out(world, place, middles[1:]) == (min(1, len(middles)), single)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_verdicts_are_those_of_the_cells(kind: str) -> None:
+    scene, rng = scene_of(random_scene(1, kind)), random.Random(kind)
+    space = free_space(boundary(scene, threads=1))
+    places = [(Fraction(rng.randint(-8, 16), 2), Fraction(rng.randint(-8, 16), 2)) for _ in range(12)]
+    held = {place: cfree.turn_in_place(scene, Pose(*place)) for place in places}
+    checked = 0
+    for one, other in combinations([place for place, intervals in held.items() if intervals], 2):
+        start = Pose(*one, sum(held[one][0].theta) / 2)
+        if not is_free(scene, start):
+            continue
+        cells = {space.locate(Pose(*other, sum(interval.theta) / 2)) for interval in held[other]}
+        answer = plan(space, start, other, improve=0)
+        if space.locate(start) in cells:
+            assert isinstance(answer, Path) and answer.is_free(MotionChecker(scene))
+        elif isinstance(answer, AllSeparated):
+            assert cfree.verify.answer(scene, answer).verified
+            assert all(isinstance(proof, Separated) for proof in answer.proofs)
+        checked += 1
+        if checked > 6:
+            break
