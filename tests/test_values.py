@@ -70,6 +70,7 @@ def samples(x: int) -> dict[str, Any]:
         "NearestMiss": cfree.NearestMiss(0.0, float(x), (cfree.analysis.Bottleneck(None, (0, x)),)),
         "Path": path,
         "Pieces": separated.pieces,
+        "Blocker": cfree.Blocker(x, path),
         "Bottleneck": cfree.analysis.Bottleneck(Pose(x, 0), (0, 1)),
         "Planner": cfree.Planner(scene),
         "Polygon": cfree.Polygon([(0, 0), (x, 0), (x + 1, 0), (0, 9)]),

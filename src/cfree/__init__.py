@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
+    from cfree.analysis.blockers import Blocker as Blocker
+    from cfree.analysis.blockers import blockers as blockers
     from cfree.analysis.fits import Fit as Fit
     from cfree.analysis.fits import fits as fits
     from cfree.analysis.margins import Interval as Interval
@@ -86,6 +88,7 @@ _HOMES = {
     "planning.goals": "AllSeparated",
     "planning.planner": "Planner plan plan_many",
     "planning.separation": "Separated separation",
+    "analysis.blockers": "Blocker blockers",
     "analysis.fits": "Fit fits",
     "analysis.margins": "Interval NearestMiss max_margin max_scale nearest_miss",
     "formats.files": "load save",

@@ -212,6 +212,7 @@ def test_clearances_and_several_goals(run: Run, tmp_path: Path) -> None:
     for options, code, said in (
         (["--clearance", "1/2"], 0, "each motion proved free and to keep 0.5"),
         (["--clearance", "0.51"], 1, "no path that keeps 0.51, proved"),
+        (["--clearance", "0.51", "--what-if"], 1, "there is a way without obstacle 0 or obstacle 1"),
         (["--goal", "0,-5"], 0, "goal reached"),
         (["--goal", "3,5", "--goal", "0,-5,0"], 0, "goal reached"),
     ):

@@ -113,7 +113,7 @@ class Answering:
         with bar("film") as progress:
             film_path(self.path, self.planner.scene, film, progress=progress)
 
-    def rows(self, *, for_machines: bool, nearest_miss: bool) -> dict[str, Any]:
+    def rows(self, *, for_machines: bool, nearest_miss: bool, what_if: bool) -> dict[str, Any]:
         """The answer in words and numbers."""
         from cfree.cli.report import answer_facts, answer_rows
 
@@ -126,7 +126,21 @@ class Answering:
             rows["goal reached"] = [x, y, theta] if for_machines else text
         if nearest_miss and self.path is None:
             rows["nearest miss"] = self._nearest_miss() if self.goal else "not of several goals; give one, with theta"
+        if what_if and self.path is None:
+            rows["what if"] = self._what_if(for_machines) if self.goal else "not of several goals; give one, with theta"
         return rows
+
+    def _what_if(self, for_machines: bool) -> str | list[int]:
+        from cfree.analysis.blockers import blockers
+
+        scene = self.planner.scene
+        clearance = getattr(self.answer, "clearance", None) or None
+        with bar("what if") as progress:
+            found = [b.obstacle for b in blockers(scene, self.start, self.goal, clearance=clearance, progress=progress)]
+        if for_machines:
+            return found
+        names = " or ".join(scene.obstacle_names[k] for k in found)
+        return f"there is a way without {names}" if found else "no single obstacle, taken away, opens a way"
 
     def _nearest_miss(self) -> str:
         from cfree.analysis.margins import nearest_miss

@@ -158,6 +158,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png",
         "cfree plan scene.json -o way.csv --improve 2s",
         "cfree plan scene.json --clearance 0.3",
+        "cfree plan scene.json --what-if",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
     )
 )
@@ -195,12 +196,15 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @click.option(
     "--nearest-miss", "miss", is_flag=True, help="Of a proof: by how much, and where. Takes a dozen times as long."
 )
+@click.option(
+    "--what-if", is_flag=True, help="Of a proof: which single obstacles, taken away, open a way. Each is decided."
+)
 @options.max_seconds
 @options.as_json
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, clearance: str | None,
-    improve: str | None, objective: str, picture: Path | None, film: Path | None, miss: bool, max_seconds: float | None,
-    as_json: bool,
+    improve: str | None, objective: str, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
+    max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
@@ -226,7 +230,7 @@ def plan(
             found.draw(picture)
         if film:
             found.film(film)
-        rows = found.rows(for_machines=as_json, nearest_miss=miss)
+        rows = found.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)
         print_result(found.planner.scene.name or str(scene), scene, rows, written, as_json)
     if found.exit_code:
         raise click.exceptions.Exit(found.exit_code)
