@@ -37,7 +37,7 @@ print(path.motions[0])
 print("free:", path.is_free(cfree.MotionChecker(scene)))
 
 # %%
-# Short paths come close to obstacles. ``objective="clear"`` keeps away from them as far as it finds a way;
+# It keeps a distance where there is room. ``objective="clear"`` keeps away from obstacles as far as it finds a way;
 # ``narrowest`` says where it is narrow, with certified distances.
 
 clear = cfree.plan(scene, objective="clear", improve=1.0)

@@ -31,7 +31,7 @@ NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?"
 # computed from the exact structure, in doubles
 COMPUTED = ("contact_curve", "mesh", "mesh_face", "slice", "surface", "triangulation")
 # guesses, whose motions are then decided
-GUESSED = ("configuration", "rrt_connect", "shortcut")
+GUESSED = ("balance", "configuration", "nearness", "ridge", "rrt_connect", "shortcut", "way")
 # limits and notation of numbers as they come in and go out
 WRITTEN = ("coordinate_range", "ratio")
 NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED + WRITTEN for suffix in (".cpp", ".hpp")}

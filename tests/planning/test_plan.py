@@ -384,7 +384,7 @@ def test_bad_wishes_are_refused(options: dict[str, Any], message: str) -> None:
 
 def test_improving_makes_shorter_paths() -> None:
     scene = load_scene(ROOT / "examples/scenes/five_convex.json")
-    first, better = plan(scene), plan(scene, improve=0.2)
+    first, better = plan(scene, objective="short"), plan(scene, objective="short", improve=0.2)
     assert isinstance(first, Path)
     assert isinstance(better, Path)
     scale = Planner(scene).angle_scale

@@ -17,9 +17,9 @@ bool are_one(const Configuration& a, const Configuration& b) {
 
 }  // namespace
 
-RrtConnect::RrtConnect(const MotionChecker& c, Grid g, Area a, double w, Configuration start, Configuration goal,
+RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed)
-    : checker(c), grid(g), area(a), weight(w),
+    : joins(std::move(j)), grid(g), area(a), weight(w),
       range(longest_step * (std::hypot(a.x1 - a.x0, a.y1 - a.y0) + w * std::numbers::pi)), random(seed) {
     trees[0] = {{std::move(start)}, {-1}};
     trees[1] = {{std::move(goal)}, {-1}};
@@ -38,9 +38,9 @@ Index RrtConnect::nearest(const Tree& tree, const Configuration& q) const {
 }
 
 // From a node of a tree on; the second tree's motions are run the other way, which matters for half turns.
-bool RrtConnect::is_free(bool of_goal, const Configuration& a, const Configuration& b) {
+bool RrtConnect::are_joined(bool of_goal, const Configuration& a, const Configuration& b) {
     --left;
-    return checker.is_free(of_goal ? motion_between(b, a) : motion_between(a, b));
+    return of_goal ? joins(b, a) : joins(a, b);
 }
 
 Configuration RrtConnect::towards(const Configuration& a, const Configuration& b) const {
@@ -55,7 +55,7 @@ Index RrtConnect::extend(const Configuration& q) {
     Tree& tree = trees[turn];
     const Index from = nearest(tree, q);
     Configuration next = towards(tree.nodes[from], q);
-    if (!is_free(turn, tree.nodes[from], next)) return -1;
+    if (!are_joined(turn, tree.nodes[from], next)) return -1;
     tree.nodes.push_back(std::move(next));
     tree.parent.push_back(from);
     return static_cast<Index>(tree.nodes.size()) - 1;
@@ -83,7 +83,7 @@ Route RrtConnect::run(int checks) {
                 const bool arrives = are_one(next, aim);
                 if (arrives) next = aim;
                 else if (are_one(next, other.nodes[from])) break;  // the grid is too coarse
-                if (!is_free(!turn, other.nodes[from], next)) break;
+                if (!are_joined(!turn, other.nodes[from], next)) break;
                 if (arrives) return turn ? joined(from, k) : joined(k, from);
                 other.nodes.push_back(std::move(next));
                 other.parent.push_back(from);

@@ -1,8 +1,8 @@
-// Poses of a path left out or moved while its motions stay free; theory, "Paths".
+// Poses of a path left out or moved while its motions stay free and keep their distance; theory, "Paths".
+#include "cfree/search/shortcut.hpp"
+
 #include <algorithm>
 #include <cmath>
-
-#include "cfree/search/rrt_connect.hpp"
 
 namespace cfree {
 
@@ -12,33 +12,8 @@ constexpr double least_gain = 1e-9;  // of the length
 
 }  // namespace
 
-Shortcut::Shortcut(const MotionChecker& c, Grid g, double w, Route r, std::uint64_t seed)
-    : checker(c), grid(g), weight(w), route(std::move(r)), random(seed) {
-    measure();
-}
-
-double Shortcut::cost(const Configuration& a, const Configuration& b) const {
-    return travel_between(a, b) + weight * std::abs(turn_between(a, b));
-}
-
-double Shortcut::cost(const Route& r) const {
-    double sum = 0;
-    for (std::size_t k = 1; k < r.size(); ++k) sum += cost(r[k - 1], r[k]);
-    return sum;
-}
-
-bool Shortcut::is_free(const Route& r) {
-    for (std::size_t k = 1; k < r.size(); ++k) {
-        --left;
-        if (!checker.is_free(motion_between(r[k - 1], r[k]))) return false;
-    }
-    return true;
-}
-
-void Shortcut::measure() {
-    at.assign(1, 0);
-    for (std::size_t k = 1; k < route.size(); ++k) at.push_back(at.back() + cost(route[k - 1], route[k]));
-}
+Shortcut::Shortcut(Way w, Marked path, std::uint64_t seed)
+    : way(std::move(w)), route(std::move(path.route)), mark(std::move(path.mark)), at(costs_along(route, way.weight)), random(seed) {}
 
 void Shortcut::run(int checks) {
     left = checks;
@@ -48,8 +23,49 @@ void Shortcut::run(int checks) {
     }
 }
 
+// The path from one of its poses to another by a fresh route, if that is shorter and keeps what is asked.
+bool Shortcut::replace(std::size_t i, std::size_t last, Route fresh) {
+    const double motions = static_cast<double>(last - i) - static_cast<double>(fresh.size() - 1);
+    const double gain = at[last] - at[i] - cost_of(fresh, way.weight) + way.per_motion * motions, least = least_gain * length();
+    if (gain < -least || (gain <= least && fresh.size() > last - i)) return false;
+    const Marked path = way.marked(std::move(fresh), mark[i], mark[last]);
+    for (std::size_t k = 1; k < path.route.size(); ++k) {
+        --left;
+        if (!way.joins(path.route[k - 1], path.route[k], path.mark[k - 1], path.mark[k])) return false;
+    }
+    const auto put = [&](auto& values, const auto& with) {
+        auto whole = std::vector(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i));
+        whole.insert(whole.end(), with.begin(), with.end());
+        whole.insert(whole.end(), values.begin() + static_cast<std::ptrdiff_t>(last) + 1, values.end());
+        values = std::move(whole);
+    };
+    put(mark, path.mark), put(route, path.route);
+    at = costs_along(route, way.weight);
+    return true;
+}
+
+// All on the way between two poses with the orientation of one of them, as far as that helps.
+void Shortcut::straighten() {
+    const auto any = [&] { return static_cast<std::size_t>(random() * static_cast<double>(route.size())); };
+    std::size_t i = any(), j = any();
+    const bool first = random() < 0.5;
+    if (i > j) std::swap(i, j);
+    if (j - i < 2) return;
+    Route fresh{route[i]};
+    if (!first) fresh.push_back(corner(route[i], route[j]));
+    for (std::size_t k = i + 1; k < j; ++k) fresh.push_back(corner(route[k], first ? route[i] : route[j]));
+    if (first) fresh.push_back(corner(route[j], route[i]));
+    fresh.push_back(route[j]);
+    const auto last = std::unique(fresh.begin(), fresh.end(), [](const Configuration& a, const Configuration& b) {
+        return a.px == b.px && a.py == b.py && a.theta == b.theta;
+    });
+    fresh.erase(last, fresh.end());
+    replace(i, j, std::move(fresh));
+}
+
 // Two places on the path, joined anew: a turn and a straight way, in either order, or one rotation.
 void Shortcut::attempt() {
+    if (way.nearness && random() < 0.2) return straighten();
     const auto place = [&](double where) {  // the pose that begins its motion, and it
         const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, where);
         const auto k = static_cast<std::size_t>(after - at.begin()) - 1;
@@ -59,7 +75,7 @@ void Shortcut::attempt() {
             return std::pair{end, std::optional<Configuration>{}};
         }
         const auto [x, y, theta] = along(route[k], route[k + 1], share);
-        return std::pair{k, std::optional{grid.exact(x, y, theta)}};
+        return std::pair{k, std::optional{way.grid.exact(x, y, theta)}};
     };
     double one = random() * length(), two = random() * length();
     // nearby places more often than not: far ones seldom see each other in a maze
@@ -70,13 +86,6 @@ void Shortcut::attempt() {
     const std::size_t last = q ? j + 1 : j;  // the old path is kept up to i and from `last`
     if (last <= i || (last == i + 1 && !p && !q)) return;
     const Configuration &a = p ? *p : route[i], &b = q ? *q : route[j];
-    const auto old = route.begin() + static_cast<std::ptrdiff_t>(i);
-    const double before = at[last] - at[i];
-    const auto corner = [&](const Configuration& position, const Configuration& orientation) {
-        Configuration c = position;
-        c.hx = orientation.hx, c.hy = orientation.hy, c.theta = orientation.theta;
-        return c;
-    };
     for (int kind = 0; kind < 3; ++kind) {
         Route fresh{route[i]};
         if (p) fresh.push_back(a);
@@ -84,15 +93,7 @@ void Shortcut::attempt() {
         if (kind == 1) fresh.push_back(corner(b, a));
         fresh.push_back(b);
         if (q) fresh.push_back(route[last]);
-        const double gain = before - cost(fresh), least = least_gain * length();
-        if (gain < -least || (gain <= least && fresh.size() > last - i)) continue;
-        if (!is_free(fresh)) continue;
-        Route whole(route.begin(), old);
-        whole.insert(whole.end(), fresh.begin(), fresh.end());
-        whole.insert(whole.end(), route.begin() + static_cast<std::ptrdiff_t>(last) + 1, route.end());
-        route = std::move(whole);
-        measure();
-        return;
+        if (replace(i, last, std::move(fresh))) return;
     }
 }
 

@@ -189,7 +189,11 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     show_default="briefly",
 )
 @click.option(
-    "--objective", metavar="WORD", help='"short", or "clear": far from obstacles.', default="short", show_default=True
+    "--objective",
+    metavar="WORD",
+    default="balanced",
+    show_default=True,
+    help='"balanced", "short", or "clear": as far from obstacles as it gets.',
 )
 @options.picture
 @file_option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.")

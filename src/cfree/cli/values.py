@@ -77,10 +77,10 @@ def read_length(text: str, name: str) -> Fraction:
 def read_objective(text: str) -> Objective:
     """What to prefer among paths."""
     word: Objective
-    for word in ("short", "clear"):
+    for word in ("balanced", "short", "clear"):
         if text == word:
             return word
-    raise ValueError(f'--objective: {text!r}; give "short" or "clear"')
+    raise ValueError(f'--objective: {text!r}; give "balanced", "short" or "clear"')
 
 
 def read_size(text: str) -> float:

@@ -23,7 +23,7 @@ from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
 from cfree.scene.scene import Scene
 
-Objective = Literal["short", "clear"]
+Objective = Literal["balanced", "short", "clear"]
 Floats = NDArray[np.float64]
 
 

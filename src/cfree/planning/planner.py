@@ -15,7 +15,7 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, get_args, overload
 
 from cfree.arguments import checked
 from cfree.collision.motion import Rotation, motion_between
@@ -43,6 +43,7 @@ if TYPE_CHECKING:
 Phase = Callable[[str], AbstractContextManager[Any]]
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
+BALANCE = 400  # the same for each motion of a path that keeps a distance
 OTHERS = 30  # other ways looked for
 COMPLETE = 30_000  # contact patches at most of a grown robot whose free space is computed
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
@@ -56,7 +57,7 @@ def plan(
     *,
     clearance: Number | None = None,
     improve: float | None = None,
-    objective: Objective = "short",
+    objective: Objective = "balanced",
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated: ...
@@ -68,7 +69,7 @@ def plan(
     *,
     clearance: Number | None = None,
     improve: float | None = None,
-    objective: Objective = "short",
+    objective: Objective = "balanced",
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated | AllSeparated: ...
@@ -80,7 +81,7 @@ def plan(
     *,
     clearance: Number | None = None,
     improve: float | None = None,
-    objective: Objective = "short",
+    objective: Objective = "balanced",
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated | AllSeparated:
@@ -98,8 +99,9 @@ def plan(
     improve : float, seconds, optional
         How long to improve a path, 0 for the first one found. A fixed number of attempts unless given. Ctrl-C ends it
         early, and the path so far is the answer.
-    objective : "short" or "clear"
-        What to prefer: short paths, or paths that keep away from obstacles; see Notes.
+    objective : "balanced", "short" or "clear"
+        What to prefer: short paths that keep a distance where there is room, short ones, or paths that keep away from
+        obstacles; see Notes.
     max_seconds : float, optional
         Give up if computing the free space takes longer.
     progress : callable, optional
@@ -121,8 +123,10 @@ def plan(
     Notes
     -----
     A path's length is the way of the reference point, plus the turning times the robot's radius about that point. The
-    same question has the same answer everywhere, unless a time is given. "clear" looks for a path of a robot grown by a
-    margin, as large as is found, between the first place on a short path where that one fits and the last.
+    same question has the same answer everywhere, unless a time is given. "balanced" keeps a share of the distance that
+    the narrowest place of the way taken has, and of what is left beside that, of the narrowest place there; then it
+    prefers short paths of few motions. What a path keeps, `clearance` certifies. "clear" looks for a path of a robot
+    grown by a margin, as large as is found, between the first place on a short path where that one fits and the last.
 
     Examples
     --------
@@ -227,13 +231,13 @@ class Planner(Value):
         *,
         clearance: Number | None = None,
         improve: float | None = None,
-        objective: Objective = "short",
+        objective: Objective = "balanced",
     ) -> Path | Separated:
         """See `cfree.plan`."""
         start = to_pose(start, "start")
         goal = to_pose(goal, "goal")
-        if objective not in ("short", "clear"):
-            raise ValueError(f'objective {objective!r}; give "short" or "clear"')
+        if objective not in get_args(Objective):
+            raise ValueError(f'objective {objective!r}; give "balanced", "short" or "clear"')
         if improve is not None and not 0 <= improve < math.inf:
             raise ValueError(f"improve {improve}: give seconds, 0 or more")
         for pose, name in ((start, "start"), (goal, "goal")):
@@ -256,7 +260,7 @@ class Planner(Value):
         *,
         clearance: Number | None = None,
         improve: float | None = None,
-        objective: Objective = "short",
+        objective: Objective = "balanced",
     ) -> Path | AllSeparated:
         """See `cfree.plan`, for several goals, or places."""
         found = to_goals(goals)
@@ -276,7 +280,8 @@ class Planner(Value):
         with self.phase("clearer paths" if objective == "clear" else "shorter paths"):
             if objective == "clear":
                 return self.path([q for part in parts for q in self._cleared(self.shortened(part, None), seconds)])
-            return self.path([q for part in parts for q in self.shortened(part, seconds)])
+            improved = self.balanced if objective == "balanced" else self.shortened
+            return self.path([q for part in parts for q in improved(part, seconds)])
 
     def _way(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """Poses of a path, or a proof; the way back is the same."""
@@ -376,6 +381,27 @@ class Planner(Value):
                 raise
         return searcher.poses(best.path())
 
+    @checked
+    def balanced(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
+        """A path that keeps its distance where there is room, and is short among those; see `cfree.plan`."""
+        if seconds == 0 or len(poses) < 2:
+            return poses
+        end = time.perf_counter() + (seconds or 0)
+        searcher, found = self._searcher(poses), poses
+        try:
+            best = searcher.balanced(poses, self.scene.bounds)
+            best.run(BALANCE * len(best.path()))
+            found = searcher.poses(best.path())
+            while time.perf_counter() < end:
+                self._look_up()
+                best.run(BLOCK)
+        except KeyboardInterrupt:  # enough: there is a path
+            if self.stop.is_set():
+                raise
+        else:
+            found = searcher.poses(best.path())
+        return found if self.checker.joins(found) else poses  # doubles guided it
+
     def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         from cfree.planning.keep_clear import clear
 
@@ -441,7 +467,7 @@ def plan_many(
     queries: Iterable[tuple[PoseLike, PoseLike]],
     *,
     improve: float | None = None,
-    objective: Objective = "short",
+    objective: Objective = "balanced",
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> list[Path | Separated]:
@@ -453,7 +479,7 @@ def plan_many(
     queries : pairs (start, goal) of Pose or (x, y, theta)
     improve : float, seconds, optional
         As in `plan`, for each of them.
-    objective : "short" or "clear"
+    objective : "balanced", "short" or "clear"
         As in `plan`.
     threads : int, optional
         All cores by default. The answers do not depend on it, unless `improve` is given.

@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -68,6 +69,16 @@ class Searcher:
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
         return _core.Shortcut(self.checker.core, grid, self._weight, list(numbers), list(places), 0)
 
+    def balanced(self, poses: Sequence[Pose], bounds: tuple[Fraction, Fraction, Fraction, Fraction] | None) -> Any:
+        """A shortener of a path beside this one that keeps a distance from obstacles where there is room."""
+        numbers, places = zip(*map(self._configuration, poses), strict=True)
+        grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
+        x0, y0, x1, y1 = map(float, bounds) if bounds else (-math.inf, -math.inf, math.inf, math.inf)
+        limits = [c * self._unit for c in (x0, y0, x1, y1)]
+        return _core.balanced(
+            self.checker.core, self._nearness, grid, limits, self._weight, list(numbers), list(places)
+        )
+
     def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
         """Exact poses from the core's."""
         poses = []
@@ -75,6 +86,10 @@ class Searcher:
             tau = Fraction(hy, hx) if hx else None
             poses.append(Pose(Fraction(x, unit * self._scale), Fraction(y, unit * self._scale), {"tau": tau}))
         return poses
+
+    @cached_property
+    def _nearness(self) -> Any:
+        return _core.Nearness(self.checker.features.core)
 
     def _grid(self, place_bits: int, angle_bits: int) -> list[int]:
         return [self._shift, place_bits - self._extent, angle_bits]

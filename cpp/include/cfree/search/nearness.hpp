@@ -1,0 +1,60 @@
+// How far the robot is from obstacles, and in which directions: doubles that guide paths and decide nothing.
+#pragma once
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "cfree/scene/scene.hpp"
+#include "cfree/search/configuration.hpp"
+
+namespace cfree {
+
+class BoxTree;
+
+// A pair of convex pieces: how far apart, or by how much they overlap, negative; the direction from the obstacle's to the robot's closest point, and the arm to
+// this from the reference point.
+struct Witness {
+    double distance;
+    Vec<double> normal, arm;
+};
+
+class Nearness {
+public:
+    explicit Nearness(const Scene& scene);
+    ~Nearness();
+    Nearness(const Nearness&) = delete;
+    Nearness& operator=(const Nearness&) = delete;
+
+    // All pairs of pieces nearer than that.
+    std::vector<Witness> around(const Place& at, double within) const;
+    // The least distance, `within` at most; not positive where the robot overlaps something.
+    double distance(const Place& at, double within) const;
+    // Does the robot keep, at every share u of the motion, a distance of need(u), or nearly? False: it does not, or not
+    // certainly. Distances that mean nothing are not looked at.
+    bool keeps(const Configuration& a, const Configuration& b, const std::function<double(double)>& need) const;
+    // The least distance that means something.
+    double least() const { return least_distance; }
+
+private:
+    struct Pieces {  // edge k from vertex k, with its outward unit normal n and n . vertex
+        std::vector<Index> first;
+        std::vector<double> x, y, nx, ny, h;
+        struct Disc {  // around a piece
+            double x, y, radius;
+        };
+        std::vector<Disc> disc;
+        Index count() const { return static_cast<Index>(first.size()) - 1; }
+    };
+    static Pieces pieces_of(const Shape& shape);
+    struct Placed;
+    double distance(const Placed& placed, double within) const;
+    bool are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const;
+    template <class F>
+    void query(const Placed& placed, Index i, double within, F&& report) const;
+
+    Pieces robot, obstacles;
+    std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
+    double least_distance, reach = 0;  // the robot's radius
+};
+
+}  // namespace cfree

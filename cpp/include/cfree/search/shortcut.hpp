@@ -1,0 +1,28 @@
+// Shorter paths, by random shortcuts that keep what is asked of the way.
+#pragma once
+#include "cfree/search/random.hpp"
+#include "cfree/search/way.hpp"
+
+namespace cfree {
+
+class Shortcut {
+public:
+    Shortcut(Way way, Marked path, std::uint64_t seed);
+    // Check about so many motions.
+    void run(int checks);
+    const Route& path() const { return route; }
+    double length() const { return at.back(); }
+
+private:
+    void attempt();
+    void straighten();
+    bool replace(std::size_t i, std::size_t last, Route fresh);
+
+    const Way way;
+    Route route;
+    std::vector<double> mark, at;  // of each pose; costs up to each
+    Random random;
+    int left = 0;
+};
+
+}  // namespace cfree

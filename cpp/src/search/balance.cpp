@@ -1,0 +1,206 @@
+// From any free path to the ridge beside it, level by level, and from there to a short path; theory, "Paths".
+#include "cfree/search/balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "cfree/search/rrt_connect.hpp"
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
+constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
+constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
+constexpr double climbs_on = 1.1;                           // times the narrowest place
+constexpr double worth_of_motion = 0.1;                    // in radii
+constexpr double not_much = 1.1;                           // longer
+constexpr std::size_t most_nodes = 40;                     // joined each with each
+constexpr double wider = 1.3;                              // than a narrow place, another way
+constexpr int most_checks = 500;                           // to find one
+constexpr std::size_t poses_per_other = 4, most_others = 8; // a way that was hard to find is worth more of them
+
+// A few motions instead of many that cost as much, each pose one of the path's: doubling, then halving.
+Marked pruned(const Way& way, const Marked& path) {
+    const Route& route = path.route;
+    const std::vector<double> at = costs_along(route, way.weight);
+    Marked found{{route.front()}, {path.mark.front()}};
+    for (std::size_t i = 0; i + 1 < route.size();) {
+        heed_stop();
+        std::size_t good = i + 1, bad = route.size(), step = 2;
+        Marked best{{route[i], route[i + 1]}, {path.mark[i], path.mark[i + 1]}};
+        while (good + 1 < bad) {
+            const std::size_t j = bad == route.size() ? std::min(i + step, route.size() - 1) : (good + bad) / 2;
+            if (j == good) break;
+            if (Marked m = way.simplest(route[i], route[j], path.mark[i], path.mark[j], (at[j] - at[i]) * (1 + 1e-9)); !m.route.empty())
+                good = j, best = std::move(m), step *= 2;
+            else bad = j;
+        }
+        found.append(best);
+        i = good;
+    }
+    return found;
+}
+
+// The shortest path over some poses of another and others near them that are turned as the start or the goal.
+Marked shortest(const Way& way, const Marked& path, std::size_t most_nodes) {
+    const Route& route = path.route;
+    struct Node {
+        Configuration pose;
+        std::size_t of;  // the pose of the path
+        bool own;
+    };
+    std::vector<Node> nodes;
+    const std::size_t stride = (route.size() + most_nodes - 1) / most_nodes;
+    const auto turned = [&](std::size_t k, const Configuration& as) {
+        if (k == 0 || k + 1 == route.size() || route[k].theta == as.theta) return;
+        const double enough = way.asked(path.mark[k]);
+        Place q{route[k].px, route[k].py, as.theta};
+        if (climb(way, q, {0, 0, 1}, enough) >= enough) nodes.push_back({corner(way.grid.exact(q.x, q.y, q.theta), as), k, false});
+    };
+    for (std::size_t k = 0; k + 1 < route.size() + stride; k += stride) {
+        k = std::min(k, route.size() - 1);
+        turned(k, route.front());
+        nodes.push_back({route[k], k, true});
+        if (route.front().theta != route.back().theta) turned(k, route.back());
+    }
+    const std::size_t count = nodes.size();
+    struct Edge {
+        double cost;
+        bool known = false;
+        Marked way;
+    };
+    const auto price = [&](const Route& r) { return cost_of(r, way.weight) + way.per_motion * static_cast<double>(r.size() - 1); };
+    std::vector<Edge> edges(count * count);
+    for (std::size_t i = 0, last = 0; i < count; ++i) {
+        for (std::size_t j = i + 1; j < count; ++j) edges[i * count + j].cost = price({nodes[i].pose, nodes[j].pose});
+        if (!nodes[i].own || i == 0) continue;
+        Edge& e = edges[last * count + i];
+        const auto begin = static_cast<std::ptrdiff_t>(nodes[last].of), end = static_cast<std::ptrdiff_t>(nodes[i].of) + 1;
+        e.way = {{route.begin() + begin, route.begin() + end}, {path.mark.begin() + begin, path.mark.begin() + end}};
+        e.cost = price(e.way.route), e.known = true, last = i;
+    }
+    for (;;) {
+        heed_stop();
+        std::vector<double> best(count, HUGE_VAL);
+        std::vector<std::size_t> from(count, 0);
+        best[0] = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = i + 1; j < count; ++j)
+                if (const double c = best[i] + edges[i * count + j].cost; c < best[j]) best[j] = c, from[j] = i;
+        std::vector<Edge*> chain;
+        for (std::size_t j = count - 1; j != 0; j = from[j]) chain.push_back(&edges[from[j] * count + j]);
+        bool all_known = true;
+        for (Edge* e : chain) {
+            if (e->known) continue;
+            const auto k = static_cast<std::size_t>(e - edges.data());
+            const Node &a = nodes[k / count], &b = nodes[k % count];
+            all_known = false, e->known = true;
+            e->way = way.simplest(a.pose, b.pose, path.mark[a.of], path.mark[b.of], HUGE_VAL);
+            e->cost = e->way.route.empty() ? HUGE_VAL : price(e->way.route);
+        }
+        if (!all_known) continue;
+        Marked found{{route.front()}, {path.mark.front()}};
+        for (std::size_t k = chain.size(); k-- > 0;) found.append(chain[k]->way);
+        return found;
+    }
+}
+
+// Another way past the narrowest place that has not been tried, wider than that: two trees on both sides of it. False: there
+// is no such place.
+bool past_narrowest(const Way& way, const Ridge& top, Route& tried, Route& other) {
+    const auto& at = top.path.mark;
+    const Route& route = top.path.route;
+    const double radius = way.weight, end = at.back();
+    std::size_t narrow = 0;
+    double least = HUGE_VAL;
+    const auto is_new = [&](std::size_t k) {
+        return at[k] > radius && at[k] < end - radius && std::none_of(tried.begin(), tried.end(), [&](const Configuration& q) {
+            return cost_between(q, route[k], radius) < radius;
+        });
+    };
+    for (std::size_t k = 0; k < at.size(); ++k)
+        if (top.distance[k] < least && is_new(k)) least = top.distance[k], narrow = k;
+    if (least == HUGE_VAL) return false;
+    tried.push_back(route[narrow]);
+    const double asked = wider * least;
+    std::size_t i = narrow, j = narrow;
+    while (i > 0 && (at[narrow] - at[i] < radius || top.distance[i] < asked)) --i;
+    while (j + 1 < at.size() && (at[j] - at[narrow] < radius || top.distance[j] < asked)) ++j;
+    if (top.distance[i] < asked || top.distance[j] < asked) return true;
+    Area area{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
+    for (std::size_t k = i; k <= j; ++k) {
+        area.x0 = std::min(area.x0, route[k].px - radius), area.x1 = std::max(area.x1, route[k].px + radius);
+        area.y0 = std::min(area.y0, route[k].py - radius), area.y1 = std::max(area.y1, route[k].py + radius);
+    }
+    area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
+    const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
+    RrtConnect search(joins, way.grid, area, way.weight, route[i], route[j], 0);
+    const Route found = search.run(most_checks);
+    if (found.empty()) return true;
+    other.assign(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(i));
+    other.insert(other.end(), found.begin(), found.end());
+    other.insert(other.end(), route.begin() + static_cast<std::ptrdiff_t>(j) + 1, route.end());
+    return true;
+}
+
+// No part's ends, a radius from start and goal, can be farther from everything.
+double most_distance(const Way& way, const Route& route) {
+    const auto distance = [&](const Configuration& q) { return way.nearness->distance({q.px, q.py, q.theta}, HUGE_VAL); };
+    return std::min({distance(route.front()), distance(route.back()), cost_of(route, way.weight)}) + way.weight;
+}
+
+double narrowest(const Ridge& top) { return *std::min_element(top.distance.begin() + 1, top.distance.end() - 1); }
+
+// From the ridge itself, while that makes its narrowest place wider.
+Ridge climbed_on(const Way& way, Ridge top, double level) {
+    while (top.distance.size() > 2 && narrowest(top) < level) {
+        Ridge next = ridge(way, top.path.route, level);
+        const bool gains = next.distance.size() > 2 && narrowest(next) > climbs_on * std::max(narrowest(top), way.nearness->least());
+        if (!gains) break;
+        top = std::move(next);
+    }
+    return top;
+}
+
+// All parts keep a share of what each could, if that is not much longer than if only the first do.
+Balanced shortest_along(const Way& way, const Ridge& top) {
+    std::optional<Balanced> found;
+    for (const int depth : {1, all_parts}) {
+        Way along = way.asking(top.path.mark, distances_asked(top, way.weight, share_asked, depth));
+        along.per_motion = worth_of_motion * way.weight;
+        const std::size_t motions = pruned(along, top.path).route.size() - 1;
+        Marked path = shortest(along, top.path, std::min(most_nodes, 8 + 3 * motions));
+        if (!found || cost_of(path.route, way.weight) < not_much * cost_of(found->path.route, way.weight))
+            found.emplace(Balanced{std::move(along), std::move(path)});
+    }
+    return std::move(*found);
+}
+
+}  // namespace
+
+Balanced balanced(const Way& way, const Route& route) {
+    Way any = way;
+    any.nearness = nullptr;
+    Route path = pruned(any, {route, std::vector<double>(route.size())}).route, tried;
+    const double most = most_distance(way, path), radius = way.weight;
+    const std::size_t others = std::min(most_others, route.size() / poses_per_other);
+    for (double level = std::min(most, lowest * radius);;) {
+        const Ridge top = ridge(way, path, level);
+        std::vector<double> asked = distances_asked(top, radius, share_between, all_parts);
+        if (level < most && *std::max_element(asked.begin(), asked.end()) > gained * share_between * level) {
+            path = pruned(way.asking(top.path.mark, std::move(asked)), top.path).route;
+            level = std::min(most, level * (level < radius / 5 ? 4 : 2));
+            continue;
+        }
+        Route other;
+        while (other.empty() && tried.size() < others && past_narrowest(way, top, tried, other)) {}
+        if (other.empty()) return shortest_along(way, climbed_on(way, top, level));
+        path = std::move(other);
+    }
+}
+
+}  // namespace cfree

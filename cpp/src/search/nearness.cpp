@@ -1,0 +1,233 @@
+// Distances of convex pieces by separating axes and closest features; theory, "Paths".
+#include "cfree/search/nearness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "collision/box_tree.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr int deepest = 16, most_parts = 4096;  // of a motion: where more would be needed it does not keep its distance
+constexpr double nearly = 0.95;
+constexpr double rounding = 0x1p-40;  // of the size of the scene
+
+}  // namespace
+
+Nearness::Pieces Nearness::pieces_of(const Shape& s) {
+    Pieces p;
+    p.first.push_back(0);
+    for (Index k = 0; k < s.pieces(); ++k) {
+        const Index begin = s.piece[k], end = s.piece[k + 1];
+        if (end - begin < 3 || s.piece_layer[k] != 0) continue;
+        for (Index m = begin; m < end; ++m) {
+            const Index v = s.piece_vertex[m], w = s.piece_vertex[m + 1 < end ? m + 1 : begin];
+            const double ex = s.x[w] - s.x[v], ey = s.y[w] - s.y[v], length = std::max(std::hypot(ex, ey), 1e-300);
+            p.x.push_back(s.x[v]), p.y.push_back(s.y[v]);
+            p.nx.push_back(ey / length), p.ny.push_back(-ex / length);
+            p.h.push_back(p.nx.back() * s.x[v] + p.ny.back() * s.y[v]);
+        }
+        const auto begin_at = static_cast<std::size_t>(p.first.back());
+        Box box;
+        for (std::size_t m = begin_at; m < p.x.size(); ++m) box.add(p.x[m], p.y[m]);
+        p.disc.push_back({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), 0});
+        for (std::size_t m = begin_at; m < p.x.size(); ++m)
+            p.disc.back().radius = std::max(p.disc.back().radius, std::hypot(p.x[m] - p.disc.back().x, p.y[m] - p.disc.back().y));
+        p.first.push_back(static_cast<Index>(p.x.size()));
+    }
+    return p;
+}
+
+Nearness::Nearness(const Scene& scene) : robot(pieces_of(scene.robot)), obstacles(pieces_of(scene.obstacles)) {
+    std::vector<Box> boxes(static_cast<std::size_t>(obstacles.count()));
+    double size = 0;
+    for (Index j = 0; j < obstacles.count(); ++j)
+        for (Index k = obstacles.first[j]; k < obstacles.first[j + 1]; ++k) {
+            boxes[j].add(obstacles.x[k], obstacles.y[k]);
+            size = std::max({size, std::abs(obstacles.x[k]), std::abs(obstacles.y[k])});
+        }
+    least_distance = rounding * size;
+    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, std::hypot(robot.x[k], robot.y[k]));
+    tree = std::make_unique<BoxTree>(std::move(boxes));
+}
+Nearness::~Nearness() = default;
+
+// The robot at a place.
+struct Nearness::Placed {
+    double px, py, c, s;
+    std::vector<double> x, y;
+    Placed(const Pieces& p, const Place& at)
+        : px(at.x), py(at.y), c(std::cos(at.theta)), s(std::sin(at.theta)), x(p.x.size()), y(p.x.size()) {
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            x[k] = px + (c * p.x[k] - s * p.y[k]);
+            y[k] = py + (s * p.x[k] + c * p.y[k]);
+        }
+    }
+    Vec<double> seen_from(double vx, double vy) const { return {c * vx + s * vy, c * vy - s * vx}; }
+};
+
+template <class F>
+void Nearness::query(const Placed& placed, Index i, double within, F&& report) const {
+    Box box;
+    for (Index k = robot.first[i]; k < robot.first[i + 1]; ++k) box.add(placed.x[k], placed.y[k]);
+    tree->query({box.x0 - within, box.y0 - within, box.x1 + within, box.y1 + within}, report);
+}
+
+bool Nearness::are_near(const Placed& placed, Index i, Index j, double within, Witness& found) const {
+    const Index a0 = robot.first[i], a1 = robot.first[i + 1], b0 = obstacles.first[j], b1 = obstacles.first[j + 1];
+    const auto &a = robot.disc[i], &b = obstacles.disc[j];
+    const double ax = placed.px + (placed.c * a.x - placed.s * a.y), ay = placed.py + (placed.s * a.x + placed.c * a.y);
+    const double dx = ax - b.x, dy = ay - b.y, between = within + a.radius + b.radius;
+    if (dx * dx + dy * dy >= between * between) return false;
+    // the line of an edge parts them by at least so much
+    double parted = -HUGE_VAL, x0 = 0, y0 = 0;
+    Index edge = 0;
+    bool of_robot = false;
+    const auto parts = [&](double side, double nx, double ny, double x, double y, Index k, bool robots) {
+        if (side > parted) parted = side, x0 = x, y0 = y, edge = k, of_robot = robots, found = {side, {nx, ny}, {x - placed.px, y - placed.py}};
+        return side >= within;
+    };
+    for (Index k = b0; k < b1; ++k) {
+        const double nx = obstacles.nx[k], ny = obstacles.ny[k];
+        double side = HUGE_VAL;
+        Index nearest = a0;
+        for (Index v = a0; v < a1; ++v)
+            if (const double d = nx * placed.x[v] + ny * placed.y[v]; d < side) side = d, nearest = v;
+        if (parts(side - obstacles.h[k], nx, ny, placed.x[nearest], placed.y[nearest], k, false)) return false;
+    }
+    for (Index k = a0; k < a1; ++k) {
+        const double nx = placed.c * robot.nx[k] - placed.s * robot.ny[k], ny = placed.s * robot.nx[k] + placed.c * robot.ny[k];
+        const double h = nx * placed.x[k] + ny * placed.y[k];
+        double side = HUGE_VAL;
+        Index nearest = b0;
+        for (Index v = b0; v < b1; ++v)
+            if (const double d = nx * obstacles.x[v] + ny * obstacles.y[v]; d < side) side = d, nearest = v;
+        if (parts(side - h, -nx, -ny, obstacles.x[nearest], obstacles.y[nearest], k, true)) return false;
+    }
+    if (parted <= least_distance) return true;  // they touch or overlap
+    const Index after = edge + 1 < (of_robot ? a1 : b1) ? edge + 1 : of_robot ? a0 : b0;
+    const auto& xs = of_robot ? placed.x : obstacles.x;
+    const auto& ys = of_robot ? placed.y : obstacles.y;
+    const double ex = xs[after] - xs[edge], ey = ys[after] - ys[edge], t = (x0 - xs[edge]) * ex + (y0 - ys[edge]) * ey;
+    if (0 <= t && t <= ex * ex + ey * ey) return true;  // a vertex ahead of an edge
+    double best = within * within;
+    bool near = false;
+    const auto closest = [&](double x, double y, double px, double py, double qx, double qy, bool robots) {
+        const double ux = qx - px, uy = qy - py, vx = x - px, vy = y - py;
+        const double share = std::clamp((vx * ux + vy * uy) / std::max(ux * ux + uy * uy, 1e-300), 0.0, 1.0);
+        const double cx = vx - share * ux, cy = vy - share * uy, square = cx * cx + cy * cy;
+        if (square >= best) return;
+        best = square, near = true;
+        if (!robots) x = px + share * ux, y = py + share * uy;
+        found.normal = robots ? Vec<double>{cx, cy} : Vec<double>{-cx, -cy};
+        found.arm = {x - placed.px, y - placed.py};
+    };
+    for (Index v = a0; v < a1; ++v)
+        for (Index k = b0; k < b1; ++k) {
+            const Index next = k + 1 < b1 ? k + 1 : b0;
+            closest(placed.x[v], placed.y[v], obstacles.x[k], obstacles.y[k], obstacles.x[next], obstacles.y[next], true);
+        }
+    for (Index v = b0; v < b1; ++v)
+        for (Index k = a0; k < a1; ++k) {
+            const Index next = k + 1 < a1 ? k + 1 : a0;
+            closest(obstacles.x[v], obstacles.y[v], placed.x[k], placed.y[k], placed.x[next], placed.y[next], false);
+        }
+    if (!near) return false;
+    found.distance = std::sqrt(best);
+    const double scale = 1 / std::max(found.distance, 1e-300);
+    found.normal.x *= scale, found.normal.y *= scale;
+    return true;
+}
+
+std::vector<Witness> Nearness::around(const Place& at, double within) const {
+    const Placed placed(robot, at);
+    std::vector<Witness> found;
+    Witness w;
+    for (Index i = 0; i < robot.count(); ++i)
+        query(placed, i, within, [&](Index j) {
+            if (are_near(placed, i, j, within, w)) found.push_back(w);
+        });
+    return found;
+}
+
+double Nearness::distance(const Place& at, double within) const { return distance(Placed(robot, at), within); }
+
+double Nearness::distance(const Placed& placed, double within) const {
+    double best = within;
+    Witness w;
+    for (Index i = 0; i < robot.count(); ++i)
+        query(placed, i, best, [&](Index j) {
+            if (are_near(placed, i, j, best, w)) best = w.distance;
+        });
+    return best;
+}
+
+// Halved, what is in the middle first. A part keeps its distance if the middle has enough for how far the robot gets from
+// there, or if the direction between the closest points parts them all the way, at rest in the world or in the robot.
+bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::function<double(double)>& need) const {
+    struct Part {
+        double lo, hi;
+        int depth;
+    };
+    std::vector<Part> parts{{0, 1, 0}};
+    const double most = travel_between(a, b) + reach * std::abs(turn_between(a, b));
+    const auto at = [&](double share) { return Placed(robot, along(a, b, share)); };
+    for (std::size_t next = 0; next < parts.size(); ++next) {
+        const auto [lo, hi, depth] = parts[next];
+        const double mid = 0.5 * (lo + hi), asked = std::max({need(lo), need(mid), need(hi)});
+        if (asked <= least_distance) continue;
+        const Placed m = at(mid);
+        if (0.5 * (hi - lo) * most > 4 * asked + 2 * reach) {  // far too long: only look at the middle
+            if (distance(m, asked) < asked || depth == deepest || parts.size() > most_parts) return false;
+            parts.push_back({lo, mid, depth + 1});
+            parts.push_back({mid, hi, depth + 1});
+            continue;
+        }
+        const Placed p = at(lo), q = at(hi);
+        bool fails = false, holds = true;
+        for (Index i = 0; i < robot.count() && !fails; ++i) {
+            const Index begin = robot.first[i], end = robot.first[i + 1];
+            double moves = 0;
+            for (Index v = begin; v < end; ++v) {
+                const double px = p.x[v] - m.x[v], py = p.y[v] - m.y[v], qx = q.x[v] - m.x[v], qy = q.y[v] - m.y[v];
+                moves = std::max({moves, px * px + py * py, qx * qx + qy * qy});
+            }
+            const double within = asked + std::sqrt(moves);
+            query(m, i, within, [&](Index j) {
+                Witness w;
+                if (fails || !are_near(m, i, j, within, w)) return;
+                if (w.distance < asked) {
+                    fails = true;
+                    return;
+                }
+                if (!holds) return;
+                const Vec<double> n = w.normal, r = m.seen_from(n.x, n.y);
+                double robots = HUGE_VAL, others = -HUGE_VAL, robots_own = HUGE_VAL, others_own = -HUGE_VAL;
+                for (Index v = begin; v < end; ++v) {
+                    const double bulge = std::hypot(m.x[v] - 0.5 * (p.x[v] + q.x[v]), m.y[v] - 0.5 * (p.y[v] + q.y[v]));
+                    robots = std::min(robots, std::min(n.x * p.x[v] + n.y * p.y[v], n.x * q.x[v] + n.y * q.y[v]) - bulge);
+                    robots_own = std::min(robots_own, r.x * robot.x[v] + r.y * robot.y[v]);
+                }
+                for (Index v = obstacles.first[j]; v < obstacles.first[j + 1]; ++v) {
+                    const double x = obstacles.x[v], y = obstacles.y[v];
+                    others = std::max(others, n.x * x + n.y * y);
+                    const auto s = p.seen_from(x - p.px, y - p.py), t = q.seen_from(x - q.px, y - q.py);
+                    const auto u = m.seen_from(x - m.px, y - m.py);
+                    const double bulge = std::hypot(u.x - 0.5 * (s.x + t.x), u.y - 0.5 * (s.y + t.y));
+                    others_own = std::max(others_own, std::max(r.x * s.x + r.y * s.y, r.x * t.x + r.y * t.y) + bulge);
+                }
+                if (std::max(robots - others, robots_own - others_own) < nearly * asked) holds = false;
+            });
+        }
+        if (fails) return false;
+        if (holds) continue;
+        if (depth == deepest || parts.size() > most_parts) return false;
+        parts.push_back({lo, mid, depth + 1});
+        parts.push_back({mid, hi, depth + 1});
+    }
+    return true;
+}
+
+}  // namespace cfree

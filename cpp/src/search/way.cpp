@@ -1,0 +1,99 @@
+// Costs of motions, and whether they keep what is asked; theory, "Paths".
+#include "cfree/search/way.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cfree {
+
+void Marked::append(const Marked& further) {
+    route.insert(route.end(), further.route.begin() + 1, further.route.end());
+    mark.insert(mark.end(), further.mark.begin() + 1, further.mark.end());
+}
+
+double cost_between(const Configuration& a, const Configuration& b, double weight) {
+    return travel_between(a, b) + weight * std::abs(turn_between(a, b));
+}
+
+double cost_of(const Route& route, double weight) {
+    double sum = 0;
+    for (std::size_t k = 1; k < route.size(); ++k) sum += cost_between(route[k - 1], route[k], weight);
+    return sum;
+}
+
+std::vector<double> costs_along(const Route& route, double weight) {
+    std::vector<double> at{0};
+    for (std::size_t k = 1; k < route.size(); ++k) at.push_back(at.back() + cost_between(route[k - 1], route[k], weight));
+    return at;
+}
+
+Configuration corner(const Configuration& position, const Configuration& orientation) {
+    Configuration c = position;
+    c.hx = orientation.hx, c.hy = orientation.hy, c.theta = orientation.theta;
+    return c;
+}
+
+Way Way::asking(std::vector<double> at, std::vector<double> what) const {
+    return {checker, nearness, grid, limits, weight, per_motion, std::move(at), std::move(what)};
+}
+
+double Way::asked(double mark) const {
+    const auto after = std::upper_bound(marks.begin(), marks.end(), mark);
+    if (after == marks.begin()) return distances.front();
+    if (after == marks.end()) return distances.back();
+    const auto k = static_cast<std::size_t>(after - marks.begin());
+    const double share = (mark - marks[k - 1]) / (marks[k] - marks[k - 1]);
+    return distances[k - 1] + share * (distances[k] - distances[k - 1]);
+}
+
+bool Way::joins(const Configuration& a, const Configuration& b, double from, double to) const {
+    if (!nearness) return checker.is_free(motion_between(a, b));
+    double least = HUGE_VAL;
+    const auto need = [&](double share) {
+        const double distance = asked(from + share * (to - from));
+        least = std::min(least, distance);
+        return distance;
+    };
+    if (!nearness->keeps(a, b, need)) return false;
+    return (least > nearness->least() && is_within(a, b)) || checker.is_free(motion_between(a, b));
+}
+
+bool Way::joins(const Marked& path) const {
+    for (std::size_t k = 1; k < path.route.size(); ++k)
+        if (!joins(path.route[k - 1], path.route[k], path.mark[k - 1], path.mark[k])) return false;
+    return true;
+}
+
+bool Way::keeps(const Configuration& a, const Configuration& b, double distance) const {
+    if (!nearness->keeps(a, b, [&](double) { return distance; })) return false;
+    return (distance > nearness->least() && is_within(a, b)) || checker.is_free(motion_between(a, b));
+}
+
+// Does the reference point certainly stay within the limits? Its arc is beside the chord by no more than an eighth.
+bool Way::is_within(const Configuration& a, const Configuration& b) const {
+    const double off = travel_between(a, b) * std::abs(turn_between(a, b)) / 8 + nearness->least();
+    const auto [x0, x1] = std::minmax(a.px, b.px);
+    const auto [y0, y1] = std::minmax(a.py, b.py);
+    return limits.x0 < x0 - off && x1 + off < limits.x1 && limits.y0 < y0 - off && y1 + off < limits.y1;
+}
+
+Marked Way::marked(Route route, double from, double to) const {
+    std::vector<double> mark = costs_along(route, weight);
+    const double whole = std::max(mark.back(), 1e-300);
+    for (double& m : mark) m = from + m / whole * (to - from);
+    mark.back() = to;
+    return {std::move(route), std::move(mark)};
+}
+
+Marked Way::simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const {
+    std::vector<Route> ways{{a, b}};
+    const bool turns = turn_between(a, b) != 0, moves = a.px != b.px || a.py != b.py;
+    if (turns && moves) ways.push_back({a, corner(a, b), b}), ways.push_back({a, corner(b, a), b});
+    for (Route& way : ways) {
+        if (cost_of(way, weight) > most) continue;
+        if (Marked found = marked(std::move(way), from, to); joins(found)) return found;
+    }
+    return {};
+}
+
+}  // namespace cfree
