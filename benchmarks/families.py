@@ -6,6 +6,7 @@
     flats      a building of equal flats: walls with doors, furniture; all axis-parallel, a table as the robot
     warehouse  aisles of racks and round pillars, a rounded robot of 20 vertices
     grid       equal unit squares on the integer grid, some of them touching, a unit square as the robot
+    city       blocks around courtyards with a door and four sheds each, streets between them, a car of 8 vertices
 
 Obstacles may overlap or touch. `SIZES` holds the sizes the README of the benchmarks reports.
 """
@@ -29,6 +30,7 @@ SIZES = {
     "flats": (4, 36, 400),
     "warehouse": (100, 1_000, 4_000),
     "grid": (50, 500, 5_000),
+    "city": (4, 2_500, 25_000),
 }
 
 
@@ -140,6 +142,46 @@ def grid(count: int, seed: int = 0) -> SceneArrays:
     return _stack(square, _boxes((k % side).astype(float), (k // side).astype(float), 1.0, 1.0))
 
 
+def city(blocks: int, seed: int = 0) -> SceneArrays:
+    """About `blocks` city blocks of 40 vertices on a square: every second one in line, the others turned a little.
+
+    A block is 60 wide, its streets 14, its courtyard 36, its door 3, the car 4.5 by 1.8.
+    """
+    rng = np.random.default_rng(seed)
+    side = max(1, round(blocks**0.5))
+    x, y = (74.0 * c.ravel() for c in np.meshgrid(np.arange(side), np.arange(side)))
+    count = len(x)
+    facade = np.empty((count, 24, 2))
+    facade[:] = [(33, 0), (60, 0)] + 4 * [(60, 0)] + [(60, 60)] + 4 * [(0, 60)] + [(0, 60)] + 4 * [(0, 0)] + [
+        (0, 0), (30, 0), (30, 12), (12, 12), (12, 48), (48, 48), (48, 12), (33, 12)
+    ]  # fmt: skip
+    facade[:, [0, 17, 18, 23], 0] += rng.integers(-17, 15, count)[:, None]  # the door
+    for niche, along, sign in ((2, 1, 1), (7, 0, -1), (12, 1, -1)):  # one in each other side
+        start, width, depth = rng.integers(5, 35, count), rng.integers(4, 16, count), rng.integers(2, 9, count)
+        first = np.stack([start, start, start + width, start + width], axis=1)
+        facade[:, niche : niche + 4, along] = first if sign > 0 else 60 - first
+        facade[:, [niche + 1, niche + 2], 1 - along] += np.where(niche == 12, 1, -1) * depth[:, None]
+    sheds = np.stack([_boxes(u + rng.uniform(0, 4, count), v + rng.uniform(0, 4, count), rng.uniform(2, 5, count), 3.0)
+                      for u in (15, 35) for v in (18, 36)], axis=1)  # fmt: skip
+    middle = np.array([30.0, 30.0])
+    quarter = rng.integers(0, 4, count)
+    turn = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])[quarter]
+    angle = np.where(np.arange(count) % 2 == 0, 0.0, rng.uniform(-0.05, 0.05, count))
+
+    def placed(corners: Floats) -> Floats:
+        c, s = (turn.T[k].reshape(-1, *[1] * (corners.ndim - 2)) for k in (0, 1))
+        u, v = np.moveaxis(corners - middle, -1, 0)
+        u, v = c * u - s * v, s * u + c * v
+        c, s = (f(angle).reshape(c.shape) for f in (np.cos, np.sin))
+        at = np.column_stack([x, y]).reshape(count, *[1] * (corners.ndim - 2), 2)
+        return np.stack([c * u - s * v, s * u + c * v], axis=-1) + middle + at
+
+    sizes = np.concatenate([np.full(count, 24), np.full(4 * count, 4)])
+    vertices = np.concatenate([placed(facade).reshape(-1, 2), placed(sheds).reshape(-1, 2)])
+    chamfered = np.array([(-2.25, -0.6), (-1.95, -0.9), (1.95, -0.9), (2.25, -0.6)])
+    return SceneArrays(np.concatenate([chamfered, -chamfered]), vertices, _offsets(sizes))
+
+
 FAMILIES: dict[str, Callable[[int], SceneArrays]] = {
     "convex": convex,
     "stars": stars,
@@ -147,6 +189,7 @@ FAMILIES: dict[str, Callable[[int], SceneArrays]] = {
     "flats": flats,
     "warehouse": warehouse,
     "grid": grid,
+    "city": city,
 }
 
 

@@ -28,6 +28,7 @@ BENCHES = (
     "mesh",
     "free",
     "cells",
+    "city",
     "plan",
     "tight",
     "fits",

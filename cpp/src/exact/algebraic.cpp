@@ -48,7 +48,7 @@ namespace {
 
 // Most numbers are not equal: common divisors are looked for after so many steps, or once so many digits do not tell them apart.
 constexpr int few = 6;
-constexpr unsigned many = 160;
+constexpr unsigned many = 40;
 
 // Whether the root of x is one of g, a divisor of its polynomial.
 bool is_root_of_divisor(const Poly& g, const RealRoot& x) {

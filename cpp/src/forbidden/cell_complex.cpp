@@ -5,12 +5,12 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
-#include <utility>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/predicates/junction.hpp"
 #include "forbidden/curve_sides.hpp"
 #include "forbidden/level_sides.hpp"
+#include "support/free_memory.hpp"
 #include "support/parallel.hpp"
 
 namespace cfree {
@@ -58,49 +58,57 @@ private:
     std::vector<double> start;  // of each half-edge: see Parts
 };
 
-// The parts of all lists, each freed when it has been read.
+// The parts of all lists, whose columns are freed as soon as they have been read.
 void Assembly::make_loops(std::vector<Parts>&& lists) {
-    std::size_t count = 0;
     result.first.assign(faces.size() + 1, 0);
-    for (const Parts& list : lists) {
-        count += list.trapezoid.size();
+    for (const Parts& list : lists)
         for (const Index f : list.trapezoid) ++result.first[f + 1];
-    }
     std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+    const auto count = static_cast<std::size_t>(result.first.back());
     std::vector<Index> number(count);  // of each part its half-edge
     {
         std::vector<Index> order(count), next(result.first.begin(), result.first.end() - 1);
         std::vector<std::uint8_t> kind;  // twice its side, 1 more if its side's come in reverse
         kind.reserve(count);
-        for (const Parts& list : lists)
+        for (Parts& list : lists) {
             for (Index k = 0; k < list.size(); ++k) {
                 order[next[list.trapezoid[k]]++] = static_cast<Index>(kind.size());
-                const bool is_reversed = is_forwards(static_cast<Side>(list.side[k])) == (list.backwards[k] != 0);
-                kind.push_back(static_cast<std::uint8_t>(2 * list.side[k] + is_reversed));
+                const Side side = list.side(k);
+                kind.push_back(static_cast<std::uint8_t>(2 * static_cast<int>(side) + (is_forwards(side) == list.is_backwards(k))));
             }
-        result.face.reserve(count), result.side.reserve(count);
-        for (Index f = 0; f < static_cast<Index>(faces.size()); ++f) {
+            free_memory(list.trapezoid);
+        }
+        result.side.reserve(count);
+        for (std::size_t f = 0; f < faces.size(); ++f) {
             std::sort(order.begin() + result.first[f], order.begin() + result.first[f + 1], [&](Index x, Index y) {
                 return kind[x] != kind[y] ? kind[x] < kind[y] : (kind[x] % 2 == 0) == (x < y) && x != y;
             });
-            for (Index h = result.first[f]; h < result.first[f + 1]; ++h) {
-                number[order[h]] = h;
-                result.face.push_back(f), result.side.push_back(kind[order[h]] / 2);
-            }
+            for (Index h = result.first[f]; h < result.first[f + 1]; ++h)
+                number[order[h]] = h, result.side.push_back(kind[order[h]] / 2);
         }
     }
-    result.twin.resize(count), result.edge.resize(count), start.resize(count);
-    auto at = number.begin();
-    for (Parts& list : lists) {
-        for (Index k = 0; k < list.size(); ++k) {
-            const Index h = at[k];
-            result.twin[h] = list.twin[k] < 0 ? -1 : at[list.twin[k]];
-            result.edge[h] = result.edges + list.edge[k], start[h] = list.start[k];
+    const auto for_each_part = [&](auto&& take, auto&& release) {
+        for (auto at = number.begin(); Parts& list : lists) {
+            for (Index k = 0; k < list.size(); ++k) take(list, k, at);
+            at += list.size();
+            release(list);
         }
-        at += list.size(), result.edges += list.edges;
-        list = {};
-    }
-    for (Index h = 0; h < static_cast<Index>(count); ++h)
+        give_back_memory(faces.size());
+    };
+    result.twin.resize(count);
+    for_each_part([&](const Parts& list, Index k, auto at) { result.twin[at[k]] = list.twin[k] < 0 ? -1 : at[list.twin[k]]; },
+                  [](Parts& list) { free_memory(list.twin); });
+    result.edge.resize(count);
+    for_each_part([&](const Parts& list, Index k, auto at) {
+        result.edges += list.begins_edge(k);
+        result.edge[at[k]] = result.edges - 1;
+    }, [](Parts&) {});
+    start.resize(count);
+    for_each_part([&](const Parts& list, Index k, auto at) { start[at[k]] = list.start[k]; }, [](Parts& list) { list = {}; });
+    free_memory(number);
+    result.face.reserve(count);
+    for (std::size_t f = 0; f < faces.size(); ++f) result.face.resize(static_cast<std::size_t>(result.first[f + 1]), static_cast<Index>(f));
+    for (std::size_t h = 0; h < count; ++h)
         if (result.twin[h] < 0) fail_alone(faces[result.face[h]]);
 }
 
@@ -125,6 +133,7 @@ void Assembly::find_vertices() {
         for (std::size_t v = b * block; v < std::min(best.size(), (b + 1) * block); ++v)
             place_vertex(static_cast<Index>(v), best[v]);
     });
+    free_memory(start);
 }
 
 // Where a half-edge starts, in doubles.
@@ -222,16 +231,14 @@ std::array<std::vector<Index>, 2> reached(const std::vector<Parts>& lists, const
     return found;
 }
 
-// The parts of closed surfaces alone, of faces; edges renumbered.
+// The parts of closed surfaces alone, of faces.
 void keep(Parts& list, const std::vector<Index>& face_of) {
     std::vector<Index> number(list.trapezoid.size(), -1);
     Parts kept;
-    Index edge = -1;
     for (Index k = 0; k < list.size(); ++k) {
-        if (face_of[list.trapezoid[k]] < 0) continue;
-        if (list.edge[k] != std::exchange(edge, list.edge[k])) ++kept.edges;
-        const auto side = static_cast<Side>(list.side[k]);
-        number[k] = kept.add(face_of[list.trapezoid[k]], side, list.backwards[k], list.start[k]);
+        if (list.begins_edge(k)) kept.begin_edge();
+        if (const Index f = face_of[list.trapezoid[k]]; f >= 0)
+            number[k] = kept.add(f, list.side(k), list.is_backwards(k), list.start[k]);
     }
     for (Index k = 0; k < list.size(); ++k)
         if (number[k] >= 0) kept.twin[number[k]] = number[list.twin[k]];
@@ -243,8 +250,12 @@ void keep(Parts& list, const std::vector<Index>& face_of) {
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads) {
     std::vector<Index> all(boundary->trapezoids.size());
     std::iota(all.begin(), all.end(), 0);
+    give_back_memory(all.size());  // of trimming
     std::vector<Parts> lists = matched_sides(*boundary, Whole(all.size(), 1), threads);
-    return shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists)), boundary);
+    give_back_memory(all.size());
+    auto result = shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists)), boundary);
+    give_back_memory(boundary->trapezoids.size());
+    return result;
 }
 
 GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds) {

@@ -37,6 +37,7 @@ public:
                 reach = std::max(reach, to(*next));
             glue(first, next);
         }
+        parts.finish();
         return std::move(parts);
     }
 
@@ -79,13 +80,13 @@ void CurveGluer::glue(CurveSide* begin, CurveSide* end) {
         std::erase_if(there, [&](const CurveSide* s) { return to(*s) <= from; });
         for (; next != end && next->from == from; ++next) there.push_back(next);
         if (there.empty()) continue;
-        ++parts.edges;
+        parts.begin_edge();
         live.clear();
         for (const CurveSide* s : there) {
             const Side side = s->is_upper() ? Side::upper : Side::lower;
             live.push_back(parts.add(s->trapezoid(), side, false, is_forwards(side) ? from : until));
         }
-        if (live.size() == 2 && parts.side[live[0]] != parts.side[live[1]]) parts.pair(live[0], live[1]);
+        if (live.size() == 2 && parts.side(live[0]) != parts.side(live[1])) parts.pair(live[0], live[1]);
         else pair_around_point(from, until, live);
     }
 }
@@ -105,7 +106,7 @@ void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index
     for (const Index k : live) {
         const Feature f = contact(parts.trapezoid[k]);
         const auto d = ContactLine<Int>(scene, f, CoreUnits<Int>{}).direction(R);
-        const bool arrives = static_cast<Side>(parts.side[k]) == Side::upper;
+        const bool arrives = parts.side(k) == Side::upper;
         rays.push_back({arrives ? -d : d, arrives, k});
     }
     std::sort(rays.begin(), rays.end(), [](const Ray& x, const Ray& y) {

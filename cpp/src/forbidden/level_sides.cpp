@@ -234,7 +234,7 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
         for (; next != by_first.end() && levels[*next].first == k; ++next) there.push_back(*next);
         if (there.empty()) continue;
         std::sort(there.begin(), there.end());
-        ++parts.edges;
+        parts.begin_edge();
         live.clear();
         for (const Index x : there) {
             const Level& level = levels[x];
@@ -316,6 +316,7 @@ std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, int thread
             if (start[rank] < start[rank + 1])
                 gluer.glue(rank, std::span(sides).subspan(start[rank], start[rank + 1] - start[rank]));
         }
+        gluer.parts.finish();
         result[k] = std::move(gluer.parts);
     });
     return result;

@@ -9,22 +9,35 @@
 
 namespace cfree {
 
-// Columns: there are several for each trapezoid. Those of one side come in its order along t or theta, or all `backwards`.
-struct Parts {
-    std::vector<Index> trapezoid, twin, edge;
-    std::vector<std::uint8_t> side, backwards;
+// Small columns: a large scene has hundreds of millions. Parts of one edge come one after another, those of one side of a
+// trapezoid in its order along t or theta, or all backwards.
+class Parts {
+public:
+    std::vector<Index> trapezoid, twin;
     std::vector<double> start;  // of the half-edge: t at a critical angle; along a curve the rank of the angle
-    Index edges = 0;
 
-    Index size() const { return static_cast<Index>(trapezoid.size()); }
-    // Along the edge that was begun last.
-    Index add(Index of, Side on, bool is_backwards, double at) {
-        trapezoid.push_back(of), twin.push_back(-1), edge.push_back(edges - 1);
-        side.push_back(static_cast<std::uint8_t>(on)), backwards.push_back(is_backwards), start.push_back(at);
+    Index size() const { return static_cast<Index>(traits.size()); }
+    Side side(Index k) const { return static_cast<Side>(traits[k] & 3); }
+    bool is_backwards(Index k) const { return (traits[k] & 4) != 0; }
+    bool begins_edge(Index k) const { return (traits[k] & 8) != 0; }
+
+    void begin_edge() { begins = true; }
+    Index add(Index of, Side on, bool backwards, double at) {
+        trapezoid.push_back(of), twin.push_back(-1), start.push_back(at);
+        traits.push_back(static_cast<std::uint8_t>(static_cast<int>(on) | backwards << 2 | begins << 3));
+        begins = false;
         return size() - 1;
     }
     void pair(Index p, Index q) { twin[p] = q, twin[q] = p; }
+    void finish() { trapezoid.shrink_to_fit(), twin.shrink_to_fit(), start.shrink_to_fit(), traits.shrink_to_fit(); }
+
+private:
+    std::vector<std::uint8_t> traits;
+    bool begins = false;
 };
+
+template <class T>
+void free_memory(std::vector<T>& of) { std::vector<T>().swap(of); }
 
 // Of each trapezoid, whether all that its sides meet are there.
 using Whole = std::vector<char>;

@@ -96,15 +96,19 @@ std::vector<Index> parents(const PointLocation::Nesting& n, bool is_bounded) {
 }
 
 FreeSpace::FreeSpace(SharedBoundary b, Surfaces s)
+    : FreeSpace(b, s, PointLocation(b, s.component)) {}
+
+FreeSpace::FreeSpace(SharedBoundary b, Surfaces s, PointLocation points)
     : boundary(std::move(b)), surfaces(std::move(s)), outside(boundary->scene->is_bounded ? -1 : 0),
-      cell_of(cells_of(surfaces, outside)), depth(depths(surfaces)), location(boundary, surfaces.component) {}
+      cell_of(cells_of(surfaces, outside)), depth(depths(surfaces)), location(std::move(points)) {}
 
 std::shared_ptr<const FreeSpace> FreeSpace::of(const CellComplex& cells) {
     Surfaces s{cells.component, {}, {}, {}, {}};
-    auto nesting = PointLocation(cells.boundary, cells.component).nesting();
+    PointLocation location(cells.boundary, cells.component);
+    auto nesting = location.nesting();
     s.parent = parents(nesting, cells.boundary->scene->is_bounded), s.free_inside = std::move(nesting.free_inside);
     find_turns(cells, s);
-    return std::make_shared<const FreeSpace>(cells.boundary, std::move(s));
+    return std::make_shared<const FreeSpace>(cells.boundary, std::move(s), std::move(location));
 }
 
 Index FreeSpace::cells() const {

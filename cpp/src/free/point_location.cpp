@@ -138,7 +138,8 @@ struct PointLocation::Probe {
 
 PointLocation::PointLocation(SharedBoundary b, std::vector<Index> of)
     : boundary(std::move(b)), scene(*boundary->scene), patches(boundary->patches), trapezoids(boundary->trapezoids),
-      component(std::move(of)), index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 3) {
+      component(std::move(of)), index(trapezoids.chart, trapezoids.from_lo, trapezoids.to_hi, 1) {
+    extents.reserve(static_cast<std::size_t>(index.begin(index.count())));
     for (Index part = 0; part < index.count(); ++part) {
         for (const Index k : index.at(part)) extents.push_back(extent(k, index.from(part), index.to(part)));
         std::sort(extents.begin() + index.begin(part), extents.end(), [](const Extent& x, const Extent& y) {

@@ -16,6 +16,7 @@ struct Surfaces {
 class FreeSpace {
 public:
     FreeSpace(SharedBoundary boundary, Surfaces surfaces);
+    FreeSpace(SharedBoundary boundary, Surfaces surfaces, PointLocation location);
     // Throws std::logic_error if surfaces are inside each other as none can be.
     static std::shared_ptr<const FreeSpace> of(const CellComplex& cells);
 

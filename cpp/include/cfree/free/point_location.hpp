@@ -80,7 +80,7 @@ private:
     const Scene& scene;
     const Patches& patches;
     const Trapezoids& trapezoids;
-    const std::vector<Index> component;
+    std::vector<Index> component;
     TauIndex index;
     std::vector<Extent> extents;  // of the index's lists, each a tree: in order of `low`, the root in the middle
 };
