@@ -12,9 +12,19 @@ inline cfree::Int integer(const nanobind::int_& n) {
     if (!overflow) return small;
     return cfree::Int(nanobind::steal<nanobind::str>(PyNumber_ToBase(n.ptr(), 16)).c_str());
 }
+// In parts of 62 bits, the highest first.
 inline nanobind::int_ integer(const cfree::Int& n) {
-    const auto digits = cfree::Int(abs(n)).str(0, std::ios_base::hex);
-    return nanobind::steal<nanobind::int_>(PyLong_FromString(((n.sign() < 0 ? "-" : "") + digits).c_str(), nullptr, 16));
+    constexpr unsigned bits = 62;
+    if (n.is_zero()) return nanobind::int_(0);
+    const cfree::Int size = abs(n);
+    unsigned shift = static_cast<unsigned>(msb(size)) / bits * bits;
+    const auto part = [&] { return nanobind::int_(static_cast<std::int64_t>(cfree::Int(size >> shift) & cfree::Int((1ull << bits) - 1))); };
+    nanobind::object value = part();
+    while (shift > 0) {
+        shift -= bits;
+        value = (value << nanobind::int_(bits)) | part();
+    }
+    return nanobind::borrow<nanobind::int_>(n.sign() < 0 ? -value : value);
 }
 
 inline std::vector<nanobind::int_> integers(const cfree::Poly& p) {

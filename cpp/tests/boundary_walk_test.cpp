@@ -56,7 +56,12 @@ static void unknown_sides_are_not_crossed() {
     const Index first = rooms.cells->first[0], twin = rooms.cells->twin[first];
     const auto ways = [&](std::shared_ptr<const CellComplex> cells) {
         const FaceGraph graph(cells, 11);
-        const Mark start[] = {{cells->face[first], graph.middle(first)}}, goal[] = {{cells->face[twin], graph.middle(twin)}};
+        const auto middle = [&](Index h) {
+            std::vector<Place> sides;
+            graph.middles(cells->face[h], sides);
+            return Mark{cells->face[h], sides[static_cast<std::size_t>(h - cells->first[cells->face[h]])]};
+        };
+        const Mark start[] = {middle(first)}, goal[] = {middle(twin)};
         return graph.shortest(start[0].at, start, goal[0].at, goal, {});
     };
     CHECK(ways(rooms.cells).size() == 2);

@@ -48,108 +48,202 @@ Moved<Int> exactly(const Motion& m) {
 }
 
 
-// A piece of the robot and one of the obstacles: report(sides, slope) for every edge of both, times positive numbers. Sides are
-// positive for vertices on its inner side in the beginning; slope is what each grows by. Ends if the report is false.
-template <class T, class F>
-bool each_edge(const Scene& scene, Index i, Index k, const Moved<T>& moved, std::vector<T>& sides, F&& report) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const CoreUnits<T> of;
-    const auto fixed = [&](Index v) {
-        const Vec<T> b = of.vertex(O, v);
-        return Vec<T>{moved.W * b.x, moved.W * b.y};
-    };
-    std::vector<Vec<T>> points;
-    for (Index v = A.piece[i]; v < A.piece[i + 1]; ++v) points.push_back(moved(of.vertex(A, A.piece_vertex[v])));
-    for (Index e = O.piece[k]; e < O.piece[k + 1]; ++e) {
-        const Vec<T> d = of.edge(O, O.piece_edge[e]), from = fixed(O.v[O.piece_edge[e]]);
-        sides.clear();
-        for (const auto& p : points) sides.push_back(cross(d, p - from));
-        if (!report(sides, cross(d, moved.by))) return false;
-    }
-    points.clear();
-    for (Index v = O.piece[k]; v < O.piece[k + 1]; ++v) points.push_back(fixed(O.piece_vertex[v]));
-    for (Index e = A.piece[i]; e < A.piece[i + 1]; ++e) {
-        if (!A.has_extent(A.piece_edge[e])) continue;
-        const Vec<T> d = moved.turned(of.edge(A, A.piece_edge[e])), from = moved(of.vertex(A, A.v[A.piece_edge[e]]));
-        sides.clear();
-        for (const auto& p : points) sides.push_back(cross(d, p - from));
-        if (!report(sides, -cross(d, moved.by))) return false;
-    }
-    return true;
+// What a number is between.
+struct Range {
+    double low, high;
+};
+Range range(const Approx& x) {
+    const double error = error_of(x);
+    return {x.v - error, x.v + error};
+}
+// Of a / b, b positive.
+Range quotient(const Range& a, const Range& b) {
+    const double low = a.low / (a.low < 0 ? b.low : b.high), high = a.high / (a.high < 0 ? b.high : b.low);
+    return {low - std::abs(low) * 0x1p-50, high + std::abs(high) * 0x1p-50};
 }
 
-// Before this share of the way they do not overlap; nothing if they never do.
-std::optional<double> certainly_apart_until(const Scene& scene, Index i, Index k, const Moved<Approx>& moved,
-                                            std::vector<Approx>& sides) {
-    double until = 0;
-    const bool may_meet = each_edge(scene, i, k, moved, sides, [&](const std::vector<Approx>& m, const Approx& s) {
-        double most = -std::numeric_limits<double>::infinity();
-        for (const Approx& x : m) {
-            if (!std::isfinite(x.m + s.m)) return true;
-            most = std::max(most, x.v + error_of(x));
-        }
-        const double slope = s.v + error_of(s);
-        if (most >= 0) return true;
-        if (most + slope <= 0) return false;
-        until = std::max(until, -most / slope * (1 - 0x1p-50));
-        return true;
-    });
-    if (!may_meet || until >= 1) return {};
-    return until;
-}
+// Pieces of the robot and of the obstacles along one translation.
+class Course {
+public:
+    Course(const Scene& of, const Motion& m) : scene(of), near(approximately(m, of.shift)), exact(exactly(m)) {}
 
-// Where they begin to overlap, from 0 on and before 1.
-std::optional<Ratio> meeting(const Scene& scene, Index i, Index k, const Moved<Int>& moved, std::vector<Int>& sides) {
-    Ratio from{0, 1}, to{1, 1};  // not reduced
-    const bool meet = each_edge(scene, i, k, moved, sides, [&](const std::vector<Int>& all, const Int& s) {
-        const Int& m = *std::max_element(all.begin(), all.end());
-        if (s.is_zero()) return m.sign() > 0;
-        const Ratio root = s.sign() > 0 ? Ratio{-m, s} : Ratio{m, -s};
-        if (s.sign() > 0 ? root > from : root < to) (s.sign() > 0 ? from : to) = root;
-        return from < to;
-    });
-    if (!meet) return {};
-    return from;
-}
-
-}  // namespace
-
-std::optional<Ratio> MotionChecker::free_share(const Motion& motion) const {
-    const Shape& A = scene->robot;
-    const Moved<Approx> near = approximately(motion, scene->shift);
-    struct Pair {
-        double until;
-        Index robot, obstacle;
-    };
-    std::vector<Pair> pairs;
-    std::vector<Approx> values;
-    for (Index i = 0; i < A.pieces(); ++i) {
+    // Which piece of the robot is meant by what follows; a box that it stays in, if doubles can tell.
+    std::optional<Box> look_at(Index robot_piece) {
+        const Shape& A = scene.robot;
+        piece = robot_piece;
+        points.clear(), edges.clear();
         Box swept;
         bool known = true;
-        for (Index v = A.piece[i]; v < A.piece[i + 1]; ++v) {
-            const Vec<Approx> p = near(CoreUnits<Approx>{}.vertex(A, A.piece_vertex[v]));
+        for (Index v = A.piece[piece]; v < A.piece[piece + 1]; ++v) {
+            const Index vertex = A.piece_vertex[v], edge = A.piece_edge[v];
+            points.push_back(near(doubles.vertex(A, vertex)));
+            const auto& p = points.back();
             const double dx = error_of(p.x) + error_of(near.by.x), dy = error_of(p.y) + error_of(near.by.y);
             known = known && std::isfinite(p.x.m + p.y.m + near.by.x.m + near.by.y.m);
             for (const double share : {0.0, 1.0}) {
                 const double x = p.x.v + share * near.by.x.v, y = p.y.v + share * near.by.y.v;
                 swept.add(x - dx, y - dy), swept.add(x + dx, y + dy);
             }
+            if (A.has_extent(edge)) edges.push_back({near(doubles.vertex(A, A.v[edge])), near.turned(doubles.edge(A, edge)), edge});
         }
-        const auto look = [&](Index k) {
-            if (scene->obstacles.piece_layer[k] != A.piece_layer[i]) return;
-            if (const auto until = certainly_apart_until(*scene, i, k, near, values)) pairs.push_back({*until, i, k});
+        if (!known) return {};
+        return swept;
+    }
+
+    // Before this share of the way they do not overlap; nothing if they never do.
+    std::optional<double> apart_until(Index obstacle_piece) {
+        if (!find_lines(obstacle_piece)) return {};
+        double from = 0, to = 1;
+        for (const Line& line : lines)
+            if (line.is_entry) from = std::max(from, line.at.low);
+            else if (line.is_exit) to = std::min(to, line.at.high);
+        if (from >= to) return {};
+        return from;
+    }
+
+    // Where they begin to overlap, from 0 on and before 1.
+    std::optional<Ratio> meeting(Index obstacle_piece) {
+        if (!find_lines(obstacle_piece)) return {};
+        Range entry{0, 0}, exit{1, 1};
+        for (const Line& line : lines)
+            if (line.is_entry) entry = {std::max(entry.low, line.at.low), std::max(entry.high, line.at.high)};
+            else if (line.is_exit) exit = {std::min(exit.low, line.at.low), std::min(exit.high, line.at.high)};
+        Ratio from{0, 1}, to{1, 1};  // not reduced
+        const bool is_long = entry.high < exit.low;
+        for (const Line& line : lines) {  // those that may be first or last
+            if (line.is_entry ? line.at.high < entry.low : line.is_exit && (is_long || line.at.low > exit.high)) continue;
+            const Int m = most(line), s = slope(line);
+            if (s.is_zero()) {
+                if (m.sign() <= 0) return {};
+                continue;
+            }
+            const Ratio root = s.sign() > 0 ? Ratio{-m, s} : Ratio{m, -s};
+            if (s.sign() > 0 ? root > from : root < to) (s.sign() > 0 ? from : to) = root;
+            if (from >= to) return {};
+        }
+        return from;
+    }
+
+private:
+    // An edge of one piece and the vertices of the other; positive on its inner side, times positive numbers.
+    struct Line {
+        bool of_robot;
+        Index edge;
+        bool is_entry, is_exit;  // certainly; else m and s are not known well
+        Range at;                // where m + s u is 0
+    };
+
+    // The edges that may matter; false if one of them keeps the pieces apart all the way.
+    bool find_lines(Index obstacle_piece) {
+        const Shape& O = scene.obstacles;
+        other = obstacle_piece;
+        lines.clear();
+        corners.clear();
+        for (Index v = O.piece[other]; v < O.piece[other + 1]; ++v) corners.push_back(doubles.vertex(O, O.piece_vertex[v]));
+        for (Index e = O.piece[other]; e < O.piece[other + 1]; ++e) {
+            const Index edge = O.piece_edge[e];
+            if (!O.has_extent(edge)) continue;
+            if (!add(false, edge, doubles.vertex(O, O.v[edge]), doubles.edge(O, edge), points)) return false;
+        }
+        for (const auto& [from, along, edge] : edges)
+            if (!add(true, edge, from, along, corners)) return false;
+        return true;
+    }
+    bool add(bool of_robot, Index edge, const Vec<Approx>& from, const Vec<Approx>& along, const std::vector<Vec<Approx>>& seen) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Range m{-infinity, -infinity};
+        const Approx by = cross(along, near.by);
+        const Range s = range(of_robot ? -by : by);
+        bool known = std::isfinite(by.m);
+        for (const auto& p : seen) {
+            const Approx side = cross(along, p - from);
+            known = known && std::isfinite(side.m);
+            const Range x = range(side);
+            m = {std::max(m.low, x.low), std::max(m.high, x.high)};
+        }
+        if (!known) return lines.push_back({of_robot, edge, false, false, {}}), true;
+        if (m.high < 0 && m.high + s.high <= 0) return false;
+        if (m.low > 0 && m.low + s.low > 0) return true;  // inside all the way
+        if (s.low > 0) lines.push_back({of_robot, edge, true, false, quotient({-m.high, -m.low}, s)});
+        else if (s.high < 0) lines.push_back({of_robot, edge, false, true, quotient(m, {-s.high, -s.low})});
+        else lines.push_back({of_robot, edge, false, false, {}});
+        return true;
+    }
+
+    Vec<Int> along(const Line& line) const {
+        return line.of_robot ? exact.turned(whole.edge(scene.robot, line.edge)) : whole.edge(scene.obstacles, line.edge);
+    }
+    Int slope(const Line& line) const {
+        const Int by = cross(along(line), exact.by);
+        return line.of_robot ? Int(-by) : by;
+    }
+    // The vertex farthest inside.
+    Int most(const Line& line) const {
+        const Shape &A = scene.robot, &O = scene.obstacles;
+        const auto fixed = [&](Index v) {
+            const Vec<Int> b = whole.vertex(O, v);
+            return Vec<Int>{exact.W * b.x, exact.W * b.y};
         };
-        if (known) tree->query(swept, look);
-        else for (Index k = 0; k < scene->obstacles.pieces(); ++k) look(k);
+        const Vec<Int> d = along(line);
+        const Vec<Int> from = line.of_robot ? exact(whole.vertex(A, A.v[line.edge])) : fixed(O.v[line.edge]);
+        const Shape& moving = line.of_robot ? O : A;
+        const Index k = line.of_robot ? other : piece, first = moving.piece[k];
+        // doubles say which ones it may be
+        const Vec<Approx> near_from = line.of_robot ? near(doubles.vertex(A, A.v[line.edge])) : doubles.vertex(O, O.v[line.edge]);
+        const Vec<Approx> near_d = line.of_robot ? near.turned(doubles.edge(A, line.edge)) : doubles.edge(O, line.edge);
+        const auto& seen = line.of_robot ? corners : points;
+        double low = -std::numeric_limits<double>::infinity();
+        for (const auto& p : seen) low = std::max(low, range(cross(near_d, p - near_from)).low);
+        std::optional<Int> found;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            if (range(cross(near_d, seen[i] - near_from)).high < low) continue;
+            const Index v = moving.piece_vertex[first + static_cast<Index>(i)];
+            Int value = cross(d, (line.of_robot ? fixed(v) : exact(whole.vertex(A, v))) - from);
+            if (!found || value > *found) found = std::move(value);
+        }
+        return *found;
+    }
+
+    struct Edge {
+        Vec<Approx> from, along;
+        Index edge;
+    };
+    const Scene& scene;
+    const Moved<Approx> near;
+    const Moved<Int> exact;
+    const CoreUnits<Approx> doubles{};
+    const CoreUnits<Int> whole{};
+    Index piece = 0, other = 0;
+    std::vector<Vec<Approx>> points, corners;  // of the robot's piece in the beginning, and of the obstacles'
+    std::vector<Edge> edges;                   // of the robot's piece
+    std::vector<Line> lines;
+};
+
+}  // namespace
+
+std::optional<Ratio> MotionChecker::free_share(const Motion& motion) const {
+    const Shape &A = scene->robot, &O = scene->obstacles;
+    Course course(*scene, motion);
+    struct Pair {
+        double until;
+        Index robot, obstacle;
+    };
+    std::vector<Pair> pairs;
+    for (Index i = 0; i < A.pieces(); ++i) {
+        const auto look = [&](Index k) {
+            if (O.piece_layer[k] != A.piece_layer[i]) return;
+            if (const auto until = course.apart_until(k)) pairs.push_back({*until, i, k});
+        };
+        if (const auto swept = course.look_at(i)) tree->query(*swept, look);
+        else for (Index k = 0; k < O.pieces(); ++k) look(k);
     }
     std::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) { return p.until < q.until; });
-    const Moved<Int> exact = exactly(motion);
     std::optional<Ratio> first;
     double horizon = 1;  // nothing after it matters
-    std::vector<Int> sides;
     for (const Pair& pair : pairs) {
         if (pair.until > horizon) break;
-        const auto found = meeting(*scene, pair.robot, pair.obstacle, exact, sides);
+        course.look_at(pair.robot);
+        const auto found = course.meeting(pair.obstacle);
         if (!found || (first && *found >= *first)) continue;
         first = found;
         if (first->n.is_zero()) break;

@@ -127,8 +127,8 @@ private:
             heed_stop();
             const auto& [to, depth] = ahead.back();
             const Station& p = at;
-            const RationalPose turned = f.pose(p.t, to.tau), moved = f.pose(to.t, p.tau);
-            auto found = motions.first_free({{p.off, to.off}, {p.off, p.on, turned, to.on, to.off}, {p.off, p.on, moved, to.on, to.off}});
+            auto found = motions.first_free({{p.off, to.off}});
+            if (!found) found = motions.first_free({{p.off, p.on, f.pose(p.t, to.tau), to.on, to.off}, {p.off, p.on, f.pose(to.t, p.tau), to.on, to.off}});
             if (!found && depth > slid) found = along_curve(f, p, to);
             if (found) {
                 append(way, *found, 1);

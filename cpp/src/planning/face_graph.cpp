@@ -2,6 +2,7 @@
 #include "cfree/planning/face_graph.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <queue>
 #include <tuple>
@@ -42,34 +43,34 @@ Vec<double> position(const CellComplex& cells, Index v) {
 FaceGraph::FaceGraph(std::shared_ptr<const CellComplex> of, double scale)
     : cells(std::move(of)), scene(cells->boundary->scene->near()), limits(*cells->boundary), angle_scale(scale) {}
 
-Place FaceGraph::middle(Index h) const {
+void FaceGraph::middles(Index face, std::vector<Place>& found) const {
     const Trapezoids& table = cells->boundary->trapezoids;
-    const Index face = cells->face[h], first = cells->first[face], after = h + 1 == cells->first[face + 1] ? first : h + 1;
-    const auto theta_of = [&](double tau) { return 2 * std::atan(tau) + table.chart[face] * pi; };
-    const double low = theta_of(table.tau_from(face)), high = theta_of(table.tau_to(face));
-    const Index ends[2] = {cells->vertex[h], cells->vertex[after]};
-    const auto side = static_cast<Side>(cells->side[h]);
-    Place result{};
-    if (side == Side::first || side == Side::last) {
-        result.theta = side == Side::first ? low : high;
-        for (const Index v : ends) {
-            const Vec<double> end = position(*cells, v);
-            result.x += end.x, result.y += end.y;
-        }
-        result.x /= 2, result.y /= 2;
-        return result;
-    }
-    for (const Index v : ends) {
-        const double theta = cells->theta[v];
-        const double turned = theta + 2 * pi * std::nearbyint(((low + high) / 2 - theta) / (2 * pi));
-        result.theta += std::min(std::max(turned, low), high);
-    }
-    result.theta /= 2;
-    const auto t = limits.of(face, std::tan((result.theta - table.chart[face] * pi) / 2));
+    const double turn = table.chart[face] * pi;
+    const double low = 2 * std::atan(table.tau_from(face)) + turn, high = 2 * std::atan(table.tau_to(face)) + turn;
     const Feature contact = cells->boundary->patches.contact(table.patch[face]);
-    const Place at = surface_at(scene, contact, t[side == Side::upper], result.theta);
-    const Vec<double> by = moved(*cells->boundary->scene, result.theta);
-    return {at.x + by.x, at.y + by.y, at.theta};
+    const Index first = cells->first[face], end = cells->first[face + 1];
+    for (Index h = first; h < end; ++h) {
+        const Index ends[2] = {cells->vertex[h], cells->vertex[h + 1 == end ? first : h + 1]};
+        const auto side = static_cast<Side>(cells->side[h]);
+        Place& result = found.emplace_back(Place{0, 0, 0});
+        if (side == Side::first || side == Side::last) {
+            result.theta = side == Side::first ? low : high;
+            for (const Index v : ends) {
+                const Vec<double> at = position(*cells, v);
+                result.x += at.x / 2, result.y += at.y / 2;
+            }
+            continue;
+        }
+        for (const Index v : ends) {
+            const double theta = cells->theta[v];
+            const double turned = theta + 2 * pi * std::nearbyint(((low + high) / 2 - theta) / (2 * pi));
+            result.theta += std::min(std::max(turned, low), high) / 2;
+        }
+        const auto t = limits.of(face, std::tan((result.theta - turn) / 2));
+        const Place at = surface_at(scene, contact, t[side == Side::upper], result.theta);
+        const Vec<double> by = moved(*cells->boundary->scene, result.theta);
+        result.x = at.x + by.x, result.y = at.y + by.y;
+    }
 }
 
 double FaceGraph::apart(const Place& a, const Place& b) const {
@@ -79,7 +80,28 @@ double FaceGraph::apart(const Place& a, const Place& b) const {
 std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<const Mark> starts, const Place& goal,
                                                  std::span<const Mark> goals, std::span<const Mark> links) const {
     const auto base = static_cast<Index>(cells->face.size()), last = static_cast<Index>(base + links.size());
-    const auto place_of = [&](Index h) { return h < base ? middle(h) : h < last ? links[h - base].at : goal; };
+    constexpr Index unseen = -2;
+    struct Node {
+        Place at;
+        double left, cost = std::numeric_limits<double>::infinity();  // at least; and the least one known
+        Index before = unseen, face = far_away;                      // the half-edge before, and the face after that
+    };
+    // ends of links and of the way, then the sides of faces that have been entered, one after the other
+    std::vector<Node> nodes;
+    for (const Mark& end : links) nodes.push_back({end.at, apart(end.at, goal)});
+    nodes.push_back({goal, 0});
+    std::vector<Index> begin(cells->component.size(), -1);
+    std::vector<Place> places;
+    const auto enter = [&](Index face) {
+        if (face == far_away || begin[face] >= 0) return;
+        begin[face] = static_cast<Index>(nodes.size());
+        places.clear();
+        middles(face, places);
+        for (const Place& at : places) nodes.push_back({at, apart(at, goal)});
+    };
+    const auto node = [&](Index h) -> Node& {
+        return nodes[h < base ? begin[cells->face[h]] + (h - cells->first[cells->face[h]]) : h - base];
+    };
     std::unordered_multimap<Index, Index> at_face;  // ends of links
     for (Index h = last; h-- > base;) at_face.emplace(links[h - base].face, h);
     struct Entry {
@@ -90,23 +112,20 @@ std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<c
         }
     };
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    constexpr Index unseen = -2;
-    struct Came {
-        Index before, face;  // the half-edge before, and the face after that
-    };
-    std::vector<Came> came(static_cast<std::size_t>(last) + 1, {unseen, 0});
 
     const auto relax = [&](double cost, Index face, const Place& at, Index before) {
-        const auto reach = [&](Index h) {
-            if (came[h].before != unseen) return;
-            const Place place = place_of(h);
-            const double there = cost + apart(at, place);
-            open.push({there + apart(place, goal), there, h, before, face});
+        const auto reach = [&](Index h, Node& to) {
+            if (to.before != unseen) return;
+            const double there = cost + apart(at, to.at);
+            if (there > to.cost) return;
+            to.cost = there;
+            open.push({there + to.left, there, h, before, face});
         };
+        enter(face);
         if (face != far_away)
-            for (Index h = cells->first[face]; h < cells->first[face + 1]; ++h) reach(h);
+            for (Index h = cells->first[face], k = begin[face]; h < cells->first[face + 1]; ++h, ++k) reach(h, nodes[k]);
         const auto [from, to] = at_face.equal_range(face);
-        for (auto it = from; it != to; ++it) reach(it->second);
+        for (auto it = from; it != to; ++it) reach(it->second, node(it->second));
         for (const Mark& landing : goals)
             if (landing.face == face) {
                 const double there = cost + apart(at, landing.at) + apart(landing.at, goal);
@@ -118,22 +137,23 @@ std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<c
         heed_stop();
         const auto [whole, cost, h, before, face] = open.top();
         open.pop();
-        if (came[h].before != unseen) continue;
-        came[h] = {before, face};
+        if (node(h).before != unseen) continue;
+        node(h).before = before, node(h).face = face;
         if (h == last) {
             std::vector<Step> way;
-            for (Index by = h; by >= 0; by = came[by].before) way.push_back({came[by].face, by});
+            for (Index by = h; by >= 0; by = node(by).before) way.push_back({node(by).face, by});
             return {way.rbegin(), way.rend()};
         }
+        const Place at = node(h).at;
         if (h < base) {
             const Index twin = cells->twin[h];
             if (twin < 0) continue;
-            came[twin] = {before, face};
-            relax(cost, cells->face[twin], place_of(h), h);
+            enter(cells->face[twin]);
+            node(twin).before = before, node(twin).face = face;
+            relax(cost, cells->face[twin], at, h);
         } else {
-            const Index other = base + ((h - base) ^ 1);
-            const Mark& end = links[other - base];
-            relax(cost + apart(links[h - base].at, end.at), end.face, end.at, h);
+            const Mark& end = links[(h - base) ^ 1];
+            relax(cost + apart(at, end.at), end.face, end.at, h);
         }
     }
     return {};

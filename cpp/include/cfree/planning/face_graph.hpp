@@ -35,7 +35,8 @@ public:
     // no way. A side without a twin is not crossed.
     std::vector<Step> shortest(const Place& start, std::span<const Mark> starts, const Place& goal, std::span<const Mark> goals,
                                std::span<const Mark> links) const;
-    Place middle(Index half_edge) const;
+    // Of the sides of a face, behind what was found before.
+    void middles(Index face, std::vector<Place>& found) const;
     double apart(const Place& a, const Place& b) const;
     const std::shared_ptr<const CellComplex> cells;
 
