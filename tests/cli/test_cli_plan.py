@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -230,3 +231,46 @@ def test_clearances_and_several_goals(run: Run, tmp_path: Path) -> None:
     ):
         result = run("plan", file, *options)
         assert result.exit_code == 2 and said in result.stderr, result.stderr
+
+
+def test_poses_with_times_and_standard_output(run: Run, tmp_path: Path) -> None:
+    """As close as asked for, no point faster than the speed; the report goes elsewhere."""
+    rod, block = [(0, -1), (5, -1), (5, 1), (0, 1)], [(9, 9), (10, 9), (10, 10)]
+    scene, file = cfree.Scene(rod, [block], start=(0, 0, 0), goal=(30, 0, 3)), str(tmp_path / "scene.json")
+    cfree.save(scene, file)
+    sampled = ["--step", "0.5", "--turn", "2deg", "--speed", "2"]
+    result = run("plan", file, "-o", "-", "--format", "csv", *sampled)
+    assert result.exit_code == 0 and "motion proved free" in result.stderr
+    rows = list(csv.DictReader(result.stdout.splitlines()))
+    table = [[float(row[name]) for name in ("x", "y", "theta", "t")] for row in rows]
+    assert table[0][3] == 0 and table[-1][:2] == [30, 0]
+    for one, other in pairwise(table):
+        before, after = (cfree.Poses([q[:2]], [q[2]]).apply(scene.robot[0].vertices)[0].tolist() for q in (one, other))
+        assert max(map(math.dist, before, after)) <= 2 * (other[3] - one[3]) * (1 + 1e-9)
+        assert math.dist(one[:2], other[:2]) <= 0.5 * (1 + 1e-9)
+        assert abs(other[2] - one[2]) <= math.radians(2) * (1 + 1e-9)
+    run("plan", file, "-o", tmp_path / "way.yaml", *sampled)
+    stamps = [pose["header"]["stamp"] for pose in yaml.safe_load((tmp_path / "way.yaml").read_text())["poses"]]
+    assert [s["sec"] + s["nanosec"] / 1e9 for s in stamps] == pytest.approx([row[3] for row in table], abs=1e-8)
+    run("plan", file, "-o", tmp_path / "way.geojson", *sampled)
+    outlines = json.loads((tmp_path / "way.geojson").read_text())["features"][1:]
+    assert [outline["properties"]["t"] for outline in outlines] == [row[3] for row in table]
+    (tmp_path / "exact.json").write_text(run("plan", file, "-o", "-").stdout)
+    assert run("verify", file, tmp_path / "exact.json").exit_code == 0
+    for options, said in (
+        (["-o", "-", "--json"], "-o -: --json prints there, too; leave one of them out"),
+        (["--step", "1"], "--step: of sampled poses; give -o with .csv, .yaml or .geojson, or --format"),
+        (["-o", "w.csv", "--turn", "x"], "--turn: theta: 'x' is no number"),
+        (["-o", "w.csv", "--speed", "0"], "--speed: '0'; give a length above 0"),
+    ):
+        result = run("plan", file, *options)
+        assert result.exit_code == 2 and said in result.stderr
+
+
+def test_improving_says_what_there_was_before(run: Run) -> None:
+    flat = "examples/scenes/flat.json"
+    facts = json.loads(run("plan", flat, "--improve", "300ms", "--json").stdout)
+    assert facts["length"] <= facts["before it was improved"]["length"]
+    said = run("plan", flat, "--improve", "100ms").stdout
+    assert "before it was improved" in said and "least clearance" in said
+    assert "before it was improved" not in run("plan", flat, "--improve", "0").stdout

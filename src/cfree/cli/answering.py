@@ -22,6 +22,47 @@ if TYPE_CHECKING:
 
 
 @dataclass
+class Sampling:
+    """In which form a path is written, and with which poses.
+
+    Attributes
+    ----------
+    form : str
+    step, speed : float or None
+    turn : float, radians
+    """
+
+    form: str
+    step: float | None
+    turn: float
+    speed: float | None
+
+    @classmethod
+    def of(
+        cls, output: Path | None, form: str | None, step: str | None, turn: str | None, speed: str | None
+    ) -> Sampling:
+        """From the options of the command line.
+
+        Raises
+        ------
+        ValueError
+            If there are no poses for them.
+        """
+        from cfree.cli.values import read_length, read_turn
+        from cfree.formats.answer_file import form_of
+
+        form = "json" if output is None or (str(output) == "-" and form is None) else form_of(output, form)
+        given = {name: text for name, text in (("--step", step), ("--turn", turn), ("--speed", speed)) if text}
+        if form == "json" and given:
+            wrong = ", ".join(given)
+            raise ValueError(f"{wrong}: of sampled poses; give -o with .csv, .yaml or .geojson, or --format")
+        length, most = (
+            float(read_length(given[name], name)) if name in given else None for name in ("--step", "--speed")
+        )
+        return cls(form, length, read_turn(turn) if turn else math.radians(5), most)
+
+
+@dataclass
 class Answering:
     """A question about a scene, and its answer in all forms that are asked for.
 
@@ -41,6 +82,7 @@ class Answering:
     goal: Pose | None
     files: dict[str, str]
     answer: Motions | Separated | AllSeparated
+    first: Motions | Separated | AllSeparated | None = None  # before it was improved
 
     @classmethod
     def of(
@@ -59,9 +101,11 @@ class Answering:
         is_one = not goals or (len(goals) == 1 and isinstance(goals[0], Pose))
         start, goal = required(planner.scene, given, goals[0] if is_one and goals else None if is_one else Pose(0, 0))
         try:
-            if is_one:
-                return cls(planner, start, goal, files, planner.plan(start, goal, **options))
-            return cls(planner, start, None, files, planner.plan_any(start, goals, **options))
+            answers = [
+                planner.plan(start, goal, **wanted) if is_one else planner.plan_any(start, goals, **wanted)
+                for wanted in (options, *([options | {"improve": 0.0}] if options["improve"] else []))
+            ]
+            return cls(planner, start, goal if is_one else None, files, *answers)
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
 
@@ -78,18 +122,27 @@ class Answering:
         of = getattr(self.answer, "of", None)
         return {None: 0, "closed": REFUTED}.get(of, INCOMPLETE)
 
-    def write(self, output: Path, form: str) -> None:
-        """A path in any form, a proof as JSON."""
-        from cfree.formats.answer_file import save_path, save_separation
+    def write(self, output: Path, poses: Sampling) -> None:
+        """A path in any form, a proof as JSON; to a file or to standard output."""
+        from cfree.formats.answer_file import text_of, text_of_proof
+        from cfree.formats.atomic import replacing
         from cfree.paths.path import Path as Motions
 
         if isinstance(self.answer, Motions):
-            step = self.planner.angle_scale / 20
-            save_path(self.answer, output, step=step, scene=self.planner.scene, form=form)
-        elif form == "json":
-            save_separation(self.answer, output)
+            step, scene = poses.step or self.planner.angle_scale / 20, self.planner.scene
+            text = text_of(
+                self.answer, output, step=step, turn=poses.turn, speed=poses.speed, scene=scene, form=poses.form
+            )
+        elif poses.form == "json":
+            text = text_of_proof(self.answer, output)
         else:
-            self._leave_out("answer", f"there is no path to write as {form}; a proof is written as .json")
+            self._leave_out("answer", output, f"there is no path to write as {poses.form}; a proof is written as .json")
+            return
+        if str(output) == "-":
+            print(text, end="")
+        else:
+            with replacing(output) as unfinished:
+                unfinished.write_text(text, encoding="utf-8", newline="\n")
 
     def draw(self, picture: Path) -> None:
         """The picture, with the configuration space; of several proofs that of the first."""
@@ -108,7 +161,7 @@ class Answering:
         from cfree.film import film_path
 
         if self.path is None:
-            self._leave_out("film", "there is no path to film")
+            self._leave_out("film", film, "there is no path to film")
             return
         with bar("film") as progress:
             film_path(self.path, self.planner.scene, film, progress=progress)
@@ -119,6 +172,10 @@ class Answering:
 
         with bar("least clearance"):
             rows: dict[str, Any] = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+        if self.path is not None and self.first is not None:
+            facts = answer_facts(self.first, self.planner.scene)
+            kept = ("length", "turning", "clearance")
+            rows["before it was improved"] = {name: facts[name] for name in kept} if for_machines else _before(facts)
         if self.goal is None and self.path is not None:
             goal = self.path.goal
             x, y, theta = float(goal.x), float(goal.y), goal.theta
@@ -149,5 +206,11 @@ class Answering:
             found = nearest_miss(self.planner.scene, self.start, self.goal, progress=progress)
         return str(found) if found else "no smaller robot gets there either"
 
-    def _leave_out(self, name: str, why: str) -> None:
-        print(printable(f"{self.files.pop(name)} is not written: {why}"), file=sys.stderr)
+    def _leave_out(self, name: str, file: Path, why: str) -> None:
+        self.files.pop(name, None)
+        print(printable(f"{file} is not written: {why}"), file=sys.stderr)
+
+
+def _before(facts: dict[str, Any]) -> str:
+    least = f", least clearance {facts['clearance']['found']:.6g}" if facts["clearance"] else ""
+    return f"way {facts['length']:.6g}, turning {math.degrees(facts['turning']):.6g} degrees{least}"

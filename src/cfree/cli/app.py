@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import os
+import sys
+from contextlib import nullcontext, redirect_stdout
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -157,6 +159,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json",
         "cfree plan scene.json --start 0,0,90deg --goal 5,1/3,tau:1/2 -o way.json --picture way.png",
         "cfree plan scene.json -o way.csv --improve 2s",
+        "cfree plan scene.json -o - --format csv --step 0.05 --speed 0.5 > way.csv",
         "cfree plan scene.json --clearance 0.3",
         "cfree plan scene.json --what-if",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
@@ -173,7 +176,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     help="The same; of X,Y any orientation will do. Of several --goal any one will.",
     show_default="the scene's",
 )
-@file_option("--output", "-o", metavar="FILE", help="Write the answer: path or proof.")
+@file_option("--output", "-o", metavar="FILE", help="Write the answer: path or proof; - is standard output.")
 @click.option(
     "--format",
     "form",
@@ -181,6 +184,11 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     help="Of that file: json, exact; or of a path sampled poses: csv, geojson, ros.",
     show_default="by the file's name, else json",
 )
+@click.option(
+    "--step", metavar="LENGTH", help="From one sampled pose to the next, at most.", show_default="robot's radius / 20"
+)
+@click.option("--turn", metavar="ANGLE", help="And the angle it turns, at most.", show_default="5deg")
+@click.option("--speed", metavar="SPEED", help="Of no point of the robot more: sampled poses have times.")
 @click.option("--clearance", metavar="LENGTH", help="A distance that the path keeps from obstacles and workspace.")
 @click.option(
     "--improve",
@@ -206,9 +214,9 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @options.max_seconds
 @options.as_json
 def plan(
-    scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, clearance: str | None,
-    improve: str | None, objective: str, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
-    max_seconds: float | None, as_json: bool,
+    scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, step: str | None,
+    turn: str | None, speed: str | None, clearance: str | None, improve: str | None, objective: str,
+    picture: Path | None, film: Path | None, miss: bool, what_if: bool, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
@@ -217,11 +225,13 @@ def plan(
     too near to the largest.
     """
     with one_line_faults():
-        from cfree.cli.answering import Answering
-        from cfree.formats.answer_file import form_of
+        from cfree.cli.answering import Answering, Sampling
 
-        written = check_outputs(scene, {"answer": output, "picture": picture, "film": film})
-        kind = form_of(output, form) if output else "json"
+        printed = str(output) == "-"
+        if printed and as_json:
+            raise ValueError("-o -: --json prints there, too; leave one of them out")
+        written = check_outputs(scene, {"answer": None if printed else output, "picture": picture, "film": film})
+        poses = Sampling.of(output, form, step, turn, speed)
         seconds = None if improve is None else read_seconds(improve)
         wanted = read_objective(objective)
         ends = read_pose(start, "--start"), read_goals(goal)
@@ -229,13 +239,14 @@ def plan(
         options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
         found = Answering.of(planner_of(scene, max_seconds), ends, written, options)
         if output:
-            found.write(output, kind)
+            found.write(output, poses)
         if picture:
             found.draw(picture)
         if film:
             found.film(film)
         rows = found.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)
-        print_result(found.planner.scene.name or str(scene), scene, rows, written, as_json)
+        with redirect_stdout(sys.stderr) if printed else nullcontext():
+            print_result(found.planner.scene.name or str(scene), scene, rows, found.files, as_json)
     if found.exit_code:
         raise click.exceptions.Exit(found.exit_code)
 

@@ -74,6 +74,17 @@ def read_length(text: str, name: str) -> Fraction:
     return length
 
 
+def read_turn(text: str) -> float:
+    """Radians above 0, up to a whole turn."""
+    from cfree.exact.pose import Pose
+
+    try:
+        turn = Pose(0, 0, read_angle(text)).theta
+    except ValueError as error:
+        raise ValueError(f"--turn: {error}") from None
+    return turn or math.tau
+
+
 def read_objective(text: str) -> Objective:
     """What to prefer among paths."""
     word: Objective

@@ -65,6 +65,7 @@ def save_path(
     *,
     step: float | None = None,
     turn: float = math.radians(5),
+    speed: float | None = None,
     scene: Scene | None = None,
     form: str | None = None,
 ) -> None:
@@ -79,8 +80,10 @@ def save_path(
         at these poses.
     step, turn : float
         As in `Path.sample`; step is needed for all but ``.json``.
+    speed : float, optional
+        Lengths a second that no point of the robot is faster than: poses have times then, in seconds.
     scene : Scene, optional
-        That of the path, if it does not know it; needed for ``.json`` and ``.geojson``.
+        That of the path, if it does not know it; needed for ``.json`` and ``.geojson``, and for times.
     form : "json", "csv", "ros" or "geojson", optional
         Instead of what the file's name says.
 
@@ -91,25 +94,42 @@ def save_path(
     ValueError
         If step or scene is missing.
     """
-    from cfree.formats.path_text import path_text
-    from cfree.formats.poses_text import csv_text, geojson_text, ros_text
-
-    kind, scene = form_of(file, form), scene or path.scene
-    if kind == "json":
-        stamp = stamp_for(file, scene, path.stamp)
-        text = path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
-    elif step is None:
-        raise ValueError(f"{file}: no step; give the longest distance between poses")
-    elif kind == "csv":
-        text = csv_text(path, step, turn)
-    elif kind == "ros":
-        text = ros_text(path, step, turn)
-    elif scene is None:
-        raise ValueError(f"{file}: no scene; give the one whose robot moves")
-    else:
-        text = geojson_text(path, scene, step, turn)
+    text = text_of(path, file, step=step, turn=turn, speed=speed, scene=scene, form=form_of(file, form))
     with replacing(file) as unfinished:
         unfinished.write_text(text, encoding="utf-8", newline="\n")
+
+
+def text_of(
+    path: Path, file: object, *, step: float | None, turn: float, speed: float | None, scene: Scene | None, form: str
+) -> str:
+    """What `save_path` writes."""
+    from cfree.formats.path_text import path_text
+    from cfree.formats.poses_text import csv_text, geojson_text, ros_text
+    from cfree.paths.timing import times
+
+    scene = scene or path.scene
+    if form == "json":
+        stamp = stamp_for(file, scene, path.stamp)
+        return path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
+    if step is None:
+        raise ValueError(f"{file}: no step; give the longest distance between poses")
+    if scene is None and (form == "geojson" or speed is not None):
+        raise ValueError(f"{file}: no scene; give the one whose robot moves")
+    seconds = None if speed is None or scene is None else times(path, scene, speed, step, turn).tolist()
+    if form == "csv":
+        return csv_text(path, step, turn, seconds)
+    if form == "ros":
+        return ros_text(path, step, turn, seconds)
+    assert scene is not None
+    return geojson_text(path, scene, step, turn, seconds)
+
+
+def text_of_proof(proof: Separated | AllSeparated, file: object) -> str:
+    """What `save_separation` writes."""
+    from cfree.formats.separation_text import all_separated_text, separation_text
+
+    stamp = stamp_for(file, proof.scene, proof.stamp)
+    return separation_text(proof, stamp) if isinstance(proof, Separated) else all_separated_text(proof, stamp)
 
 
 def save_separation(proof: Separated | AllSeparated, file: str | PathLike[str]) -> None:
@@ -122,12 +142,9 @@ def save_separation(proof: Separated | AllSeparated, file: str | PathLike[str]) 
     ValueError
         If there is no scene.
     """
-    from cfree.formats.separation_text import all_separated_text, separation_text
-
     if FilePath(file).suffix.lower() != ".json":
         raise UnsupportedError(f"{file}: separations are written as .json; name the file so")
-    stamp = stamp_for(file, proof.scene, proof.stamp)
-    text = separation_text(proof, stamp) if isinstance(proof, Separated) else all_separated_text(proof, stamp)
+    text = text_of_proof(proof, file)
     with replacing(file) as unfinished:
         unfinished.write_text(text, encoding="utf-8", newline="\n")
 

@@ -34,6 +34,7 @@ def save(
     *,
     step: float | None = None,
     turn: float = math.radians(5),
+    speed: float | None = None,
     scene: Scene | None = None,
     form: str | None = None,
 ) -> None:
@@ -48,6 +49,8 @@ def save(
         nav_msgs/Path) or ``.geojson`` with the robot's outlines.
     step, turn : float
         Of paths, as in `Path.sample`: needed for poses.
+    speed : float, optional
+        Of paths: lengths a second that no point of the robot is faster than; poses have times then, in seconds.
     scene : Scene, optional
         Of paths that were read from a file: needed for ``.geojson``, and for ``.json`` if the file did not say it.
     form : "json", "csv", "ros" or "geojson", optional
@@ -72,8 +75,8 @@ def save(
     True
     """
     if isinstance(value, Path):
-        return save_path(value, path, step=step, turn=turn, scene=scene, form=form)
-    given = {"step": step, "scene": scene, "form": form}
+        return save_path(value, path, step=step, turn=turn, speed=speed, scene=scene, form=form)
+    given = {"step": step, "speed": speed, "scene": scene, "form": form}
     if wrong := next((name for name, option in given.items() if option is not None), None):
         raise ValueError(f"{wrong}: a {type(value).__name__} is no path; leave it out")
     match value:

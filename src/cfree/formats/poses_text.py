@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import repeat
 from typing import TYPE_CHECKING, Any
 
 from cfree.exact.pose import Poses
@@ -14,19 +15,22 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 
-def csv_text(path: Path, step: float, turn: float) -> str:
-    """Poses as lines x,y,theta."""
-    return "x,y,theta\n" + "".join(f"{x!r},{y!r},{theta!r}\n" for x, y, theta in _rows(path, step, turn))
+def csv_text(path: Path, step: float, turn: float, seconds: Sequence[float] | None = None) -> str:
+    """Poses as lines x,y,theta, and t where times are given."""
+    head = "x,y,theta\n" if seconds is None else "x,y,theta,t\n"
+    ends = ("" if seconds is None else f",{t!r}" for t in seconds or repeat(0.0))
+    rows = zip(_rows(path, step, turn), ends, strict=seconds is not None)
+    return head + "".join(f"{x!r},{y!r},{theta!r}{end}\n" for (x, y, theta), end in rows)
 
 
-def ros_text(path: Path, step: float, turn: float) -> str:
-    """Poses as a ROS 2 message nav_msgs/Path in YAML; all stamps are zero."""
-    header = f"{{stamp: {{sec: 0, nanosec: 0}}, frame_id: {_quoted(path.frame)}}}"
-    lines = [f"header: {header}", "poses:"]
-    for x, y, theta in _rows(path, step, turn):
+def ros_text(path: Path, step: float, turn: float, seconds: Sequence[float] | None = None) -> str:
+    """Poses as a ROS 2 message nav_msgs/Path in YAML; stamps are zero, unless times are given."""
+    frame = _quoted(path.frame)
+    lines = [f"header: {_header(frame, 0.0)}", "poses:"]
+    for (x, y, theta), t in zip(_rows(path, step, turn), seconds or repeat(0.0), strict=False):
         z, w = math.sin(theta / 2), math.cos(theta / 2)
         lines += [
-            f"- header: {header}",
+            f"- header: {_header(frame, t)}",
             "  pose:",
             f"    position: {{x: {_decimal(x)}, y: {_decimal(y)}, z: 0.0}}",
             f"    orientation: {{x: 0.0, y: 0.0, z: {_decimal(z)}, w: {_decimal(w)}}}",
@@ -34,12 +38,18 @@ def ros_text(path: Path, step: float, turn: float) -> str:
     return "\n".join(lines) + "\n"
 
 
-def geojson_text(path: Path, scene: Scene, step: float, turn: float) -> str:
+def _header(frame: str, t: float) -> str:
+    sec, nanosec = divmod(round(t * 10**9), 10**9)
+    return f"{{stamp: {{sec: {sec}, nanosec: {nanosec}}}, frame_id: {frame}}}"
+
+
+def geojson_text(path: Path, scene: Scene, step: float, turn: float, seconds: Sequence[float] | None = None) -> str:
     """The way of the reference point and the robot's outlines, as a GeoJSON feature collection."""
     poses, thetas = path.sample(step, turn), path.angles(step, turn).tolist()
     places = [(0, 0.0), *((k, s) for k, shares in enumerate(path.shares(step, turn)) for s in shares.tolist())]
     if not path.motions:
         poses, thetas, places = Poses.from_poses([path.start] * 2), thetas * 2, places * 2
+        seconds = seconds and [*seconds, *seconds]
     roles = ["start", *["pose"] * (len(places) - 2), "goal"]
     way = {"type": "LineString", "coordinates": poses.xy.tolist()}
     features = [_feature(way, role="trace", length=path.length, turning=path.turning)]
@@ -52,7 +62,8 @@ def geojson_text(path: Path, scene: Scene, step: float, turn: float) -> str:
         coordinates: list[Any] = polygons[0] if len(polygons) == 1 else polygons
         (x, y), theta = poses.xy[n].tolist(), thetas[n]
         shape = {"type": kind, "coordinates": coordinates}
-        features.append(_feature(shape, role=role, x=x, y=y, theta=theta, motion=motion, share=share))
+        when = {} if seconds is None else {"t": seconds[n]}
+        features.append(_feature(shape, role=role, x=x, y=y, theta=theta, motion=motion, share=share, **when))
     lines = ",\n".join(f"  {json.dumps(feature)}" for feature in features)
     head = f'"type": "FeatureCollection", "units": {json.dumps(path.units)}, "frame": {json.dumps(path.frame)}'
     return f'{{{head},\n "features": [\n{lines}\n]}}\n'
