@@ -58,24 +58,19 @@ Fractions = Sequence[Fraction]
 Interval = tuple[Fraction, Fraction]
 ZERO, ONE = Fraction(0), Fraction(1)
 
-
 class BadFileError(Exception):
     """A file does not say what its format asks for."""
 
-
 class RefutedError(Exception):
     """The answer is wrong, or not proved."""
-
 
 def refuse_if(wrong: Any, text: str) -> None:
     if wrong:
         raise BadFileError(text)
 
-
 def refute_if(wrong: Any, text: str) -> None:
     if wrong:
         raise RefutedError(text)
-
 
 # === Files: JSON with exact numbers, no unknown and no repeated keys ===
 MAX_DIGITS = 4000
@@ -84,7 +79,6 @@ MAX_BITS = 1110  # of a scene's coordinates over their common denominator
 QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
 BITS = 1300  # of angles: there may be 1024 in front of the point
 REQUIRED = object()
-
 
 def decoded(text: str) -> Any:
     """A JSON value: decimals as `Decimal`, integers as int."""
@@ -104,7 +98,6 @@ def decoded(text: str) -> Any:
     except (ValueError, InvalidOperation, RecursionError) as error:
         raise BadFileError(f"no JSON: {error}") from None
 
-
 def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
     """The members of an object; `known` holds the keys, each with what counts if it is not there."""
     refuse_if(not isinstance(value, dict), f"{place}: expected an object")
@@ -114,22 +107,18 @@ def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
         refuse_if(default is REQUIRED and key not in value, f"{place}: {key!a} is missing")
     return {key: value.get(key, default) for key, default in known.items()}
 
-
 def items(value: Any, place: str, least: int = 0, most: float = math.inf) -> list[Any]:
     refuse_if(not isinstance(value, list) or not least <= len(value) <= most, f"{place}: expected a list")
     return value  # type: ignore[no-any-return]
-
 
 def one_of(value: Any, place: str, *choices: Any) -> Any:
     if not any(type(value) is type(choice) and value == choice for choice in choices):
         raise BadFileError(f"{place}: expected one of {', '.join(map(repr, choices))}")
     return value
 
-
 def whole(value: Any, place: str, least: int, most: int = 2**31 - 1) -> Any:
     refuse_if(type(value) is not int or not least <= value <= most, f"{place}: expected an integer from {least} on")
     return value
-
 
 def number(value: Any, place: str) -> Fraction:
     """A JSON number, as it is written, or a text "p/q" or of a decimal."""
@@ -146,16 +135,13 @@ def number(value: Any, place: str) -> Fraction:
             return Fraction(value)
     raise BadFileError(f'{place}: expected a number or "p/q", of at most {MAX_DIGITS} digits')
 
-
 def numbers(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     return tuple(number(item, place) for item in items(value, place, count, count))
-
 
 def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     """Numbers that are not in quotes."""
     refuse_if(any(isinstance(c, str) for c in items(value, place, count, count)), f"{place}: expected no text")
     return numbers(value, place, count)
-
 
 # === Angles: tau = tan(theta / 2), a Fraction, or None for the half turn ===
 #
@@ -163,7 +149,6 @@ def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
 # (pi / 2), and r = theta - k pi / 2, which counts as 0 if it is at most an ulp of the double theta. Then tau is that of
 # r, plus k right angles, and that of r is the fraction of least denominator within 2^-53 of the double tan(r / 2),
 # relatively.
-
 
 @dataclass
 class Pose:
@@ -182,14 +167,12 @@ class Pose:
     def __str__(self) -> str:
         return f"({float(self.x):g}, {float(self.y):g}, {math.degrees(float(angle_to(self.tau)) % math.tau):g} deg)"
 
-
 def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
     """Of the sum of two angles."""
     if one is None or other is None:
         finite = one if other is None else other
         return ZERO if finite is None else -1 / finite if finite else None
     return (one + other) / (1 - one * other) if one * other != 1 else None
-
 
 @lru_cache(maxsize=1 << 12)
 def angle_to(tau: Fraction | None) -> Fraction:
@@ -206,12 +189,10 @@ def angle_to(tau: Fraction | None) -> Fraction:
         power, k = -(power * x // unit) * x // unit, k + 2
     return Fraction(total << 9, unit)
 
-
 def turns_off(theta: Fraction, exact: Fraction) -> Fraction:
     """The distance of two angles but for whole turns."""
     circle = 2 * angle_to(None)
     return abs(theta - exact - circle * round((theta - exact) / circle))
-
 
 def simplest_between(low: Fraction, high: Fraction) -> Fraction:
     """The fraction of least denominator in a closed interval."""
@@ -223,7 +204,6 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
     if -math.floor(-low) <= high:
         return Fraction(-math.floor(-low))
     return below + 1 / simplest_between(1 / (high - below), 1 / (low - below))
-
 
 def read_angle(value: Any, place: str) -> Fraction | None:
     """Of radians, "90deg", or {"tau": "p/q"}."""
@@ -249,39 +229,31 @@ def read_angle(value: Any, place: str) -> Fraction | None:
         tau = tau_sum(tau, ONE)
     return tau
 
-
 def read_tau(value: Any, place: str) -> Fraction | None:
     return None if value in ("inf", "-inf", "1/0") and isinstance(value, str) else number(value, place)
-
 
 def read_pose(value: Any, place: str) -> Pose:
     x, y = numbers(items(value, place, 3, 3)[:2], place, 2)
     refuse_if(max(abs(x), abs(y)) > LARGEST, f"{place}: a position beyond 1e150")
     return Pose(x, y, read_angle(value[2], place))
 
-
 # === Polygons ===
 def cross(u: Point, v: Point) -> Any:
     return u[0] * v[1] - u[1] * v[0]
 
-
 def dot(u: Point, v: Point) -> Any:
     return u[0] * v[0] + u[1] * v[1]
 
-
 def minus(u: Any, v: Any) -> Point:
     return u[0] - v[0], u[1] - v[1]
-
 
 def side(p: Any, q: Any, r: Any) -> int:
     """1 if r is on the left of the line from p to q, -1 if on the right, 0 if on it."""
     area = (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
     return bool(area > 0) - bool(area < 0)
 
-
 def edges_of(ring: Sequence[Any]) -> list[tuple[Any, Any]]:
     return list(zip(ring, [*ring[1:], ring[0]], strict=True))
-
 
 class Polygon:
     """An outer ring, counter-clockwise, and holes, clockwise: the interior is on the left of every edge."""
@@ -299,10 +271,8 @@ class Polygon:
         """Its rings times a multiple of all denominators."""
         return [scaled(ring, scale) for ring in self.rings]
 
-
 def scaled(ring: Ring, scale: int) -> Ring:
     return [(x.numerator * (scale // x.denominator), y.numerator * (scale // y.denominator)) for x, y in ring]
-
 
 def clean(points: Ring, place: str) -> Ring:
     """Without the closing point, repeated ones, and those on a line with their neighbours."""
@@ -313,7 +283,6 @@ def clean(points: Ring, place: str) -> Ring:
     spikes = (side(p, q, r) == 0 > dot(minus(q, p), minus(r, q)) for p, q, r in around)
     refuse_if(len(points) < 3 or len(kept) < 3 or any(spikes), f"{place}: a ring without area, or with a spike")
     return kept
-
 
 def check_rings(rings: list[Ring], place: str) -> None:
     """Rings must not cross themselves or each other; holes are in the outer ring, and in no other hole."""
@@ -338,7 +307,6 @@ def check_rings(rings: list[Ring], place: str) -> None:
             for m, other in enumerate(rings):
                 refuse_if(m != k and encloses([other], middle) != (k > 0 and m == 0), f"{place}: rings that cross")
 
-
 def common_points(p: Point, q: Point, r: Point, s: Point) -> list[Point] | None:
     """Those in which two edges touch, p < q and r < s; None if they cross or overlap."""
     of_r, of_s, of_p, of_q = side(p, q, r), side(p, q, s), side(r, s, p), side(r, s, q)
@@ -349,7 +317,6 @@ def common_points(p: Point, q: Point, r: Point, s: Point) -> list[Point] | None:
         return []
     return [x for x, on in ((r, of_r), (s, of_s), (p, of_p), (q, of_q)) if on == 0] or None
 
-
 def encloses(rings: Iterable[Ring], point: Point) -> bool:
     """Is a point that is on none of the rings inside an odd number of them? By a ray towards +x."""
     inside = False
@@ -358,7 +325,6 @@ def encloses(rings: Iterable[Ring], point: Point) -> bool:
             if (p[1] > point[1]) != (q[1] > point[1]) and (side(p, q, point) > 0) == (q[1] > p[1]):
                 inside = not inside
     return inside
-
 
 def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
     """Is all of one polygon, with its boundary, in the interior of another: do their boundaries not meet, are the rings
@@ -372,7 +338,6 @@ def strictly_inside(inner: Polygon, outer: Polygon) -> bool:
             return False
     return all(encloses(other, ring[0]) for ring in one) and not any(encloses(one, ring[0]) for ring in other)
 
-
 def is_near(point: Point, core: Ring, distance: Fraction) -> bool:
     """Is a point nearer to a convex ring than a distance, or inside?"""
     seen = [(minus(p, point), minus(q, p)) for p, q in edges_of(core)]
@@ -380,19 +345,16 @@ def is_near(point: Point, core: Ring, distance: Fraction) -> bool:
     away = ((p[0] + share * v[0], p[1] + share * v[1]) for p, v, share in feet)
     return all(cross(p, v) >= 0 for p, v in seen) or any(dot(p, p) < distance**2 for p in away)
 
-
 def is_convex(rings: list[Ring]) -> bool:
     """One ring, counter-clockwise, all of whose points are corners of their hull?"""
     hull, ring = convex_hull(rings[0]), rings[0]
     first = ring.index(hull[0])
     return len(rings) == 1 and ring[first:] + ring[:first] == hull
 
-
 def is_around_disc(ring: Ring, radius: Fraction) -> bool:
     """Is it convex, with a disc about the origin inside?"""
     sides = ((cross(p, q), minus(q, p)) for p, q in edges_of(ring))
     return is_convex([ring]) and all(h > 0 and h * h >= radius**2 * dot(u, u) for h, u in sides)
-
 
 # === Scenes ===
 class Scene:
@@ -428,7 +390,6 @@ class Scene:
         lines += [f"bounds {' '.join(map(str, self.bounds))}"] if self.bounds else []
         return hashlib.sha256("".join(f"{line}\n" for line in lines).encode("ascii")).hexdigest()
 
-
 def read_scene(data: Any) -> Scene:
     refuse_if(isinstance(data, dict) and "type" in data, "GeoJSON is not read here; save the scene as a JSON scene")
     optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
@@ -445,36 +406,30 @@ def read_scene(data: Any) -> Scene:
     found.asked = {end: read_pose(got[end], end) for end in ("start", "goal") if got[end] is not None}
     return found
 
-
 def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
     got = members(value, place, outer=REQUIRED, holes=[], **more)
     rings = [got["outer"], *items(got["holes"], f"{place}.holes")]
     read: list[Any] = [[numbers(point, place, 2) for point in items(ring, place)] for ring in rings]
     return Polygon(read[0], read[1:], place)
 
-
 def read_bounds(value: Any, place: str) -> tuple[Fraction, ...]:
     x0, y0, x1, y1 = found = numbers(value, place, 4)
     refuse_if(x0 >= x1 or y0 >= y1, f"{place}: they are empty")
     return found
 
-
 # === Polynomials with integer coefficients, and their roots ===
 def sign(value: Any) -> int:
     return bool(value > 0) - bool(value < 0)
 
-
 def trimmed(p: Sequence[int]) -> Poly:
     """Without leading zeros; () is the zero polynomial."""
     return tuple(p[: max((k + 1 for k, c in enumerate(p) if c), default=0)])
-
 
 def primitive(p: Sequence[int]) -> Poly:
     """Divided by its content; the leading coefficient is positive."""
     p = trimmed(p)
     content = math.gcd(*p) * sign(p[-1]) if p else 1
     return tuple(c // content for c in p)
-
 
 def times(p: Sequence[Any], q: Sequence[Any]) -> tuple[Any, ...]:
     if not p or not q:
@@ -485,15 +440,12 @@ def times(p: Sequence[Any], q: Sequence[Any]) -> tuple[Any, ...]:
             found[i + j] += a * b
     return tuple(found)
 
-
 def combined(factors: Sequence[int], *polys: Sequence[int]) -> Poly:
     """The sum of polynomials, each times a number."""
     return tuple([sum(map(mul, factors, column)) for column in zip_longest(*polys, fillvalue=0)])
 
-
 def value(p: Sequence[int], x: Fraction) -> Fraction:
     return Fraction(*value_over(p, x))
-
 
 def value_over(p: Sequence[int], x: Fraction) -> tuple[int, int]:
     """Numerator and denominator, positive and not reduced, of p(x)."""
@@ -504,14 +456,11 @@ def value_over(p: Sequence[int], x: Fraction) -> tuple[int, int]:
         found = found * n + c * power
     return found, power
 
-
 def sign_at(p: Sequence[int], x: Fraction) -> int:
     return sign(value_over(p, x)[0])
 
-
 def derivative(p: Poly) -> Poly:
     return tuple(k * c for k, c in enumerate(p))[1:]
-
 
 @lru_cache(maxsize=1 << 14)
 def common_divisor(p: Poly, q: Poly) -> Poly:
@@ -523,7 +472,6 @@ def common_divisor(p: Poly, q: Poly) -> Poly:
         p, q = q, p
     return p
 
-
 def quotient(p: Poly, q: Poly) -> Poly:
     """p / q for a primitive q that divides p."""
     p, found = trimmed(p), []
@@ -533,13 +481,11 @@ def quotient(p: Poly, q: Poly) -> Poly:
     assert not any(p)
     return tuple(reversed(found))
 
-
 @lru_cache(maxsize=1 << 14)
 def squarefree(p: Poly) -> Poly:
     """With the same roots, each of them simple."""
     p = primitive(p)
     return quotient(p, common_divisor(p, derivative(p))) if len(p) > 2 else p
-
 
 @lru_cache(maxsize=1 << 12)
 def mapping(degree: int, lo: Fraction, hi: Fraction) -> list[list[int]]:
@@ -554,14 +500,12 @@ def mapping(degree: int, lo: Fraction, hi: Fraction) -> list[list[int]]:
         columns.append(p)
     return [list(row) for row in zip(*columns, strict=True)]
 
-
 def mapped(p: Sequence[int], interval: Interval) -> list[int]:
     """Coefficients of p in s, 0 <= s <= oo from one end of an interval to the other.
 
     If all are positive, so is p there; the number of their changes of sign bounds that of its roots (Descartes).
     """
     return [sum(map(mul, row, p)) for row in mapping(len(p) - 1, *interval)]
-
 
 class Root:
     """A real algebraic number: the only root of a squarefree polynomial in [lo, hi].
@@ -614,7 +558,6 @@ class Root:
             other.narrow()
         return -1 if self.hi < other.lo else 1
 
-
 def roots_in(p: Poly, lo: Fraction, hi: Fraction) -> list[Root]:
     """All roots in a closed interval, each once, in order. By halving, until Descartes' rule says none or one."""
     found, rational, todo = [], set(), [(squarefree(p), lo, hi)]
@@ -633,7 +576,6 @@ def roots_in(p: Poly, lo: Fraction, hi: Fraction) -> list[Root]:
             todo += [(q, lo, middle), (q, middle, hi)]
     return sorted([*found, *map(Root.rational, rational)], key=lambda root: (root.lo, root.hi))
 
-
 def ordered(roots: Iterable[Root]) -> list[list[Root]]:
     """In order, equal ones together."""
     found: list[list[Root]] = []
@@ -644,14 +586,12 @@ def ordered(roots: Iterable[Root]) -> list[list[Root]]:
             found.append([root])
     return found
 
-
 def between(lo: Fraction, hi: Fraction) -> Fraction:
     """A dyadic number of few digits strictly between two."""
     power = 1
     while (n := math.floor(lo * power) + 1) >= hi * power:
         power *= 2
     return Fraction(n, power)
-
 
 def samples(polys: Iterable[Poly], lo: Fraction, hi: Fraction) -> Iterator[Fraction]:
     """One number between any two neighbouring roots of all the polynomials in an interval, and its ends."""
@@ -663,18 +603,15 @@ def samples(polys: Iterable[Poly], lo: Fraction, hi: Fraction) -> Iterator[Fract
 
 ALL = ZERO, ONE  # of a motion: from u = 0 to u = 1
 
-
 def is_nowhere_positive(p: Sequence[int], interval: Interval) -> bool:
     """Yes is right; no may be wrong."""
     return all(sum(map(mul, row, p)) <= 0 for row in mapping(len(p) - 1, *interval))
-
 
 def positive_place(p: Poly) -> Fraction | None:
     """Some u from 0 to 1 at which p is positive, if there is one."""
     if is_nowhere_positive(p, ALL):
         return None
     return next((u for u in samples([p], *ALL) if sign_at(p, u) > 0), None)
-
 
 # === Convex pieces ===
 class Piece:
@@ -693,7 +630,6 @@ class Piece:
             line = b * f - c * e, c * d - a * f, a * e - b * d
             unit = math.gcd(*line)
             self.lines.append(tuple(part // unit for part in line))
-
 
 def convex_pieces(rings: list[Ring]) -> list[Piece]:
     """Trapezoids between the vertical lines through all vertices, put together where the same edges bound them.
@@ -718,12 +654,10 @@ def convex_pieces(rings: list[Ring]) -> list[Piece]:
             open_ones.setdefault(gap, left)
     return found
 
-
 def height(edge: tuple[Point, Point], x: Any) -> Fraction:
     """The y of an edge at an x."""
     (a, b), (c, d) = edge
     return Fraction(b * (c - a) + (d - b) * (x - a), c - a)
-
 
 def convex_hull(points: Iterable[Point]) -> Ring:
     """Counter-clockwise, from the leftmost point on."""
@@ -737,7 +671,6 @@ def convex_hull(points: Iterable[Point]) -> Ring:
             turned.append(r)
         half.append(turned[:-1])
     return half[0] + half[1]
-
 
 class World:
     """Convex pieces of a scene's robot and obstacles, in coordinates of its own: the scene's times `scale`.
@@ -777,14 +710,12 @@ class World:
             raise RefutedError("its decimals are not free, as it says: of smaller bounds nothing would be left")
         return found
 
-
 def box_around(points: Iterable[Any]) -> tuple[int, int, int, int]:
     """Of points (x, y, z), larger by less than 1 / 1024."""
     xs, ys, zs = zip(*points, strict=True)
     low = [min(1024 * c // z for c, z in zip(axis, zs, strict=True)) for axis in (xs, ys)]
     high = [-min(-1024 * c // z for c, z in zip(axis, zs, strict=True)) for axis in (xs, ys)]
     return low[0], low[1], high[0], high[1]
-
 
 # === Motions ===
 class Course:
@@ -800,12 +731,10 @@ class Course:
         turned = combined((-1, -1), times(C, X), times(S, Y)), combined((1, -1), times(S, X), times(C, Y))
         self.back = padded([times(W, W), times(C, W), combined((-1,), times(S, W)), *turned])
 
-
 def padded(polys: Sequence[Poly]) -> list[Poly]:
     """To one length."""
     length = max(len(trimmed(p)) for p in polys)
     return [(*p, *[0] * length)[:length] for p in polys]
-
 
 @dataclass
 class Motion:
@@ -865,7 +794,6 @@ class Motion:
                 yield Course(W, C, S, X, Y)
             pose = part.end(pose)
 
-
 def read_slide(exact: Any, contacts: list[tuple[Any, ...]], place: str) -> Motion:
     got = members(exact, place, x=REQUIRED, y=REQUIRED, d=REQUIRED, tau=REQUIRED)
     tau, terms = number(got["tau"], place), []
@@ -880,11 +808,9 @@ def read_slide(exact: Any, contacts: list[tuple[Any, ...]], place: str) -> Motio
     refuse_if(min(mapped([int(c * common) for c in d], ALL)) <= 0, f"{place}: d may be zero on the way")
     return Motion(vector=(sum(x, ZERO) / sum(d), sum(y, ZERO) / sum(d)), tau=tau, slide=(x, y, d), contacts=contacts)
 
-
 # === Collisions ===
 STANDING = Motion(vector=(ZERO, ZERO))
 SHORT = Fraction(1, 2**8)  # parts of a motion are halved; in those as short as that roots are looked for
-
 
 class Pair:
     """A piece of the robot on its course, and one of the walls."""
@@ -913,7 +839,6 @@ class Pair:
         """Have they a point in common, at u = 0?"""
         return all(any(p[0] >= 0 for p in self.heights(i)) for i in range(len(self.sides)))
 
-
 def beyond(world: World, course: Course) -> Iterator[Poly]:
     """What is positive where the reference point is out of the bounds, or a corner of the robot out of the box."""
     W, C, S, X, Y = course.moving
@@ -924,7 +849,6 @@ def beyond(world: World, course: Course) -> Iterator[Poly]:
     for (l, m, k), b in zip(lines, world.box, strict=False):
         for x, y, z in (corner for part in world.robot for corner in part.corners):
             yield combined((l * z, m * z, k * b * z, l * x + m * y, m * x - l * y), X, Y, W, C, S)
-
 
 def collision(world: World, course: Course) -> Fraction | None:
     """Some u at which the robot is where it may not be; None if there is none: that is proved."""
@@ -951,7 +875,6 @@ def collision(world: World, course: Course) -> Fraction | None:
                 todo += [((lo, middle), left), ((middle, hi), left)]
     return None
 
-
 def near(world: World, course: Course, part: Piece, interval: Interval, walls: list[int]) -> list[int]:
     """Those walls whose boxes meet one around all places of a piece: a quotient is between those of coefficients."""
     W, C, S, X, Y = (mapped(p, interval) for p in course.moving)
@@ -966,7 +889,6 @@ def near(world: World, course: Course, part: Piece, interval: Interval, walls: l
     boxes = ((k, *world.boxes[k]) for k in walls)
     return [k for k, left, bottom, right, top in boxes if x0 <= right and left <= x1 and y0 <= top and bottom <= y1]
 
-
 def touches(world: World, pose: Pose) -> bool:
     """Has the robot, at a free pose, no distance from something?"""
     course = next(STANDING.courses(pose, world.scale))
@@ -976,11 +898,9 @@ def touches(world: World, pose: Pose) -> bool:
     pairs = ((part, k) for part in world.robot for k in near(world, course, part, ALL, walls))
     return any(Pair(course, part, world.walls[k]).touches() for part, k in pairs)
 
-
 def check_pose(world: World, pose: Pose, what: str) -> None:
     if collision(world, next(STANDING.courses(pose, world.scale))) is not None:
         raise RefutedError(f"{what}: {pose} is forbidden")
-
 
 # === Answers: exact numbers, and the decimals beside them (docs/answer-format.md, "Decimals") ===
 class Answer:
@@ -1024,10 +944,8 @@ class Answer:
             if pose != getattr(self, name):
                 raise RefutedError(f"the {name} is {getattr(self, name)}, and {pose} in the scene")
 
-
 def off(decimals: dict[Any, Fraction], place: Any, exact: Fractions) -> Fraction:
     return sum((abs(decimals[place, k] - c) for k, c in enumerate(exact)), ZERO)
-
 
 def read_contact(value: Any, place: str) -> Contact:
     got = members(value, place, kind=REQUIRED, robot=REQUIRED, obstacle=REQUIRED)
@@ -1036,7 +954,6 @@ def read_contact(value: Any, place: str) -> Contact:
         polygon, vertex = items(got[key], f"{place}.{key}", 2, 2)
         features.append((whole(polygon, f"{place}.{key}", WORKSPACE), whole(vertex, f"{place}.{key}", 0)))
     return one_of(got["kind"], f"{place}.kind", "vertex-edge", "edge-vertex"), features[0], features[1]
-
 
 # === Paths ===
 class PathAnswer(Answer):
@@ -1103,7 +1020,6 @@ class PathAnswer(Answer):
         power = Fraction(2) ** (most.numerator.bit_length() - most.denominator.bit_length())
         return most and (power if most <= power else 2 * power)
 
-
 def check_path(answer: PathAnswer, scene: Scene) -> str:
     """What is proved, in a sentence."""
     world, only = World(scene), "; its decimals are approximate"
@@ -1134,7 +1050,6 @@ def check_path(answer: PathAnswer, scene: Scene) -> str:
     only = (kept if answer.clearance else "is free of collisions") + only
     return f"A path of {count} leads from {answer.start} to {answer.goal}, and {only}."
 
-
 def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> None:
     """A slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
     surface = Features(scene).surface(contact)
@@ -1149,17 +1064,14 @@ def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> Non
     for past in (combined((-u, -v), x, y), combined((u, v, -u * u - v * v), x, y, W)):
         refute_if(positive_place(past) is not None, f"{what}: the vertex of a contact is beyond the end of its edge")
 
-
 # === Contact surfaces, and the names of their curves and angles ===
 Form = tuple[int, int, int]  # (f, g, h) stands for f + g cos + h sin
 CHARTS = (1, -1)  # in chart 1 angles are counted from the half turn: cosines and sines change their signs
-
 
 def poly_of(form: Form, chart: int) -> Poly:
     """(1 + tau^2) times a form."""
     f, g, h = form[0], CHARTS[chart] * form[1], CHARTS[chart] * form[2]
     return f + g, 2 * h, f - g
-
 
 @dataclass(eq=False)
 class Surface:
@@ -1186,7 +1098,6 @@ class Surface:
         refute_if(not any(d), "a curve is cut out by a surface that is parallel at every angle")
         return (-n[0], -n[1], -n[2]), d
 
-
 @dataclass
 class Shape:
     """Vertices of the robot or of what it may not meet, by number, each with those before and after it."""
@@ -1205,7 +1116,6 @@ class Shape:
                 self.around.append((first + (k - 1) % n, first + (k + 1) % n))
                 self.vertices.append(ring[vertex])
             count += n
-
 
 class Features:
     """What numbers in an answer mean (docs/answer-format.md, "Names")."""
@@ -1327,7 +1237,6 @@ class Features:
         found.check()
         return found
 
-
 # === Separations ===
 class Curve:
     """t = n / d on a surface, and the reference point (X / Z, Y / Z) there, polynomials of degree 4 at most."""
@@ -1352,7 +1261,6 @@ class Curve:
         d = value(self.d, tau)
         refute_if(d == 0, "a curve leaves its surface's line to infinity")
         return value(self.n, tau) / d
-
 
 @dataclass
 class Trapezoid:
@@ -1391,7 +1299,6 @@ class Trapezoid:
         ends = self.start.lo, self.stop.hi
         return roots_in(p, *ends) if len(p) > 1 and min(found := mapped(p, ends)) <= 0 <= max(found) else []
 
-
 class Proof(Answer):
     """Two poses, and pieces of contact surfaces between them."""
 
@@ -1417,7 +1324,6 @@ class Proof(Answer):
         if set(got["obstacles"]) != {piece["contact"][2][0] for piece in self.pieces}:
             raise BadFileError('"obstacles" are not those of the surface')
 
-
 def read_auxiliary(data: Any) -> tuple[tuple[str, str, int], Ring]:
     got = members(data, "auxiliary", of=REQUIRED, kind=REQUIRED, number=REQUIRED, points=REQUIRED)
     of, kind = one_of(got["of"], "of", "robot", "obstacles"), one_of(got["kind"], "kind", "vertex", "edge")
@@ -1425,7 +1331,6 @@ def read_auxiliary(data: Any) -> tuple[tuple[str, str, int], Ring]:
     points = [numbers(point, "auxiliary", 2) for point in items(got["points"], "auxiliary", count, count)]
     refuse_if(len(set(points)) < count, "an auxiliary edge between two equal points")
     return (of, kind, whole(got["number"], "auxiliary", 0)), points  # type: ignore[return-value]
-
 
 def read_piece(data: Any, place: str) -> dict[str, Any]:
     got = members(data, place, **dict.fromkeys(("contact", "chart", "from", "to", "lower", "upper"), REQUIRED))
@@ -1442,11 +1347,9 @@ def read_piece(data: Any, place: str) -> dict[str, Any]:
         got[key] = names, lo, hi, whole(angle["place"], f"{place}.{key}.place", 0, 4)
     return got
 
-
 def read_name(data: Any, place: str) -> tuple[int, int, int]:
     kind, i, j = items(data, place, 3, 3)
     return whole(kind, place, 1, 4), whole(i, place, 0, 2**30 - 1), whole(j, place, 0)
-
 
 def check_closed(pieces: list[Trapezoid]) -> None:
     """Every part of a side of a piece is one of an even number of others: a sum mod 2 of intervals of one curve, or of
@@ -1471,7 +1374,6 @@ def check_closed(pieces: list[Trapezoid]) -> None:
     for wall in walls.values():
         check_wall(wall)
 
-
 def check_wall(wall: list[tuple[Trapezoid, Root]]) -> None:
     """The same of the segments at one angle: from lower to upper on the line of each piece."""
     lines: list[tuple[Trapezoid, dict[Any, Curve]]] = []  # a piece on each, and the ends on it that are odd
@@ -1491,18 +1393,15 @@ def check_wall(wall: list[tuple[Trapezoid, Root]]) -> None:
                 odd[key] = curve
     refute_if(any(odd for _, odd in lines), "the surface is not closed: sides at an angle end without a partner")
 
-
 def is_one_line(p: Trapezoid, other: Trapezoid, root: Root) -> bool:
     """At an angle of p."""
     one, two = p.surface, other.surface
     forms = one.form(two.q, two.g), one.form(minus(two.b, one.b), minus(two.a, one.a))
     return all(root.sign(poly_of(form, p.chart)) == 0 for form in forms)
 
-
 def is_one_point(one: Curve, other: Curve, root: Root) -> bool:
     both = (one.X, other.X), (one.Y, other.Y)
     return all(root.sign(combined((1, -1), times(p, other.Z), times(q, one.Z))) == 0 for p, q in both)
-
 
 def crosses(p: Trapezoid, tau: Fraction, x: Fraction, y: Fraction) -> bool:
     """Does a ray from (x, y) towards -x meet a piece just after an angle? Pieces that end level with it are below."""
@@ -1516,11 +1415,9 @@ def crosses(p: Trapezoid, tau: Fraction, x: Fraction, y: Fraction) -> bool:
     on_left = sign_after(poly_of(S.form(beta, alpha), p.chart), tau)  # of the piece's line, as t grows
     return above[0] != above[1] and (on_left < 0) == above[1]
 
-
 def sign_after(p: Poly, tau: Fraction) -> int:
     """Of the first derivative that is not 0 at tau; 0 of the zero polynomial."""
     return (sign_at(p, tau) or sign_after(derivative(p), tau)) if any(p) else 0
-
 
 def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
     """Does a ray from a pose meet the surface an odd number of times, just after its angle? It is not on it."""
@@ -1530,7 +1427,6 @@ def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
     x, y, root = scale * pose.x, scale * pose.y, Root.rational(tau)
     here = [p for p in pieces if p.chart == chart and p.start.compared(root) <= 0 < p.stop.compared(root)]
     return sum(crosses(p, tau, x, y) for p in here) % 2 == 1
-
 
 def check_proof(proof: Proof, scene: Scene) -> str:
     """What is proved, in a sentence."""
@@ -1569,7 +1465,6 @@ def check_proof(proof: Proof, scene: Scene) -> str:
         return f"No path {from_to}, not even one that touches."
     return f"No path that keeps a distance from everything {from_to}; one that touches may."
 
-
 # === The command ===
 def verdict(scene: str, answer: str) -> tuple[int, str]:
     """Of the texts of two files: an exit code, and a line that says what is proved, or what is wrong."""
@@ -1585,7 +1480,6 @@ def verdict(scene: str, answer: str) -> tuple[int, str]:
     except BadFileError as error:
         return UNREADABLE, f"cannot be read: {error}"
 
-
 def main(names: list[str]) -> int:
     try:
         scene, answer = (Path(name).read_text(encoding="utf-8-sig") for name in names)
@@ -1600,7 +1494,6 @@ def main(names: list[str]) -> int:
         sys.stdout = sys.stderr = None
         return UNREADABLE
     return code
-
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))
