@@ -208,7 +208,11 @@ def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkey
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ('"answer": "separated"', '"answer": "no"', r'answer: expected "path", "separated" or "all separated", got "no"'),
+        (
+            '"answer": "separated"',
+            '"answer": "no"',
+            'answer: expected "path", "separated" or "all separated", got "no"',
+        ),
         ('"of": "closed"', '"of": "open"', 'of: expected "closed" or "interior", got "open"'),
         ('"of": "closed"', '"of": "interior"', '"smaller_robot" belongs to what is "of": "closed"'),
         ('"kind": "vertex-edge"', '"kind": "vertex"', r'surface\[\d+\].contact.kind: expected "vertex-edge" or'),
