@@ -78,6 +78,9 @@ void bind_free_space(nb::module_& m) {
         .def_prop_ro("depth", [ints](const FreeSpace& space) { return ints(space.depth); })
         .def("angle", &angle, "trapezoid"_a, "last"_a, "bits"_a)
         .def("nearby", &nearby, "pose"_a, "chart"_a)
+        .def("cells_at", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
+            return space.cells_at(pose_of(pose, chart));
+        }, "pose"_a, "chart"_a)
         .def("locate_exactly", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
             return space.locate(pose_of(pose, chart));
         }, "pose"_a, "chart"_a)

@@ -412,11 +412,15 @@ PointLocation::Nearby PointLocation::nearby(const ExactPose& pose) const {
     return seen;
 }
 
-Index PointLocation::locate(const ExactPose& pose, const Cells& cells) const {
+Index PointLocation::locate(const ExactPose& pose, const Cells& cells) const { return cells_at(pose, cells).front(); }
+
+std::vector<Index> PointLocation::cells_at(const ExactPose& pose, const Cells& cells) const {
     const Nearby seen = nearby(pose);
-    Index found = std::numeric_limits<Index>::max();
-    for (const Index k : seen.on) found = std::min(found, cells.cell[component[k]]);
-    if (!seen.on.empty()) return found;
+    std::vector<Index> found;
+    for (const Index k : seen.on) found.push_back(cells.cell[component[k]]);
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    if (!found.empty()) return found;
     const auto crossed = surfaces(seen.crossed);
     Index deepest = -1;
     for (std::size_t i = 0, j; i < crossed.size(); i = j) {
@@ -424,8 +428,8 @@ Index PointLocation::locate(const ExactPose& pose, const Cells& cells) const {
         const Index x = crossed[i];
         if ((j - i) % 2 == 1 && (deepest < 0 || cells.depth[x] > cells.depth[deepest])) deepest = x;
     }
-    if (deepest < 0) return cells.outside;
-    return cells.free_inside[deepest] ? cells.cell[deepest] : -1;
+    if (deepest < 0) return {cells.outside};
+    return {cells.free_inside[deepest] ? cells.cell[deepest] : -1};
 }
 
 }  // namespace cfree

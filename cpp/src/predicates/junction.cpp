@@ -238,7 +238,7 @@ double Junction::value(const Feature& line, const Spot& p) const {
         for (int k = f.size(); k-- > 0;) value = value * tau.n + (f[k] << (tau.k * static_cast<unsigned>(2 - k)));
         return value;
     };
-    for (RealRoot near = here();; near.narrow()) {
+    for (RealRoot near = exact();; near.narrow()) {  // not as narrow as others have left it: the same double each time
         const int sign = sign_on(d, near.lo, near.hi);
         const double t = sign == 0 ? 0 : ratio(at(n, near.lo), at(d, near.lo)), most = 0x1p-40 * (1 + std::abs(t));
         const auto side_of = [&](double bound) {

@@ -26,7 +26,7 @@ from cfree.value import Value
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two looks at Ctrl-C
-FARTHEST = Fraction(10**300)  # what is further away is as far as this
+FARTHEST = 1e300  # what is further away is as far as this
 
 Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | float]
 
@@ -175,10 +175,15 @@ class PoseChecker(Value):
         x0, y0, x1, y1 = self.limits
         if not (x0 <= pose.x <= x1 and y0 <= pose.y <= y1):
             return False
-        (c, s, w), unit = pose.rotation, math.lcm(pose.x.denominator, pose.y.denominator)
-        x, y = (float(max(-FARTHEST, min(FARTHEST, value))) for value in (pose.x, pose.y))
-        exact = c, s, w, int(pose.x * unit), int(pose.y * unit), unit
-        return self._core.is_free([x, y, c / w, s / w], exact)
+        c, s, w = pose.rotation
+        return self._core.is_free([_rounded(pose.x), _rounded(pose.y), c / w, s / w], (c, s, w, *pose.integers))
+
+
+def _rounded(x: Fraction) -> float:
+    try:
+        return max(-FARTHEST, min(FARTHEST, float(x)))
+    except OverflowError:
+        return FARTHEST if x > 0 else -FARTHEST
 
 
 def _is_table(rows: Sequence[Any]) -> bool:

@@ -6,6 +6,7 @@ tau = tan(theta / 2) in the rational model (eq. 2).
 
 from __future__ import annotations
 
+import math
 import reprlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -91,6 +92,13 @@ class Pose:
     def rotation(self) -> tuple[int, int, int]:
         """Integers (c, s, w) with cos theta = c / w, sin theta = s / w, w = sqrt(c^2 + s^2)."""
         return half_angle_rotation(self.tau)
+
+    @property
+    def integers(self) -> tuple[int, int, int]:
+        """Integers (X, Y, W) with x = X / W, y = Y / W."""
+        x, y = self.x, self.y
+        unit = math.lcm(x.denominator, y.denominator)
+        return x.numerator * (unit // x.denominator), y.numerator * (unit // y.denominator), unit
 
     @property
     def cos(self) -> Fraction:

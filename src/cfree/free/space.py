@@ -286,10 +286,9 @@ class FreeSpace(Value):
 
     def _place(self, pose: Pose) -> tuple[tuple[int, ...], int]:
         """A pose as the core takes it, and its chart."""
-        chart, tau = pose.chart
-        unit, scale = math.lcm(pose.x.denominator, pose.y.denominator), self.boundary.features.scale
-        place = int(pose.x * unit) * scale, int(pose.y * unit) * scale, unit, tau.numerator, tau.denominator
-        return place, chart
+        (chart, tau), scale = pose.chart, self.boundary.features.scale
+        x, y, unit = pose.integers
+        return (x * scale, y * scale, unit, tau.numerator, tau.denominator), chart
 
     @checked
     def nearby(self, pose: PoseLike) -> Nearby:
@@ -305,9 +304,9 @@ class FreeSpace(Value):
 
     def _cells_at(self, pose: Pose) -> set[int]:
         """The cell that a pose is in, or those on whose boundary it is."""
-        if (cell := self._locate(pose)) < 0:
+        if not self.boundary.checker.is_free(pose):
             return set()
-        return set(self.cell_of[self.component[self.nearby(pose).on]].tolist()) or {cell}
+        return set(self.core.cells_at(*self._place(pose))) - {FORBIDDEN}
 
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:

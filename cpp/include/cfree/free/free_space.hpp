@@ -28,6 +28,7 @@ public:
     Index cells() const;
     const PointLocation& points() const { return location; }
     Index locate(const ExactPose& q) const { return location.locate(q, table()); }
+    std::vector<Index> cells_at(const ExactPose& q) const { return location.cells_at(q, table()); }
     void locate(const double* xy, const int* chart, const double* tau, std::size_t count, int threads, Index* out) const {
         location.locate(xy, chart, tau, count, threads, table(), out);
     }

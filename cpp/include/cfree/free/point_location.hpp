@@ -36,6 +36,8 @@ public:
         Index outside;                       // where nothing is around
     };
     Index locate(const ExactPose& q, const Cells& cells) const;
+    // Of a free pose: the cell, or on the boundary all cells that it bounds; a forbidden one's is -1.
+    std::vector<Index> cells_at(const ExactPose& q, const Cells& cells) const;
     // The same for many poses that doubles are, in the user's units.
     void locate(const double* xy, const int* chart, const double* tau, std::size_t count, int threads, const Cells& cells,
                 Index* out) const;
