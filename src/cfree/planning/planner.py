@@ -10,9 +10,10 @@ import math
 import os
 import threading
 import time
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, get_args, overload
@@ -236,16 +237,9 @@ class Planner(Value):
         """See `cfree.plan`."""
         start = to_pose(start, "start")
         goal = to_pose(goal, "goal")
-        if objective not in get_args(Objective):
-            raise ValueError(f'objective {objective!r}; give "balanced", "short" or "clear"')
-        if improve is not None and not 0 <= improve < math.inf:
-            raise ValueError(f"improve {improve}: give seconds, 0 or more")
-        for pose, name in ((start, "start"), (goal, "goal")):
-            if max(abs(pose.x), abs(pose.y)) > LARGEST:
-                raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
-        if clearance is not None:
-            if (distance := to_fraction(clearance)) <= 0:
-                raise ValueError(f"clearance {clearance}: give a length above 0")
+        distance = _wish(clearance, improve, objective)
+        _see_to_places({"start": start, "goal": goal})
+        if distance is not None:
             from cfree.planning.clearance import plan_at_distance
 
             return plan_at_distance(self.scene, start, goal, distance, self._of, improve, objective)
@@ -265,8 +259,10 @@ class Planner(Value):
         """See `cfree.plan`, for several goals, or places."""
         found = to_goals(goals)
         found = (found,) if isinstance(found, Pose) else found
-        distance = None if clearance is None else to_fraction(clearance)
-        return plan_any(self, to_pose(start, "start"), found, distance, improve, objective)
+        distance, start = _wish(clearance, improve, objective), to_pose(start, "start")
+        places = {f"goal {k}": goal if isinstance(goal, Pose) else Pose(*goal) for k, goal in enumerate(found)}
+        _see_to_places({"start": start} | places)
+        return plan_any(self, start, found, distance, improve, objective)
 
     def _of(self, scene: Scene) -> Planner:
         """For the same question with another robot."""
@@ -448,6 +444,23 @@ class Planner(Value):
 
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
         return Searcher(self.checker, area(self.scene, poses), self.angle_scale)
+
+
+def _wish(clearance: Number | None, improve: float | None, objective: str) -> Fraction | None:
+    """The clearance; what is wrong with any of the three is said."""
+    if objective not in get_args(Objective):
+        raise ValueError(f'objective {objective!r}; give "balanced", "short" or "clear"')
+    if improve is not None and not 0 <= improve < math.inf:
+        raise ValueError(f"improve {improve}: give seconds, 0 or more")
+    if clearance is not None and to_fraction(clearance) <= 0:
+        raise ValueError(f"clearance {clearance}: give a length above 0")
+    return None if clearance is None else to_fraction(clearance)
+
+
+def _see_to_places(poses: Mapping[str, Pose]) -> None:
+    for name, pose in poses.items():
+        if max(abs(pose.x), abs(pose.y)) > LARGEST:
+            raise InvalidPoseError(f"{name}: its position is beyond 1e150; give one nearer to the scene")
 
 
 def _reversed(poses: Sequence[Pose]) -> list[Pose]:
