@@ -55,9 +55,9 @@ if TYPE_CHECKING:
     from cfree.paths.clearance import narrowest as narrowest
     from cfree.paths.path import Path as Path
     from cfree.planning.goals import AllSeparated as AllSeparated
+    from cfree.planning.many import plan_many as plan_many
     from cfree.planning.planner import Planner as Planner
     from cfree.planning.planner import plan as plan
-    from cfree.planning.planner import plan_many as plan_many
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
     from cfree.polygons.polygon import Polygon as Polygon
@@ -86,7 +86,8 @@ _HOMES = {
     "paths.path": "Path",
     "paths.clearance": "Clearance clearance narrowest",
     "planning.goals": "AllSeparated",
-    "planning.planner": "Planner plan plan_many",
+    "planning.planner": "Planner plan",
+    "planning.many": "plan_many",
     "planning.separation": "Separated separation",
     "analysis.blockers": "Blocker blockers",
     "analysis.fits": "Fit fits",

@@ -1,0 +1,94 @@
+"""Answers to many questions about one scene, on all cores."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable
+
+from cfree.arguments import checked
+from cfree.errors import InvalidPoseError
+from cfree.exact.pose import PoseLike
+from cfree.forbidden.boundary import boundary
+from cfree.free.space import FreeSpace
+from cfree.paths.path import Objective, Path
+from cfree.planning.planner import Planner
+from cfree.planning.separation import Separated
+from cfree.scene.scene import Scene
+
+
+@checked
+def plan_many(
+    scene: Scene | FreeSpace,
+    queries: Iterable[tuple[PoseLike, PoseLike]],
+    *,
+    improve: float | None = None,
+    objective: Objective = "balanced",
+    threads: int | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> list[Path | Separated]:
+    """Answers to many questions about one scene.
+
+    Parameters
+    ----------
+    scene : Scene or FreeSpace
+    queries : pairs (start, goal) of Pose or (x, y, theta)
+    improve : float, seconds, optional
+        As in `plan`, for each of them.
+    objective : "balanced", "short" or "clear"
+        As in `plan`.
+    threads : int, optional
+        All cores by default. The answers do not depend on it, unless `improve` is given.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1.
+
+    Returns
+    -------
+    list of Path or Separated
+        In the order of the queries, as of `plan` with the free space known.
+
+    Raises
+    ------
+    InvalidPoseError
+        If a start or a goal is forbidden; the message has the number of the query.
+    ValueError
+        If `threads` is less than 1.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> wall = [(2, -9), (3, -9), (3, 1), (2, 1)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], bounds=(-5, -5, 5, 5))
+    >>> poses = [cfree.Pose(x, y) for x in (0, 4) for y in (-4, 4)]
+    >>> [type(answer).__name__ for answer in plan_many(scene, [(poses[0], q) for q in poses[1:]])]
+    ['Path', 'Path', 'Path']
+    """
+    from concurrent.futures import ThreadPoolExecutor
+
+    from cfree.free.space import free_space
+
+    if threads is not None and threads < 1:
+        raise ValueError(f"threads: {threads}; give at least 1")
+    space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
+    asked = list(queries)
+    planner, answers = Planner(space.boundary.scene, space), []
+
+    def answer_to(number: int) -> Path | Separated:
+        try:
+            return planner.plan(*asked[number], improve=improve, objective=objective)
+        except InvalidPoseError as error:
+            error.args = (f"query {number}: {error}",)
+            raise
+
+    with ThreadPoolExecutor(threads or os.cpu_count()) as pool:
+        try:
+            for found in pool.map(answer_to, range(len(asked))):
+                answers.append(found)
+                if progress is not None:
+                    progress(len(answers) / len(asked))
+        except BaseException:
+            planner.stop.set()
+            pool.shutdown(cancel_futures=True)
+            raise
+        finally:
+            planner.stop.clear()
+    return answers
