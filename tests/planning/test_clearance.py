@@ -44,7 +44,8 @@ UP, DOWN = Pose(0, 5), Pose(0, -5)
 def test_what_has_room_gets_through(clearance: str) -> None:
     path = plan(gate(), UP, DOWN, clearance=clearance)
     assert isinstance(path, Path) and path.clearance == Fraction(clearance)
-    assert verified_in_a_file(gate(), path).verified
+    result = verified_in_a_file(gate(), path)
+    assert result.verified and f"keeps {float(path.clearance):g} from obstacles" in result.proved
     found = cfree.clearance(path, gate())
     assert found and found.found >= float(path.clearance)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path as FilePath
 from typing import Any
 
@@ -51,7 +52,7 @@ def verified(scene: Scene, file: FilePath) -> Verification:
 
 def verified_in_a_file(scene: Scene, found: Path | Separated) -> Verification:
     """The same of an answer in memory, which is saved first."""
-    known = Path(found.start, found.motions, scene=scene) if isinstance(found, Path) else found
+    known = replace(found, scene=scene) if isinstance(found, Path) else found
     with tempfile.TemporaryDirectory() as folder:
         file = FilePath(folder, "answer.json")
         save(known, file)
