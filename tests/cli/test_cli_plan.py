@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,8 @@ def run() -> Run:
 
 
 @pytest.mark.slow
-def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path) -> None:
+def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("cfree.film.film_path", partial(cfree.film.film_path, seconds=1, fps=4))
     answer, picture, film = (tmp_path / name for name in ("way.json", "way.png", "way.gif"))
     result = run("plan", CONVEX, "-o", answer, "--picture", picture, "--film", film, "--improve", "50ms")
     assert result.exit_code == 0, result.output
