@@ -26,7 +26,7 @@ static void parallels_are_found_and_ordered() {
     CHECK(roots.at[0].lo < tau && tau < roots.at[0].hi);
     CHECK(p.order(first, roots.at[0]) < 0 && p.order(roots.at[0], last) < 0);
     CHECK(p.order(roots.at[0], roots.at[0]) == 0);
-    // G . F = 0: the roots are the chart walls, and not inside
+    // G . F = 0: the roots are the ends of the chart, and not inside
     CHECK(p.parallel_roots(2, 0, first, last).count == 0);
 }
 

@@ -66,7 +66,7 @@ def tangent(rng: random.Random) -> Rings:
 
 
 def right_angles(rng: random.Random) -> Rings:
-    """Edges along the axes and the diagonals: angles at the chart walls and at 0."""
+    """Edges along the axes and the diagonals: angles at the ends of charts and at 0."""
     legs = [(0, 0), (1, 0), (0, 1), (1, 1), (-1, 1), (2, 0), (0, 2), (-1, -1)]
     return Rings([rng.sample(legs, rng.randint(3, 4))], [rng.sample(legs, rng.randint(3, 4)) for _ in range(2)])  # type: ignore[list-item]
 
@@ -188,7 +188,7 @@ def fractions(rng: random.Random) -> Rings:
 
 
 def near_walls(rng: random.Random) -> Rings:
-    """Edges nearly parallel and nearly at right angles: angles next to 0 and to the chart walls, on both sides."""
+    """Edges nearly parallel and nearly at right angles: angles next to 0 and to the ends of charts, on both sides."""
     epsilon = rng.choice([2.0**-26, 2.0**-50, 2.0**-52, 2.0**-53, 1e-15, 1e-16, 1e-30, 1e-100, 1e-200])
 
     def leg() -> tuple[Fraction, Fraction]:

@@ -341,7 +341,7 @@ class Predicates:
         return sign(N1(at) / D1(at) - N2(at) / D2(at))
 
     def range_end(self, g: int, f: int, is_start: bool) -> tuple[int, Angle]:
-        """Chart and tau of the angle from E_g to -E_f; at a chart wall those of the range that starts or ends."""
+        """Chart and tau of the angle from E_g to -E_f; at the end of a chart those of the range that starts or ends."""
         G, F = self.A.edge(g), self.O.edge(f)
         x, y = -dot(G, F), -cross(G, F)  # |G| |F| (cos, sin) of the angle
         if x == 0:  # a quarter turn ends chart 0 and starts chart 1

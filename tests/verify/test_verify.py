@@ -246,7 +246,7 @@ def test_sums_are_the_oracles_hulls() -> None:
     for tau in TAUS:
         turn = Turn.of(0, tau)
         (part,) = ([(-x, -y) for x, y in map(turn, part)] for part in world.parts)
-        mine = [convex_sum([turn.fixed(p) for p in wall], part) for wall in world.walls]
+        mine = [convex_sum([turn.fixed(p) for p in wall], part) for wall in world.obstacle_pieces]
         size = turn.w * world.scale
         area = sum(oracles.ring_area([(Fraction(x, size), Fraction(y, size)) for x, y in ring]) for ring in mine)
         hulls = [

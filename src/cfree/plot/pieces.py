@@ -218,10 +218,10 @@ def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours) -> 
         found.append(replace(of_one_colour(corners, colour, CURVE, owner), part=part))
 
     for side, curve in enumerate((table.lower_kind, table.upper_kind)):
-        here, after, on_wall = ends[rows.joined, side], ends[rows.joined + 1, side], kind[of] == PatchKind.BOUND
+        here, after, on_bounds = ends[rows.joined, side], ends[rows.joined + 1, side], kind[of] == PatchKind.BOUND
         helix, cut = (
-            ((curve[of] == Kind.VERTEX_VERTEX) & ~on_wall).nonzero()[0],
-            ((curve[of] != Kind.VERTEX_VERTEX) & on_wall).nonzero()[0],
+            ((curve[of] == Kind.VERTEX_VERTEX) & ~on_bounds).nonzero()[0],
+            ((curve[of] != Kind.VERTEX_VERTEX) & on_bounds).nonzero()[0],
         )
         add(helix, here, after, colours.helix, first[helix])
         add(cut, here, after, CUT, np.full(len(cut), -1))

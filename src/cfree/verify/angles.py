@@ -90,10 +90,10 @@ def parallel(world: World, rng: random.Random) -> list[Form]:
 
 def facing(world: World, rng: random.Random) -> list[Form]:
     """Where two lines of contact are one: those of opposite edges of the obstacles, or of the robot."""
-    robot, walls = world.robot_corners, world.obstacle_corners + world.bound_corners
+    robot, others = world.robot_corners, world.obstacle_corners + world.bound_corners
     pairs = [
         (Surface(a, ZERO, b, minus(end, b)), Surface(a2, ZERO, b2, ZERO))
-        for (b, end, b2), (a, a2) in opposite(walls, [*robot, (ZERO, ZERO, ZERO)], rng)
+        for (b, end, b2), (a, a2) in opposite(others, [*robot, (ZERO, ZERO, ZERO)], rng)
     ]
     pairs += [
         (Surface(a, minus(end, a), b, ZERO), Surface(a2, ZERO, b2, ZERO))

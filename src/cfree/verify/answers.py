@@ -107,7 +107,7 @@ def answer(
     extents = {
         **_of_scene(given if read else None),
         ASKED: "start and goal, where the scene has them",
-        PIECES: f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them",
+        PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
         ENDS: "both are free",
         **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
         **_of_decimals(read),

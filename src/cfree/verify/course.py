@@ -96,10 +96,10 @@ class Course:
         ys = [(f + u * h + v * g) / (unit * w) for u, v in part for _, f, g, h, w in columns]
         return np.array([min(xs), min(ys), max(xs), max(ys)]) + 2.0**-40 * np.array([-1, -1, 1, 1])
 
-    def heights(self, part: Ring, wall: Ring) -> Iterator[list[Poly]]:
+    def heights(self, part: Ring, obstacle: Ring) -> Iterator[list[Poly]]:
         """For every edge of both, the heights of the other's vertices over it, times d; it grows inwards."""
         d, c, s = self.d, self.c, self.s
-        for _, (bx, by), end in corners(wall):
+        for _, (bx, by), end in corners(obstacle):
             e, f = minus(end, (bx, by))
             k = f * bx - e * by
             base = combined((e, -f, k), self.y, self.x, d)
@@ -107,7 +107,7 @@ class Course:
         for _, (ax, ay), end in corners(part):
             g, h = minus(end, (ax, ay))
             base = combined((-g, h, h * ax - g * ay), self.eta, self.xi, d)
-            yield [combined((1, g * v - h * u, -g * u - h * v), base, c, s) for u, v in wall]
+            yield [combined((1, g * v - h * u, -g * u - h * v), base, c, s) for u, v in obstacle]
 
 
 def place_of(pose: Pose, scale: int) -> Placed:

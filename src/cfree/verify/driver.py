@@ -190,7 +190,9 @@ def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) 
     curves = int((parts.kind == CURVE).sum())
     at = f"; {curves:,} are curves, looked at three angles each" if curves else ""
     return (
-        Check(PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.walls)} of the obstacles tile them"),
+        Check(
+            PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them"
+        ),
         Check(ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order"),
         Check(DOMAINS, proved, f"{every}: contact in range and 0 <= lower <= upper <= 1 from first to second angle"),
         Check(FREE, SAMPLED, f"{every}: nothing covers any of it at one exact angle each"),

@@ -56,7 +56,7 @@ def _finer(world: World, factor: int) -> World:
     found = copy(world)
     found.scale, found.unit = factor * world.scale, factor * world.unit
     found.bounds = [factor * b for b in world.bounds]
-    found.walls = [_scaled(ring, factor) for ring in world.walls]
+    found.obstacle_pieces = [_scaled(ring, factor) for ring in world.obstacle_pieces]
     found.parts = [_scaled(ring, factor) for ring in world.parts]
     return found
 

@@ -131,13 +131,13 @@ def _ray(reader: Reader, sheet: Sheet, tau: Fraction) -> tuple[int, Vector]:
 
 
 def _slope(reader: Reader, sheet: Sheet, position: Exact) -> tuple[int, Exact]:
-    """How fast a patch's line moves to the left of the wall's, at a position, as theta grows; first those after it.
+    """How fast a patch's line moves to the left of the side's, at a position, as theta grows; first those after it.
 
     Notes
     -----
-    The line of a surface is where h = U x (P - b + R a) vanishes. It moves to the left of the wall's direction D at the
+    The line of a surface is where h = U x (P - b + R a) vanishes. It moves to the left of the side's direction D at the
     rate -h' / (U . D), where h' = -R' g x (P - b + R a) + U x R' a and R' = J R. Going round, rates fall among sheets
-    after the wall, and among those before it. If rates are equal the surfaces are: two of one kind belong to one vertex
+    after the side, and among those before it. If rates are equal the surfaces are: two of one kind belong to one vertex
     then, and those of a v-e and an e-v contact differ but at one position, where a vertex of the boundary would be.
     """
     k, number = sheet

@@ -102,9 +102,12 @@ def touches(world: World, pose: Pose) -> bool:
     if world.scene.bounds and any(value in world.scene.bounds[k::2] for k, value in enumerate((pose.x, pose.y))):
         return True
     return any(
-        all(any(sign(height, ZERO) >= 0 for height in heights) for heights in course.heights(ring, world.walls[k]))
+        all(
+            any(sign(height, ZERO) >= 0 for height in heights)
+            for heights in course.heights(ring, world.obstacle_pieces[k])
+        )
         for ring in world.parts
-        for k in near(world.wall_boxes, course.box(ring, ALL, world.unit))
+        for k in near(world.obstacle_boxes, course.box(ring, ALL, world.unit))
     )
 
 
@@ -153,21 +156,21 @@ def collision(world: World, course: Course) -> Fraction | None:
         if (found := positive(over)) is not None:
             return found
     for ring in world.parts:
-        found = _collision(world, course, ring, ALL, np.arange(len(world.walls), dtype=np.int32))
+        found = _collision(world, course, ring, ALL, np.arange(len(world.obstacle_pieces), dtype=np.int32))
         if found is not None:
             return found
     return None
 
 
-def _collision(world: World, course: Course, part: Ring, interval: Interval, walls: Ints) -> Fraction | None:
+def _collision(world: World, course: Course, part: Ring, interval: Interval, pieces: Ints) -> Fraction | None:
     around = course.box(part, interval, world.unit)
     a, b, n = interval
     last = n >= 1 << HALVINGS
-    walls, left = walls[near(world.wall_boxes[walls], around)], []
+    pieces, left = pieces[near(world.obstacle_boxes[pieces], around)], []
     if np.isinf(around[0]) and not last:
-        left, walls = walls.tolist(), walls[:0]
-    for k in walls.tolist():
-        edges = list(course.heights(part, world.walls[k]))
+        left, pieces = pieces.tolist(), pieces[:0]
+    for k in pieces.tolist():
+        edges = list(course.heights(part, world.obstacle_pieces[k]))
         if any(all(is_nowhere_positive(height, interval) for height in heights) for heights in edges):
             continue
         left.append(k)

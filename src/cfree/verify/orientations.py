@@ -71,8 +71,8 @@ def _forbidden(world: World, pose: Pose) -> tuple[bool, list[Arc]]:
     course = Course(place_of(pose, world.scale), Rotation((pose.x, pose.y), {"tau": 1}), world.scale)
     begins_in, arcs = False, list[Arc]()
     for ring in world.parts:
-        for k in near(world.wall_boxes, course.box(ring, ALL, world.unit)):
-            edges = list(course.heights(ring, world.walls[k]))
+        for k in near(world.obstacle_boxes, course.box(ring, ALL, world.unit)):
+            edges = list(course.heights(ring, world.obstacle_pieces[k]))
             begins_in = begins_in or _overlap(edges, FIRST)
             arcs += _arcs(edges)
     return begins_in, arcs

@@ -49,7 +49,7 @@ class Section:
         parts = [_mirrored(rounded, part) for part in world.parts]
         part_boxes = boxes(parts, rounded.w * world.unit)
         self._rough_parts = [roughly(part, rounded.w * world.unit) for part in parts]
-        sums = (world.wall_boxes[:, None] + part_boxes[None]).reshape(-1, 4)
+        sums = (world.obstacle_boxes[:, None] + part_boxes[None]).reshape(-1, 4)
         self._boxes = np.concatenate([sums, boxes(world.beyond, world.unit)])
         self._made: dict[int, Pillar] = {}
 
@@ -61,13 +61,13 @@ class Section:
     def _sum(self, k: int) -> Pillar:
         world = self.world
         number, of = divmod(k, len(world.parts))
-        if number >= len(world.walls):
-            beyond = world.beyond[k - len(world.walls) * len(world.parts)]
+        if number >= len(world.obstacle_pieces):
+            beyond = world.beyond[k - len(world.obstacle_pieces) * len(world.parts)]
             return Pillar([self.turn.fixed(p) for p in beyond], roughly(beyond, world.unit))
-        wall, part = [self.turn.fixed(p) for p in world.walls[number]], self._parts[of]
-        i, j = zip(*(pairs := summands(wall, part)), strict=True)
-        rough = roughly(world.walls[number], world.unit)[list(i)] + self._rough_parts[of][list(j)]
-        return Pillar([(wall[i][0] + part[j][0], wall[i][1] + part[j][1]) for i, j in pairs], rough)
+        obstacle, part = [self.turn.fixed(p) for p in world.obstacle_pieces[number]], self._parts[of]
+        i, j = zip(*(pairs := summands(obstacle, part)), strict=True)
+        rough = roughly(world.obstacle_pieces[number], world.unit)[list(i)] + self._rough_parts[of][list(j)]
+        return Pillar([(obstacle[i][0] + part[j][0], obstacle[i][1] + part[j][1]) for i, j in pairs], rough)
 
     def _near(self, points: Ring, w: Exact) -> Iterator[Pillar]:
         (box,) = boxes([points], w * self.world.unit)

@@ -75,7 +75,7 @@ class Turn:
     def key(self) -> tuple[Any, ...]:
         """Equal for equal angles: the charts share their ends."""
         if self.tau in (1, -1):
-            return ("wall", self.chart == (self.tau < 0))
+            return ("end", self.chart == (self.tau < 0))
         return self.chart, *self.root.key
 
     def in_charts(self) -> list[tuple[int, Root]]:

@@ -82,7 +82,7 @@ class Reader:
         lo, hi = Fraction(low), Fraction(high)
         if not first:
             if lo != hi or abs(lo) != 1 or second or place:
-                raise Fault(f"its {end} angle has no name and is no chart wall")
+                raise Fault(f"its {end} angle has no name and is no end of a chart")
             return Root.of(lo)
         if not -2 < lo <= hi < 2:
             raise Fault(f"its {end} angle is beyond the chart")
@@ -185,13 +185,13 @@ class Trapezoid:
     def sides(self) -> list[Side | None]:
         """Counter-clockwise in (t, theta): at start, upper, at stop, lower; None for a side of no length."""
         return [
-            self._wall(self.start, self.lower, self.upper),
+            self._upright(self.start, self.lower, self.upper),
             (digest(self.upper.key), self.start, self.stop),
-            self._wall(self.stop, self.upper, self.lower),
+            self._upright(self.stop, self.upper, self.lower),
             (digest(self.lower.key), self.stop, self.start),
         ]
 
-    def _wall(self, angle: Root, first: Curve, last: Curve) -> Side | None:
+    def _upright(self, angle: Root, first: Curve, last: Curve) -> Side | None:
         turn = Turn(self.chart, angle)
         begin, end = first.at(turn.tau), last.at(turn.tau)
         if begin == end:

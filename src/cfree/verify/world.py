@@ -44,7 +44,7 @@ class World:
     auxiliary : mapping, optional
         Points of what names may use and the scene does not have. If not
         given these are the features' own: diagonals of pieces, corners beyond the bounds.
-    parts, walls : list of Ring
+    parts, obstacle_pieces : list of Ring
         Convex pieces of the robot and of the obstacles, the complement of the workspace among them.
     beyond : list of Ring
         What is outside the bounds, for the reference point.
@@ -60,7 +60,7 @@ class World:
     auxiliary: Mapping[Feature, Sequence[Vector]] | None = None
     scale: int = field(init=False)
     parts: list[Ring] = field(default_factory=list)
-    walls: list[Ring] = field(default_factory=list)
+    obstacle_pieces: list[Ring] = field(default_factory=list)
     untiled: list[str] = field(default_factory=list)
     bounds: list[int] = field(init=False)
 
@@ -73,7 +73,7 @@ class World:
         for k, polygon in enumerate(scene.robot):
             self._add_pieces(self.parts, polygon, f"robot[{k}]")
         for k, polygon in enumerate(scene.obstacles):
-            self._add_pieces(self.walls, polygon, f"obstacle {k}")
+            self._add_pieces(self.obstacle_pieces, polygon, f"obstacle {k}")
         workspace = scene.workspace and rings_of(scene.workspace, self.scale)
         self.bounds = bounds = [int(b * self.scale) for b in scene.bounds or ()]
         points = [p for rings in (*obstacles, workspace or [[]]) for p in rings[0]]
@@ -85,7 +85,7 @@ class World:
         if workspace:
             outer, *holes = workspace
             for k, polygon in enumerate([Polygon(rectangle(*around), [outer]), *map(Polygon, holes)]):
-                self._add_pieces(self.walls, polygon, f"part {k} of the workspace's complement", scale=1)
+                self._add_pieces(self.obstacle_pieces, polygon, f"part {k} of the workspace's complement", scale=1)
             obstacles.append([ring[::-1] for ring in workspace])
         self.robot_corners = [corner for rings in robot for ring in rings for corner in corners(ring)]
         self.obstacle_corners = [corner for rings in obstacles for ring in rings for corner in corners(ring)]
@@ -93,7 +93,7 @@ class World:
         self.bound_corners = corners(rectangle(*bounds)[::-1]) if bounds else []
         self._contacts = {id(self.robot): set(self.robot_corners), id(self.obstacles): set(self.obstacle_corners)}
         self.unit = max(map(abs, around))
-        self.wall_boxes = boxes(self.walls, self.unit)
+        self.obstacle_boxes = boxes(self.obstacle_pieces, self.unit)
 
     def _add_pieces(self, pieces: list[Ring], polygon: Polygon, name: str, scale: int = 0) -> None:
         factor = (scale or self.scale) // polygon.denominator
