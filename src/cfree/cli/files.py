@@ -6,7 +6,6 @@ import errno
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -68,15 +67,6 @@ def bar(name: str) -> Iterator[Callable[[float], object] | None]:
         say("")
 
 
-_CHECKS = {  # of the names of files
-    "boundary": ("formats.boundary_file", "check_boundary_path"),
-    "film": ("film.encode", "check_film_path"),
-    "geojson": ("formats.slice_geojson", "check_slice_path"),
-    "mesh": ("formats.mesh_file", "check_mesh_path"),
-    "picture": ("plot.boundary", "check_picture_path"),
-}
-
-
 def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
     """The files to write; what cannot be written is refused before a long computation rather than after it."""
     from cfree.formats.atomic import check_place
@@ -86,7 +76,23 @@ def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str
         check_place(path)
         if path.exists() and source.exists() and path.samefile(source):
             raise FileExistsError(errno.EEXIST, "is the input; give another name", str(path))
-        if name in _CHECKS:
-            module, function = _CHECKS[name]
-            getattr(import_module(f"cfree.{module}"), function)(path)
+        _check_name(name, path)
     return {name: str(path) for name, path in files.items()}
+
+
+def _check_name(content: str, path: Path) -> None:
+    """Is it one that says what will be in the file?"""
+    match content:
+        case "boundary":
+            from cfree.formats.boundary_file import check_boundary_path as check
+        case "film":
+            from cfree.film.encode import check_film_path as check
+        case "geojson":
+            from cfree.formats.slice_geojson import check_slice_path as check
+        case "mesh":
+            from cfree.formats.mesh_file import check_mesh_path as check
+        case "picture":
+            from cfree.plot.boundary import check_picture_path as check
+        case _:  # an answer's form may be given beside its name
+            return
+    check(path)
