@@ -1,0 +1,113 @@
+"""Shapes of other programs: GeoJSON and WKT."""
+
+from pathlib import Path
+
+import pytest
+
+from cfree.errors import FormatError
+from cfree.formats.scene_file import load_polygons, load_scene
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import Scene
+from scene_texts import GEOJSON, WKT, faults, read
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [(GEOJSON, "map.geojson"), (GEOJSON, "map.json"), (WKT, "map.wkt"), (WKT, "map.txt")],
+)
+def test_geojson_and_wkt_hold_the_same_scene(text: str, name: str, tmp_path: Path) -> None:
+    scene = read(tmp_path, text, name)
+    assert scene == Scene(
+        robot=[(0, 0), (1, 0), (0, "0.1")],
+        obstacles=[
+            Polygon([(5, 5), (9, 5), (5, 9)], [[(6, 6), (6, 7), (7, 6)]]),
+            [(1, 5), (2, 5), (1, 6)],
+            [(11, 5), (12, 5), (11, 6)],
+        ],
+        obstacle_names=["lakes", "lakes", None],
+        workspace=[(-9, -9), (20, -9), (20, 20), (-9, 20)],
+    )
+    assert len(load_polygons(tmp_path / name)) == 5
+
+
+def test_one_geometry_is_geojson_too(tmp_path: Path) -> None:
+    file = tmp_path / "a.json"
+    file.write_text('{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, 0.1]]]}')
+    assert load_polygons(file) == (Polygon([(0, 0), (1, 0), (0, "0.1")]),)
+    with pytest.raises(FormatError, match='there is no robot; give its feature the property "role": "robot"'):
+        load_scene(file)
+
+
+def test_faults_of_geojson_are_placed(tmp_path: Path) -> None:
+    text = """{"type": "FeatureCollection", "features": [
+ {"type": "Feature", "properties": {"role": "robto", "name": 5},
+  "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, 0], ["a", 1]]]}},
+ {"type": "Feature", "properties": null, "geometry": {"type": "LineString", "coordinates": [[0, 0], [1, 0]]}},
+ {"type": "Feature", "properties": null, "geometry": null},
+ {"type": "MultiPolygon",
+  "coordinates": [[[[0, 0], [4, 0], [0, 4]], [[5, 5], [6, 5], [5, 6]]], [[[0, 0], [1, 0]]]]},
+ {"type": "Polygon"}, {"type": ["a"]}, 7, {"type": "FeatureCollection"}, {"type": "Feature"}
+]}"""
+    assert faults(tmp_path, text, "map.geojson") == [
+        'map.geojson:2:45 features[0].properties.role: expected one of robot, obstacle, workspace, got "robto"',
+        "map.geojson:2:62 features[0].properties.name: expected text in quotes, got 5",
+        'map.geojson:3:69 features[0].geometry.coordinates[0][2][0]: expected a number or "p/q", got "a"',
+        "map.geojson:4:54 features[1].geometry: LineString: shapes are closures of their interiors: "
+        "a segment or a point forbids nothing; give it width",
+        "map.geojson:5:54 features[2].geometry: expected a GeoJSON feature or geometry with polygons, got null",
+        "map.geojson:7:46 features[3].coordinates[0][1]: "
+        "hole 0: it lies outside the outer ring; move it, or leave it out",
+        "map.geojson:7:74 features[3].coordinates[1][0]: outer ring: 2 points; give at least 3: "
+        "shapes are closures of their interiors: a segment or a point forbids nothing",
+        'map.geojson:8:2 features[4]: a Polygon needs "coordinates"',
+        'map.geojson:8:23 features[5]: expected a GeoJSON feature or geometry with polygons, got {"type": ["a"]}',
+        "map.geojson:8:40 features[6]: expected a GeoJSON feature or geometry with polygons, got 7",
+        'map.geojson:8:43 features[7]: a FeatureCollection needs a list "features"',
+        'map.geojson:8:74 features[8]: expected a GeoJSON feature or geometry with polygons, got {"type": "Feature"}',
+    ]
+
+
+def test_faults_of_wkt_are_placed(tmp_path: Path) -> None:
+    text = """lake: POLYGON ((0 0, 1 0, x/3 nan))
+POLYGON ((0 0, 1 0, 0 1)
+POLYGON Z ((0 0, 1 0, 0 1))
+POLYGON FULL
+LINESTRING (0 0, 1 1)
+POLYGON ((0 0, 4 0, 0 4), (5 5, 6 5, 5 6))
+POLYGON ((0 0, 4 0, 0 4)) foo
+POLYGON ((0 0, 4, 0 4))
+hello
+MULTIPOLYGON (((0 0, 1 0, 0 1)), ((0 0, 1 0)))
+"""
+    reason = "shapes are closures of their interiors: a segment or a point forbids nothing"
+    assert faults(tmp_path, text, "a.wkt") == [
+        "a.wkt:1:27 lake: 'x/3' is no number; write it like '0.1', '-2e3' or '1/3'",
+        "a.wkt:1:31 lake: NaN is not finite; give a finite number",
+        'a.wkt:2:25 expected "," or ")", got the end of the line',
+        "a.wkt:3:16 expected 3 numbers a point, got ,",
+        'a.wkt:4:9 expected "(", got FULL',
+        f"a.wkt:5:1 LINESTRING: {reason}; give it width",
+        "a.wkt:6:27 hole 0: it lies outside the outer ring; move it, or leave it out",
+        "a.wkt:7:27 expected the end of the line, got foo",
+        "a.wkt:8:17 expected two numbers x y, got ,",
+        "a.wkt:9:1 expected POLYGON (...) or MULTIPOLYGON (...), got hello",
+        f"a.wkt:10:35 outer ring: 2 points; give at least 3: {reason}",
+    ]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "POLYGON Z ((3 0 7, 4 0 8, 4 1 9, 3 0 7))",
+        "POLYGONZ((3 0 7, 4 0 8, 4 1 9))",
+        "polygon m ((3 0 1, 4 0 2, 4 1 3))",
+        "MULTIPOLYGON ZM (((3 0 1 2, 4 0 1 2, 4 1 1 2)), EMPTY)",
+        "SRID=4326;POLYGON((3 0, 4 0, 4 1), EMPTY)",
+        "lake: srid = 25832 ; POLYGON ((3 0 1, 4 0 1, 4 1 1))",
+    ],
+)
+def test_wkt_is_read_as_databases_write_it(line: str, tmp_path: Path) -> None:
+    empty = "POLYGON EMPTY\nSRID=4326;MULTIPOLYGON Z EMPTY\n"
+    scene = read(tmp_path, f"robot: POLYGON ((0 0, 1 0, 0 1))\n{empty}{line}\n", "map.wkt")
+    assert scene.obstacles == (Polygon([(3, 0), (4, 0), (4, 1)]),)
+    assert scene.obstacle_names == ("lake" if line.startswith("lake") else "obstacle 0",)
