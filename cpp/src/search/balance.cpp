@@ -15,13 +15,13 @@ namespace {
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
 constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
 constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
-constexpr double climbs_on = 1.1;                           // times the narrowest place
+constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii;                           // times the narrowest place
 constexpr double worth_of_motion = 0.1;                    // in radii
-constexpr double not_much = 1.1;                           // longer
+constexpr double not_much = 1.08;                          // longer
 constexpr std::size_t most_nodes = 40;                     // joined each with each
 constexpr double wider = 1.3;                              // than a narrow place, another way
-constexpr int most_checks = 500;                           // to find one
-constexpr std::size_t poses_per_other = 4, most_others = 8; // a way that was hard to find is worth more of them
+constexpr int checks_by_pose = 30, most_checks = 3000;      // to find them: more on a way that was hard to find itself
+constexpr int checks_at_once = 50, runs = 6;               // at one place
 
 // A few motions instead of many that cost as much, each pose one of the path's: doubling, then halving.
 Marked pruned(const Way& way, const Marked& path) {
@@ -57,7 +57,7 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most_nodes) {
     const std::size_t stride = (route.size() + most_nodes - 1) / most_nodes;
     const auto turned = [&](std::size_t k, const Configuration& as) {
         if (k == 0 || k + 1 == route.size() || route[k].theta == as.theta) return;
-        const double enough = way.asked(path.mark[k]);
+        const double enough = way.distances[k];
         Place q{route[k].px, route[k].py, as.theta};
         if (climb(way, q, {0, 0, 1}, enough) >= enough) nodes.push_back({corner(way.grid.exact(q.x, q.y, q.theta), as), k, false});
     };
@@ -111,7 +111,7 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most_nodes) {
 
 // Another way past the narrowest place that has not been tried, wider than that: two trees on both sides of it. False: there
 // is no such place.
-bool past_narrowest(const Way& way, const Ridge& top, Route& tried, Route& other) {
+bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks, Route& other) {
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
     const double radius = way.weight, end = at.back();
@@ -139,7 +139,8 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, Route& other
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
     RrtConnect search(joins, way.grid, area, way.weight, route[i], route[j], 0);
-    const Route found = search.run(most_checks);
+    Route found;
+    for (int k = 0; k < runs && checks > 0 && found.empty(); ++k, checks -= checks_at_once) found = search.run(checks_at_once);
     if (found.empty()) return true;
     other.assign(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(i));
     other.insert(other.end(), found.begin(), found.end());
@@ -157,7 +158,7 @@ double narrowest(const Ridge& top) { return *std::min_element(top.distance.begin
 
 // From the ridge itself, while that makes its narrowest place wider.
 Ridge climbed_on(const Way& way, Ridge top, double level) {
-    while (top.distance.size() > 2 && narrowest(top) < level) {
+    while (top.distance.size() > 2 && narrowest(top) < narrow * way.weight) {
         Ridge next = ridge(way, top.path.route, level);
         const bool gains = next.distance.size() > 2 && narrowest(next) > climbs_on * std::max(narrowest(top), way.nearness->least());
         if (!gains) break;
@@ -167,13 +168,13 @@ Ridge climbed_on(const Way& way, Ridge top, double level) {
 }
 
 // All parts keep a share of what each could, if that is not much longer than if only the first do.
-Balanced shortest_along(const Way& way, const Ridge& top) {
+Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
     std::optional<Balanced> found;
     for (const int depth : {1, all_parts}) {
-        Way along = way.asking(top.path.mark, distances_asked(top, way.weight, share_asked, depth));
+        Way along = way.asking(top.path, distances_asked(top, way.weight, share_asked, depth));
         along.per_motion = worth_of_motion * way.weight;
         const std::size_t motions = pruned(along, top.path).route.size() - 1;
-        Marked path = shortest(along, top.path, std::min(most_nodes, 8 + 3 * motions));
+        Marked path = shortest(along, top.path, std::min(nodes, 6 + 2 * motions));
         if (!found || cost_of(path.route, way.weight) < not_much * cost_of(found->path.route, way.weight))
             found.emplace(Balanced{std::move(along), std::move(path)});
     }
@@ -187,18 +188,18 @@ Balanced balanced(const Way& way, const Route& route) {
     any.nearness = nullptr;
     Route path = pruned(any, {route, std::vector<double>(route.size())}).route, tried;
     const double most = most_distance(way, path), radius = way.weight;
-    const std::size_t others = std::min(most_others, route.size() / poses_per_other);
+    int checks = std::min(most_checks, checks_by_pose * static_cast<int>(route.size()));
     for (double level = std::min(most, lowest * radius);;) {
         const Ridge top = ridge(way, path, level);
         std::vector<double> asked = distances_asked(top, radius, share_between, all_parts);
         if (level < most && *std::max_element(asked.begin(), asked.end()) > gained * share_between * level) {
-            path = pruned(way.asking(top.path.mark, std::move(asked)), top.path).route;
+            path = pruned(way.asking(top.path, std::move(asked)), top.path).route;
             level = std::min(most, level * (level < radius / 5 ? 4 : 2));
             continue;
         }
         Route other;
-        while (other.empty() && tried.size() < others && past_narrowest(way, top, tried, other)) {}
-        if (other.empty()) return shortest_along(way, climbed_on(way, top, level));
+        while (other.empty() && checks > 0 && past_narrowest(way, top, tried, checks, other)) {}
+        if (other.empty()) return shortest_along(way, climbed_on(way, top, level), std::min(most_nodes, 12 + route.size() / 2));
         path = std::move(other);
     }
 }

@@ -51,7 +51,13 @@ Motion motion_between(const Configuration& a, const Configuration& b) {
     return m;
 }
 
-double turn_between(const Configuration& a, const Configuration& b) { return std::remainder(b.theta - a.theta, 2 * pi); }
+double turn_between(const Configuration& a, const Configuration& b) { return wrapped(b.theta - a.theta); }
+
+double wrapped(double angle) {
+    while (angle > pi) angle -= 2 * pi;  // exact, as std::remainder is
+    while (angle < -pi) angle += 2 * pi;
+    return angle;
+}
 
 double travel_between(const Configuration& a, const Configuration& b) {
     const double half = 0.5 * std::abs(turn_between(a, b)), chord = std::hypot(b.px - a.px, b.py - a.py);

@@ -176,15 +176,17 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
     const auto at = [&](double share) { return Placed(robot, along(a, b, share)); };
     for (std::size_t next = 0; next < parts.size(); ++next) {
         const auto [lo, hi, depth] = parts[next];
-        const double mid = 0.5 * (lo + hi), asked = std::max({need(lo), need(mid), need(hi)});
-        if (asked <= least_distance) continue;
+        const double mid = 0.5 * (lo + hi), in_middle = need(mid);
         const Placed m = at(mid);
-        if (0.5 * (hi - lo) * most > 4 * asked + 2 * reach) {  // far too long: only look at the middle
-            if (distance(m, asked) < asked || depth == deepest || parts.size() > most_parts) return false;
+        if (0.5 * (hi - lo) * most > 4 * in_middle + 2 * reach) {  // far too long: only look at the middle
+            if (in_middle > least_distance && distance(m, in_middle) < in_middle) return false;
+            if (depth == deepest || parts.size() > most_parts) return false;
             parts.push_back({lo, mid, depth + 1});
             parts.push_back({mid, hi, depth + 1});
             continue;
         }
+        const double asked = std::max({need(lo), in_middle, need(hi)});
+        if (asked <= least_distance) continue;
         const Placed p = at(lo), q = at(hi);
         bool fails = false, holds = true;
         for (Index i = 0; i < robot.count() && !fails; ++i) {

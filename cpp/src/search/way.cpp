@@ -6,6 +6,8 @@
 
 namespace cfree {
 
+constexpr double radii_around = 2;  // of way, before and after
+
 void Marked::append(const Marked& further) {
     route.insert(route.end(), further.route.begin() + 1, further.route.end());
     mark.insert(mark.end(), further.mark.begin() + 1, further.mark.end());
@@ -33,24 +35,31 @@ Configuration corner(const Configuration& position, const Configuration& orienta
     return c;
 }
 
-Way Way::asking(std::vector<double> at, std::vector<double> what) const {
-    return {checker, nearness, grid, limits, weight, per_motion, std::move(at), std::move(what)};
+Way Way::asking(Marked along, std::vector<double> what) const {
+    return {checker, nearness, grid, limits, weight, per_motion, std::move(along), std::move(what)};
 }
 
-double Way::asked(double mark) const {
-    const auto after = std::upper_bound(marks.begin(), marks.end(), mark);
-    if (after == marks.begin()) return distances.front();
-    if (after == marks.end()) return distances.back();
-    const auto k = static_cast<std::size_t>(after - marks.begin());
-    const double share = (mark - marks[k - 1]) / (marks[k] - marks[k - 1]);
-    return distances[k - 1] + share * (distances[k] - distances[k - 1]);
+std::size_t Way::nearest(const Place& at, double from, double to) const {
+    const auto& mark = ridge.mark;
+    const double around = radii_around * weight;
+    const auto begin = std::lower_bound(mark.begin(), mark.end(), from - around), end = std::upper_bound(begin, mark.end(), to + around);
+    auto best = static_cast<std::size_t>(std::min(begin, mark.end() - 1) - mark.begin());
+    double least = HUGE_VAL;
+    for (auto k = static_cast<std::size_t>(begin - mark.begin()); k < static_cast<std::size_t>(end - mark.begin()); ++k) {
+        const Configuration& q = ridge.route[k];
+        const double dx = q.px - at.x, dy = q.py - at.y, apart = dx * dx + dy * dy;
+        if (apart >= least) continue;
+        const double turn = weight * wrapped(q.theta - at.theta);
+        if (const double square = apart + turn * turn; square < least) least = square, best = k;
+    }
+    return best;
 }
 
 bool Way::joins(const Configuration& a, const Configuration& b, double from, double to) const {
     if (!nearness) return checker.is_free(motion_between(a, b));
     double least = HUGE_VAL;
     const auto need = [&](double share) {
-        const double distance = asked(from + share * (to - from));
+        const double distance = distances[nearest(along(a, b, share), from, to)];
         least = std::min(least, distance);
         return distance;
     };
@@ -78,10 +87,13 @@ bool Way::is_within(const Configuration& a, const Configuration& b) const {
 }
 
 Marked Way::marked(Route route, double from, double to) const {
-    std::vector<double> mark = costs_along(route, weight);
-    const double whole = std::max(mark.back(), 1e-300);
-    for (double& m : mark) m = from + m / whole * (to - from);
-    mark.back() = to;
+    std::vector<double> mark{from};
+    for (std::size_t k = 1; k + 1 < route.size(); ++k) {
+        const Configuration& q = route[k];
+        const double there = ridge.mark.empty() ? from : ridge.mark[nearest({q.px, q.py, q.theta}, from, to)];
+        mark.push_back(std::clamp(there, mark.back(), to));
+    }
+    mark.push_back(to);
     return {std::move(route), std::move(mark)};
 }
 

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 Phase = Callable[[str], AbstractContextManager[Any]]
 SEARCH = 10_000  # motions checked at most before the free space is built
 REFINE = 400  # motions checked to improve a path if no time is given
-BALANCE = 400  # the same for each motion of a path that keeps a distance
+BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance
 OTHERS = 30  # other ways looked for
 COMPLETE = 30_000  # contact patches at most of a grown robot whose free space is computed
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
@@ -385,7 +385,7 @@ class Planner(Value):
         searcher, found = self._searcher(poses), poses
         try:
             best = searcher.balanced(poses, self.scene.bounds)
-            best.run(BALANCE * len(best.path()))
+            best.run(BALANCE * (len(best.path()) + len(poses)))
             found = searcher.poses(best.path())
             while time.perf_counter() < end:
                 self._look_up()

@@ -21,6 +21,9 @@ struct Grid {
 // A translation, or the rotation by less than half a turn (counter-clockwise by half a turn) about its pole.
 Motion motion_between(const Configuration& a, const Configuration& b);
 
+// An angle of few turns, in [-pi, pi].
+double wrapped(double angle);
+
 // By how much it turns, and how far the reference point travels.
 double turn_between(const Configuration& a, const Configuration& b);
 double travel_between(const Configuration& a, const Configuration& b);

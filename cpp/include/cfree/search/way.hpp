@@ -34,10 +34,12 @@ struct Way {
     Grid grid;
     Area limits;                   // of the reference point
     double weight, per_motion = 0; // lengths that a radian and a motion are worth
-    std::vector<double> marks = {}, distances = {};  // distances asked at marks; they change evenly between these
+    Marked ridge = {};                   // along which something is asked,
+    std::vector<double> distances = {};  // of each pose of it a distance
 
-    Way asking(std::vector<double> at, std::vector<double> what) const;
-    double asked(double mark) const;
+    Way asking(Marked along, std::vector<double> what) const;
+    // The pose of the ridge nearest to a place, of those with marks about from a number to another.
+    std::size_t nearest(const Place& at, double from, double to) const;
     // Is the motion free, and does it keep a distance? What keeps one that means something is free, within limits.
     bool keeps(const Configuration& a, const Configuration& b, double distance) const;
     // The same of what is asked from mark to mark.
@@ -45,7 +47,7 @@ struct Way {
     bool joins(const Marked& path) const;
     // One motion, or a turn and a straight way in either order: the first that costs no more and is joined; or nothing.
     Marked simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const;
-    // A route with marks that change as costs do.
+    // A route with the marks of the nearest poses of the ridge.
     Marked marked(Route route, double from, double to) const;
 
 private:
