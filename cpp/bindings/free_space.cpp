@@ -1,9 +1,7 @@
 // Cells, and where poses are among them. A pose is (X, Y, W, p, r), integers: the position over W, tau = p / r.
 #include "cfree/free/free_space.hpp"
-#include "cfree/free/surface_explorer.hpp"
 
 #include <nanobind/stl/array.h>
-#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -13,7 +11,7 @@
 #include "watched.hpp"
 
 using namespace nb::literals;
-using cfree::FreeSpace, cfree::SurfaceExplorer, cfree::Surfaces;
+using cfree::FreeSpace, cfree::Surfaces;
 using PoseIntegers = std::array<nb::int_, 5>;
 
 static cfree::ExactPose pose_of(const PoseIntegers& n, int chart) {
@@ -53,21 +51,8 @@ static void bind_surfaces(nb::module_& m) {
     column(surfaces, "lift", &Surfaces::lift);
 }
 
-static void bind_explorer(nb::module_& m) {
-    nb::class_<SurfaceExplorer>(m, "SurfaceExplorer")
-        .def(nb::init<std::shared_ptr<const cfree::Scene>, bool>(), "scene"_a, "regularized"_a)
-        .def("trapezoid_at", [](SurfaceExplorer& of, std::array<int, 3> contact, const PoseIntegers& pose, int chart) {
-            const auto [kind, robot, obstacle] = contact;
-            return of.trapezoid_at({static_cast<cfree::Kind>(kind), robot, obstacle}, pose_of(pose, chart));
-        }, "contact"_a, "pose"_a, "chart"_a)
-        .def("grow", [](SurfaceExplorer& of, int seed, int most) { return watched([&] { return of.grow(seed, most); }); },
-             "seed"_a, "most"_a)
-        .def_prop_ro("trimmed_patches", &SurfaceExplorer::trimmed_patches);
-}
-
 void bind_free_space(nb::module_& m) {
     bind_surfaces(m);
-    bind_explorer(m);
     const auto ints = [](const std::vector<int>& values) { return Made<const int>(values.data(), {values.size()}); };
     nb::class_<FreeSpace>(m, "FreeSpace")
         .def("__init__", [](FreeSpace* space, cfree::SharedBoundary boundary, const Surfaces& surfaces) {

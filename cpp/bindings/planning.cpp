@@ -7,13 +7,13 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include "cfree/planning/boundary_walk.hpp"
+#include "cfree/planning/connecting_way.hpp"
 #include "integers.hpp"
 #include "watched.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using cfree::BoundaryWalker, cfree::Feature, cfree::RationalPose, cfree::Way;
+using cfree::BoundaryWalker, cfree::Connection, cfree::Feature, cfree::Surroundings, cfree::RationalPose, cfree::Way;
 
 using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
 
@@ -38,8 +38,11 @@ static BoundaryWalker::End end(const End& given) {
 }
 
 // slide(from, to, contact, curve) tells whether one leads there.
-static std::vector<PoseTuple> walk(const BoundaryWalker& walker, const End& start, const End& goal, int cell,
-                                   const nb::typed<nb::callable, bool(PoseTuple, PoseTuple, std::array<int, 3>, std::uint64_t)>& slide) {
+using Slide = nb::typed<nb::callable, bool(PoseTuple, PoseTuple, std::array<int, 3>, std::uint64_t)>;
+
+// Poses of a way that asks Python for slides.
+template <class Find>
+static std::vector<PoseTuple> with_slides(const Slide& slide, Find&& find) {
     Raised raised;
     const cfree::Slides slides = [&](const RationalPose& from, const RationalPose& to, const Feature& contact, std::uint64_t curve) {
         const nb::gil_scoped_acquire lock;
@@ -51,13 +54,17 @@ static std::vector<PoseTuple> walk(const BoundaryWalker& walker, const End& star
             throw cfree::Stopped();
         }
     };
-    const auto first = end(start), last = end(goal);
     try {
-        return list_of(watched([&] { return walker.walk(first, last, cell, slides); }));
+        return list_of(watched([&] { return find(slides); }));
     } catch (const cfree::Stopped&) {
         raised.rethrow();
         throw;
     }
+}
+
+static std::vector<PoseTuple> walk(const BoundaryWalker& walker, const End& start, const End& goal, int cell, const Slide& slide) {
+    const auto first = end(start), last = end(goal);
+    return with_slides(slide, [&](const cfree::Slides& slides) { return walker.walk(first, last, cell, slides); });
 }
 
 // A face, and whether its last angle is meant or its first.
@@ -68,7 +75,30 @@ static std::optional<std::vector<PoseTuple>> turn(const BoundaryWalker& walker, 
     return list_of(*found);
 }
 
+static void bind_surroundings(nb::module_& m) {
+    nb::enum_<Connection::Verdict>(m, "Verdict")
+        .value("UNCLEAR", Connection::Verdict::unclear)
+        .value("APART", Connection::Verdict::apart)
+        .value("JOINED", Connection::Verdict::joined);
+    nb::class_<Connection>(m, "Connection")
+        .def_ro("verdict", &Connection::verdict)
+        .def_ro("surface", &Connection::surface);
+    nb::class_<Surroundings>(m, "Surroundings")
+        .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::MotionChecker>, bool>(), "scene"_a,
+             "checker"_a, "regularized"_a)
+        .def("connection", [](Surroundings& around, const std::array<nb::int_, 6>& start, const std::array<nb::int_, 6>& goal) {
+            const auto first = pose(start), last = pose(goal);
+            return watched([&] { return cfree::connection(around, first, last); });
+        }, "start"_a, "goal"_a)
+        .def("way", [](const Surroundings& around, const Connection& joined, double angle_scale, const Slide& slide) {
+            return with_slides(slide, [&](const cfree::Slides& slides) {
+                return cfree::connecting_way(around, joined, angle_scale, slides);
+            });
+        }, "joined"_a, "angle_scale"_a, "slide"_a);
+}
+
 void bind_planning(nb::module_& m) {
+    bind_surroundings(m);
     nb::class_<BoundaryWalker>(m, "BoundaryWalker")
         .def(nb::init<std::shared_ptr<const cfree::FreeSpace>, std::shared_ptr<const cfree::CellComplex>,
                       std::shared_ptr<const cfree::MotionChecker>, double>(),

@@ -108,8 +108,6 @@ void Assembly::make_loops(std::vector<Parts>&& lists) {
     free_memory(number);
     result.face.reserve(count);
     for (std::size_t f = 0; f < faces.size(); ++f) result.face.resize(static_cast<std::size_t>(result.first[f + 1]), static_cast<Index>(f));
-    for (std::size_t h = 0; h < count; ++h)
-        if (result.twin[h] < 0) fail_alone(faces[result.face[h]]);
 }
 
 // Around the start of a half-edge, over twins.
@@ -120,7 +118,7 @@ void Assembly::find_vertices() {
         if (result.vertex[h] >= 0) continue;
         heed_stop();
         best.push_back(h);
-        for (Index x = h; result.vertex[x] < 0; x = result.twin[before(x)]) {
+        for (Index x = h; x >= 0 && result.vertex[x] < 0; x = result.twin[before(x)]) {
             result.vertex[x] = result.vertices;
             if (is_level(x)) best.back() = x;
         }
@@ -172,6 +170,7 @@ void Assembly::find_components() {
             const Index g = stack.back();
             stack.pop_back();
             for (Index h = result.first[g]; h < result.first[g + 1]; ++h) {
+                if (result.twin[h] < 0) continue;
                 const Index neighbour = result.face[result.twin[h]];
                 if (result.component[neighbour] >= 0) continue;
                 result.component[neighbour] = result.components;
@@ -231,7 +230,7 @@ std::array<std::vector<Index>, 2> reached(const std::vector<Parts>& lists, const
     return found;
 }
 
-// The parts of closed surfaces alone, of faces.
+// The parts of some faces alone; edges renumbered, sides to others without twin.
 void keep(Parts& list, const std::vector<Index>& face_of) {
     std::vector<Index> number(list.trapezoid.size(), -1);
     Parts kept;
@@ -252,23 +251,26 @@ std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int thre
     std::iota(all.begin(), all.end(), 0);
     give_back_memory(all.size());  // of trimming
     std::vector<Parts> lists = matched_sides(*boundary, Whole(all.size(), 1), threads);
+    for (const Parts& list : lists)
+        for (Index k = 0; k < list.size(); ++k)
+            if (list.twin[k] < 0) fail_alone(list.trapezoid[k]);
     give_back_memory(all.size());
     auto result = shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists)), boundary);
     give_back_memory(boundary->trapezoids.size());
     return result;
 }
 
-GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds) {
+GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds, Index target) {
     std::vector<Parts> lists = matched_sides(*boundary, whole, 1);
     auto [faces, missing] = reached(lists, whole, seeds);
-    if (!missing.empty()) return {nullptr, std::move(missing)};
+    if (!missing.empty() && !std::binary_search(faces.begin(), faces.end(), target)) return {nullptr, std::move(missing)};
     std::vector<Index> face_of(whole.size(), -1);
     Trapezoids rows;
     for (const Index k : faces) face_of[k] = static_cast<Index>(rows.size()), rows.push_row(boundary->trapezoids, k);
     for (Parts& list : lists) keep(list, face_of);
     const auto part = std::make_shared<const Boundary>(boundary->scene, boundary->patches, boundary->trimmed, std::move(rows),
                                                        IsolatedParts{});
-    return {shared(Assembly(*boundary, std::move(faces), 1).run(std::move(lists)), part), {}};
+    return {shared(Assembly(*boundary, std::move(faces), 1).run(std::move(lists)), part), std::move(missing)};
 }
 
 }  // namespace cfree

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <queue>
 
 #include "cfree/contact/contact_line.hpp"
 #include "free/touching_patches.hpp"
@@ -30,13 +31,19 @@ struct SurfaceExplorer::State {
 
     void trim(Index patch);
     void trim(std::vector<Index>& patches);
-    void explore(Index k, std::vector<Index>& found);
+    void explore(Index k);
+    struct Growth;
+    Growth& growth(Index seed);
+    void look_at(Growth& of, Index k, double way) const;
+    GluedPart glued(Growth& of, Index seed, Index target);
+    Vec<double> middle(Index k) const;
     Ends ends(Index k, double tau) const;
     double value(Index k, std::uint64_t curve, double tau) const;
+    double inside(Index k, double tau) const;
     bool shares_curve(Index k, bool upper, Index other) const;
     bool shares_level(Index k, bool last, Index other) const;
-    SharedBoundary boundary() const {
-        return std::make_shared<const Boundary>(given, one.patches, trimmed, rows, IsolatedParts{});
+    SharedBoundary boundary(Trapezoids of) const {
+        return std::make_shared<const Boundary>(given, one.patches, trimmed, std::move(of), IsolatedParts{});
     }
 
     const std::shared_ptr<const Scene> given;
@@ -48,7 +55,8 @@ struct SurfaceExplorer::State {
     std::vector<std::array<Index, 2>> faces_of;    // each patch: its rows
     std::vector<std::uint8_t> trimmed;
     std::vector<char> whole;                       // of each row, whether all that its sides meet is trimmed
-    std::map<Index, std::vector<Index>> growing;   // by seed: rows that are to be explored
+    std::vector<std::vector<Index>> beside;        // then: those that seem to be across its sides
+    std::map<Index, Growth> growing;               // by seed
     double nearness = 0;                           // of points that may be one; it decides what is looked at first
     Index pillars_of = -1;
     std::vector<Index> pillars;
@@ -68,7 +76,7 @@ void SurfaceExplorer::State::trim(Index patch) {
     for (const Trapezoid& x : found) rows.push_back(x);
     for (auto* column : rows.features())
         for (std::size_t k = before; k < rows.size(); ++k) (*column)[k] = named(names, (*column)[k]);
-    whole.resize(rows.size(), 0);
+    whole.resize(rows.size(), 0), beside.resize(rows.size());
     faces_of[patch] = {static_cast<Index>(before), static_cast<Index>(rows.size())};
 }
 
@@ -107,6 +115,12 @@ bool SurfaceExplorer::State::shares_curve(Index k, bool upper, Index other) cons
     return apart(p, q[0]) <= nearness || apart(p, q[1]) <= nearness;
 }
 
+// A little within a trapezoid: where it begins or ends its curves may be 0 / 0.
+double SurfaceExplorer::State::inside(Index k, double tau) const {
+    constexpr double share = 1e-8;
+    return tau + share * (0.5 * (rows.tau_from(k) + rows.tau_to(k)) - tau);
+}
+
 // Whether another trapezoid begins or ends on the line where this one does, beside it.
 bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const {
     const double tau = last ? rows.tau_to(k) : rows.tau_from(k);
@@ -115,7 +129,7 @@ bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const
     const double there = rows.chart[k] == rows.chart[other] ? tau : -tau;
     constexpr double same_angle = 1e-9;
     if (std::abs(rows.tau_from(other) - there) > same_angle && std::abs(rows.tau_to(other) - there) > same_angle) return false;
-    const Ends p = ends(k, tau), q = ends(other, there);
+    const auto [p, q] = std::pair(ends(k, inside(k, tau)), ends(other, inside(other, there)));
     const Vec<double> U = p[1] - p[0];
     const double length = std::hypot(U.x, U.y);
     if (length <= nearness) return apart(p[0], q[0]) <= nearness || apart(p[0], q[1]) <= nearness;
@@ -123,22 +137,23 @@ bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const
         if (std::abs(cross(U, x - p[0])) > nearness * length) return false;
     double low = dot(U, q[0] - p[0]), high = dot(U, q[1] - p[0]);
     if (low > high) std::swap(low, high);
-    return low < length * (length - nearness) && high > nearness * length;
+    constexpr double least = 1e-5;  // of the nearness: of what two that only touch seem to share
+    return std::min(high, length * length) - std::max(low, 0.0) > least * nearness * length;
 }
 
-void SurfaceExplorer::State::explore(Index k, std::vector<Index>& found) {
+void SurfaceExplorer::State::explore(Index k) {
     const Surface on = surface_of(one.patches, rows, k);
-    const double middle = 0.5 * (rows.tau_from(k) + rows.tau_to(k));
-    std::vector<Index> patches;
+    const double tau = 0.5 * (rows.tau_from(k) + rows.tau_to(k));
+    std::vector<Index> patches, found;
     const auto look = [&](auto&& shares) {
         trim(patches);
         for (const Index patch : patches)
             for (Index other = faces_of[patch][0]; other < faces_of[patch][1]; ++other)
-                if (other != k && !whole[other] && shares(other)) found.push_back(other);
+                if (other != k && shares(other)) found.push_back(other);
         patches.clear();
     };
     for (const bool upper : {false, true}) {
-        touching.on_curve(on, unpacked((upper ? rows.upper : rows.lower)[k]), middle, patches);
+        touching.on_curve(on, unpacked((upper ? rows.upper : rows.lower)[k]), tau, patches);
         look([&](Index other) { return shares_curve(k, upper, other); });
     }
     for (const bool last : {false, true}) {
@@ -146,46 +161,97 @@ void SurfaceExplorer::State::explore(Index k, std::vector<Index>& found) {
         touching.on_line(on, lo, hi, patches);
         look([&](Index other) { return shares_level(k, last, other); });
     }
-    whole[k] = 1;
+    whole[k] = 1, beside[k] = std::move(found);
+}
+
+Vec<double> SurfaceExplorer::State::middle(Index k) const {
+    const Ends p = ends(k, 0.5 * (rows.tau_from(k) + rows.tau_to(k)));
+    return {0.5 * (p[0].x + p[1].x), 0.5 * (p[0].y + p[1].y)};
+}
+
+// What is to be explored next: what is nearest, on the way to a target if there is one.
+struct SurfaceExplorer::State::Growth {
+    struct Item {
+        double cost, way;
+        Index trapezoid;
+        bool operator>(const Item& o) const { return cost > o.cost || (cost == o.cost && trapezoid > o.trapezoid); }
+    };
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    enum class State : char { unseen, seen, explored };
+    std::vector<State> state;
+    Index target = -1;
+    Vec<double> goal{};
+    Index explored = 0, glued = 0;  // how many, and how many when they were glued last
+    bool has(Index k) const { return k >= 0 && k < static_cast<Index>(state.size()) && state[k] == State::explored; }
+};
+
+SurfaceExplorer::State::Growth& SurfaceExplorer::State::growth(Index seed) {
+    const auto [found, is_new] = growing.try_emplace(seed);
+    if (is_new) look_at(found->second, seed, 0);
+    return found->second;
+}
+
+void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
+    g.state.resize(rows.size());
+    if (g.state[k] != Growth::State::unseen) return;
+    g.state[k] = Growth::State::seen;
+    constexpr double haste = 2;  // a way as short as possible is not asked for
+    g.queue.push({g.target < 0 ? way : way + haste * apart(middle(k), g.goal), way, k});
+}
+
+// The surface, if nothing of it is missing or if the target is reached; what is missing is to be explored next.
+GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
+    g.glued = g.explored;
+    GluedPart part = glue_part(boundary(rows), whole, {seed}, target);
+    for (const Index k : part.missing) {
+        g.state.resize(rows.size());
+        g.state[k] = Growth::State::unseen;
+        look_at(g, k, 0);
+    }
+    return part;
 }
 
 SurfaceExplorer::SurfaceExplorer(std::shared_ptr<const Scene> scene, bool regularized)
     : state(std::make_unique<State>(std::move(scene), regularized)) {}
 SurfaceExplorer::~SurfaceExplorer() = default;
 
-std::size_t SurfaceExplorer::trimmed_patches() const {
-    return static_cast<std::size_t>(std::count(state->trimmed.begin(), state->trimmed.end(), 1));
-}
-
-std::optional<Index> SurfaceExplorer::trapezoid_at(const Feature& contact, const ExactPose& pose) {
+std::optional<Index> SurfaceExplorer::trapezoid_at(const ExactPose& pose, Index vertex) {
     std::vector<Index> patches;
-    state->touching.at_pose(contact, pose, patches);
-    const Code own = code(state->scene, contact);
+    state->touching.at_pose(pose, vertex, patches);
+    const auto surface = [&](Index patch) { return code(state->scene, state->one.patches.contact(patch)); };
     for (const Index patch : patches)
-        if (code(state->scene, state->one.patches.contact(patch)) != own) return {};
+        if (surface(patch) != surface(patches[0])) return {};
     state->trim(patches);
-    const SharedBoundary boundary = state->boundary();
-    const auto seen = PointLocation(boundary, std::vector<Index>(boundary->trapezoids.size(), 0)).nearby(pose);
+    std::vector<Index> there;
+    Trapezoids rows;
+    for (const Index patch : patches)
+        for (Index k = state->faces_of[patch][0]; k < state->faces_of[patch][1]; ++k) {
+            there.push_back(k);
+            rows.push_row(state->rows, k);
+        }
+    const auto few = state->boundary(std::move(rows));
+    const auto seen = PointLocation(few, std::vector<Index>(there.size(), 0)).nearby(pose);
     if (seen.on.size() != 1 || seen.end[0] != 0) return {};
-    return seen.on[0];
+    return there[seen.on[0]];
 }
 
-std::shared_ptr<const CellComplex> SurfaceExplorer::grow(Index seed, Index most) {
+SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index target) {
     State& s = *state;
-    auto& queue = s.growing.try_emplace(seed, 1, seed).first->second;
-    for (std::size_t next = 0;; ++next) {
+    State::Growth& g = s.growth(seed);
+    if (g.target < 0 && target >= 0) g.target = target, g.goal = s.middle(target);
+    for (;;) {
         heed_stop();
-        if (next == queue.size()) {
-            GluedPart part = glue_part(s.boundary(), s.whole, {seed});
-            if (part.complex) return part.complex;
-            queue = std::move(part.missing), next = 0;
+        if (g.queue.empty() || (g.has(target) && 4 * g.explored >= 5 * g.glued)) {
+            if (GluedPart part = s.glued(g, seed, target); part.complex) return {part.complex, part.missing.empty()};
         }
-        if (s.whole[queue[next]]) continue;
-        if (most-- == 0) {
-            queue.erase(queue.begin(), queue.begin() + static_cast<std::ptrdiff_t>(next));
-            return nullptr;
-        }
-        s.explore(queue[next], queue);
+        const auto [cost, way, k] = g.queue.top();
+        if (!s.whole[k] && most-- == 0) return {};
+        g.queue.pop();
+        if (!s.whole[k]) s.explore(k);
+        g.state[k] = State::Growth::State::explored, ++g.explored;
+        const Vec<double> here = s.middle(k);
+        for (const Index next : s.beside[k])
+            s.look_at(g, next, way + (g.target < 0 ? 1 : apart(here, s.middle(next))));
     }
 }
 

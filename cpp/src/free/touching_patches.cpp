@@ -22,115 +22,149 @@ std::vector<Box> edge_boxes(const Shape& s) {
 }  // namespace
 
 TouchingPatches::TouchingPatches(const Scene& g, const PatchTrimming& patches)
-    : given(g), scene(g.near()), one(patches), edges(edge_boxes(scene.obstacles)), vertices(scene.robot.x.size()), directions(scene.robot.v.size()) {
+    : given(g), scene(g.near()), one(patches), obstacle_edges(edge_boxes(scene.obstacles)), vertices(scene.robot.x.size()),
+      edges(scene.robot.v.size()), places(vertices.size()), offsets(edges.size()) {
+    const Shape& A = scene.robot;
+    for (Index i = 0; i < A.ring_vertices; ++i) {
+        if (A.convex[i]) layers[A.layer[i]].vertices.push_back(i);
+        if (A.has_extent(i)) layers[A.layer[i]].edges.push_back(i);
+    }
     Box robot;
-    for (std::size_t v = 0; v < scene.robot.x.size(); ++v) robot.add(scene.robot.x[v], scene.robot.y[v]);
+    for (std::size_t v = 0; v < A.x.size(); ++v) {
+        robot.add(A.x[v], A.y[v]);
+        size = std::max(size, std::hypot(A.x[v], A.y[v]));
+    }
     reach = std::hypot(robot.x1 - robot.x0, robot.y1 - robot.y0);
 }
 
 struct TouchingPatches::Turned {
     const Scene& scene;
     const TouchingPatches& at;
-    Index b0;           // the origin
-    bool on_edge;       // of an obstacle
-    Vec<Approx> P, U;   // the contact's line
+    Index b0;  // the origin
 
     Vec<Approx> place(Index vertex) const { return difference<Approx>(scene.obstacles, vertex, b0); }
     const Vec<Approx>& vertex(Index i) const { return at.vertices[i]; }
-    const Vec<Approx>& edge(Index e) const { return at.directions[e]; }
-    // On the contact's own line.
-    Vec<Approx> at_share(const Approx& t) const {
-        const Approx by = on_edge ? t : -t;
-        return P - Vec<Approx>{-(by * U.x), -(by * U.y)};
-    }
-    // Another contact's line: its direction is the edge's.
+    // A contact's line: where its edge begins, and the edge.
     Vec<Approx> start(const Feature& f) const {
         if (f.kind == Kind::vertex_edge) return place(scene.obstacles.v[f.obstacle]) - vertex(f.robot);
         return place(f.obstacle) - vertex(scene.robot.v[f.robot]);
     }
     Vec<Approx> direction(const Feature& f) const {
-        return f.kind == Kind::vertex_edge ? cfree::edge<Approx>(scene.obstacles, f.obstacle) : edge(f.robot);
+        return f.kind == Kind::vertex_edge ? edge<Approx>(scene.obstacles, f.obstacle) : at.edges[f.robot];
     }
 };
 
-TouchingPatches::Turned TouchingPatches::turned(const Feature& contact, int chart, double tau) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
+TouchingPatches::Turned TouchingPatches::turned(Index b0, int chart, double tau) {
+    const Shape& A = scene.robot;
     const auto R = rotation_by(chart, tau);
     const Approx c{R.c, 1}, s{R.s, 1};
     const auto turn = [&](const Vec<Approx>& v) { return Vec<Approx>{c * v.x - s * v.y, s * v.x + c * v.y}; };
     for (Index v = 0; v < static_cast<Index>(vertices.size()); ++v)
         vertices[v] = turn({{A.x[v], std::abs(A.x[v])}, {A.y[v], std::abs(A.y[v])}});
-    for (Index e = 0; e < static_cast<Index>(directions.size()); ++e) directions[e] = turn(edge<Approx>(A, e));
-    const bool on_edge = contact.kind == Kind::vertex_edge;
-    Turned t{scene, *this, on_edge ? O.v[contact.obstacle] : contact.obstacle, on_edge, {}, {}};
-    t.P = t.start(contact), t.U = t.direction(contact);
-    return t;
+    for (Index e = 0; e < static_cast<Index>(edges.size()); ++e) edges[e] = turn(edge<Approx>(A, e));
+    return {scene, *this, b0};
+}
+
+Index TouchingPatches::obstacle_vertex(const Feature& contact) const {
+    return contact.kind == Kind::vertex_edge ? scene.obstacles.v[contact.obstacle] : contact.obstacle;
 }
 
 const std::vector<Index>& TouchingPatches::near(Index feature) {
     if (feature == near_to) return recent;
     const Shape& O = scene.obstacles;
     Box box;
-    double size = reach;
+    double most = reach;
     for (const Index v : {O.v[feature], O.w[feature]}) {
         box.add(O.x[v], O.y[v]);
-        size = std::max({size, std::abs(O.x[v]), std::abs(O.y[v])});
+        most = std::max({most, std::abs(O.x[v]), std::abs(O.y[v])});
     }
-    const double d = reach + size * 0x1p-40;
+    const double d = reach + most * 0x1p-40;
     recent.clear(), near_to = feature;
-    edges.query({box.x0 - d, box.y0 - d, box.x1 + d, box.y1 + d}, [&](Index j) { recent.push_back(j); });
+    obstacle_edges.query({box.x0 - d, box.y0 - d, box.x1 + d, box.y1 + d}, [&](Index j) {
+        if (one.first_patch[j] < one.first_patch[j + 1]) recent.push_back(j);
+    });
     return recent;
 }
 
-template <class Test>
-void TouchingPatches::find(const Feature& contact, std::vector<Index>& out, const Test& may) {
-    for (const Index j : near(contact.obstacle))
-        for (Index id = one.first_patch[j]; id < one.first_patch[j + 1]; ++id)
-            if (may(one.patches.contact(id))) out.push_back(id);
-}
-
-// The curve's point is p / d: where two lines meet, or a vertex of the robot is on one of an obstacle.
+// The curve's point is p / d: where two lines meet, or a vertex of the robot is on one of an obstacle. With it the robot's
+// vertices are at places / d, and its edges pass at offsets / d.
 void TouchingPatches::on_curve(const Surface& on, const Feature& curve, double tau, std::vector<Index>& out) {
-    const Turned t = turned(on.contact, on.chart, tau);
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Turned t = turned(obstacle_vertex(on.contact), on.chart, tau);
     Vec<Approx> p;
     Approx d{1, 1};
     if (curve.kind == Kind::vertex_vertex) {
         p = t.place(curve.obstacle) - t.vertex(curve.robot);
     } else {
-        const auto Q = t.start(curve), V = t.direction(curve);
-        d = cross(t.U, V);
-        const Approx n = cross(Q - t.P, V);
-        p = {d * t.P.x + n * t.U.x, d * t.P.y + n * t.U.y};
+        const auto P = t.start(on.contact), U = t.direction(on.contact), V = t.direction(curve);
+        d = cross(U, V);
+        const Approx n = cross(t.start(curve) - P, V);
+        p = {d * P.x + n * U.x, d * P.y + n * U.y};
     }
-    find(on.contact, out, [&](const Feature& f) {
-        const auto Q = t.start(f);
-        return may_vanish(cross(t.direction(f), Vec<Approx>{p.x - d * Q.x, p.y - d * Q.y}));
-    });
+    for (std::size_t i = 0; i < places.size(); ++i) places[i] = {p.x + d * vertices[i].x, p.y + d * vertices[i].y};
+    for (Index e = 0; e < A.ring_vertices; ++e) offsets[e] = cross(edges[e], places[A.v[e]]);
+    for (const Index j : near(on.contact.obstacle)) {
+        const Layer& robot = layers[O.layer[j]];
+        const auto E = edge<Approx>(O, j), b = t.place(O.v[j]), moved = Vec<Approx>{d * b.x, d * b.y};
+        const Approx offset = cross(E, moved);
+        Index id = one.first_patch[j];
+        for (const Index i : robot.vertices) {
+            if (may_vanish(cross(E, places[i]) - offset)) out.push_back(id);
+            ++id;
+        }
+        if (!O.convex[j]) continue;
+        for (const Index e : robot.edges) {
+            if (may_vanish(cross(edges[e], moved) - offsets[e])) out.push_back(id);
+            ++id;
+        }
+    }
 }
 
 // Between the two angles cosine and sine change by at most twice their distance, and what is tested has two of them as factors.
 void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vector<Index>& out) {
-    const Turned t = turned(on.contact, on.chart, 0.5 * (lo + hi));
+    const Shape& O = scene.obstacles;
+    const Turned t = turned(obstacle_vertex(on.contact), on.chart, 0.5 * (lo + hi));
     const double width = 4 * (hi - lo);
-    find(on.contact, out, [&](const Feature& f) {
-        return may_vanish(cross(t.U, t.direction(f)), width) && may_vanish(cross(t.U, t.start(f) - t.P), width);
-    });
+    const auto P = t.start(on.contact), U = t.direction(on.contact);
+    const auto is_parallel = [&](const Vec<Approx>& V) { return may_vanish(cross(U, V), width); };
+    const auto is_on = [&](const Feature& f) { return may_vanish(cross(U, t.start(f) - P), width); };
+    std::array<std::vector<std::pair<Index, Index>>, 2> parallel;  // edges of the robot, and their places among their layer's
+    for (const int layer : {0, 1})
+        for (std::size_t k = 0; k < layers[layer].edges.size(); ++k)
+            if (const Index e = layers[layer].edges[k]; is_parallel(edges[e])) parallel[layer].emplace_back(e, k);
+    for (const Index j : near(on.contact.obstacle)) {
+        const Layer& robot = layers[O.layer[j]];
+        const Index id = one.first_patch[j], count = static_cast<Index>(robot.vertices.size());
+        if (is_parallel(edge<Approx>(O, j)))
+            for (Index k = 0; k < count; ++k)
+                if (is_on({Kind::vertex_edge, robot.vertices[k], j})) out.push_back(id + k);
+        if (!O.convex[j]) continue;
+        for (const auto& [e, k] : parallel[O.layer[j]])
+            if (is_on({Kind::edge_vertex, e, j})) out.push_back(id + count + k);
+    }
 }
 
-void TouchingPatches::at_pose(const Feature& contact, const ExactPose& q, std::vector<Index>& out) {
+// The robot's vertices from b0: (q - b0 + R o) + R a', where o + a' are its vertices as given.
+void TouchingPatches::at_pose(const ExactPose& q, Index b0, std::vector<Index>& out) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
     const auto R = rotation_by(q.chart, q.p, q.r);
-    const ContactLine<Int> line(given, contact, CoreUnits<Int>{});
-    const auto P = line.start(R), U = line.direction(R);
-    const Vec<Int> off{q.X * R.w - q.W * P.x, q.Y * R.w - q.W * P.y};
-    const double share = ratio(dot(off, U), q.W * dot(U, U));
-    const Turned t = turned(contact, q.chart, ratio(q.p, q.r));
-    const Vec<Approx> place = t.at_share({share, std::abs(share)});
-    find(contact, out, [&](const Feature& f) {
-        const auto V = t.direction(f), x = place - t.start(f);
-        if (!may_vanish(cross(V, x))) return false;
-        // an edge of the robot moves the pose the other way
-        const Approx along = f.kind == Kind::vertex_edge ? dot(V, x) : -dot(V, x), rest = dot(V, V) - along;
-        return (along.v > 0 || may_vanish(along)) && (rest.v > 0 || may_vanish(rest));
+    const auto origin = R(Vec<Int>{given.robot.X[0] - A.X[0], given.robot.Y[0] - A.Y[0]});
+    const auto from_b0 = [&](const Int& n, const Int& b, const Int& o) {
+        const double x = std::ldexp(ratio((n - q.W * b) * R.w + q.W * o, q.W * R.w), -scene.shift);
+        return Approx{x, std::abs(x)};
+    };
+    const Vec<Approx> place{from_b0(q.X, given.obstacles.X[b0], origin.x), from_b0(q.Y, given.obstacles.Y[b0], origin.y)};
+    const Turned t = turned(b0, q.chart, ratio(q.p, q.r));
+    const double x = O.x[b0] + place.x.v, y = O.y[b0] + place.y.v, d = size + (std::abs(x) + std::abs(y) + size) * 0x1p-40;
+    obstacle_edges.query({x - d, y - d, x + d, y + d}, [&](Index j) {
+        for (Index id = one.first_patch[j]; id < one.first_patch[j + 1]; ++id) {
+            const Feature f = one.patches.contact(id);
+            const auto V = t.direction(f), off = place - t.start(f);
+            if (!may_vanish(cross(V, off))) continue;
+            // an edge of the robot moves the pose the other way
+            const Approx along = f.kind == Kind::vertex_edge ? dot(V, off) : -dot(V, off), rest = dot(V, V) - along;
+            if ((along.v > 0 || may_vanish(along)) && (rest.v > 0 || may_vanish(rest))) out.push_back(id);
+        }
     });
 }
 

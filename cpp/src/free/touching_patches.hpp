@@ -14,24 +14,31 @@ public:
     void on_curve(const Surface& on, const Feature& curve, double tau, std::vector<Index>& out);
     // Whose line may be that of another surface at an angle between two.
     void on_line(const Surface& on, double lo, double hi, std::vector<Index>& out);
-    // Whose contact may be there at a pose, at which another is.
-    void at_pose(const Feature& contact, const ExactPose& pose, std::vector<Index>& out);
+    // Whose contact may be there at a pose; seen from an obstacle vertex near by.
+    void at_pose(const ExactPose& pose, Index vertex, std::vector<Index>& out);
 
 private:
-    // The robot turned by an angle, seen from the obstacle vertex of a contact.
+    // The robot turned by an angle, seen from an obstacle vertex.
     struct Turned;
-    Turned turned(const Feature& contact, int chart, double tau);
+    Turned turned(Index vertex, int chart, double tau);
+    Index obstacle_vertex(const Feature& contact) const;
     const std::vector<Index>& near(Index feature);
-    template <class Test>
-    void find(const Feature& contact, std::vector<Index>& out, const Test& may);
 
+    // The robot's features that make patches, in their order: with every edge, and with every convex vertex of obstacles.
+    struct Layer {
+        std::vector<Index> vertices, edges;
+    };
     const Scene &given, &scene;  // as given, and from an origin near by
     const PatchTrimming& one;
-    const BoxTree edges;  // of obstacles' rings
+    const BoxTree obstacle_edges;  // of their rings
+    std::array<Layer, 2> layers;
     double reach;         // no two points of the robot are farther apart
+    double size = 0;      // none is farther from its origin
     Index near_to = -1;
-    std::vector<Index> recent;  // features near that one
-    std::vector<Vec<Approx>> vertices, directions;
+    std::vector<Index> recent;                      // features near that one
+    std::vector<Vec<Approx>> vertices, edges;       // of the robot, turned
+    std::vector<Vec<Approx>> places;                // of its vertices on a curve
+    std::vector<Approx> offsets;                    // and of its edges
 };
 
 }  // namespace cfree

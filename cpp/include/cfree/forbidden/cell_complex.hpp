@@ -26,12 +26,12 @@ struct CellComplex {
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads = 1);
 
 // Closed surfaces of a boundary of which only some patches are trimmed: those that hold the seeds. `whole` says of each
-// trapezoid whether all trapezoids that its sides meet are there. If the surfaces go on over one that is not: no complex, but
-// those that are missing.
+// trapezoid whether all trapezoids that its sides meet are there. If the surfaces go on over one that is not, it is missing, and
+// there is no complex; but with a target that is reached there is one of those that are whole, its sides to others without twin.
 struct GluedPart {
     std::shared_ptr<const CellComplex> complex;
     std::vector<Index> missing;
 };
-GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds);
+GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds, Index target = -1);
 
 }  // namespace cfree

@@ -12,12 +12,15 @@ public:
     SurfaceExplorer(const SurfaceExplorer&) = delete;
     SurfaceExplorer& operator=(const SurfaceExplorer&) = delete;
 
-    // The trapezoid at a free pose where one contact is, and no other; none where that is not certain.
-    std::optional<Index> trapezoid_at(const Feature& contact, const ExactPose& pose);
-    // Grow the closed surface of a trapezoid by about so many others; the surface once it is closed.
-    std::shared_ptr<const CellComplex> grow(Index seed, Index most);
-
-    std::size_t trimmed_patches() const;
+    // The trapezoid at a free pose where one contact is, and no other; none where that is not certain. The pose is seen from
+    // an obstacle vertex near by.
+    std::optional<Index> trapezoid_at(const ExactPose& pose, Index vertex);
+    // Grow the closed surface of a trapezoid by so many others; what there is of it once it is closed, or a target is reached.
+    struct Grown {
+        std::shared_ptr<const CellComplex> complex;
+        bool is_closed = false;
+    };
+    Grown grow(Index seed, Index most, Index target = -1);
 
 private:
     struct State;

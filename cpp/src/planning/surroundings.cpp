@@ -1,0 +1,220 @@
+// Rays from poses to closed surfaces, exact; theory, "One surface alone".
+#include "cfree/planning/surroundings.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cfree/contact/contact_line.hpp"
+#include "cfree/search/configuration.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr int most_attempts = 48;  // places near a pose from which a ray is tried, nearer and nearer
+constexpr Index first_step = 64;   // trapezoids; then twice as many each time
+
+Configuration configuration(const ExactPose& q) {
+    Configuration c;
+    c.hx = q.chart ? Int(-q.p) : q.r, c.hy = q.chart ? q.r : q.p;
+    c.x = q.X, c.y = q.Y, c.unit = q.W;
+    return c;
+}
+
+// The same orientation with tau in [-1, 1].
+void put_in_chart(ExactPose& q) {
+    if (q.r < 0) q.p = -q.p, q.r = -q.r;
+    if (abs(q.p) > q.r) {
+        const Int p = q.p;
+        q.chart = 1 - q.chart, q.p = p < 0 ? q.r : Int(-q.r), q.r = abs(p);
+    }
+    const Int g = gcd(q.p, q.r);
+    if (g > 1) q.p /= g, q.r /= g;
+}
+
+Int largest(const std::vector<Int>& X, const std::vector<Int>& Y) {
+    Int result = 0;
+    for (const auto* numbers : {&X, &Y})
+        for (const Int& n : *numbers) result = std::max(result, Int(abs(n)));
+    return result;
+}
+
+}  // namespace
+
+Surroundings::Surroundings(std::shared_ptr<const Scene> s, std::shared_ptr<const MotionChecker> by, bool regularized)
+    : scene(std::move(s)), checker(std::move(by)), explorer(scene, regularized) {
+    const Shape &A = scene->robot, &O = scene->obstacles;
+    const auto [x0, x1] = std::minmax_element(A.X.begin(), A.X.end());
+    const auto [y0, y1] = std::minmax_element(A.Y.begin(), A.Y.end());
+    size = std::max({Int(*x1 - *x0), Int(*y1 - *y0), Int(1)}), radius = std::max(largest(A.X, A.Y), size);
+    left = O.X.empty() ? Int(0) : *std::min_element(O.X.begin(), O.X.end());
+}
+
+Surroundings::Search Surroundings::search(const ExactPose& pose) const {
+    Search result;
+    result.pose = result.from = result.at = pose;
+    return result;
+}
+
+bool Surroundings::start_again(Search& s) const {
+    constexpr std::array<std::array<int, 3>, 8> ways{
+        {{3, 1, 1}, {-1, 3, -1}, {-3, -1, 1}, {1, -3, -1}, {-2, 3, 1}, {2, -3, 1}, {3, 2, -1}, {-3, -2, -1}}};
+    while (++s.attempt < most_attempts) {
+        const auto [dx, dy, turn] = ways[s.attempt % 8];
+        const unsigned bits = 6 + static_cast<unsigned>(s.attempt);
+        const ExactPose& q = s.pose;
+        const Int down = radius << bits, across = turn * size;  // tan(a + b) = (tan a + tan b) / (1 - tan a tan b)
+        ExactPose near{(q.X << bits) + dx * size * q.W, (q.Y << bits) + dy * size * q.W, q.W << bits, q.chart,
+                       q.p * down + across * q.r, q.r * down - across * q.p};
+        put_in_chart(near);
+        if (!checker->is_free(motion_between(configuration(q), configuration(near)))) continue;
+        s.from = s.at = near;
+        s.passed.clear(), s.seed = -1;
+        return true;
+    }
+    return false;
+}
+
+// What the ray meets first: a trapezoid of it is kept.
+Surroundings::Met Surroundings::meet(Search& s) {
+    const ExactPose& q = s.at;
+    const Int length = q.X - far_left() * q.W;  // over W
+    if (length <= 0) return Met::nothing;
+    Motion ray;
+    const auto turn = rotation_by(q.chart, q.p, q.r);
+    ray.c = turn.c, ray.s = turn.s, ray.w = turn.w, ray.x = q.X, ray.y = q.Y, ray.unit = q.W;
+    ray.turns = false, ray.vx = -length, ray.vy = 0, ray.start = ray.q = 1, ray.p = 0;
+    const auto hit = checker->first_collision(ray);
+    if (!hit) return Met::nothing;
+    if (hit->kind == 0) return Met::unclear;
+    const Int zero = hit->at.p[0], slope = hit->at.p[1];  // at u = - zero / slope
+    s.contact = {q.X * slope + length * zero, q.Y * slope, q.W * slope, q.chart, q.p, q.r};
+    if (s.contact.W < 0) s.contact.X = -s.contact.X, s.contact.Y = -s.contact.Y, s.contact.W = -s.contact.W;
+    const Shape& O = scene->obstacles;
+    const auto seed = explorer.trapezoid_at(s.contact, O.piece_vertex[O.piece[hit->obstacle_piece]]);
+    if (!seed) return Met::unclear;
+    s.seed = *seed;
+    return Met::surface;
+}
+
+// The surface with a contact, if it is known.
+Index Surroundings::known_at(const ExactPose& contact) const {
+    for (Index k = 0; k < static_cast<Index>(surfaces.size()); ++k)
+        if (!surfaces[k].rays->nearby(contact).on.empty()) return k;
+    return -1;
+}
+
+// Go on behind a surface that is no outer boundary; false if the ray meets something of it that is not clear.
+bool Surroundings::pass(Search& s, Index surface) const {
+    const auto seen = surfaces[surface].rays->nearby(s.from);
+    if (!seen.generic || !seen.on.empty()) return false;
+    if (seen.crossed.size() % 2 != 0) {
+        s.ended = true, s.surface = surface;
+        return true;
+    }
+    const auto at = beyond(s, surfaces[surface], seen.crossed);
+    if (!at) return false;
+    s.passed.push_back({surfaces[surface].complex, s.contact, *at});
+    s.at = *at;
+    return true;
+}
+
+// The leftmost of the places where the ray crosses trapezoids.
+std::optional<ExactPose> Surroundings::beyond(const Search& s, const Known& surface, const std::vector<Index>& crossed) const {
+    const ExactPose& q = s.from;
+    const auto R = rotation_by(q.chart, q.p, q.r);
+    const Boundary& boundary = *surface.complex->boundary;
+    std::optional<ExactPose> result;
+    for (const Index k : crossed) {
+        const ContactLine<Int> line(*scene, boundary.patches.contact(boundary.trapezoids.patch[k]), CoreUnits<Int>{});
+        const auto P = line.start(R), U = line.direction(R);  // times R.w
+        if (U.y.is_zero()) return {};
+        ExactPose x = q;  // at P + t U, t = (Y / W - P.y) / U.y
+        const Int by = R.w * U.y;
+        x.X = P.x * q.W * U.y + (q.Y * R.w - P.y * q.W) * U.x, x.Y = q.Y * by, x.W = q.W * by;
+        if (x.W < 0) x.X = -x.X, x.Y = -x.Y, x.W = -x.W;
+        if (!result || x.X * result->W < result->X * x.W) result = x;
+    }
+    return result;
+}
+
+std::shared_ptr<const CellComplex> Surroundings::advance(Search& s, Index most, Index target) {
+    while (!s.ended) {
+        bool clear = true;
+        if (s.seed < 0) {
+            const Met met = meet(s);
+            if (met == Met::nothing) {
+                s.ended = true, s.failed = scene->is_bounded;
+                return nullptr;
+            }
+            clear = met == Met::surface;
+        }
+        if (clear) {
+            Index known = known_at(s.contact);
+            if (known < 0) {
+                const auto grown = explorer.grow(s.seed, most, target);
+                if (!grown.complex) return nullptr;
+                if (!grown.is_closed) return grown.complex;
+                std::vector<Index> one(grown.complex->component.size(), 0);
+                auto rays = std::make_unique<const PointLocation>(grown.complex->boundary, std::move(one));
+                surfaces.push_back({grown.complex, std::move(rays)});
+                known = static_cast<Index>(surfaces.size()) - 1;
+            }
+            clear = pass(s, known);
+        }
+        s.seed = -1;
+        if (!clear && !start_again(s)) s.ended = s.failed = true;
+    }
+    return nullptr;
+}
+
+std::optional<bool> Surroundings::is_around(Index surface, const Search& search) const {
+    const auto seen = surfaces[surface].rays->nearby(search.from);
+    if (!seen.on.empty()) return {};
+    return seen.crossed.size() % 2 != 0;
+}
+
+namespace {
+
+using Searches = std::array<Surroundings::Search, 2>;
+
+// Over islands, then over a surface or far away, then over other islands.
+void join(Connection& found, const Searches& ends, const std::shared_ptr<const CellComplex>& common) {
+    found.verdict = Connection::Verdict::joined;
+    found.near_start = ends[0].from, found.near_goal = ends[1].from;
+    found.stretches = ends[0].passed, found.before = found.stretches.size(), found.is_far = !common;
+    if (common) found.stretches.push_back({common, ends[0].contact, ends[1].contact});
+    for (auto x = ends[1].passed.rbegin(); x != ends[1].passed.rend(); ++x)
+        found.stretches.push_back({x->surface, x->leave, x->enter});
+}
+
+}  // namespace
+
+Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal) {
+    Searches ends{around.search(start.exact(*around.scene)), around.search(goal.exact(*around.scene))};
+    Connection found;
+    found.start = start, found.goal = goal;
+    for (Index most = first_step; !ends[0].failed && !ends[1].failed && !(ends[0].ended && ends[1].ended); most *= 2)
+        for (const int k : {0, 1}) {
+            auto &one = ends[k], &other = ends[1 - k];
+            if (const auto common = around.advance(one, most, other.seed)) {
+                join(found, ends, common);
+                return found;
+            }
+            if (one.failed || !one.ended) continue;
+            if (other.ended && !other.failed && one.surface == other.surface) {
+                join(found, ends, one.surface < 0 ? nullptr : around.surface(one.surface));
+                return found;
+            }
+            if (one.surface < 0) continue;
+            const auto holds = around.is_around(one.surface, other);
+            if (!holds && !around.start_again(other)) return found;
+            if (holds && !*holds) {
+                found.verdict = Connection::Verdict::apart, found.surface = around.surface(one.surface);
+                return found;
+            }
+        }
+    return found;
+}
+
+}  // namespace cfree
