@@ -1303,13 +1303,13 @@ class Proof(Answer):
     """Two poses, and pieces of contact surfaces between them."""
 
     def __init__(self, data: dict[str, Any]) -> None:
-        required = dict.fromkeys(("of", "cells", "obstacles", "surface"), REQUIRED)
+        required = dict.fromkeys(("of", "obstacles", "surface"), REQUIRED)
         super().__init__(data, **required, smaller_robot=[], larger_bounds=None, auxiliary=[], cores=[])
         self.check_decimals("start", self.start)
         got = self.got
         self.is_closed = one_of(got["of"], "of", "closed", "interior") == "closed"
-        for k in [*items(got["cells"], "cells", 2, 2), *items(got["obstacles"], "obstacles")]:
-            whole(k, "cells or obstacles", -2)
+        for k in items(got["obstacles"], "obstacles"):
+            whole(k, "obstacles", -2)
         parts = items(got["smaller_robot"], "smaller_robot")
         self.robot = [read_polygon(part, f"smaller_robot[{k}]") for k, part in enumerate(parts)]
         self.cores = [read_polygon(part, f"cores[{k}]") for k, part in enumerate(items(got["cores"], "cores"))]

@@ -144,6 +144,7 @@ void bind_boundary(nb::module_& m) {
         .def("root", &root, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
         .def("angle_ranks", &angle_ranks);
     m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a);
+    m.def("may_have_slits", [](const cfree::Scene& scene) { return cfree::may_have_slits(scene); }, "scene"_a);
     m.def("misfit", [](const Boundary& b, int threads) { return watched([&] { return cfree::misfit(b, threads); }); },
           "boundary"_a, "threads"_a);
 }

@@ -79,17 +79,19 @@ static void bind_surroundings(nb::module_& m) {
     nb::enum_<Connection::Verdict>(m, "Verdict")
         .value("UNCLEAR", Connection::Verdict::unclear)
         .value("APART", Connection::Verdict::apart)
-        .value("JOINED", Connection::Verdict::joined);
+        .value("JOINED", Connection::Verdict::joined)
+        .value("LATE", Connection::Verdict::late);
     nb::class_<Connection>(m, "Connection")
         .def_ro("verdict", &Connection::verdict)
         .def_ro("surface", &Connection::surface);
     nb::class_<Surroundings>(m, "Surroundings")
         .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::MotionChecker>, bool>(), "scene"_a,
              "checker"_a, "regularized"_a)
-        .def("connection", [](Surroundings& around, const std::array<nb::int_, 6>& start, const std::array<nb::int_, 6>& goal) {
+        .def("connection", [](Surroundings& around, const std::array<nb::int_, 6>& start, const std::array<nb::int_, 6>& goal,
+                              double most_seconds) {
             const auto first = pose(start), last = pose(goal);
-            return watched([&] { return cfree::connection(around, first, last); });
-        }, "start"_a, "goal"_a)
+            return watched([&] { return cfree::connection(around, first, last, most_seconds); });
+        }, "start"_a, "goal"_a, "most_seconds"_a)
         .def("way", [](const Surroundings& around, const Connection& joined, double angle_scale, const Slide& slide) {
             return with_slides(slide, [&](const cfree::Slides& slides) {
                 return cfree::connecting_way(around, joined, angle_scale, slides);

@@ -28,7 +28,7 @@ from cfree import (
 )
 from cfree.cli.app import app
 from cfree.formats.answer_file import load_answer
-from cfree.planning.separation import InsetSpaces
+from cfree.planning.separation import Insets
 from cfree.polygons.polygon import Polygon
 from compared import scene_of
 from reference_ears import clip_ears
@@ -142,11 +142,11 @@ def test_one_cell_and_forbidden_poses() -> None:
 
 def test_the_second_proof_is_quick() -> None:
     space = room("1/9")
-    insets = InsetSpaces(space.boundary.scene)
+    insets = Insets(space.boundary.scene)
     separation(space, INSIDE, OUTSIDE, insets=insets)
-    (kept,) = insets._known.values()
+    (kept,) = insets._around.values()
     separation(space, INSIDE, Pose(-9, 0), insets=insets)
-    assert list(insets._known.values()) == [kept]
+    assert list(insets._around.values()) == [kept]
 
 
 @pytest.mark.slow
@@ -165,13 +165,13 @@ def test_ends_that_touch_and_exact_fits() -> None:
     fit = space_of(PlainScene([box(0, 0, 1, 1)], [hollow((-1, -1, 6, 3), (0, 0, 4, 2)), box(1, 0, 4, 1)]))
     assert fit.locate([Pose(0, 0), Pose("1/2", 1)]).tolist() == [-2, -2]  # a corridor as wide as the robot
     proof = proved(fit, Pose("1/2", 1), Pose(0, 0))
-    assert proof.of == "interior" and proof.cells == (-2, -2) and len(proof.pieces) == 0
+    assert proof.of == "interior" and len(proof.pieces) == 0
     assert proved(fit, Pose(3, 1), Pose(20, 0)).of == "closed"  # by the frame
     gate = room(1)
     start = Pose("-3/2", "3/2")  # in a corner
     assert proved(gate, start, OUTSIDE).of == "interior"
     assert separation(gate, start, INSIDE) is None
-    assert proved(gate, Pose("5/2", 0), OUTSIDE).cells[0] == -2
+    assert gate.locate(Pose("5/2", 0)) == -2 and proved(gate, Pose("5/2", 0), OUTSIDE)
 
 
 def test_files_hold_separations_exactly(tmp_path: Path) -> None:
@@ -223,7 +223,6 @@ def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkey
         ('"tau": [', '"tau": [3, ', r"surface\[0\].from.tau: expected an interval \[lo, hi\]"),
         ('"names": [[', '"names": [[1, 1, 1], [1, 1, 1], [', r"surface\[\d+\].(from|to).names: expected .*at most 2"),
         ('"obstacles": [', '"obstacles": [7, ', '"obstacles" are not those of the surface'),
-        ('"cells": [', '"cells": [7, ', "cells: expected .*at most 2"),
         ('"goal"', '"gaol"', "gaol: unknown key"),
         ('"outer": [[', '"outer": [["x", ', r"smaller_robot\[0\].outer\[0\]: expected a point"),
     ],

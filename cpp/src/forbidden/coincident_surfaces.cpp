@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cfree/scene/features.hpp"
+
 namespace cfree {
 
 Range range_of(const Scene& scene, const Feature& contact, Counters& counters) {
@@ -66,6 +68,13 @@ std::vector<Feature> CoincidentSurfaces::before(const Feature& contact) const {
     return result;
 }
 
+// Whether the second edge of obstacles is on the line of the first, and runs the other way.
+static bool is_opposite(const Shape& O, Index j, Index other) {
+    if (O.direction[j] != O.direction[other]) return false;
+    const auto E = edge<Int>(O, j), F = edge<Int>(O, other);
+    return dot(E, F).sign() < 0 && cross(E, difference<Int>(O, O.v[other], O.v[j])).is_zero();
+}
+
 // The same surface with the other side forbidden: a robot vertex at the reference point, an obstacle edge on a bound.
 void CoincidentSurfaces::add_opposite(const Feature& contact, std::vector<Feature>& out) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
@@ -73,12 +82,28 @@ void CoincidentSurfaces::add_opposite(const Feature& contact, std::vector<Featur
     for (Index i2 = 0; i2 < A.ring_vertices; ++i2) {
         if (A.point[i2] != A.point[i] || A.layer[i2] == A.layer[i]) continue;
         for (Index j2 = 0; j2 < O.ring_vertices; ++j2) {
-            if (O.direction[j2] != O.direction[j] || !is_patch({Kind::vertex_edge, i2, j2})) continue;
-            const auto E = edge<Int>(O, j), F = edge<Int>(O, j2);
-            if (dot(E, F).sign() < 0 && cross(E, difference<Int>(O, O.v[j2], O.v[j])).is_zero())
-                out.push_back({Kind::vertex_edge, i2, j2});
+            const Feature other{Kind::vertex_edge, i2, j2};
+            if (is_patch(other) && is_opposite(O, j, j2)) out.push_back(other);
         }
     }
+}
+
+bool may_have_slits(const Scene& scene) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    std::vector<Index> points, bounds;
+    for (Index i = 0; i < A.ring_vertices; ++i)
+        if (A.layer[i] == reference_layer) points.push_back(A.point[i]);
+    bool is_at_vertex = false;
+    for (Index i = 0; i < A.ring_vertices; ++i)
+        is_at_vertex |= A.layer[i] == body_layer && std::count(points.begin(), points.end(), A.point[i]) > 0;
+    if (!is_at_vertex) return false;
+    for (Index j = 0; j < O.ring_vertices; ++j)
+        if (O.layer[j] == reference_layer) bounds.push_back(j);
+    for (Index j = 0; j < O.ring_vertices; ++j)
+        if (O.layer[j] == body_layer && O.emit[j])
+            for (const Index bound : bounds)
+                if (is_opposite(O, bound, j)) return true;
+    return false;
 }
 
 }  // namespace cfree

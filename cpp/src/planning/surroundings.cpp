@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
@@ -190,12 +191,17 @@ void join(Connection& found, const Searches& ends, const std::shared_ptr<const C
 
 }  // namespace
 
-Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal) {
+Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal, double most_seconds) {
+    const auto begin = std::chrono::steady_clock::now();
     Searches ends{around.search(start.exact(*around.scene)), around.search(goal.exact(*around.scene))};
     Connection found;
     found.start = start, found.goal = goal;
     for (Index most = first_step; !ends[0].failed && !ends[1].failed && !(ends[0].ended && ends[1].ended); most *= 2)
         for (const int k : {0, 1}) {
+            if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > most_seconds) {
+                found.verdict = Connection::Verdict::late;
+                return found;
+            }
             auto &one = ends[k], &other = ends[1 - k];
             if (const auto common = around.advance(one, most, other.seed)) {
                 join(found, ends, common);

@@ -95,7 +95,6 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
             }
         return {
             "answer": what,
-            "cells of start and goal": ", ".join(map(str, answer.cells)),
             "surface between them": f"{len(answer.pieces):,} pieces of contact surfaces",
             "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
         }
@@ -124,7 +123,7 @@ def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[
         found = {"answer": "all separated", "of": answer.of, "goals": len(answer.goals), "proofs": len(answer.proofs)}
         return found | {"obstacles": list(answer.obstacles)}
     if not isinstance(answer, Path):
-        facts: dict[str, Any] = {"of": answer.of, "cells": list(answer.cells), "pieces": len(answer.pieces)}
+        facts: dict[str, Any] = {"of": answer.of, "pieces": len(answer.pieces)}
         facts |= {"asked clearance": float(answer.clearance)} if answer.clearance else {}
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
     found = {"answer": "path", **motion_counts(answer)}

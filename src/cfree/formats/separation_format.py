@@ -104,7 +104,6 @@ class SeparationModel(AnswerModel):
 
     answer: Literal["separated"]
     of: Literal["closed", "interior"]
-    cells: Annotated[list[Annotated[int, Field(strict=True, ge=-2, lt=2**31)]], Field(min_length=2, max_length=2)]
     obstacles: list[Annotated[int, Field(strict=True, ge=-2, lt=2**31)]]
     smaller_robot: Annotated[list[PolygonModel], Field(default_factory=list)]
     larger_bounds: Bounds | None = None
@@ -130,12 +129,10 @@ class SeparationModel(AnswerModel):
     @property
     def result(self) -> Separated:
         start, goal = self.ends
-        first, second = self.cells
         return Separated(
             start=start,
             goal=goal,
             of=self.of,
-            cells=(first, second),
             pieces=_pieces(self.surface, tuple(item.result for item in self.auxiliary)),
             robot=tuple(part.polygon for part in self.smaller_robot),
             bounds=self.larger_bounds,

@@ -27,7 +27,6 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
     head: dict[str, Any] = {
         **answer_head("separated", proof, stamp, decimals),
         "of": proof.of,
-        "cells": proof.cells,
         "obstacles": proof.obstacles,
     }
     if proof.robot:

@@ -414,30 +414,10 @@ def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
 
 def bounding_surfaces(boundary: Boundary, threads: int | None = None) -> Boundary:
     """The boundary of the interior of the free space."""
-    if not _may_have_slits(boundary):
+    if not _core.may_have_slits(boundary.features.core):
         return boundary
     regularize_by(threads or os.cpu_count() or 1, boundary)
     return boundary.regularized
-
-
-def _may_have_slits(boundary: Boundary) -> bool:
-    """Whether the robot has a vertex at its reference point, and an obstacle an edge on the outside of the bounds."""
-    scene = boundary.scene
-    if scene.bounds is None or not any((0, 0) in polygon.numerators for polygon in scene.robot):
-        return False
-    obstacles = boundary.features.obstacles
-    on_bounds = obstacles.owner_polygon == BOUNDS
-    v, w = (ends[: len(on_bounds)].tolist() for ends in (obstacles.v, obstacles.w))
-    ends = [(obstacles.vertices[p], obstacles.vertices[q]) for p, q in zip(v, w, strict=True)]
-    lines = {_line(q, p) for (p, q), own in zip(ends, on_bounds, strict=True) if own}
-    return any(_line(p, q) in lines for (p, q), own in zip(ends, on_bounds, strict=True) if not own)
-
-
-def _line(p: tuple[int, int], q: tuple[int, int]) -> tuple[int, int, int]:
-    dx, dy = q[0] - p[0], q[1] - p[1]
-    divisor = math.gcd(dx, dy)
-    dx, dy = dx // divisor, dy // divisor
-    return dx, dy, dx * p[1] - dy * p[0]
 
 
 def _in_core(

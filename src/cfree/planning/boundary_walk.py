@@ -64,7 +64,7 @@ class Walker:
             If none is found, a fault of cfree.
         """
         try:
-            return [*map(_pose, self._core.walk(_end(start), _end(goal), cell, self._slide))]
+            return [*map(from_numbers, self._core.walk(_end(start), _end(goal), cell, self._slide))]
         except RuntimeError as error:
             raise InvariantError(str(error), state=(start, goal)) from error
 
@@ -73,22 +73,24 @@ class Walker:
         cells = self.space.complex
         first, last = ((int(cells.face[k]), bool(cells.side[k] == LAST)) for k in (coedge, other))
         found = self._core.turn(first, last, attempts)
-        return [*map(_pose, found)] if found else None
+        return [*map(from_numbers, found)] if found else None
 
     def _slide(self, pose: Numbers, goal: Numbers, contact: Sequence[int], curve: int) -> bool:
         kind, i, j = contact
-        return self.curves.slid(_pose(pose), _pose(goal), (kind, i, j), curve)
+        return self.curves.slid(from_numbers(pose), from_numbers(goal), (kind, i, j), curve)
 
 
 def _end(pose: Pose) -> tuple[Numbers, tuple[float, float, float]]:
-    return _numbers(pose), (float(pose.x), float(pose.y), pose.theta)
+    return numbers_of(pose), (float(pose.x), float(pose.y), pose.theta)
 
 
-def _numbers(pose: Pose) -> Numbers:
+def numbers_of(pose: Pose) -> Numbers:
+    """A pose as the core takes it."""
     q, p = (0, 1) if pose.tau is None else (pose.tau.denominator, pose.tau.numerator)
     return pose.x.numerator, pose.x.denominator, pose.y.numerator, pose.y.denominator, q, p
 
 
-def _pose(numbers: Numbers) -> Pose:
+def from_numbers(numbers: Sequence[int]) -> Pose:
+    """A pose as the core gives it."""
     a, b, c, d, q, p = numbers
     return Pose(Fraction(a, b), Fraction(c, d), {"tau": Fraction(p, q) if q else None})

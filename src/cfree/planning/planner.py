@@ -17,6 +17,7 @@ from functools import cached_property
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, get_args, overload
 
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.motion import Rotation, motion_between
 from cfree.collision.motion_checker import MotionChecker
@@ -31,7 +32,8 @@ from cfree.paths.path import Objective, Path
 from cfree.planning.goals import AllSeparated, plan_any, to_goals
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
-from cfree.planning.separation import InsetSpaces, Separated, inset_powers, separation
+from cfree.planning.separation import Insets, Separated, inset_powers, separation
+from cfree.planning.surroundings import Surroundings
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.scene import Scene, required, robot_radius
 from cfree.value import Value
@@ -197,8 +199,12 @@ class Planner(Value):
         return Walker(self.free_space, self.checker, self.angle_scale, self._slides)
 
     @cached_property
-    def _insets(self) -> InsetSpaces:
-        return InsetSpaces(self.scene)
+    def _surroundings(self) -> Surroundings:
+        return Surroundings(self.scene, self.checker)
+
+    @cached_property
+    def _insets(self) -> Insets:
+        return Insets(self.scene)
 
     @cached_property
     def _passages(self) -> Passages:
@@ -302,14 +308,16 @@ class Planner(Value):
 
     def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """What the free space says: poses of a path, or a proof."""
+        quick, *others = inset_powers(self.scene)
+        if self.space is None and (found := self._by_few(start, goal, quick)) is not None:
+            return found
         space = self.free_space
         with self.phase("path in a cell"):
             if (cell := space.common_cell(start, goal)) is not None:
                 return self._walker.walk(start, goal, cell)
-        quick, *others = inset_powers(self.scene)
         with self.phase("proof"):
-            proof = separation(space, start, goal, [quick], self._insets)
-        if proof is not None and proof.of == "closed":
+            proof = self._insets.closed(start, goal, quick)
+        if proof is not None:
             return proof
         with self.phase("exact fits"):
             if (way := self._passages.path(start, goal)) is not None:
@@ -321,6 +329,14 @@ class Planner(Value):
             return proof
         with self.phase("other exact fits"):
             return self._passages.path(start, goal, irrational=True) or proof
+
+    def _by_few(self, start: Pose, goal: Pose, power: int) -> list[Pose] | Separated | None:
+        """What the closed surfaces around two poses say, without the rest of the free space; None if unclear."""
+        with self.phase("surfaces around the two poses"):
+            found = self._surroundings.connection(start, goal, self.max_seconds)
+            if found.verdict == _core.Verdict.JOINED:
+                return self._surroundings.way(found, self.angle_scale, self._slides)
+            return self._insets.closed(start, goal, power)
 
     @checked
     def path(self, poses: Sequence[Pose]) -> Path:

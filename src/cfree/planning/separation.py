@@ -16,7 +16,9 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+import cfree._core as _core
 from cfree.arguments import checked
+from cfree.collision.motion_checker import MotionChecker
 from cfree.contact.kind import Kind
 from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
 from cfree.exact.number import ExactPoint
@@ -24,6 +26,7 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import CODED, COLUMNS, Ints, Trapezoids
 from cfree.free.space import FORBIDDEN, FreeSpace, free_space
+from cfree.planning.surroundings import Surroundings
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
@@ -127,8 +130,6 @@ class Separated:
     of : "closed" or "interior"
         "closed": no path at all joins them, not even one that touches obstacles all the way. "interior": no path that
         keeps a distance from obstacles, bounds and workspace.
-    cells : (int, int)
-        Where the two are, as `FreeSpace.locate` says.
     pieces : Pieces
         The closed surface that is between them.
     obstacles : tuple of int
@@ -153,7 +154,6 @@ class Separated:
     start: Pose
     goal: Pose
     of: Literal["closed", "interior"]
-    cells: tuple[int, int]
     pieces: Pieces = field(repr=False)
     robot: tuple[Polygon, ...] = field(default=(), repr=False)
     bounds: Bounds | None = field(default=None, repr=False)
@@ -165,7 +165,7 @@ class Separated:
     cores: tuple[Polygon, ...] = field(default=(), repr=False)
 
     def __repr__(self) -> str:
-        return f"Separated(of={self.of!r}, cells={self.cells}, {len(self.pieces)} pieces of {self.obstacles})"
+        return f"Separated(of={self.of!r}, {len(self.pieces)} pieces of {self.obstacles})"
 
     @cached_property
     def obstacles(self) -> tuple[int, ...]:
@@ -173,11 +173,11 @@ class Separated:
 
     def reversed(self) -> Separated:
         """The same proof for the way back."""
-        return replace(self, start=self.goal, goal=self.start, cells=self.cells[::-1])
+        return replace(self, start=self.goal, goal=self.start)
 
 
-class InsetSpaces:
-    """Free spaces of robots a little smaller, in bounds as much larger; each is computed when first asked for.
+class Insets:
+    """Scenes with a robot a little smaller, in bounds as much larger; what is found of each is kept.
 
     A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. What that proves
     is in docs/theory/separations.md.
@@ -190,22 +190,49 @@ class InsetSpaces:
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
         self._size = size_power(scene)
-        self._known: dict[int, FreeSpace | None] = {}
+        self._around: dict[int, Surroundings | None] = {}
+        self._spaces: dict[int, FreeSpace] = {}
 
-    def at(self, power: int) -> FreeSpace | None:
-        """That of an inset by 2**power of the robot's size; None if nothing is left of the robot."""
-        if power not in self._known:
-            self._known[power] = self._space(Fraction(2) ** (self._size + power))
-        return self._known[power]
-
-    def _space(self, by: Fraction) -> FreeSpace | None:
-        robot = [smaller for part in self.scene.robot for smaller in inset(part, by)]
-        x0, y0, x1, y1 = self.scene.bounds or (by, by, -by, -by)
-        bounds = self.scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
-        try:
-            return free_space(boundary(with_robot(self.scene, robot, bounds))) if robot else None
-        except UnsupportedError:  # coordinates beyond what is allowed
+    def closed(self, start: Pose, goal: Pose, power: int) -> Separated | None:
+        """A proof by an inset by 2**power of the robot's size, if there is one."""
+        around = self._surroundings(power)
+        if around is None:
             return None
+        found = around.connection(start, goal)
+        pieces = None
+        if found.verdict == _core.Verdict.APART:
+            surface = around.surface(found)
+            pieces = Pieces.of(surface, np.arange(len(surface.trapezoids), dtype=np.int32))
+        elif found.verdict == _core.Verdict.UNCLEAR:
+            pieces = self._by_all(power, around.scene, start, goal)
+        if pieces is None:
+            return None
+        inner, scene = around.scene, self.scene
+        return Separated(start, goal, "closed", pieces, inner.robot, inner.bounds, scene.units, scene=scene)
+
+    def _by_all(self, power: int, scene: Scene, start: Pose, goal: Pose) -> Pieces | None:
+        """A surface between two poses, of all of the free space."""
+        if power not in self._spaces:
+            self._spaces[power] = free_space(boundary(scene))
+        space = self._spaces[power]
+        cells = space.locate([start, goal]).tolist()
+        if min(cells) < 0:
+            raise InvariantError(f"poses are in {cells} of a smaller robot", state=self.scene)
+        return None if cells[0] == cells[1] else Pieces.of(space.surfaces, _between(space, *cells))
+
+    def _surroundings(self, power: int) -> Surroundings | None:
+        """None if nothing is left of the robot, or coordinates are beyond what is allowed."""
+        if power not in self._around:
+            by = Fraction(2) ** (self._size + power)
+            robot = [smaller for part in self.scene.robot for smaller in inset(part, by)]
+            x0, y0, x1, y1 = self.scene.bounds or (by, by, -by, -by)
+            bounds = self.scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
+            try:
+                inner = with_robot(self.scene, robot, bounds) if robot else None
+                self._around[power] = Surroundings(inner, MotionChecker(inner)) if inner else None
+            except UnsupportedError:
+                self._around[power] = None
+        return self._around[power]
 
 
 def inset_powers(scene: Scene) -> list[int]:
@@ -225,7 +252,7 @@ def separation(
     start: PoseLike,
     goal: PoseLike,
     powers: Sequence[int] | None = None,
-    insets: InsetSpaces | None = None,
+    insets: Insets | None = None,
 ) -> Separated | None:
     """A proof that no motion joins two free poses; None if they are in the closure of one cell, and so joined.
 
@@ -237,7 +264,7 @@ def separation(
     powers : sequence of int, optional
         Of two, of the robot's size: the insets to be tried for "closed", one after the other. From -20 on, each time
         twice as deep, as long as the digits of the scene suggest that a gap may be that narrow, unless given.
-    insets : InsetSpaces, optional
+    insets : Insets, optional
         Of the space's scene: kept from one call to the next they are computed once.
 
     Returns
@@ -252,7 +279,7 @@ def separation(
 
     Notes
     -----
-    Takes about as long as the space itself took: the smaller robot's is computed.
+    Of a smaller robot only the closed surfaces around the two poses are computed, unless these touch something.
 
     Examples
     --------
@@ -260,8 +287,8 @@ def separation(
     >>> hollow = cfree.Polygon([(-1, -1), (10, -1), (10, 10), (-1, 10)], [[(0, 0), (0, 9), (9, 9), (9, 0)]])
     >>> space = cfree.free_space(cfree.boundary(cfree.Scene([(0, 0), (2, 0), (0, 1)], [hollow])))
     >>> proof = separation(space, cfree.Pose(4, 4), cfree.Pose(20, 0))
-    >>> proof.of, proof.cells, proof.obstacles
-    ('closed', (1, 0), (0,))
+    >>> proof.of, proof.obstacles
+    ('closed', (0,))
     """
     start = to_pose(start, "start")
     goal = to_pose(goal, "goal")
@@ -272,20 +299,12 @@ def separation(
     if start == goal or space.common_cell(start, goal) is not None:
         return None
     scene = space.boundary.scene
-    insets = insets or InsetSpaces(scene)
-    found = Separated(start, goal, "interior", (cells[0], cells[1]), Pieces.of(space.surfaces, _between(space, *cells)))
-    found = replace(found, units=scene.units, scene=scene)
+    insets = insets or Insets(scene)
     for power in inset_powers(scene) if powers is None else powers:
-        smaller = insets.at(power)
-        if smaller is None:
-            continue
-        there = smaller.locate([start, goal]).tolist()
-        if min(there) < 0:
-            raise InvariantError(f"poses in the cells {cells} are in {there} of a smaller robot")
-        if there[0] != there[1]:
-            inner, pieces = smaller.boundary.scene, Pieces.of(smaller.surfaces, _between(smaller, *there))
-            return replace(found, of="closed", pieces=pieces, robot=inner.robot, bounds=inner.bounds)
-    return found
+        if (proof := insets.closed(start, goal, power)) is not None:
+            return proof
+    pieces = Pieces.of(space.surfaces, _between(space, *cells))
+    return Separated(start, goal, "interior", pieces, units=scene.units, scene=scene)
 
 
 def _between(space: FreeSpace, first: int, second: int) -> Ints:

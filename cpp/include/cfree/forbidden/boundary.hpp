@@ -51,6 +51,10 @@ using SharedBoundary = std::shared_ptr<const Boundary>;
 // All pairs of a convex vertex and an edge, patches of the boundary before trimming.
 Patches list_patches(const Scene& scene);
 
+// Whether the robot has a vertex at its reference point, and an obstacle an edge on the outside of the bounds: then surfaces may
+// coincide with opposite sides.
+bool may_have_slits(const Scene& scene);
+
 // What the one who waits wants: to go on, to have what there is so far, or nothing any more.
 enum class Wish { go_on, finish, cancel };
 

@@ -67,7 +67,7 @@ private:
 
 // Two free poses, found out from both at once: in one cell, with a way from one to the other, or apart.
 struct Connection {
-    enum class Verdict { unclear, apart, joined };
+    enum class Verdict { unclear, apart, joined, late };
     Verdict verdict = Verdict::unclear;
     std::shared_ptr<const CellComplex> surface;  // apart: it is around one of them and not the other
     // Joined: the way goes to the first of two poses near these, straight to stretches one after another, and so to the goal.
@@ -78,6 +78,7 @@ struct Connection {
     bool is_far = false;
     std::size_t before = 0;
 };
-Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal);
+// Late once it has taken longer.
+Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal, double most_seconds);
 
 }  // namespace cfree
