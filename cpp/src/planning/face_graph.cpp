@@ -102,8 +102,8 @@ std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<c
     const auto node = [&](Index h) -> Node& {
         return nodes[h < base ? begin[cells->face[h]] + (h - cells->first[cells->face[h]]) : h - base];
     };
-    std::unordered_multimap<Index, Index> at_face;  // ends of links
-    for (Index h = last; h-- > base;) at_face.emplace(links[h - base].face, h);
+    std::unordered_map<Index, std::vector<Index>> at_face;  // ends of links
+    for (Index h = base; h < last; ++h) at_face[links[h - base].face].push_back(h);
     struct Entry {
         double whole, cost;
         Index by, before, face;
@@ -124,8 +124,8 @@ std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<c
         enter(face);
         if (face != far_away)
             for (Index h = cells->first[face], k = begin[face]; h < cells->first[face + 1]; ++h, ++k) reach(h, nodes[k]);
-        const auto [from, to] = at_face.equal_range(face);
-        for (auto it = from; it != to; ++it) reach(it->second, node(it->second));
+        if (const auto ends = at_face.find(face); ends != at_face.end())
+            for (const Index h : ends->second) reach(h, node(h));
         for (const Mark& landing : goals)
             if (landing.face == face) {
                 const double there = cost + apart(at, landing.at) + apart(landing.at, goal);
