@@ -297,10 +297,12 @@ namespace {
 // The part of an interval after which a sample lies, over 2^16: 1/2, then the golden section again and again.
 unsigned part(int attempt) { return (32768u + 40503u * static_cast<unsigned>(attempt)) & 0xffffu; }
 
+// Of no more digits than tell 2^17 parts of the interval apart.
 Sample finely(const Dyadic& lo, const Dyadic& hi, int attempt) {
     const unsigned k = std::max(lo.k, hi.k);
     const Int from = lo.n << (k - lo.k), width = (hi.n << (k - hi.k)) - from;
-    const Dyadic at{(from << 16) + width * part(attempt), k + 16};
+    const unsigned bits = width.is_zero() ? 0 : static_cast<unsigned>(msb(width)), extra = std::min(k + 16, bits > 0 ? bits - 1 : 0);
+    const Dyadic at{((from << 16) + width * part(attempt)) >> extra, k + 16 - extra};
     return {at.rounded_down(), at};
 }
 
@@ -317,7 +319,7 @@ Sample Predicates::between(const Event& x, const Event& y, int attempt) {
             return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
         } else {
             RealRoot p = root_of(x), q = root_of(y);
-            while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
+            while (cfree::compare(p.hi, q.lo) >= 0) p.narrow(), q.narrow();
             return {{p.hi, q.lo}};
         }
     });
