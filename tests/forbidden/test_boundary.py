@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections import Counter
+from dataclasses import fields
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
@@ -230,6 +231,24 @@ def test_the_order_of_input_changes_nothing(plain: PlainScene, rng: random.Rando
     before, after = built(plain), built(other)
     assert owners(before) == owners(after)
     assert np.allclose(lengths(before), lengths(after))
+
+
+# but where bounds or a workspace change, or a diagonal names an angle: those are numbered after all rings
+@pytest.mark.parametrize("kind", sorted({*KINDS} - {"bounds", "workspace", "integer_grid"}))
+def test_what_the_robot_cannot_reach_leaves_names_and_intervals_alone(kind: str) -> None:
+    plain = random_scene(3, kind)
+    points = [
+        point
+        for shapes in (plain.robot, plain.obstacles)
+        for outer, holes in shapes
+        for r in (outer, *holes)
+        for point in r
+    ]
+    away = 4 * math.ceil(max(abs(x) + abs(y) for x, y in points))
+    both = PlainScene(plain.robot, [*plain.obstacles, *(moved(shape, away, 3 * away + 1) for shape in plain.obstacles)])
+    alone, part = built(plain).trapezoids, built(both).trapezoids
+    for column in fields(alone):
+        assert np.array_equal(getattr(alone, column.name), getattr(part, column.name)[: len(alone.patch)]), column.name
 
 
 ROBOT = box(0, 0, 1, 2)

@@ -35,7 +35,7 @@ public:
     // What one thread does: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
         Tally mine;
-        std::vector<Index> near;
+        Shadows near = one.shadows();
         const auto count = static_cast<Index>(found.size());
         for (Index j = next++; j < count && !stop; j = next++) {
             if (one.first_patch[j] == one.first_patch[j + 1]) continue;

@@ -35,9 +35,14 @@ Patches list_patches(const Scene& scene) {
 PatchTrimming::PatchTrimming(const Scene& s, bool regularized)
     : patches(list_patches(s)), first_patch(first_patches(s, patches)), scene(s), neighbours(s), owners(s, regularized) {}
 
-void PatchTrimming::trim(Index patch, const std::vector<Index>& near, std::vector<Trapezoid>& out,
-                         std::vector<Trapezoid>& thin, Tally& tally) const {
-    const Shape &A = scene.robot, &O = scene.obstacles;
+void PatchTrimming::pillars_near(Index feature, Shadows& out) const {
+    std::vector<Index> near;
+    neighbours.near(feature, near);
+    out.around(feature, near, neighbours.reach());
+}
+
+void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin,
+                         Tally& tally) const {
     const Feature contact = patches.contact(patch);
     const std::vector<Feature> before_it = owners.before(contact);
     const Range range = range_of(scene, contact, tally.decisions);
@@ -49,15 +54,14 @@ void PatchTrimming::trim(Index patch, const std::vector<Index>& near, std::vecto
             for (int s = 0; s < shared.count; ++s)
                 if (shared.chart[s] == range.chart[r]) trimmer.cede(owner, shared.from[s], shared.to[s]);
         }
-        for (Index p = 0; p < A.pieces() && !trimmer.empty(); ++p) {
-            const Box reachable = neighbours.swept(contact, p, range.chart[r], range.from[r].lo, range.to[r].hi);
-            for (const Index k : near) {
-                if (A.piece_layer[p] != O.piece_layer[k] || !reachable.meets(neighbours.box(k))) continue;
-                heed_stop();
-                ++tally.pairs;
-                trimmer.cover(p, k);
-                if (trimmer.empty()) break;
-            }
+        for (const Shadows::Pillar& pillar : near.on({contact, range.chart[r]}, range.from[r].lo, range.to[r].hi)) {
+            if (trimmer.empty()) break;
+            ++tally.pairs;
+            trimmer.left(near.slices);
+            const Slices::Part part = near.part(pillar);
+            if (part.empty()) continue;
+            heed_stop();
+            trimmer.cover(pillar.p, pillar.k, near.slices, part);
         }
         trimmer.finish(patch, out, thin);
         tally.decisions += trimmer.decide.counters;

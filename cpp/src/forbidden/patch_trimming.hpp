@@ -3,6 +3,7 @@
 #include "cfree/forbidden/boundary.hpp"
 #include "forbidden/coincident_surfaces.hpp"
 #include "forbidden/pillar_index.hpp"
+#include "forbidden/shadows.hpp"
 
 namespace cfree {
 
@@ -13,11 +14,11 @@ public:
     Patches patches;
     // Patches of obstacle feature j, which is a ring vertex and the edge that starts there: first_patch[j] .. first_patch[j + 1].
     const std::vector<Index> first_patch;
+    Shadows shadows() const { return Shadows(scene); }
     // Pillars that may reach the patches of an obstacle feature.
-    void pillars_near(Index feature, std::vector<Index>& out) const { neighbours.near(feature, out); }
+    void pillars_near(Index feature, Shadows& out) const;
     // What is left of a patch is added to `out`, what is left without width to `thin`.
-    void trim(Index patch, const std::vector<Index>& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin,
-              Tally& tally) const;
+    void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Tally& tally) const;
 
 private:
     const Scene& scene;

@@ -11,15 +11,14 @@ public:
 
     // Obstacle pieces near the obstacle edge or vertex j, nearest first.
     void near(Index j, std::vector<Index>& out) const;
-    // Where robot piece p can be while the contact holds between two angles of one chart.
-    Box swept(const Feature& contact, Index p, int chart, double lo, double hi) const;
-    const Box& box(Index k) const { return boxes[k]; }
+    // No two points of the robot are farther apart.
+    double reach() const { return diagonal; }
 
 private:
     const Scene& scene;
     std::vector<Box> boxes;  // of obstacle pieces
     BoxTree tree;
-    double reach;  // no two points of the robot are farther apart
+    double diagonal;  // of the robot's box
 };
 
 }  // namespace cfree

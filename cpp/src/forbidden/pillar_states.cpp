@@ -7,16 +7,21 @@
 
 namespace cfree {
 
-void Trimmer::cover(Index p, Index k) {
+void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& part) {
     // The pillar's state at a sample (which edges the line enters and leaves by, or on which side it passes) holds between
     // two angles around it. Settle it at a sample, find how long it lives, go on with what is left on both sides.
-    todo.assign(1, {0, 1});
+    const auto limit = [&](int s) {
+        return s == 0 ? 0 : s == slices.count ? 1 : intern({{}, {}, slices.at[s], slices.at[s]});
+    };
+    todo.assign(1, {limit(part.first), limit(part.last + 1)});
     while (!todo.empty() && !empty()) {
         const Span whole = todo.back();
         todo.pop_back();
         Sample at = decide.between(events[whole.from], events[whole.to]);
         Span span = whole;
         State state = at.fine ? state_at<Int>(p, k, at) : state_at<double>(p, k, at);
+        const double lo = events[whole.from].lo, hi = events[whole.to].hi;
+        if (state.meets == Meets::crosses && !part.may_pinch && is_beyond(state, slices, lo, hi)) continue;
         Verdict verdict = lifetime(state, at, span);
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no sample decides a pillar's state");
@@ -243,6 +248,28 @@ int Trimmer::conditions(const State& state, Condition* out, bool& wrong) {
         }
     }
     return count;
+}
+
+// Whether a pillar is seen to cover nothing of what is left between two angles: where the vertex that supports one of its edges is
+// extreme, all of it is on one side of that edge's line, and so beyond a curve. The state need not be right.
+bool Trimmer::is_beyond(const State& state, const Slices& slices, double lo, double hi) {
+    double low = 1, high = 0;
+    for (int s = 0; s < slices.count; ++s)
+        if (slices.at[s] <= hi && lo <= slices.at[s + 1]) low = std::min(low, slices.low[s]), high = std::max(high, slices.high[s]);
+    if (low > high) return true;
+    const auto sign = [&](Index g, Index f) { return Predicates::sign_on(decide.parallel(g, f), lo, hi); };
+    for (const PillarEdge* e : {&state.lower, &state.upper}) {
+        const bool is_lower = e == &state.lower;
+        const Feature f = normal_form(e->feature);
+        const Curve& curve = curves[curve_of(f, !is_lower && f.kind != Kind::vertex_vertex)];
+        if (is_lower ? !(extreme(curve, lo, hi, false) > high) : !(extreme(curve, lo, hi, true) < low)) continue;
+        if (e->around[0] < 0) return true;
+        if (e->feature.kind == Kind::vertex_edge
+                ? sign(e->around[0], e->feature.obstacle) < 0 && sign(e->around[1], e->feature.obstacle) > 0
+                : sign(e->feature.robot, e->around[0]) > 0 && sign(e->feature.robot, e->around[1]) < 0)
+            return true;
+    }
+    return false;
 }
 
 // Check a state at a sample and narrow the span to where it holds.

@@ -39,34 +39,74 @@ Feature Trimmer::normal_form(const Feature& f) const {
     return f;
 }
 
+// By a hash table, twice as large as what is in it at least.
 Index Trimmer::curve_of(const Feature& f, bool flipped) {
     const Code c = code(scene, f);
-    for (std::size_t k = 0; k < curves.size(); ++k)
-        if (curves[k].code == c && curves[k].flipped == flipped) return static_cast<Index>(k);
+    const auto place = [&](Code of, bool is_flipped) {
+        return static_cast<std::size_t>((of + is_flipped) * 0x9e3779b97f4a7c15u >> 20) & (slots.size() - 1);
+    };
+    const auto after = [&](std::size_t slot) { return (slot + 1) & (slots.size() - 1); };
+    if (2 * curves.size() >= slots.size()) {
+        slots.assign(std::max<std::size_t>(64, 4 * slots.size()), -1);
+        for (std::size_t k = 0; k < curves.size(); ++k) {
+            std::size_t slot = place(curves[k].code, curves[k].flipped);
+            while (slots[slot] >= 0) slot = after(slot);
+            slots[slot] = static_cast<Index>(k);
+        }
+    }
+    std::size_t slot = place(c, flipped);
+    for (; slots[slot] >= 0; slot = after(slot))
+        if (curves[slots[slot]].code == c && curves[slots[slot]].flipped == flipped) return slots[slot];
+    slots[slot] = static_cast<Index>(curves.size());
     Curve curve = decide.curve(f);
     if (flipped) curve.N = -curve.N, curve.D = -curve.D, curve.flipped = true;
     curves.push_back(curve);
-    return static_cast<Index>(curves.size()) - 1;
+    return slots[slot];
 }
 
-// Bounds on t between two angles: of N / D, a rational Bezier function, by its control values.
+// A bound on t between two angles: of N / D, a rational Bezier function, by its control values, and two ulps outwards for the
+// division and the sums.
+double Trimmer::extreme(const Curve& c, double lo, double hi, bool want_max) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double best = want_max ? -infinity : infinity;
+    const double knots[3][2] = {{lo, lo}, {lo, hi}, {hi, hi}};
+    for (const auto& k : knots) {
+        const double n = c.N.polar(k[0], k[1]), d = c.D.polar(k[0], k[1]);
+        if (!(d > c.D.err)) return want_max ? infinity : -infinity;
+        if (want_max) best = std::max(best, n + c.N.err > 0 ? (n + c.N.err) / (d - c.D.err) : (n + c.N.err) / (d + c.D.err));
+        else best = std::min(best, n - c.N.err > 0 ? (n - c.N.err) / (d + c.D.err) : (n - c.N.err) / (d - c.D.err));
+    }
+    return best + (want_max ? 1 : -1) * std::abs(best) * 0x1p-50;
+}
+
 void Trimmer::bounds(Area& area) const {
     const double lo = events[area.from].lo, hi = events[area.to].hi;
-    const auto extreme = [&](const Curve& c, bool want_max) {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        double best = want_max ? -infinity : infinity;
-        const double knots[3][2] = {{lo, lo}, {lo, hi}, {hi, hi}};
-        for (const auto& k : knots) {
-            const double n = c.N.polar(k[0], k[1]), d = c.D.polar(k[0], k[1]);
-            if (!(d > c.D.err)) return want_max ? infinity : -infinity;
-            if (want_max) best = std::max(best, n + c.N.err > 0 ? (n + c.N.err) / (d - c.D.err) : (n + c.N.err) / (d + c.D.err));
-            else best = std::min(best, n - c.N.err > 0 ? (n - c.N.err) / (d + c.D.err) : (n - c.N.err) / (d - c.D.err));
+    area.t_min = extreme(curves[area.lower], lo, hi, false), area.t_max = extreme(curves[area.upper], lo, hi, true);
+}
+
+void Slices::cut(double lo, double hi, int chart) {
+    constexpr double widest = 0.125;
+    kappa = chart ? -1 : 1;
+    count = std::clamp(1 + static_cast<int>((hi - lo) / widest), 1, most);
+    at[0] = lo, at[count] = hi;  // and not where critical angles are likely to be: at halves and quarters
+    for (int s = 1; s < count; ++s) at[s] = lo + (s - 0.375) * ((hi - lo) / (count - 0.375));
+    std::fill(low, low + count, 0.0), std::fill(high, high + count, 1.0);
+}
+
+void Trimmer::left(Slices& slices) {
+    if (!has_changed) return;
+    has_changed = false;
+    for (int s = 0; s < slices.count; ++s) slices.low[s] = 1, slices.high[s] = 0;
+    for (const auto* areas : {&live, &thin})
+        for (const Area& x : *areas) {
+            const double from = events[x.from].lo, to = events[x.to].hi;
+            for (int s = 0; s < slices.count; ++s) {
+                const double lo = std::max(from, slices.at[s]), hi = std::min(to, slices.at[s + 1]);
+                if (lo > hi) continue;
+                slices.low[s] = std::min(slices.low[s], std::max(0.0, extreme(curves[x.lower], lo, hi, false)));
+                slices.high[s] = std::max(slices.high[s], std::min(1.0, extreme(curves[x.upper], lo, hi, true)));
+            }
         }
-        return best;
-    };
-    // two ulps outwards for the division and the sums
-    area.t_min = extreme(curves[area.lower], false), area.t_max = extreme(curves[area.upper], true);
-    area.t_min -= std::abs(area.t_min) * 0x1p-50, area.t_max += std::abs(area.t_max) * 0x1p-50;
 }
 
 void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
@@ -128,10 +168,12 @@ int Trimmer::order_at(Index event, Index p, Index q) {
 // --- live region -----------------------------------------------------------------------------------------------------
 
 void Trimmer::subtract(const Band& taken) {
-    if (!thin.empty()) subtract_from_thin(taken);
+    if (!thin.empty()) subtract_from_thin(taken), has_changed = true;
     next.clear(), fresh.clear();
-    for (const Area& area : live)
-        if (!subtract_from(area, taken)) next.push_back(area);
+    for (const Area& area : live) {
+        if (subtract_from(area, taken)) has_changed = true;
+        else next.push_back(area);
+    }
     live.swap(next);
     thin.insert(thin.end(), fresh.begin(), fresh.end());
 }
@@ -350,7 +392,7 @@ void Trimmer::finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trape
     for (const Index pinch : pinches) cut_at(pinch);
     // by angle, then upwards
     std::sort(live.begin(), live.end(), [&](const Area& x, const Area& y) {
-        if (events[x.from].lo != events[y.from].lo) return events[x.from].lo < events[y.from].lo;
+        if (!equal(x.from, y.from)) return before(x.from, y.from);
         return x.t_min < y.t_min;
     });
     const auto put = [&](const std::vector<Area>& areas, std::vector<Trapezoid>& into) {

@@ -59,7 +59,7 @@ struct SurfaceExplorer::State {
     std::map<Index, Growth> growing;               // by seed
     double nearness = 0;                           // of points that may be one; it decides what is looked at first
     Index pillars_of = -1;
-    std::vector<Index> pillars;
+    Shadows pillars = one.shadows();
     Tally tally;
 };
 

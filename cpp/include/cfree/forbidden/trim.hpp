@@ -20,13 +20,31 @@ struct Trapezoid {
     int from_place = 0, to_place = 0;  // see Predicates::place
 };
 
+// The range of a patch in slices, and between which t something is left in each; nothing if low > high.
+struct Slices {
+    static constexpr int most = 16;
+    int count = 0;
+    double kappa = 1;      // see Predicates
+    double at[most + 1];   // tau; slice s is from at[s] to at[s + 1]
+    double low[most], high[most];
+    // From one slice to another, both with it.
+    struct Part {
+        int first, last;
+        bool may_pinch;  // see Shadows
+        bool empty() const { return first > last; }
+    };
+    void cut(double lo, double hi, int chart);
+};
+
 class Trimmer {
 public:
     // The part of a patch between two angles of one chart.
     Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
 
-    // Take away robot piece p against obstacle piece k.
-    void cover(Index p, Index k);
+    // Take away robot piece p against obstacle piece k, which covers nothing that is left outside of this part.
+    void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
+    // Sets what is left in each slice, if that has changed since.
+    void left(Slices& slices);
     // Take away what another patch of the same surface owns, between two angles.
     void cede(const Feature& owner, const Event& from, const Event& to);
     bool empty() const { return live.empty() && thin.empty(); }
@@ -101,6 +119,7 @@ private:
     template <class T>
     State state_at(Index p, Index k, const Sample& at) const;
     Verdict lifetime(const State& state, const Sample& at, Span& span);
+    bool is_beyond(const State& state, const Slices& slices, double lo, double hi);
     int conditions(const State& state, Condition* out, bool& wrong);
     bool lies_on_line(Index s, Index v) const;
     void add_band(const State& state, const Span& span, Index p, Index k);
@@ -111,6 +130,7 @@ private:
     void cut_at(Index event);
     Index curve_of(const Feature& feature, bool flipped);
     Feature normal_form(const Feature& feature) const;
+    double extreme(const Curve& curve, double lo, double hi, bool want_max) const;
     void bounds(Area& area) const;
     void subtract(const Band& band);
     bool subtract_from(const Area& area, const Band& band);
@@ -130,6 +150,8 @@ private:
     Surface surface;
     std::vector<Event> events;
     std::vector<Curve> curves;
+    std::vector<Index> slots;  // of a hash table of curves; -1: empty
+    bool has_changed = true;   // what is left, since it was asked for
     std::vector<Area> live, next, open;  // what there is, what will be there, and of that what has no end yet
     std::vector<Area> thin, fresh;
     std::vector<Index> pinches;  // angles at which a pillar's edge touches the surface along the line

@@ -1,0 +1,211 @@
+// Boxes of pieces along and across a patch's line, slice by slice; theory, "The trimmed boundary".
+#include "forbidden/shadows.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cfree {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Of a convex polygon, what is where |x| and |y| are at most `reach`.
+void clip(std::vector<Vec<double>>& polygon, double reach) {
+    std::vector<Vec<double>> rest;
+    for (const Vec<double>& n : {Vec<double>{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        rest.clear();
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            const Vec<double> &v = polygon[k], &w = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+            const double from = reach - dot(n, v), to = reach - dot(n, w);
+            if (from >= 0) rest.push_back(v);
+            if ((from < 0) == (to < 0)) continue;
+            const double t = from / (from - to);
+            rest.push_back({v.x + t * (w.x - v.x), v.y + t * (w.y - v.y)});
+        }
+        polygon.swap(rest);
+    }
+}
+
+bool contains(const std::vector<Index>& list, Index from, Index to, Index what) {
+    return std::find(list.begin() + from, list.begin() + to, what) != list.begin() + to;
+}
+
+double larger(const Vec<double>& d) { return std::max(std::abs(d.x), std::abs(d.y)); }
+
+}  // namespace
+
+void Shadows::look(const Shape& s, Index origin, Index piece, Side& side) const {
+    const Vec<double> o{s.x[origin], s.y[origin]};
+    for (Index n = s.piece[piece]; n < s.piece[piece + 1]; ++n) {
+        const Vec<double> v{s.x[s.piece_vertex[n]], s.y[s.piece_vertex[n]]};
+        side.seen.push_back(v - o);
+        side.size = std::max(side.size, s.rounded ? 2 * std::max(larger(v), larger(o)) : larger(v - o));
+    }
+    side.start.push_back(static_cast<Index>(side.seen.size()));
+}
+
+// Where a contact holds, what of an obstacle the robot covers or touches on the line is within reach of its corner: the rest
+// would turn with it, and make its boxes long. What rounding may cut off too much, or too little, is part of the slack.
+void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
+    near = pieces;
+    obstacles.clear(), within_reach.clear();
+    for (const Index k : near) look(scene.obstacles, j, k, obstacles);
+    within_reach.size = obstacles.size;
+    std::vector<Vec<double>> polygon;
+    for (Index x = 0; x < obstacles.count(); ++x) {
+        polygon.assign(obstacles.seen.begin() + obstacles.start[x], obstacles.seen.begin() + obstacles.start[x + 1]);
+        clip(polygon, reach + 0x1p-40 * (reach + obstacles.size));
+        within_reach.seen.insert(within_reach.seen.end(), polygon.begin(), polygon.end());
+        within_reach.start.push_back(static_cast<Index>(within_reach.seen.size()));
+    }
+}
+
+void Shadows::measure(const Vec<double>& E, Side& side) const {
+    side.along.clear(), side.across.clear();
+    for (const Vec<double>& d : side.seen) side.along.push_back(dot(E, d)), side.across.push_back(cross(E, d));
+}
+
+// An arc lies in the triangle of its ends and of the point where their tangents meet, which for the angles of x and y is
+// (1 - x y, x + y) / (1 + x y).
+void Shadows::turn(double sign) {
+    const Index count = turning.count();
+    turned.clear();
+    for (int s = 0; s < slices.count; ++s) {
+        const double from = slices.at[s], to = slices.at[s + 1];
+        const double knots[3][2] = {{from, from}, {from, to}, {to, to}};
+        double cosine[3], sine[3];
+        for (int n = 0; n < 3; ++n) {
+            const double x = knots[n][0], y = knots[n][1], w = slices.kappa / (1 + x * y);
+            cosine[n] = (1 - x * y) * w, sine[n] = sign * (x + y) * w;
+        }
+        for (Index q = 0; q < count; ++q) {
+            Strip box{infinity, -infinity, infinity, -infinity};
+            for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
+                for (int n = 0; n < 3; ++n) {
+                    const double along = cosine[n] * turning.along[v] - sine[n] * turning.across[v];
+                    const double across = cosine[n] * turning.across[v] + sine[n] * turning.along[v];
+                    box.along0 = std::min(box.along0, along), box.along1 = std::max(box.along1, along);
+                    box.across0 = std::min(box.across0, across), box.across1 = std::max(box.across1, across);
+                }
+            turned.push_back(box);
+        }
+    }
+}
+
+void Shadows::stand(const Shape& s, Index edge, bool of_robot) {
+    const auto count = static_cast<std::size_t>(still.count());
+    for (auto* column : {&along0, &along1, &across0, &across1}) column->resize(count);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    parallel.assign(count, {none, none}), has_edge.resize(count);
+    any_parallel = false;
+    for (Index x = 0; x < still.count(); ++x) {
+        const Index first = still.start[x], size = still.start[x + 1] - first, piece = s.piece[of_robot ? x : near[x]];
+        Strip box{infinity, -infinity, infinity, -infinity};
+        for (Index v = first; v < first + size; ++v) {
+            box.along0 = std::min(box.along0, still.along[v]), box.along1 = std::max(box.along1, still.along[v]);
+            box.across0 = std::min(box.across0, still.across[v]), box.across1 = std::max(box.across1, still.across[v]);
+        }
+        along0[x] = box.along0 - slack, along1[x] = box.along1 + slack;
+        across0[x] = box.across0 - slack, across1[x] = box.across1 + slack;
+        has_edge[x] = size > 1 && contains(s.piece_edge, piece, piece + size, edge);
+        int found = 0;
+        for (Index n = 0; size > 1 && n < size && found < 2; ++n)
+            if (s.direction[s.piece_edge[piece + n]] == s.direction[edge]) parallel[x][found++] = std::abs(still.across[first + n]);
+        any_parallel |= found > 0;
+    }
+    radius.clear();
+    for (std::size_t v = 0; any_parallel && v < turning.seen.size(); ++v)
+        radius.push_back(std::hypot(turning.along[v], turning.across[v]));
+}
+
+// Whether a turning vertex may just reach the height of an edge along the line.
+bool Shadows::may_pinch(Index q, Index x) const {
+    for (const double height : parallel[x])
+        for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
+            if (std::abs(radius[v] - height) <= slack) return true;
+    return false;
+}
+
+const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double lo, double hi) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature& contact = surface.contact;
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const Shape& own = on_edge ? O : A;
+    const Index edge = on_edge ? contact.obstacle : contact.robot, a = on_edge ? contact.robot : A.v[contact.robot];
+    const Vec<double> v{own.x[own.v[edge]], own.y[own.v[edge]]}, w{own.x[own.w[edge]], own.y[own.w[edge]]}, E = w - v;
+    slices.cut(lo, hi, surface.chart);
+    Side& robot = on_edge ? turning : still;
+    robot.clear();
+    for (Index p = 0; p < A.pieces(); ++p) look(A, a, p, robot);
+    (on_edge ? still : turning) = on_edge ? obstacles : within_reach;
+    measure(E, still), measure(E, turning);
+    // With |E.x|, |E.y| <= e and |d.x|, |d.y| <= m they are within 2 u e and 8 u m of the truth, 6 u m of which by clipping; what is
+    // along and across within 25 u e m, and at most 2 e m; cosines and sines, at most 1.1, within 6 u. So what is turned is
+    // within 2 (27.5 + 12 + 2.2) u e m + 4.4 u e m < 90 u e m, what stands still within 25 u e m, what they are compared with,
+    // at most e^2 apart, within 16 u e^2; sums of two add 6 u of their size. 128 u would do for all.
+    const double e = own.rounded ? 2 * std::max(larger(v), larger(w)) : larger(E);
+    slack = 0x1p-45 * e * (turning.size + still.size + e) + 0x1p-900;
+    length = dot(E, E);
+    turn(on_edge ? 1 : -1), stand(own, edge, !on_edge);
+    pillars.clear();
+    for (Index q = 0; q < turning.count(); ++q) add_pillars(q, contact);
+    std::sort(pillars.begin(), pillars.end(), [&](const Pillar& x, const Pillar& y) {
+        if (x.cover != y.cover) return x.cover > y.cover;
+        return x.p != y.p ? x.p < y.p : on_edge ? x.still < y.still : x.turning < y.turning;
+    });
+    return pillars;
+}
+
+void Shadows::add_pillars(Index q, const Feature& contact) {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const bool robot_turns = contact.kind == Kind::vertex_edge;
+    const auto count = static_cast<std::size_t>(still.count());
+    crossing.assign(count, 0), meeting.assign(count, 0);
+    for (int s = 0; s < slices.count; ++s) {
+        const Strip& box = strip(s, q);
+        const double low = box.along0, high = box.along1 + length;
+        const std::uint64_t bit = std::uint64_t{1} << s;
+        for (std::size_t x = 0; x < count; ++x) {
+            const bool crosses = (across1[x] >= box.across0) & (across0[x] <= box.across1);
+            crossing[x] |= crosses ? bit : 0;
+            meeting[x] |= crosses & (along1[x] >= low) & (along0[x] <= high) ? bit : 0;
+        }
+    }
+    const Index own = robot_turns ? q : near[q];
+    const bool has_vertex = robot_turns ? contains(A.piece_vertex, A.piece[own], A.piece[own + 1], contact.robot)
+                                        : contains(O.piece_vertex, O.piece[own], O.piece[own + 1], contact.obstacle);
+    for (Index x = 0; x < still.count(); ++x) {
+        if (crossing[x] == 0) continue;
+        // the pieces in contact: where the patch is, the one's vertex is extreme towards the other's edge, and the line bounds the pillar
+        if (has_vertex && has_edge[x]) continue;
+        const Index p = robot_turns ? q : x, k = near[robot_turns ? x : q];
+        if (A.piece_layer[p] != O.piece_layer[k]) continue;
+        const bool pinches = any_parallel && may_pinch(q, x);
+        if (meeting[x] == 0 && !pinches) continue;
+        Pillar pillar{p, k, q, x, pinches, static_cast<std::uint32_t>(pinches ? crossing[x] : meeting[x]), 0};
+        for (int s = 0; s < slices.count; ++s) {  // as if it were an ellipse in its box
+            const Strip& box = strip(s, q);
+            const double c0 = across0[x] - box.across1, c1 = across1[x] - box.across0, off = (c0 + c1) / (c1 - c0);
+            const double a0 = along0[x] - box.along1, a1 = along1[x] - box.along0, middle = 0.5 * (a0 + a1);
+            const double half = 0.5 * (a1 - a0) * std::sqrt(std::max(0.0, 1 - off * off));
+            pillar.cover += std::max(0.0, std::min(middle + half, length) - std::max(middle - half, 0.0));
+        }
+        pillars.push_back(pillar);
+    }
+}
+
+Slices::Part Shadows::part(const Pillar& pillar) const {
+    Slices::Part result{slices.count, -1, pillar.may_pinch};
+    for (int s = 0; s < slices.count; ++s) {
+        if (!(pillar.slices >> s & 1) || slices.low[s] > slices.high[s]) continue;
+        const Strip& box = strip(s, pillar.turning);
+        const bool meets = along1[pillar.still] - box.along0 >= slices.low[s] * length &&
+                           along0[pillar.still] - box.along1 <= slices.high[s] * length;
+        if (meets || pillar.may_pinch) result.first = std::min(result.first, s), result.last = s;
+    }
+    return result;
+}
+
+}  // namespace cfree

@@ -1,0 +1,72 @@
+// Where on a patch pillars may cover something: boxes in (t, theta), rounded outwards. This decides nothing.
+//
+// At an orientation the line of a patch is fixed to one shape: to the obstacle whose edge E it is, or to the robot. Along it and
+// across it, seen from where t = 0 and times |E|, pillar (p, k) covers
+//   v-e: O_k - b_j (+) -R (A_p - a_i),    e-v: A_p - a_i (+) -R^-1 (O_k - b_j),
+// the sum of one piece that stands still and one that turns. Boxes of both are found once a patch, for every slice of its range,
+// and a pair costs comparisons.
+#pragma once
+#include <cstdint>
+
+#include "cfree/forbidden/trim.hpp"
+
+namespace cfree {
+
+class Shadows {
+public:
+    explicit Shadows(const Scene& s) : scene(s) {}
+
+    // The patches to come are those of obstacle ring vertex j and the edge from it. The pieces near it; no two points of the
+    // robot are farther apart than `reach`.
+    void around(Index j, const std::vector<Index>& near, double reach);
+    struct Pillar {
+        Index p, k;
+        Index turning, still;  // places of its two pieces
+        bool may_pinch;        // may touch the surface along the line, which counts wherever on the line that is
+        std::uint32_t slices;  // where its shadow meets the patch, by bit
+        double cover;          // about how much of the patch
+    };
+    // Pillars that may cover some of a patch between two angles of a chart, in the order in which they are best taken away.
+    const std::vector<Pillar>& on(const Surface& surface, double lo, double hi);
+    // The slices of that patch; what is left in them is set by Trimmer::left.
+    Slices slices;
+    // Where the pillar may cover some of what is left.
+    Slices::Part part(const Pillar& pillar) const;
+
+private:
+    struct Strip {
+        double along0, along1, across0, across1;
+    };
+    // Vertices of one piece after another, seen from one of the shape's vertices.
+    struct Side {
+        std::vector<Index> start{0};
+        std::vector<Vec<double>> seen;
+        std::vector<double> along, across;
+        double size = 0;  // no coordinate of a vertex seen is greater, nor were those it was rounded from
+        Index count() const { return static_cast<Index>(start.size()) - 1; }
+        void clear() { start.assign(1, 0), seen.clear(), size = 0; }
+    };
+    void look(const Shape& shape, Index origin, Index piece, Side& side) const;
+    void measure(const Vec<double>& E, Side& side) const;
+    void turn(double sign);
+    void stand(const Shape& shape, Index edge, bool of_robot);
+    bool may_pinch(Index turning_piece, Index still_piece) const;
+    void add_pillars(Index turning_piece, const Feature& contact);
+    const Strip& strip(int slice, Index piece) const { return turned[static_cast<std::size_t>(slice * turning.count() + piece)]; }
+
+    const Scene& scene;
+    std::vector<Index> near;
+    Side turning, still;
+    Side obstacles, within_reach;  // the near pieces, and of them what the robot can touch
+    std::vector<Strip> turned;                             // by slice and piece
+    std::vector<double> along0, along1, across0, across1;  // of what stands still, by piece
+    std::vector<char> has_edge;                            // whether it has the patch's edge
+    std::vector<std::array<double, 2>> parallel;           // how far across its edges along the line are; NaN: none
+    bool any_parallel = false;
+    std::vector<double> radius;                            // of what turns, by vertex
+    double slack = 0, length = 0;                          // of rounding; |E|^2
+    std::vector<std::uint64_t> crossing, meeting;          // slices, by piece that stands still
+    std::vector<Pillar> pillars;
+};
+
+}  // namespace cfree
