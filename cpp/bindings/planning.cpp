@@ -13,7 +13,7 @@
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using cfree::BoundaryWalker, cfree::Connection, cfree::Feature, cfree::Surroundings, cfree::RationalPose, cfree::Way;
+using cfree::BoundaryWalker, cfree::Connecting, cfree::Connection, cfree::Feature, cfree::Surroundings, cfree::RationalPose, cfree::Way;
 
 using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
 
@@ -77,26 +77,26 @@ static std::optional<std::vector<PoseTuple>> turn(const BoundaryWalker& walker, 
 
 static void bind_surroundings(nb::module_& m) {
     nb::enum_<Connection::Verdict>(m, "Verdict")
+        .value("OPEN", Connection::Verdict::open)
         .value("UNCLEAR", Connection::Verdict::unclear)
         .value("APART", Connection::Verdict::apart)
-        .value("JOINED", Connection::Verdict::joined)
-        .value("LATE", Connection::Verdict::late);
-    nb::class_<Connection>(m, "Connection")
-        .def_ro("verdict", &Connection::verdict)
-        .def_ro("surface", &Connection::surface);
+        .value("JOINED", Connection::Verdict::joined);
     nb::class_<Surroundings>(m, "Surroundings")
         .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::MotionChecker>, bool>(), "scene"_a,
-             "checker"_a, "regularized"_a)
-        .def("connection", [](Surroundings& around, const std::array<nb::int_, 6>& start, const std::array<nb::int_, 6>& goal,
-                              double most_seconds) {
-            const auto first = pose(start), last = pose(goal);
-            return watched([&] { return cfree::connection(around, first, last, most_seconds); });
-        }, "start"_a, "goal"_a, "most_seconds"_a)
-        .def("way", [](const Surroundings& around, const Connection& joined, double angle_scale, const Slide& slide) {
+             "checker"_a, "regularized"_a);
+    nb::class_<Connecting>(m, "Connecting")
+        .def("__init__", [](Connecting* of, std::shared_ptr<Surroundings> around, const std::array<nb::int_, 6>& start,
+                            const std::array<nb::int_, 6>& goal) {
+            new (of) Connecting(std::move(around), pose(start), pose(goal));
+        }, "around"_a, "start"_a, "goal"_a)
+        .def("run", [](Connecting& of, int most) { watched([&] { return of.run(most), 0; }); }, "most"_a)
+        .def_prop_ro("verdict", [](const Connecting& of) { return of.found().verdict; })
+        .def_prop_ro("surface", [](const Connecting& of) { return of.found().surface; })
+        .def("way", [](const Connecting& of, double angle_scale, const Slide& slide) {
             return with_slides(slide, [&](const cfree::Slides& slides) {
-                return cfree::connecting_way(around, joined, angle_scale, slides);
+                return cfree::connecting_way(*of.around, of.found(), angle_scale, slides);
             });
-        }, "joined"_a, "angle_scale"_a, "slide"_a);
+        }, "angle_scale"_a, "slide"_a);
 }
 
 void bind_planning(nb::module_& m) {

@@ -544,27 +544,29 @@ class Shortcut:
 def balanced(checker: MotionChecker, nearness: Nearness, grid: Sequence[int], limits: Sequence[float], weight: float, poses: Sequence[Sequence[int]], places: Sequence[Sequence[float]]) -> Shortcut: ...
 
 class Verdict(enum.Enum):
-    UNCLEAR = 0
+    OPEN = 0
 
-    APART = 1
+    UNCLEAR = 1
 
-    JOINED = 2
+    APART = 2
 
-    LATE = 3
+    JOINED = 3
 
-class Connection:
+class Surroundings:
+    def __init__(self, scene: Scene, checker: MotionChecker, regularized: bool) -> None: ...
+
+class Connecting:
+    def __init__(self, around: Surroundings, start: Sequence[int], goal: Sequence[int]) -> None: ...
+
+    def run(self, most: int) -> None: ...
+
     @property
     def verdict(self) -> Verdict: ...
 
     @property
     def surface(self) -> CellComplex: ...
 
-class Surroundings:
-    def __init__(self, scene: Scene, checker: MotionChecker, regularized: bool) -> None: ...
-
-    def connection(self, start: Sequence[int], goal: Sequence[int], most_seconds: float) -> Connection: ...
-
-    def way(self, joined: Connection, angle_scale: float, slide: Callable[[tuple[int, int, int, int, int, int], tuple[int, int, int, int, int, int], Sequence[int], int], bool]) -> list[tuple[int, int, int, int, int, int]]: ...
+    def way(self, angle_scale: float, slide: Callable[[tuple[int, int, int, int, int, int], tuple[int, int, int, int, int, int], Sequence[int], int], bool]) -> list[tuple[int, int, int, int, int, int]]: ...
 
 class BoundaryWalker:
     def __init__(self, space: FreeSpace, cells: CellComplex, checker: MotionChecker, angle_scale: float) -> None: ...

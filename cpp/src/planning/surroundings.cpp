@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
@@ -13,7 +12,6 @@ namespace cfree {
 namespace {
 
 constexpr int most_attempts = 48;  // places near a pose from which a ray is tried, nearer and nearer
-constexpr Index first_step = 64;   // trapezoids; then twice as many each time
 
 Configuration configuration(const ExactPose& q) {
     Configuration c;
@@ -175,52 +173,40 @@ std::optional<bool> Surroundings::is_around(Index surface, const Search& search)
     return seen.crossed.size() % 2 != 0;
 }
 
-namespace {
+// --- two poses ---
 
-using Searches = std::array<Surroundings::Search, 2>;
-
-// Over islands, then over a surface or far away, then over other islands.
-void join(Connection& found, const Searches& ends, const std::shared_ptr<const CellComplex>& common) {
-    found.verdict = Connection::Verdict::joined;
-    found.near_start = ends[0].from, found.near_goal = ends[1].from;
-    found.stretches = ends[0].passed, found.before = found.stretches.size(), found.is_far = !common;
-    if (common) found.stretches.push_back({common, ends[0].contact, ends[1].contact});
-    for (auto x = ends[1].passed.rbegin(); x != ends[1].passed.rend(); ++x)
-        found.stretches.push_back({x->surface, x->leave, x->enter});
+Connecting::Connecting(std::shared_ptr<Surroundings> of, const RationalPose& start, const RationalPose& goal)
+    : around(std::move(of)), ends{around->search(start.exact(*around->scene)), around->search(goal.exact(*around->scene))} {
+    result.start = start, result.goal = goal;
 }
 
-}  // namespace
+void Connecting::run(Index most) {
+    for (const int k : {0, 1})
+        if (result.verdict == Connection::Verdict::open) look(k, most);
+    const bool is_over = ends[0].failed || ends[1].failed || (ends[0].ended && ends[1].ended);
+    if (is_over && result.verdict == Connection::Verdict::open) result.verdict = Connection::Verdict::unclear;
+}
 
-Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal, double most_seconds) {
-    const auto begin = std::chrono::steady_clock::now();
-    Searches ends{around.search(start.exact(*around.scene)), around.search(goal.exact(*around.scene))};
-    Connection found;
-    found.start = start, found.goal = goal;
-    for (Index most = first_step; !ends[0].failed && !ends[1].failed && !(ends[0].ended && ends[1].ended); most *= 2)
-        for (const int k : {0, 1}) {
-            if (std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > most_seconds) {
-                found.verdict = Connection::Verdict::late;
-                return found;
-            }
-            auto &one = ends[k], &other = ends[1 - k];
-            if (const auto common = around.advance(one, most, other.seed)) {
-                join(found, ends, common);
-                return found;
-            }
-            if (one.failed || !one.ended) continue;
-            if (other.ended && !other.failed && one.surface == other.surface) {
-                join(found, ends, one.surface < 0 ? nullptr : around.surface(one.surface));
-                return found;
-            }
-            if (one.surface < 0) continue;
-            const auto holds = around.is_around(one.surface, other);
-            if (!holds && !around.start_again(other)) return found;
-            if (holds && !*holds) {
-                found.verdict = Connection::Verdict::apart, found.surface = around.surface(one.surface);
-                return found;
-            }
-        }
-    return found;
+void Connecting::look(int k, Index most) {
+    auto &one = ends[k], &other = ends[1 - k];
+    if (const auto common = around->advance(one, most, other.seed)) return join(common);
+    if (one.failed || !one.ended) return;
+    if (other.ended && !other.failed && one.surface == other.surface)
+        return join(one.surface < 0 ? nullptr : around->surface(one.surface));
+    if (one.surface < 0) return;
+    const auto holds = around->is_around(one.surface, other);
+    if (!holds && !around->start_again(other)) other.ended = other.failed = true;
+    if (holds && !*holds) result.verdict = Connection::Verdict::apart, result.surface = around->surface(one.surface);
+}
+
+// Over islands, then over a surface or far away, then over other islands.
+void Connecting::join(const std::shared_ptr<const CellComplex>& common) {
+    result.verdict = Connection::Verdict::joined;
+    result.near_start = ends[0].from, result.near_goal = ends[1].from;
+    result.stretches = ends[0].passed, result.before = result.stretches.size(), result.is_far = !common;
+    if (common) result.stretches.push_back({common, ends[0].contact, ends[1].contact});
+    for (auto x = ends[1].passed.rbegin(); x != ends[1].passed.rend(); ++x)
+        result.stretches.push_back({x->surface, x->leave, x->enter});
 }
 
 }  // namespace cfree

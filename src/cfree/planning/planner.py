@@ -32,7 +32,7 @@ from cfree.paths.path import Objective, Path
 from cfree.planning.goals import AllSeparated, plan_any, to_goals
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
-from cfree.planning.separation import Insets, Separated, inset_powers, separation
+from cfree.planning.separation import STEP, Insets, Separated, inset_powers, separation
 from cfree.planning.surroundings import Surroundings
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.scene import Scene, required, robot_radius
@@ -43,7 +43,9 @@ if TYPE_CHECKING:
     from cfree.planning.exact_fits import Passages
 
 Phase = Callable[[str], AbstractContextManager[Any]]
-SEARCH = 10_000  # motions checked at most before the free space is built
+SEARCH = 10_000  # motions checked at most before all of the free space is built
+QUICK = 1000  # before anything exact is
+CHECKS = 3  # that take about as long as a trapezoid of a surface
 REFINE = 400  # motions checked to improve a path if no time is given
 BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance
 OTHERS = 30  # other ways looked for
@@ -222,9 +224,7 @@ class Planner(Value):
                 progress = share if callable(share) else self.progress
                 found = boundary(self.scene, max_seconds=self.max_seconds, progress=progress)
             if not found.complete:
-                raise IncompleteError(
-                    f"{self.max_seconds} seconds were not enough to compute the free space; give more"
-                )
+                raise self._late()
             with self.phase("cells"):
                 self.space = free_space(found)
         return self.space
@@ -296,11 +296,11 @@ class Planner(Value):
                         require_free(self.scene, pose, name)
                 if start == goal:
                     return [start]
-                if self.space is None or self.space.common_cell(first, last) is not None:
-                    poses = self._searched(first, last)
+                if self.space is not None and self.space.common_cell(first, last) is not None:
+                    poses = self._searched(first, last, QUICK)
         if poses is None:
             with self._lock:
-                answer = self._known(first, last)
+                answer = (self._by_few(first, last) if self.space is None else None) or self._known(first, last)
             if not isinstance(answer, list):
                 return answer if first == start else answer.reversed()
             poses = answer
@@ -309,8 +309,6 @@ class Planner(Value):
     def _known(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """What the free space says: poses of a path, or a proof."""
         quick, *others = inset_powers(self.scene)
-        if self.space is None and (found := self._by_few(start, goal, quick)) is not None:
-            return found
         space = self.free_space
         with self.phase("path in a cell"):
             if (cell := space.common_cell(start, goal)) is not None:
@@ -330,13 +328,31 @@ class Planner(Value):
         with self.phase("other exact fits"):
             return self._passages.path(start, goal, irrational=True) or proof
 
-    def _by_few(self, start: Pose, goal: Pose, power: int) -> list[Pose] | Separated | None:
-        """What the closed surfaces around two poses say, without the rest of the free space; None if unclear."""
+    def _by_few(self, start: Pose, goal: Pose) -> list[Pose] | Separated | None:
+        """What a search finds, or the closed surfaces around the two poses say; None if that is unclear.
+
+        In turns, by counted work: the same answer everywhere, in about twice the time of the better of both.
+        """
+        searcher = self._searcher([start, goal])
+        search, begin = searcher.search(start, goal), time.perf_counter()
+        with self.phase("search"):
+            if route := search.run(QUICK):
+                return searcher.poses(route)
         with self.phase("surfaces around the two poses"):
-            found = self._surroundings.connection(start, goal, self.max_seconds)
+            most, found = STEP, self._surroundings.connecting(start, goal)
+            while not found.run(most):
+                self._look_up()
+                if 2 * CHECKS * most <= self._checks and (route := search.run(CHECKS * most)):
+                    return searcher.poses(route)
+                if self.max_seconds is not None and time.perf_counter() - begin > self.max_seconds:
+                    raise self._late()
+                most *= 2
             if found.verdict == _core.Verdict.JOINED:
-                return self._surroundings.way(found, self.angle_scale, self._slides)
-            return self._insets.closed(start, goal, power)
+                return found.way(self.angle_scale, self._slides)
+            return self._insets.closed(start, goal, inset_powers(self.scene)[0])
+
+    def _late(self) -> IncompleteError:
+        return IncompleteError(f"{self.max_seconds} seconds were not enough to compute the free space; give more")
 
     @checked
     def path(self, poses: Sequence[Pose]) -> Path:
@@ -440,14 +456,14 @@ class Planner(Value):
         """Poses of a path, if simple ways or a search find one."""
         return self.checker.first_free(simple_ways(start, goal)) or self._searched(start, goal)
 
-    def _searched(self, start: Pose, goal: Pose) -> Sequence[Pose] | None:
+    def _searched(self, start: Pose, goal: Pose, most: int = SEARCH) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
-        found = self._run(searcher.search(start, goal), math.inf)
+        found = self._run(searcher.search(start, goal), math.inf, most)
         return searcher.poses(found) if found else None
 
-    def _run(self, search: Any, end: float) -> Any:
+    def _run(self, search: Any, end: float, most: int = SEARCH) -> Any:
         """What a search finds in time."""
-        for _ in range(0, self._checks, BLOCK):
+        for _ in range(0, min(most, self._checks), BLOCK):
             self._look_up()
             if (found := search.run(BLOCK)) or time.perf_counter() > end:
                 return found

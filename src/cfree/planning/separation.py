@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from cfree.scene.features import SceneFeatures
 
 
+STEP = 64  # trapezoids around each of two poses; then twice as many each time
 FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 
 
@@ -198,10 +199,12 @@ class Insets:
         around = self._surroundings(power)
         if around is None:
             return None
-        found = around.connection(start, goal)
+        found, most = around.connecting(start, goal), STEP
+        while not found.run(most):
+            most *= 2
         pieces = None
         if found.verdict == _core.Verdict.APART:
-            surface = around.surface(found)
+            surface = found.surface
             pieces = Pieces.of(surface, np.arange(len(surface.trapezoids), dtype=np.int32))
         elif found.verdict == _core.Verdict.UNCLEAR:
             pieces = self._by_all(power, around.scene, start, goal)

@@ -5,13 +5,12 @@ docs/theory/one-surface.md tells how. What is unclear here the whole free space 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import cfree._core as _core
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.slide import Slide
-from cfree.errors import IncompleteError, InvariantError
+from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.record import Stats
@@ -36,41 +35,49 @@ class Surroundings:
         features = checker.features
         self._core = _core.Surroundings(features.core, checker.core, _core.may_have_slits(features.core))
 
-    def connection(self, start: Pose, goal: Pose, max_seconds: float | None = None) -> _core.Connection:
-        """What the surfaces around two free poses say.
+    def connecting(self, start: Pose, goal: Pose) -> Connecting:
+        """What finds out about two free poses."""
+        return Connecting(self, _core.Connecting(self._core, numbers_of(start), numbers_of(goal)), (start, goal))
 
-        Raises
-        ------
-        IncompleteError
-            If it takes longer.
-        """
+
+class Connecting:
+    """Two poses, of which more and more is found out; see `Surroundings.connecting`."""
+
+    def __init__(self, around: Surroundings, core: _core.Connecting, ends: tuple[Pose, Pose]) -> None:
+        self._around = around
+        self._core = core
+        self._ends = ends
+
+    @property
+    def verdict(self) -> _core.Verdict:
+        return self._core.verdict
+
+    def run(self, most: int) -> bool:
+        """Go on by about so many trapezoids around each of the two; whether that was enough, or no more can be said."""
         try:
-            limit = math.inf if max_seconds is None else max_seconds
-            found = self._core.connection(numbers_of(start), numbers_of(goal), limit)
+            self._core.run(most)
         except RuntimeError as error:
-            raise InvariantError(str(error), state=(start, goal)) from error
-        if found.verdict == _core.Verdict.LATE:
-            raise IncompleteError(f"{max_seconds} seconds were not enough to find out what is free; give more")
-        return found
+            raise InvariantError(str(error), state=self._ends) from error
+        return self.verdict != _core.Verdict.OPEN
 
-    def way(
-        self, joined: _core.Connection, angle_scale: float, slides: dict[tuple[Pose, Pose], Slide]
-    ) -> list[Pose] | None:
+    def way(self, angle_scale: float, slides: dict[tuple[Pose, Pose], Slide]) -> list[Pose] | None:
         """Poses from the start to the goal, the motions between them free; None if none are found on the surfaces."""
-        curves = CurveMotions(self.checker, slides)
+        curves = CurveMotions(self._around.checker, slides)
 
         def slid(pose: Sequence[int], goal: Sequence[int], contact: Sequence[int], curve: int) -> bool:
             kind, i, j = contact
             return curves.slid(from_numbers(pose), from_numbers(goal), (kind, i, j), curve)
 
         try:
-            return [*map(from_numbers, self._core.way(joined, angle_scale, slid))]
+            return [*map(from_numbers, self._core.way(angle_scale, slid))]
         except RuntimeError:
             return None
 
-    def surface(self, found: _core.Connection) -> Boundary:
+    @property
+    def surface(self) -> Boundary:
         """The closed surface between two poses that are apart: a boundary of which that is all."""
-        assert found.surface is not None
-        core, table = found.surface.boundary, found.surface.boundary.trapezoids
+        found = self._core.surface
+        assert found is not None
+        core, table = found.boundary, found.boundary.trapezoids
         stats = Stats(len(core.trimmed), 0, len(table.patch), 0, 0, 0, 0, 0, {})
-        return Boundary._of(self.scene, self.checker.features, core, stats)
+        return Boundary._of(self._around.scene, self._around.checker.features, core, stats)

@@ -65,10 +65,10 @@ private:
     Int size, radius, left;  // of the robot, of it about its reference point, of the smallest x of what is an obstacle
 };
 
-// Two free poses, found out from both at once: in one cell, with a way from one to the other, or apart.
+// Two free poses: in one cell, with a way from one to the other, or apart.
 struct Connection {
-    enum class Verdict { unclear, apart, joined, late };
-    Verdict verdict = Verdict::unclear;
+    enum class Verdict { open, unclear, apart, joined };  // open: not yet known
+    Verdict verdict = Verdict::open;
     std::shared_ptr<const CellComplex> surface;  // apart: it is around one of them and not the other
     // Joined: the way goes to the first of two poses near these, straight to stretches one after another, and so to the goal.
     // After the first `before` of them it may be far away to the left.
@@ -78,7 +78,21 @@ struct Connection {
     bool is_far = false;
     std::size_t before = 0;
 };
-// Late once it has taken longer.
-Connection connection(Surroundings& around, const RationalPose& start, const RationalPose& goal, double most_seconds);
+
+// Finds it out from both at once.
+class Connecting {
+public:
+    Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
+    // Go on by about so many trapezoids around each.
+    void run(Index most);
+    const Connection& found() const { return result; }
+    const std::shared_ptr<Surroundings> around;
+
+private:
+    void look(int k, Index most);
+    void join(const std::shared_ptr<const CellComplex>& common);
+    std::array<Surroundings::Search, 2> ends;
+    Connection result;
+};
 
 }  // namespace cfree
