@@ -29,9 +29,9 @@ def test_kinds_are_those_of_the_core() -> None:
 COMMENT = re.compile(r"//.*")
 NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?")
 # computed from the exact structure, in doubles
-COMPUTED = ("contact_curve", "mesh", "mesh_face", "slice", "surface", "triangulation")
-# guesses, whose motions are then decided
-GUESSED = ("balance", "configuration", "nearness", "ridge", "rrt_connect", "shortcut", "way")
+COMPUTED = ("contact_curve", "limits", "mesh", "mesh_face", "slice", "surface", "triangulation")
+# guesses: motions are then decided, trapezoids that seem to be neighbours glued
+GUESSED = ("balance", "configuration", "nearness", "ridge", "rrt_connect", "shortcut", "surface_explorer", "way")
 # limits and notation of numbers as they come in and go out
 WRITTEN = ("coordinate_range", "ratio")
 NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED + WRITTEN for suffix in (".cpp", ".hpp")}
