@@ -98,7 +98,7 @@ def compare(name: str, report: Report, quick: bool) -> Row:
         lambda: seconds_of(whole_answer, fresh()),
         rounds=1 if quick else ROUNDS,
     )
-    answer = cfree.plan(scene, improve=IMPROVE)
+    answer = cfree.plan(scene, improve=IMPROVE, objective="short")
     found = isinstance(answer, cfree.Path)
     rivals = {key: rival(fresh, step, cap, runs) for key, step in STEPS.items()}
     length = answer.length + robot_radius(scene) * answer.turning if found else math.nan

@@ -30,6 +30,7 @@ BENCHES = (
     "cells",
     "city",
     "plan",
+    "paths",
     "tight",
     "fits",
     "scene",
