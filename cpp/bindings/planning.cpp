@@ -83,7 +83,8 @@ static void bind_surroundings(nb::module_& m) {
         .value("JOINED", Connection::Verdict::joined);
     nb::class_<Surroundings>(m, "Surroundings")
         .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::MotionChecker>, bool>(), "scene"_a,
-             "checker"_a, "regularized"_a);
+             "checker"_a, "regularized"_a)
+        .def_prop_ro("trimmed_patches", &Surroundings::trimmed_patches);
     nb::class_<Connecting>(m, "Connecting")
         .def("__init__", [](Connecting* of, std::shared_ptr<Surroundings> around, const std::array<nb::int_, 6>& start,
                             const std::array<nb::int_, 6>& goal) {

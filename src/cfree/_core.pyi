@@ -555,6 +555,9 @@ class Verdict(enum.Enum):
 class Surroundings:
     def __init__(self, scene: Scene, checker: MotionChecker, regularized: bool) -> None: ...
 
+    @property
+    def trimmed_patches(self) -> int: ...
+
 class Connecting:
     def __init__(self, around: Surroundings, start: Sequence[int], goal: Sequence[int]) -> None: ...
 

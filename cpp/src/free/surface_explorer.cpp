@@ -235,6 +235,10 @@ std::optional<Index> SurfaceExplorer::trapezoid_at(const ExactPose& pose, Index 
     return there[seen.on[0]];
 }
 
+std::size_t SurfaceExplorer::trimmed_patches() const {
+    return static_cast<std::size_t>(std::count(state->trimmed.begin(), state->trimmed.end(), 1));
+}
+
 SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index target) {
     State& s = *state;
     State::Growth& g = s.growth(seed);

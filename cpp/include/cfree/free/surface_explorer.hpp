@@ -22,6 +22,9 @@ public:
     };
     Grown grow(Index seed, Index most, Index target = -1);
 
+    // How many have been so far.
+    std::size_t trimmed_patches() const;
+
 private:
     struct State;
     const std::unique_ptr<State> state;

@@ -43,6 +43,7 @@ public:
     std::optional<bool> is_around(Index surface, const Search& search) const;
     const std::shared_ptr<const CellComplex>& surface(Index k) const { return surfaces[k].complex; }
 
+    std::size_t trimmed_patches() const { return explorer.trimmed_patches(); }
     // An x, in the scene's integers, where the robot is to the left of everything.
     Int far_left() const { return left - 4 * radius; }
 

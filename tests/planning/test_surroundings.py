@@ -1,0 +1,104 @@
+"""Two poses joined or apart by the surfaces around them, as all of the free space says."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cfree
+from cfree import Boundary, FreeSpace, MotionChecker, Pose, Scene, boundary, free_space, load_scene, plan
+from cfree._core import Verdict
+from cfree.planning.separation import STEP
+from cfree.planning.surroundings import Connecting, Surroundings
+from cfree.scene.scene import robot_radius
+from questions import random_question
+from shapes import KINDS, random_scene
+from spaces import INSIDE, OUTSIDE, room
+
+ROOT = Path(__file__).parents[2]
+
+
+def connected(scene: Scene, start: Pose, goal: Pose) -> Connecting:
+    found = Surroundings(scene, MotionChecker(scene)).connecting(start, goal)
+    most = STEP
+    while not found.run(most):
+        most *= 2
+    return found
+
+
+def agrees(space: FreeSpace, start: Pose, goal: Pose) -> Verdict:
+    """With all of the free space, off contacts; a way that is found is free."""
+    scene = space.boundary.scene
+    found = connected(scene, start, goal)
+    if found.verdict == Verdict.JOINED:
+        way = found.way(robot_radius(scene), {})
+        assert way is not None and (way[0], way[-1]) == (start, goal) and MotionChecker(scene).joins(way)
+    if min(space.locate([start, goal])) >= 0 and not any(len(space.nearby(pose).on) for pose in (start, goal)):
+        same = space.common_cell(start, goal) is not None
+        assert found.verdict == Verdict.UNCLEAR or found.verdict == (Verdict.JOINED if same else Verdict.APART)
+    if found.verdict == Verdict.APART:
+        surface = rows(found.surface, range(len(found.surface.trapezoids)))
+        assert any(
+            surface == rows(space.surfaces, np.flatnonzero(space.component == k)) for k in range(len(space.parent))
+        )
+    return found.verdict
+
+
+def rows(boundary: Boundary, faces: Iterable[int]) -> set[tuple[int | float, ...]]:
+    """Trapezoids by what they are, whatever their numbers."""
+    table = boundary.trapezoids
+    columns = table.patch, table.chart, table.lower, table.upper, table.from_lo, table.to_hi
+    return {tuple(column[k].item() for column in columns) for k in faces}
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+@pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(2, 8))])
+def test_random_scenes_as_all_of_the_free_space_says(kind: str, seed: int) -> None:
+    rng = random.Random(f"{kind} {seed}")
+    asked = random_question(rng, random_scene(rng, kind))
+    if asked is None:
+        return
+    space = free_space(boundary(asked.scene))
+    forth, back = agrees(space, asked.start, asked.goal), agrees(space, asked.goal, asked.start)
+    assert forth == back
+
+
+@pytest.mark.parametrize("gap", ["1/2", "1/1000000", 1, "3/2"])
+def test_a_room_that_opens(gap: str | int) -> None:
+    space = room(Fraction(gap))
+    assert agrees(space, INSIDE, OUTSIDE) == (Verdict.APART if Fraction(gap) <= 1 else Verdict.JOINED)
+
+
+def test_islands_and_what_is_far_away() -> None:
+    boxes = [[(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)] for x, y in ((0, 0), (-4, 0), (-9, 0), (0, 5), (-5, 5))]
+    scene = Scene([(0, 0), (1, 0), (0, 1)], boxes)
+    space = free_space(boundary(scene))
+    assert agrees(space, Pose("5/2", "1/3"), Pose(3, "21/4", "170deg")) == Verdict.JOINED
+    empty = Scene([(0, 0), (1, 0), (0, 1)], [], bounds=(0, 0, 4, 4))
+    assert (
+        agrees(free_space(boundary(empty)), Pose(0, 0), Pose(4, 4, "90deg")) == Verdict.JOINED
+    )  # corners of the bounds
+
+
+def test_cost_follows_the_answer() -> None:
+    """What is far away is not trimmed: a hundred times as many obstacles."""
+    near = [[(0, 0), (1, 0), (1, 9), (0, 9)], [(3, 0), (4, 0), (4, 9), (3, 9)]]
+    far = [[(x, y), (x + 3, y), (x + 3, y + 3), (x, y + 3)] for x in range(50, 150, 5) for y in range(0, 50, 5)]
+    scene = Scene([(0, 0), (1, 0), (0, 1)], near + far)
+    found = connected(scene, Pose("3/2", 4), Pose(20, 4))
+    assert found.verdict == Verdict.JOINED
+    assert found._around._core.trimmed_patches < 0.05 * MotionChecker(scene).features.patches
+
+
+def test_answers_are_those_of_a_built_space() -> None:
+    for name in ("nest_swim", "benchmr_parking1", "flat"):
+        scene = load_scene(ROOT / f"examples/scenes/{name}.json")
+        fresh = plan(scene, improve=0)
+        built = plan(free_space(boundary(scene)), scene.start, scene.goal, improve=0)
+        assert type(fresh) is type(built)
+        assert cfree.verify.answer(scene, fresh).verified
