@@ -8,7 +8,7 @@ TESTED := .venv/tested
 INSTALL := $(BIN)/pip install -q --disable-pip-version-check
 # With tools of .venv and objects that stay: what is installed again later compiles only what has changed.
 TOOLS := scikit-build-core nanobind boost-headers cmake ninja
-HERE := --no-build-isolation -C build-dir='build/{wheel_tag}' -e
+HERE := --no-build-isolation --config-settings=build-dir='build/{wheel_tag}' -e
 
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
@@ -41,7 +41,7 @@ sanitize: $(TESTED) ctest-sanitize  ## tests in Python under them, with an exten
 	$(BIN)/python -c "import sysconfig; print(sysconfig.get_path('purelib'))" \
 	  > $$(build/sanitize/bin/python -c "import sysconfig; print(sysconfig.get_path('purelib'))")/installed.pth
 	build/sanitize/bin/pip install -q --disable-pip-version-check --no-deps --force-reinstall \
-	  -C build-dir=build/sanitize-core -C cmake.define.CFREE_SANITIZE=ON .
+	  --config-settings=build-dir=build/sanitize-core --config-settings=cmake.define.CFREE_SANITIZE=ON .
 	LD_PRELOAD="$$($(CXX) -print-file-name=libasan.so) $$($(CXX) -print-file-name=libstdc++.so)" ASAN_OPTIONS=detect_leaks=0 \
 	  build/sanitize/bin/python -m pytest -n 2 $(SANITIZED)
 
@@ -71,7 +71,7 @@ docs: .venv/documented  ## the documentation as pages, into docs/_build/html
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
 	$(INSTALL) $(TOOLS)
-	$(INSTALL) --no-build-isolation -C editable.rebuild=true -C editable.verbose=false -C build-dir=build/dev -e '.[test]'
+	$(INSTALL) --no-build-isolation --config-settings=editable.rebuild=true --config-settings=editable.verbose=false --config-settings=build-dir=build/dev -e '.[test]'
 	touch $(INSTALLED) $(TESTED)
 
 stub: $(TESTED)  ## after a change of the binding
