@@ -18,6 +18,22 @@ using Ends = std::array<Vec<double>, 2>;
 
 double apart(const Vec<double>& p, const Vec<double>& q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
+// What is to be explored next: what is nearest, on the way to a target if there is one.
+struct Growth {
+    struct Item {
+        double cost, way;
+        Index trapezoid;
+        bool operator>(const Item& o) const { return cost > o.cost || (cost == o.cost && trapezoid > o.trapezoid); }
+    };
+    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
+    enum class Seen : char { no, queued, explored };
+    std::vector<Seen> seen;
+    Index target = -1;
+    Vec<double> goal{};
+    Index explored = 0, glued = 0;  // how many, and how many when they were glued last
+    bool has(Index k) const { return k >= 0 && k < static_cast<Index>(seen.size()) && seen[k] == Seen::explored; }
+};
+
 }  // namespace
 
 struct SurfaceExplorer::State {
@@ -32,7 +48,6 @@ struct SurfaceExplorer::State {
     void trim(Index patch);
     void trim(std::vector<Index>& patches);
     void explore(Index k);
-    struct Growth;
     Growth& growth(Index seed);
     void look_at(Growth& of, Index k, double way) const;
     GluedPart glued(Growth& of, Index seed, Index target);
@@ -169,32 +184,16 @@ Vec<double> SurfaceExplorer::State::middle(Index k) const {
     return {0.5 * (p[0].x + p[1].x), 0.5 * (p[0].y + p[1].y)};
 }
 
-// What is to be explored next: what is nearest, on the way to a target if there is one.
-struct SurfaceExplorer::State::Growth {
-    struct Item {
-        double cost, way;
-        Index trapezoid;
-        bool operator>(const Item& o) const { return cost > o.cost || (cost == o.cost && trapezoid > o.trapezoid); }
-    };
-    std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
-    enum class State : char { unseen, seen, explored };
-    std::vector<State> state;
-    Index target = -1;
-    Vec<double> goal{};
-    Index explored = 0, glued = 0;  // how many, and how many when they were glued last
-    bool has(Index k) const { return k >= 0 && k < static_cast<Index>(state.size()) && state[k] == State::explored; }
-};
-
-SurfaceExplorer::State::Growth& SurfaceExplorer::State::growth(Index seed) {
+Growth& SurfaceExplorer::State::growth(Index seed) {
     const auto [found, is_new] = growing.try_emplace(seed);
     if (is_new) look_at(found->second, seed, 0);
     return found->second;
 }
 
 void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
-    g.state.resize(rows.size());
-    if (g.state[k] != Growth::State::unseen) return;
-    g.state[k] = Growth::State::seen;
+    g.seen.resize(rows.size());
+    if (g.seen[k] != Growth::Seen::no) return;
+    g.seen[k] = Growth::Seen::queued;
     constexpr double haste = 2;  // a way as short as possible is not asked for
     g.queue.push({g.target < 0 ? way : way + haste * apart(middle(k), g.goal), way, k});
 }
@@ -204,8 +203,8 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     g.glued = g.explored;
     GluedPart part = glue_part(boundary(rows), whole, {seed}, target);
     for (const Index k : part.missing) {
-        g.state.resize(rows.size());
-        g.state[k] = Growth::State::unseen;
+        g.seen.resize(rows.size());
+        g.seen[k] = Growth::Seen::no;
         look_at(g, k, 0);
     }
     return part;
@@ -241,7 +240,7 @@ std::size_t SurfaceExplorer::trimmed_patches() const {
 
 SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index target) {
     State& s = *state;
-    State::Growth& g = s.growth(seed);
+    Growth& g = s.growth(seed);
     if (g.target < 0 && target >= 0) g.target = target, g.goal = s.middle(target);
     for (;;) {
         heed_stop();
@@ -252,7 +251,7 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
         if (!s.whole[k] && most-- == 0) return {};
         g.queue.pop();
         if (!s.whole[k]) s.explore(k);
-        g.state[k] = State::Growth::State::explored, ++g.explored;
+        g.seen[k] = Growth::Seen::explored, ++g.explored;
         const Vec<double> here = s.middle(k);
         for (const Index next : s.beside[k])
             s.look_at(g, next, way + (g.target < 0 ? 1 : apart(here, s.middle(next))));
