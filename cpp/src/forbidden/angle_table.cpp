@@ -99,7 +99,7 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector
 Sample AngleTable::between(Index first, Index second, int chart) const {
     if (hi(first, chart) < lo(second, chart)) return Predicates::within(hi(first, chart), lo(second, chart));
     RealRoot p = critical(first, chart).exact(scene), q = critical(second, chart).exact(scene);
-    while (compare(p.hi, q.lo) >= 0) p.narrow(), q.narrow();
+    while (compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
     const Dyadic at = Dyadic::middle(p.hi, q.lo);
     return {at.rounded_down(), at};
 }

@@ -319,7 +319,7 @@ Sample Predicates::between(const Event& x, const Event& y, int attempt) {
             return {{Dyadic::from((*p)[1]), Dyadic::from((*q)[0])}};
         } else {
             RealRoot p = root_of(x), q = root_of(y);
-            while (cfree::compare(p.hi, q.lo) >= 0) p.narrow(), q.narrow();
+            while (cfree::compare(p.hi, q.lo) >= 0) p.halve(), q.halve();
             return {{p.hi, q.lo}};
         }
     });
