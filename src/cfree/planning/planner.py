@@ -288,7 +288,7 @@ class Planner(Value):
         """Poses of a path, or a proof; the way back is the same."""
         ends = sorted((start, goal), key=lambda q: (q.x, q.y, q.tau is None, q.tau or 0))
         first, last = ends
-        with self.phase("search"):
+        with self.phase("simple ways"):
             poses = self.checker.first_free(simple_ways(first, last)) if first != last else None
             if poses is None:  # a motion that is free has free ends
                 for pose, name in ((start, "start"), (goal, "goal")):
