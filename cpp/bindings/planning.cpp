@@ -13,7 +13,7 @@
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using cfree::BoundaryWalker, cfree::Connecting, cfree::Connection, cfree::Feature, cfree::Surroundings, cfree::RationalPose, cfree::Way;
+using cfree::BoundaryWalker, cfree::Connecting, cfree::Connection, cfree::Feature, cfree::Surroundings, cfree::RationalPose, cfree::Poses;
 
 using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
 
@@ -24,7 +24,7 @@ static RationalPose pose(const std::array<nb::int_, 6>& n) {
 static PoseTuple tuple_of(const RationalPose& q) {
     return {integer(q.x.n), integer(q.x.d), integer(q.y.n), integer(q.y.d), integer(q.half.q), integer(q.half.p)};
 }
-static std::vector<PoseTuple> list_of(const Way& way) {
+static std::vector<PoseTuple> list_of(const Poses& way) {
     std::vector<PoseTuple> poses;
     for (const auto& q : way) poses.push_back(tuple_of(q));
     return poses;
@@ -68,8 +68,8 @@ static std::vector<PoseTuple> walk(const BoundaryWalker& walker, const End& star
 }
 
 // A face, and whether its last angle is meant or its first.
-using Wall = std::pair<int, bool>;
-static std::optional<std::vector<PoseTuple>> turn(const BoundaryWalker& walker, const Wall& from, const Wall& to, int attempts) {
+using EndOfFace = std::pair<int, bool>;
+static std::optional<std::vector<PoseTuple>> turn(const BoundaryWalker& walker, const EndOfFace& from, const EndOfFace& to, int attempts) {
     const auto found = watched([&] { return walker.turn({from.first, from.second}, {to.first, to.second}, attempts); });
     if (!found) return {};
     return list_of(*found);

@@ -43,7 +43,7 @@ static void walks_are_free_and_lead_to_their_goal() {
     for (const auto& [start, goal] : {std::pair{left, right}, {right, left}, {beyond, behind}}) {
         const Index cell = rooms.space->locate(start.exact(*rooms.scene));
         CHECK(cell >= 0 && cell == rooms.space->locate(goal.exact(*rooms.scene)));
-        const Way way = rooms.walker.walk(end_of(start), end_of(goal), cell, none);
+        const Poses way = rooms.walker.walk(end_of(start), end_of(goal), cell, none);
         CHECK(way.front() == start && way.back() == goal && way.size() > 2);
         for (std::size_t k = 1; k < way.size(); ++k)
             CHECK(rooms.checker->is_free(

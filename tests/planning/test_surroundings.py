@@ -13,7 +13,6 @@ import pytest
 import cfree
 from cfree import Boundary, FreeSpace, MotionChecker, Pose, Scene, boundary, free_space, load_scene, plan
 from cfree._core import Verdict
-from cfree.planning.separation import STEP
 from cfree.planning.surroundings import Connecting, Surroundings
 from cfree.scene.scene import robot_radius
 from questions import random_question
@@ -25,9 +24,7 @@ ROOT = Path(__file__).parents[2]
 
 def connected(scene: Scene, start: Pose, goal: Pose) -> Connecting:
     found = Surroundings(scene, MotionChecker(scene)).connecting(start, goal)
-    most = STEP
-    while not found.run(most):
-        most *= 2
+    found.decide()
     return found
 
 

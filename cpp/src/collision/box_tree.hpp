@@ -1,6 +1,7 @@
 // What is near what: boxes in a tree. They are rounded outwards by whoever makes them, and decide nothing.
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct Box {
     void add(const Box& b) { add(b.x0, b.y0), add(b.x1, b.y1); }
     bool meets(const Box& b) const { return x0 <= b.x1 && b.x0 <= x1 && y0 <= b.y1 && b.y0 <= y1; }
 };
+
+// By a length, and by what its coordinates are rounded.
+inline Box grown(const Box& b, double by = 0) {
+    const double size = std::max({std::abs(b.x0), std::abs(b.x1), std::abs(b.y0), std::abs(b.y1)});
+    const double d = by + (size + by) * 0x1p-40;
+    return {b.x0 - d, b.y0 - d, b.x1 + d, b.y1 + d};
+}
 
 // A tree of boxes over items, halved at the median of the longer side.
 class BoxTree {

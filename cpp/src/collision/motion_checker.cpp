@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "collision/box_tree.hpp"
+#include "collision/shape_boxes.hpp"
 
 namespace cfree {
 
@@ -156,21 +156,6 @@ Frame<Approx, N> on(const Frame<double, N>& f, double lo, double hi) {
         return r;
     };
     return {convert(f.C), convert(f.S), convert(f.X), convert(f.Y), convert(f.W)};
-}
-
-Box grown(const Box& b) {
-    const double d = std::max({std::abs(b.x0), std::abs(b.x1), std::abs(b.y0), std::abs(b.y1)}) * 0x1p-40;
-    return {b.x0 - d, b.y0 - d, b.x1 + d, b.y1 + d};
-}
-
-std::vector<Box> piece_boxes(const Shape& s) {
-    std::vector<Box> boxes;
-    for (Index k = 0; k < s.pieces(); ++k) {
-        Box box;
-        for (Index v = s.piece[k]; v < s.piece[k + 1]; ++v) box.add(s.x[s.piece_vertex[v]], s.y[s.piece_vertex[v]]);
-        boxes.push_back(grown(box));
-    }
-    return boxes;
 }
 
 // The first root between another and 1 after which a polynomial is positive.

@@ -47,7 +47,6 @@ Moved<Int> exactly(const Motion& m) {
     return {{m.c, m.s, m.w}, {m.w * m.x, m.w * m.y}, {m.w * m.vx, m.w * m.vy}, m.unit, m.w * m.unit};
 }
 
-
 // What a number is between.
 struct Range {
     double low, high;

@@ -9,7 +9,8 @@
 #include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/forbidden/curve_hash.hpp"
 #include "cfree/predicates/junction.hpp"
-#include "collision/box_tree.hpp"
+#include "collision/shape_boxes.hpp"
+#include "forbidden/patch_trimming.hpp"
 #include "support/parallel.hpp"
 
 namespace cfree {
@@ -42,10 +43,7 @@ public:
     Finder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t)
         : scene(s), patches(p), live(l), thin(t),
           hashes(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }, 1),
-          tree(boxes()) {
-        first_patch.assign(static_cast<std::size_t>(s.obstacles.ring_vertices) + 1, 0);
-        for (const Index j : p.obstacle) ++first_patch[j + 1];
-        std::partial_sum(first_patch.begin(), first_patch.end(), first_patch.begin());
+          tree(edge_boxes(s.obstacles)), first_patch(first_patches(s, p)) {
         first_live.assign(p.kind.size() + 1, 0);
         for (const Index k : l.patch) ++first_live[k + 1];
         std::partial_sum(first_live.begin(), first_live.end(), first_live.begin());
@@ -79,24 +77,12 @@ private:
     }
 
     // Live trapezoids of patches whose obstacle feature is within twice the robot's reach of this one's.
-    std::vector<Box> boxes() const {
-        const Shape& O = scene.obstacles;
-        std::vector<Box> result(static_cast<std::size_t>(O.ring_vertices));
-        for (Index j = 0; j < O.ring_vertices; ++j)
-            result[j].add(O.x[O.v[j]], O.y[O.v[j]]), result[j].add(O.x[O.w[j]], O.y[O.w[j]]);
-        return result;
-    }
     template <class F>
     void for_each_near(Index patch, F&& report) const {
-        const Shape &A = scene.robot, &O = scene.obstacles;
-        double reach = 0, size = 0;
+        const Shape& A = scene.robot;
+        double reach = 0;
         for (std::size_t v = 0; v < A.x.size(); ++v) reach = std::max(reach, std::hypot(A.x[v], A.y[v]));
-        const Index j = patches.obstacle[patch];
-        Box box;
-        box.add(O.x[O.v[j]], O.y[O.v[j]]), box.add(O.x[O.w[j]], O.y[O.w[j]]);
-        for (const double c : {box.x0, box.y0, box.x1, box.y1}) size = std::max(size, std::abs(c));
-        const double d = 2 * reach + (size + reach) * 0x1p-40;
-        tree.query({box.x0 - d, box.y0 - d, box.x1 + d, box.y1 + d}, [&](Index near) {
+        tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach), [&](Index near) {
             for (Index p = first_patch[near]; p < first_patch[near + 1]; ++p)
                 for (Index k = first_live[p]; k < first_live[p + 1]; ++k) report(p, k);
         });

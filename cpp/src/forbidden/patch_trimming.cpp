@@ -5,16 +5,12 @@
 
 namespace cfree {
 
-namespace {
-
 std::vector<Index> first_patches(const Scene& scene, const Patches& patches) {
     std::vector<Index> first(static_cast<std::size_t>(scene.obstacles.ring_vertices) + 1, 0);
     for (const Index j : patches.obstacle) ++first[j + 1];
     std::partial_sum(first.begin(), first.end(), first.begin());
     return first;
 }
-
-}  // namespace
 
 Patches list_patches(const Scene& scene) {
     const Shape &A = scene.robot, &O = scene.obstacles;

@@ -7,13 +7,17 @@
 
 namespace cfree {
 
+// Patches of obstacle feature j, which is a ring vertex and the edge that starts there: first[j] .. first[j + 1].
+std::vector<Index> first_patches(const Scene& scene, const Patches& patches);
+
 class PatchTrimming {
 public:
     PatchTrimming(const Scene& scene, bool regularized);
 
     Patches patches;
-    // Patches of obstacle feature j, which is a ring vertex and the edge that starts there: first_patch[j] .. first_patch[j + 1].
     const std::vector<Index> first_patch;
+    // No two points of the robot are farther apart.
+    double reach() const { return neighbours.reach(); }
     Shadows shadows() const { return Shadows(scene); }
     // Pillars that may reach the patches of an obstacle feature.
     void pillars_near(Index feature, Shadows& out) const;

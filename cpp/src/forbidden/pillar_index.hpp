@@ -1,7 +1,7 @@
 // Which pillars can reach a patch. Boxes are rounded outwards: this decides nothing.
 #pragma once
 #include "cfree/predicates/predicates.hpp"
-#include "collision/box_tree.hpp"
+#include "collision/shape_boxes.hpp"
 
 namespace cfree {
 
@@ -12,13 +12,13 @@ public:
     // Obstacle pieces near the obstacle edge or vertex j, nearest first.
     void near(Index j, std::vector<Index>& out) const;
     // No two points of the robot are farther apart.
-    double reach() const { return diagonal; }
+    double reach() const { return robot_diagonal; }
 
 private:
     const Scene& scene;
     std::vector<Box> boxes;  // of obstacle pieces
     BoxTree tree;
-    double diagonal;  // of the robot's box
+    double robot_diagonal;
 };
 
 }  // namespace cfree

@@ -13,12 +13,6 @@ namespace {
 constexpr double value_error = 128 * 0x1p-53;
 bool may_vanish(const Approx& x, double more = 0) { return !(std::abs(x.v) > (value_error + more) * x.m + 0x1p-1000); }
 
-std::vector<Box> edge_boxes(const Shape& s) {
-    std::vector<Box> result(static_cast<std::size_t>(s.ring_vertices));
-    for (Index e = 0; e < s.ring_vertices; ++e) result[e].add(s.x[s.v[e]], s.y[s.v[e]]), result[e].add(s.x[s.w[e]], s.y[s.w[e]]);
-    return result;
-}
-
 }  // namespace
 
 TouchingPatches::TouchingPatches(const Scene& g, const PatchTrimming& patches)
@@ -29,12 +23,7 @@ TouchingPatches::TouchingPatches(const Scene& g, const PatchTrimming& patches)
         if (A.convex[i]) layers[A.layer[i]].vertices.push_back(i);
         if (A.has_extent(i)) layers[A.layer[i]].edges.push_back(i);
     }
-    Box robot;
-    for (std::size_t v = 0; v < A.x.size(); ++v) {
-        robot.add(A.x[v], A.y[v]);
-        size = std::max(size, std::hypot(A.x[v], A.y[v]));
-    }
-    reach = std::hypot(robot.x1 - robot.x0, robot.y1 - robot.y0);
+    for (std::size_t v = 0; v < A.x.size(); ++v) size = std::max(size, std::hypot(A.x[v], A.y[v]));
 }
 
 struct TouchingPatches::Turned {
@@ -71,16 +60,8 @@ Index TouchingPatches::obstacle_vertex(const Feature& contact) const {
 
 const std::vector<Index>& TouchingPatches::near(Index feature) {
     if (feature == near_to) return recent;
-    const Shape& O = scene.obstacles;
-    Box box;
-    double most = reach;
-    for (const Index v : {O.v[feature], O.w[feature]}) {
-        box.add(O.x[v], O.y[v]);
-        most = std::max({most, std::abs(O.x[v]), std::abs(O.y[v])});
-    }
-    const double d = reach + most * 0x1p-40;
     recent.clear(), near_to = feature;
-    obstacle_edges.query({box.x0 - d, box.y0 - d, box.x1 + d, box.y1 + d}, [&](Index j) {
+    obstacle_edges.query(grown(edge_box(scene.obstacles, feature), one.reach()), [&](Index j) {
         if (one.first_patch[j] < one.first_patch[j + 1]) recent.push_back(j);
     });
     return recent;

@@ -32,8 +32,7 @@ private:
     const PatchTrimming& one;
     const BoxTree obstacle_edges;  // of their rings
     std::array<Layer, 2> layers;
-    double reach;         // no two points of the robot are farther apart
-    double size = 0;      // none is farther from its origin
+    double size = 0;  // no point of the robot is farther from its origin
     Index near_to = -1;
     std::vector<Index> recent;                      // features near that one
     std::vector<Vec<Approx>> vertices, edges;       // of the robot, turned

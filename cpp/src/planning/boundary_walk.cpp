@@ -27,7 +27,7 @@ Ratio nearer(const Ratio& tau, const Ratio& end, int halvings) {
     return simple_middle(std::min(from, end), std::max(from, end));
 }
 
-void append(Way& way, const Way& more, std::size_t from) {
+void append(Poses& way, const Poses& more, std::size_t from) {
     way.insert(way.end(), more.begin() + static_cast<std::ptrdiff_t>(from), more.end());
 }
 
@@ -43,7 +43,7 @@ public:
     Run(const BoundaryWalker& on, const Slides& slides)
         : walker(on), motions(*on.space->boundary->scene, *on.checker, slides), landings(*on.space, on.extent, motions) {}
 
-    Way from(const End& start, const End& goal, Index cell) const {
+    Poses from(const End& start, const End& goal, Index cell) const {
         const auto first = landings.of(start.pose, cell), last = landings.of(goal.pose, cell);
         const auto links = walker.links(landings, cell);
         std::vector<const Landing*> ends;
@@ -57,18 +57,18 @@ public:
         const auto on = [](const std::vector<Landing>& all, Index face) {
             return &*std::find_if(all.begin(), all.end(), [&](const Landing& x) { return x.face == face; });
         };
-        Way way{start.pose};
+        Poses way{start.pose};
         follow(steps, ends, on(first, steps.front().face), on(last, steps.back().face), way);
         way.push_back(goal.pose);
         way.erase(std::unique(way.begin(), way.end()), way.end());
         return way;
     }
 
-    std::optional<Way> turn(const Wall& from, const Wall& to, int attempts) const {
+    std::optional<Poses> turn(const EndOfFace& from, const EndOfFace& to, int attempts) const {
         Sheet f = landings.sheet(from.face), g = landings.sheet(to.face);
         const auto found = across(f, from.is_last, g, to.is_last, simple_middle(f.low, f.high), attempts);
         if (!found) return {};
-        Way way{found->first.on, found->first.off};
+        Poses way{found->first.on, found->first.off};
         append(way, found->way, 0);
         way.push_back(found->last.on);
         return way;
@@ -83,7 +83,7 @@ private:
     // From beside the middle of one sheet to the same on another, without the first pose.
     struct Crossing {
         Station first;
-        Way way;
+        Poses way;
         Station last;
     };
     // Over the last or the first angles of two sheets, from an orientation on the first.
@@ -117,7 +117,7 @@ private:
     }
 
     // From off the middle at one orientation to the same at another; without the first pose.
-    void along(const Sheet& f, const Station& first, const Station& last, Way& way) const {
+    void along(const Sheet& f, const Station& first, const Station& last, Poses& way) const {
         struct Part {
             Station end;
             int depth;
@@ -145,18 +145,18 @@ private:
     }
 
     // The same by a slide: always on the trapezoid.
-    std::optional<Way> along_curve(const Sheet& f, const Station& p, const Station& to) const {
+    std::optional<Poses> along_curve(const Sheet& f, const Station& p, const Station& to) const {
         const auto [p_low, p_high] = f.limits(p.tau);
         const auto [to_low, to_high] = f.limits(to.tau);
         for (const std::size_t side : {0u, 1u}) {
             const RationalPose on = f.pose(side ? p_high : p_low, p.tau), last = f.pose(side ? to_high : to_low, to.tau);
-            if (motions.along_curve(on, last, f, side)) return Way{p.off, p.on, on, last, to.on, to.off};
+            if (motions.along_curve(on, last, f, side)) return Poses{p.off, p.on, on, last, to.on, to.off};
         }
         return {};
     }
 
     // From beside the middle of one sheet to the same on the other, over their common curve; without the first pose.
-    void over_curve(const Sheet& f, const Station& p, const Sheet& g, const Station& q, bool upper, Way& way) const {
+    void over_curve(const Sheet& f, const Station& p, const Sheet& g, const Station& q, bool upper, Poses& way) const {
         const auto [low, high] = f.limits(p.tau);
         const RationalPose corner = f.pose(upper ? high : low, p.tau);
         const auto found = motions.first_free({{p.off, q.off}, {p.off, p.on, corner, q.on, q.off}});
@@ -166,7 +166,7 @@ private:
 
     // From one landing to another, both ways included.
     void follow(const std::vector<FaceGraph::Step>& steps, const std::vector<const Landing*>& ends, const Landing* first,
-                const Landing* last, Way& way) const {
+                const Landing* last, Poses& way) const {
         const auto base = static_cast<Index>(walker.cells->face.size());
         const Landing* entered = first;  // none: over a side, and now off the middle
         std::optional<Station> at;
@@ -197,7 +197,7 @@ private:
     }
 
     // Along a sheet and over a side of it to the next.
-    Station over(Sheet& f, const Station& from, Index h, Index next, Way& way) const {
+    Station over(Sheet& f, const Station& from, Index h, Index next, Poses& way) const {
         Sheet g = landings.sheet(next);
         const auto side = static_cast<Side>(walker.cells->side[h]);
         if (side == Side::lower || side == Side::upper) {
@@ -235,13 +235,13 @@ std::shared_ptr<const std::vector<Link>> BoundaryWalker::links(const Landings& l
     return known.emplace(cell, std::move(found)).first->second;
 }
 
-Way BoundaryWalker::walk(const End& start, const End& goal, Index cell, const Slides& slides) const {
+Poses BoundaryWalker::walk(const End& start, const End& goal, Index cell, const Slides& slides) const {
     if (space->surfaces.component.empty())
         return {start.pose, {start.pose.x, start.pose.y, goal.pose.half}, goal.pose};
     return Run(*this, slides).from(start, goal, cell);
 }
 
-std::optional<Way> BoundaryWalker::turn(const Wall& from, const Wall& to, int attempts) const {
+std::optional<Poses> BoundaryWalker::turn(const EndOfFace& from, const EndOfFace& to, int attempts) const {
     const Slides none;
     return Run(*this, none).turn(from, to, attempts);
 }

@@ -7,11 +7,6 @@ namespace cfree {
 
 namespace {
 
-RationalPose rational(const ExactPose& q, const Scene& scene) {
-    const Int unit = q.W * scene.scale;
-    return {reduced(q.X, unit), reduced(q.Y, unit), HalfAngle::of(q.chart, reduced(q.p, q.r))};
-}
-
 // A surface, or a part of it, as the boundary of one cell.
 std::shared_ptr<const FreeSpace> cell_of(const CellComplex& surface) {
     std::vector<Index> one(surface.component.size(), 0);
@@ -20,13 +15,13 @@ std::shared_ptr<const FreeSpace> cell_of(const CellComplex& surface) {
 
 }  // namespace
 
-Way connecting_way(const Surroundings& around, const Connection& joined, double angle_scale, const Slides& slides) {
+Poses connecting_way(const Surroundings& around, const Connection& joined, double angle_scale, const Slides& slides) {
     const Scene& scene = *around.scene;
-    const RationalPose first = rational(joined.near_start, scene), last = rational(joined.near_goal, scene);
-    Way way{joined.start, first};
-    const auto far_away = [&] {
+    const auto first = RationalPose::of(joined.near_start, scene), last = RationalPose::of(joined.near_goal, scene);
+    Poses way{joined.start, first};
+    const auto go_far = [&] {
         RationalPose left = way.back();
-        left.x = rational({around.far_left(), 0, 1, 0, 0, 1}, scene).x;
+        left.x = reduced(around.far_left(), scene.scale);
         way.push_back(left);
         left.half = last.half;
         way.push_back(left);
@@ -34,13 +29,13 @@ Way connecting_way(const Surroundings& around, const Connection& joined, double 
         way.push_back(left);
     };
     for (std::size_t k = 0; k <= joined.stretches.size(); ++k) {
-        if (joined.is_far && k == joined.before) far_away();
+        if (joined.is_far && k == joined.before) go_far();
         if (k == joined.stretches.size()) break;
         const auto& [surface, enter, leave] = joined.stretches[k];
         const auto space = cell_of(*surface);
         const BoundaryWalker walker(space, surface, around.checker, angle_scale);
-        const RationalPose from = rational(enter, scene), to = rational(leave, scene);
-        const Way along = walker.walk({from, from.place()}, {to, to.place()}, space->cell_of[0], slides);
+        const auto from = RationalPose::of(enter, scene), to = RationalPose::of(leave, scene);
+        const Poses along = walker.walk({from, from.place()}, {to, to.place()}, space->cell_of[0], slides);
         way.insert(way.end(), along.begin(), along.end());
     }
     way.insert(way.end(), {last, joined.goal});

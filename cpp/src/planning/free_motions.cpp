@@ -5,7 +5,7 @@
 
 namespace cfree {
 
-bool FreeMotions::join(const Way& way) const {
+bool FreeMotions::join(const Poses& way) const {
     for (std::size_t k = 1; k < way.size(); ++k) {
         heed_stop();
         if (!checker.is_free(motion_between(way[k - 1].configuration(scene), way[k].configuration(scene)))) return false;
@@ -13,8 +13,8 @@ bool FreeMotions::join(const Way& way) const {
     return true;
 }
 
-std::optional<Way> FreeMotions::first_free(std::initializer_list<Way> ways) const {
-    for (const Way& way : ways)
+std::optional<Poses> FreeMotions::first_free(std::initializer_list<Poses> ways) const {
+    for (const Poses& way : ways)
         if (join(way)) return way;
     return {};
 }

@@ -77,14 +77,14 @@ std::vector<Landing> Landings::departures(const RationalPose& pose, Index cell) 
 
 // From a pose on a trapezoid, which begins (-1) or ends (1) at its orientation or does not, to one within: a rotation about the
 // point of contact leads there, or where it has no width a motion along one of its curves.
-Way Landings::inwards(const Sheet& sheet, const RationalPose& pose, int end) const {
+Poses Landings::inwards(const Sheet& sheet, const RationalPose& pose, int end) const {
     if (end == 0) return {pose};
     const Ratio tau = pose.half.tau_in(sheet.chart);
     const auto [lower, upper] = sheet.limits(tau);
     Ratio t = sheet.t_of(pose, tau);
     if (lower < upper && !(lower < t && t < upper)) t = simple_middle(lower, upper);
     const RationalPose begin = sheet.pose(t, tau);
-    Way way{pose};
+    Poses way{pose};
     if (begin != pose) way.push_back(begin);
     const bool is_wide = lower < upper;
     const auto turned = [&](const Ratio& to) -> std::optional<RationalPose> {

@@ -28,6 +28,11 @@ double HalfAngle::theta() const {
     return positive < 2 * pi ? positive : 0;
 }
 
+RationalPose RationalPose::of(const ExactPose& q, const Scene& scene) {
+    const Int unit = q.W * scene.scale;
+    return {reduced(q.X, unit), reduced(q.Y, unit), HalfAngle::of(q.chart, reduced(q.p, q.r))};
+}
+
 ExactPose RationalPose::exact(const Scene& scene) const {
     const Int unit = x.d == y.d ? x.d : lcm(x.d, y.d);
     const Ratio tau = half.tau();

@@ -15,7 +15,7 @@ namespace {
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
 constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
 constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
-constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii;                           // times the narrowest place
+constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
 constexpr double worth_of_motion = 0.1;                    // in radii
 constexpr double not_much = 1.08;                          // longer
 constexpr std::size_t most_nodes = 40;                     // joined each with each
@@ -46,7 +46,7 @@ Marked pruned(const Way& way, const Marked& path) {
 }
 
 // The shortest path over some poses of another and others near them that are turned as the start or the goal.
-Marked shortest(const Way& way, const Marked& path, std::size_t most_nodes) {
+Marked shortest(const Way& way, const Marked& path, std::size_t most) {
     const Route& route = path.route;
     struct Node {
         Configuration pose;
@@ -54,7 +54,7 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most_nodes) {
         bool own;
     };
     std::vector<Node> nodes;
-    const std::size_t stride = (route.size() + most_nodes - 1) / most_nodes;
+    const std::size_t stride = (route.size() + most - 1) / most;
     const auto turned = [&](std::size_t k, const Configuration& as) {
         if (k == 0 || k + 1 == route.size() || route[k].theta == as.theta) return;
         const double enough = way.distances[k];
@@ -115,7 +115,7 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks,
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
     const double radius = way.weight, end = at.back();
-    std::size_t narrow = 0;
+    std::size_t narrowest = 0;
     double least = HUGE_VAL;
     const auto is_new = [&](std::size_t k) {
         return at[k] > radius && at[k] < end - radius && std::none_of(tried.begin(), tried.end(), [&](const Configuration& q) {
@@ -123,13 +123,13 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks,
         });
     };
     for (std::size_t k = 0; k < at.size(); ++k)
-        if (top.distance[k] < least && is_new(k)) least = top.distance[k], narrow = k;
+        if (top.distance[k] < least && is_new(k)) least = top.distance[k], narrowest = k;
     if (least == HUGE_VAL) return false;
-    tried.push_back(route[narrow]);
+    tried.push_back(route[narrowest]);
     const double asked = wider * least;
-    std::size_t i = narrow, j = narrow;
-    while (i > 0 && (at[narrow] - at[i] < radius || top.distance[i] < asked)) --i;
-    while (j + 1 < at.size() && (at[j] - at[narrow] < radius || top.distance[j] < asked)) ++j;
+    std::size_t i = narrowest, j = narrowest;
+    while (i > 0 && (at[narrowest] - at[i] < radius || top.distance[i] < asked)) --i;
+    while (j + 1 < at.size() && (at[j] - at[narrowest] < radius || top.distance[j] < asked)) ++j;
     if (top.distance[i] < asked || top.distance[j] < asked) return true;
     Area area{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (std::size_t k = i; k <= j; ++k) {

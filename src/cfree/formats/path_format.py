@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, PrivateAttr, model_validator
 
@@ -30,9 +30,6 @@ from cfree.formats.scene_format import (
 from cfree.formats.scene_values import Fault, list_of
 from cfree.paths.path import Path
 from cfree.scene.digest import Stamp
-
-if TYPE_CHECKING:
-    pass
 
 
 def _turning(value: Any) -> Any:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -13,13 +11,12 @@ from cfree.collision.slide import Slide
 from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.free.space import surfaces_with_slits
-from cfree.planning.curve_motions import CurveMotions
+from cfree.planning.curve_motions import CurveMotions, Numbers, from_numbers, numbers_of
 from cfree.planning.exact_face import Sheet
 
 if TYPE_CHECKING:
     from cfree.free.space import FreeSpace
 
-Numbers = tuple[int, int, int, int, int, int]  # x and y as quotients, and the direction of half the angle
 LAST = 2  # the side of a trapezoid at its last angle
 
 
@@ -64,7 +61,7 @@ class Walker:
             If none is found, a fault of cfree.
         """
         try:
-            return [*map(from_numbers, self._core.walk(_end(start), _end(goal), cell, self._slide))]
+            return [*map(from_numbers, self._core.walk(_end(start), _end(goal), cell, self.curves.slid_by_numbers))]
         except RuntimeError as error:
             raise InvariantError(str(error), state=(start, goal)) from error
 
@@ -75,22 +72,6 @@ class Walker:
         found = self._core.turn(first, last, attempts)
         return [*map(from_numbers, found)] if found else None
 
-    def _slide(self, pose: Numbers, goal: Numbers, contact: Sequence[int], curve: int) -> bool:
-        kind, i, j = contact
-        return self.curves.slid(from_numbers(pose), from_numbers(goal), (kind, i, j), curve)
-
 
 def _end(pose: Pose) -> tuple[Numbers, tuple[float, float, float]]:
     return numbers_of(pose), (float(pose.x), float(pose.y), pose.theta)
-
-
-def numbers_of(pose: Pose) -> Numbers:
-    """A pose as the core takes it."""
-    q, p = (0, 1) if pose.tau is None else (pose.tau.denominator, pose.tau.numerator)
-    return pose.x.numerator, pose.x.denominator, pose.y.numerator, pose.y.denominator, q, p
-
-
-def from_numbers(numbers: Sequence[int]) -> Pose:
-    """A pose as the core gives it."""
-    a, b, c, d, q, p = numbers
-    return Pose(Fraction(a, b), Fraction(c, d), {"tau": Fraction(p, q) if q else None})

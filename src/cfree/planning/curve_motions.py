@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from cfree.contact.kind import Kind
@@ -13,6 +15,8 @@ from cfree.scene.features import unpacked
 if TYPE_CHECKING:
     from cfree.collision.motion_checker import MotionChecker
     from cfree.collision.slide import Slide
+
+Numbers = tuple[int, int, int, int, int, int]  # x and y as quotients, and the direction of half the angle
 
 
 class CurveMotions:
@@ -42,8 +46,25 @@ class CurveMotions:
                 return True
         return False
 
+    def slid_by_numbers(self, pose: Sequence[int], goal: Sequence[int], contact: Sequence[int], code: int) -> bool:
+        """The same, as the core asks it."""
+        kind, i, j = contact
+        return self.slid(from_numbers(pose), from_numbers(goal), (kind, i, j), code)
+
     def along(self, pose: Pose, goal: Pose, sheet: Sheet, code: int) -> bool:
         """Is there one free motion to another pose on the same curve of a sheet?"""
         if int(unpacked(code)[0]) == Kind.VERTEX_VERTEX:
             return self.checker.joins([pose, goal])
         return self.slid(pose, goal, sheet.contact, code)
+
+
+def numbers_of(pose: Pose) -> Numbers:
+    """A pose as the core takes it."""
+    q, p = (0, 1) if pose.tau is None else (pose.tau.denominator, pose.tau.numerator)
+    return pose.x.numerator, pose.x.denominator, pose.y.numerator, pose.y.denominator, q, p
+
+
+def from_numbers(numbers: Sequence[int]) -> Pose:
+    """A pose as the core gives it."""
+    a, b, c, d, q, p = numbers
+    return Pose(Fraction(a, b), Fraction(c, d), {"tau": Fraction(p, q) if q else None})

@@ -32,8 +32,8 @@ from cfree.paths.path import Objective, Path
 from cfree.planning.goals import AllSeparated, plan_any, to_goals
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
-from cfree.planning.separation import STEP, Insets, Separated, inset_powers, separation
-from cfree.planning.surroundings import Surroundings
+from cfree.planning.separation import Insets, Separated, inset_powers, separation
+from cfree.planning.surroundings import STEP, Surroundings
 from cfree.scene.coordinate_range import LARGEST
 from cfree.scene.scene import Scene, required, robot_radius
 from cfree.value import Value

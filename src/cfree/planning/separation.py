@@ -38,7 +38,6 @@ if TYPE_CHECKING:
     from cfree.scene.features import SceneFeatures
 
 
-STEP = 64  # trapezoids around each of two poses; then twice as many each time
 FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 
 
@@ -199,11 +198,8 @@ class Insets:
         around = self._surroundings(power)
         if around is None:
             return None
-        found, most = around.connecting(start, goal), STEP
-        while not found.run(most):
-            most *= 2
-        pieces = None
-        if found.verdict == _core.Verdict.APART:
+        found, pieces = around.connecting(start, goal), None
+        if found.decide() == _core.Verdict.APART:
             surface = found.surface
             pieces = Pieces.of(surface, np.arange(len(surface.trapezoids), dtype=np.int32))
         elif found.verdict == _core.Verdict.UNCLEAR:

@@ -5,8 +5,6 @@ docs/theory/one-surface.md tells how. What is unclear here the whole free space 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import cfree._core as _core
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.slide import Slide
@@ -14,9 +12,10 @@ from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.record import Stats
-from cfree.planning.boundary_walk import from_numbers, numbers_of
-from cfree.planning.curve_motions import CurveMotions
+from cfree.planning.curve_motions import CurveMotions, from_numbers, numbers_of
 from cfree.scene.scene import Scene
+
+STEP = 64  # trapezoids around each of two poses; then twice as many each time
 
 
 class Surroundings:
@@ -60,16 +59,18 @@ class Connecting:
             raise InvariantError(str(error), state=self._ends) from error
         return self.verdict != _core.Verdict.OPEN
 
+    def decide(self) -> _core.Verdict:
+        """Go on to the end."""
+        most = STEP
+        while not self.run(most):
+            most *= 2
+        return self.verdict
+
     def way(self, angle_scale: float, slides: dict[tuple[Pose, Pose], Slide]) -> list[Pose] | None:
         """Poses from the start to the goal, the motions between them free; None if none are found on the surfaces."""
         curves = CurveMotions(self._around.checker, slides)
-
-        def slid(pose: Sequence[int], goal: Sequence[int], contact: Sequence[int], curve: int) -> bool:
-            kind, i, j = contact
-            return curves.slid(from_numbers(pose), from_numbers(goal), (kind, i, j), curve)
-
         try:
-            return [*map(from_numbers, self._core.way(angle_scale, slid))]
+            return [*map(from_numbers, self._core.way(angle_scale, curves.slid_by_numbers))]
         except RuntimeError:
             return None
 

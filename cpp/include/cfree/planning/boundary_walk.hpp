@@ -23,15 +23,15 @@ public:
         RationalPose pose;
         Place place;
     };
-    Way walk(const End& start, const End& goal, Index cell, const Slides& slides) const;
+    Poses walk(const End& start, const End& goal, Index cell, const Slides& slides) const;
 
     // From the middle of one face to the middle of another, over their last or first angles, nearer and nearer to these. Nothing if
     // none was found.
-    struct Wall {
+    struct EndOfFace {
         Index face;
         bool is_last;
     };
-    std::optional<Way> turn(const Wall& from, const Wall& to, int attempts) const;
+    std::optional<Poses> turn(const EndOfFace& from, const EndOfFace& to, int attempts) const;
 
 private:
     class Run;

@@ -6,19 +6,19 @@
 
 namespace cfree {
 
-using Way = std::vector<RationalPose>;
+using Poses = std::vector<RationalPose>;
 
 // Whether a slide along a contact's surface and a curve on it leads from one pose freely to another.
 using Slides = std::function<bool(const RationalPose& from, const RationalPose& to, const Feature& contact, std::uint64_t curve)>;
 
 class FreeMotions {
 public:
-    // Both are referred to.
+    // All three are referred to.
     FreeMotions(const Scene& of, const MotionChecker& by, const Slides& along) : scene(of), checker(by), slides(along) {}
 
     // Whether the one motion from each pose to the next is free.
-    bool join(const Way& way) const;
-    std::optional<Way> first_free(std::initializer_list<Way> ways) const;
+    bool join(const Poses& way) const;
+    std::optional<Poses> first_free(std::initializer_list<Poses> ways) const;
     // Whether there is one free motion to another pose on the same curve of a sheet.
     bool along_curve(const RationalPose& from, const RationalPose& to, const Sheet& sheet, std::size_t side) const;
     // A share of the vector, at most 1, as far as a translation is free; nothing if all of it is.

@@ -12,7 +12,7 @@ namespace cfree {
 // A free way to a pose on a face, strictly between its first and last orientation, or far away.
 struct Landing {
     Index face;
-    Way way;
+    Poses way;
     const RationalPose& pose() const { return way.back(); }
     Mark mark() const { return {face, pose().place()}; }
 };
@@ -48,7 +48,7 @@ private:
     std::vector<Landing> straight(const RationalPose& pose, int x, int y, Index cell) const;
     void link(Index widest, Index cell, std::vector<Link>& found) const;
     std::optional<Ratio> crossing(Index face, const RationalPose& pose) const;
-    Way inwards(const Sheet& sheet, const RationalPose& pose, int end) const;
+    Poses inwards(const Sheet& sheet, const RationalPose& pose, int end) const;
 
     const FreeSpace& space;
     const Extent& extent;

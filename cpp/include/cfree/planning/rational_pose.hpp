@@ -25,6 +25,7 @@ struct HalfAngle {
 struct RationalPose {
     Ratio x, y;
     HalfAngle half;
+    static RationalPose of(const ExactPose& pose, const Scene& scene);
     Place place() const { return {nearest(x.n, x.d), nearest(y.n, y.d), half.theta()}; }
     ExactPose exact(const Scene& scene) const;
     Configuration configuration(const Scene& scene) const;  // without its doubles

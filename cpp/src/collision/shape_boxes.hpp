@@ -1,0 +1,41 @@
+// Boxes of a shape's parts, in its doubles: what they are around may be farther out by their rounding.
+#pragma once
+#include <cmath>
+
+#include "cfree/scene/features.hpp"
+#include "collision/box_tree.hpp"
+
+namespace cfree {
+
+inline Box edge_box(const Shape& s, Index e) {
+    Box box;
+    box.add(s.x[s.v[e]], s.y[s.v[e]]), box.add(s.x[s.w[e]], s.y[s.w[e]]);
+    return box;
+}
+
+// Of the edges of its rings.
+inline std::vector<Box> edge_boxes(const Shape& s) {
+    std::vector<Box> boxes;
+    for (Index e = 0; e < s.ring_vertices; ++e) boxes.push_back(edge_box(s, e));
+    return boxes;
+}
+
+// Of its convex pieces, rounded outwards.
+inline std::vector<Box> piece_boxes(const Shape& s) {
+    std::vector<Box> boxes;
+    for (Index k = 0; k < s.pieces(); ++k) {
+        Box box;
+        for (Index v = s.piece[k]; v < s.piece[k + 1]; ++v) box.add(s.x[s.piece_vertex[v]], s.y[s.piece_vertex[v]]);
+        boxes.push_back(grown(box));
+    }
+    return boxes;
+}
+
+// No two of its points are farther apart.
+inline double diagonal(const Shape& s) {
+    Box box;
+    for (std::size_t v = 0; v < s.x.size(); ++v) box.add(s.x[v], s.y[v]);
+    return std::hypot(box.x1 - box.x0, box.y1 - box.y0);
+}
+
+}  // namespace cfree
