@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from cfree.collision.pose_checker import is_free
 from cfree.contact.definitions import contact_features, is_forbidden
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose, Poses
+from cfree.film.encode import write
 from cfree.film.frame import Stage, caption
 from cfree.film.free_motions import FreeMotions
 from cfree.film.moves import Moment, Ring, columns, outward, over_column, roll, surface_of
@@ -465,6 +467,18 @@ def test_an_interrupt_leaves_no_file(suffix: str, tmp_path: Path) -> None:
     _, errors = process.communicate(timeout=30)
     assert process.returncode == 130 and "interrupted" in errors
     assert not list(tmp_path.iterdir())
+
+
+def test_an_interrupt_that_a_library_lost_ends_the_film(tmp_path: Path) -> None:
+    def frames() -> Iterator[Any]:
+        yield np.zeros((2, 2, 3), np.uint8)
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGINT)
+        yield np.ones((2, 2, 3), np.uint8)
+
+    with pytest.raises(KeyboardInterrupt):
+        write(frames(), tmp_path / "film.gif", fps=5)
+    assert not list(tmp_path.iterdir()) and signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
 def _is_written(process: int, folder: Path) -> bool:

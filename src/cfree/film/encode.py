@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import gc
+import signal
+import threading
 from collections.abc import Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from itertools import chain
 from os import PathLike
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -60,21 +65,52 @@ def write(frames: Iterator[Image], path: str | PathLike[str], fps: int) -> None:
         Frames a second; a GIF's are rounded to hundredths of a second.
     """
     save = {".mp4": _save_mp4, ".gif": _save_gif}[check_film_path(path)]
-    with replacing(path) as unfinished:
-        save(frames, unfinished, fps)
+    with replacing(path) as unfinished, _interrupted(frames) as pictures:
+        save(pictures, unfinished, fps)
+
+
+@contextmanager
+def _interrupted(frames: Iterator[Image]) -> Iterator[Iterator[Image]]:
+    """Frames that Ctrl-C ends also where it is lost: libraries that draw clear an exception now and then."""
+    heed = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(heed):
+        yield frames
+        return
+    asked = threading.Event()
+
+    def note(number: int, at: FrameType | None) -> None:
+        asked.set()
+        heed(number, at)
+
+    def until_asked() -> Iterator[Image]:
+        for frame in frames:
+            if asked.is_set():
+                raise KeyboardInterrupt
+            yield frame
+
+    signal.signal(signal.SIGINT, note)
+    try:
+        yield until_asked()
+    finally:
+        signal.signal(signal.SIGINT, heed)
 
 
 def _save_mp4(frames: Iterator[Image], path: Path, fps: int) -> None:
     import av
 
     first = next(frames)
-    with av.open(str(path), "w", format="mp4", options={"movflags": "faststart"}) as container:
-        stream = container.add_stream("libx264", rate=Fraction(fps), options={"crf": "17", "preset": "medium"})
+    container = av.open(str(path), "w", format="mp4", options={"movflags": "faststart"})
+    stream = container.add_stream("libx264", rate=Fraction(fps), options={"crf": "17", "preset": "medium"})
+    try:
         stream.height, stream.width = first.shape[:2]
         stream.pix_fmt = "yuv420p"
         for frame in chain([first], frames):
             container.mux(stream.encode(av.VideoFrame.from_ndarray(np.ascontiguousarray(frame), format="rgb24")))
         container.mux(stream.encode(None))
+    finally:
+        container.close()
+        del container, stream
+        gc.collect()  # a codec left to the end of Python hangs or crashes there
 
 
 def _save_gif(frames: Iterator[Image], path: Path, fps: int) -> None:
