@@ -1,4 +1,7 @@
-"""Seeded scenes that grow: a size and a seed always give the same arrays, made without loops over obstacles.
+"""Seeded scenes, the same for the same arguments: those that grow, and questions with start and goal.
+
+Those that grow are made without loops over obstacles, which may overlap or touch. `SIZES` holds the sizes the README of
+the benchmarks reports:
 
     convex     random convex obstacles at constant density, a kite as the robot (about 4.3 vertices each)
     stars      random star-shaped obstacles at constant density, a kite as the robot
@@ -8,21 +11,38 @@
     grid       equal unit squares on the integer grid, some of them touching, a unit square as the robot
     city       blocks around courtyards with a door and four sheds each, streets between them, a car of 8 vertices
 
-Obstacles may overlap or touch. `SIZES` holds the sizes the README of the benchmarks reports.
+Questions, ten seeds each, none chosen by its answer:
+
+    maze       corridors of a square of cells, few loops; a bar, a T or an L as the robot
+    trap       from one bug trap into another, among convex obstacles; a bar, almost as wide as their mouths
+    barrier    walls with two gates each, rooms with posts; a notched bar
+    field      non-convex polygons at random, some overlapping; an L
+    nest       non-convex parts dropped into a bin, one of them taken out
+    throat     two furnished rooms and a throat that is wider by 10 % to 0.001 %; a rounded rectangle
+    large      a star of 10 to 100 vertices among convex obstacles
+
+Seeds 2, 5 and 8 of mazes, traps, barriers and throats are shut, most by little. Coordinates are doubles of full length.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
+from shapely import affinity
+
+import cfree
 
 Floats = NDArray[np.float64]
+Box = tuple[float, float, float, float]
 
 KITE = np.array([(-0.9, -0.35), (0.7, -0.55), (1.0, 0.3), (-0.6, 0.6)])
 HOOK = np.array([(-1, -4), (2, -4), (2, -2), (1, -2), (1, -3), (0, -3), (0, 2), (-1, 2)]) / 4
+BAR = np.array([(-0.6, -0.2), (0.6, -0.2), (0.6, 0.2), (-0.6, 0.2)])
+SEEDS = range(10)
 SIZES = {
     "convex": (60, 500, 5_000, 25_000),
     "stars": (50, 500, 5_000),
@@ -193,6 +213,163 @@ FAMILIES: dict[str, Callable[[int], SceneArrays]] = {
 }
 
 
+# --- questions ---
+
+
+def maze(seed: int) -> cfree.Scene:
+    """Walls between cells of a square that a walk over all of them did not pass."""
+    rng = np.random.default_rng([1, seed])
+    side = int(rng.integers(6, 11))
+    way, seen, opened = [(0, 0)], {(0, 0)}, set()
+    while way:
+        x, y = way[-1]
+        near = [(x + 1, y), (x - 1, y), (x, y + 1), (x, y - 1)]
+        fresh = [cell for cell in near if min(cell) >= 0 and max(cell) < side and cell not in seen]
+        if not fresh:
+            way.pop()
+            continue
+        cell = fresh[rng.integers(len(fresh))]
+        seen.add(cell)
+        opened.add(frozenset((way[-1], cell)))
+        way.append(cell)
+    last = (side - 1, side - 1)
+    shut = _is_shut(seed)
+    walls = []
+    for x in range(side):
+        for y in range(side):
+            for other, wall in (((x + 1, y), _rectangle(x + 0.94, y - 0.06, 0.12, 1.12)),
+                                ((x, y + 1), _rectangle(x - 0.06, y + 0.94, 1.12, 0.12))):  # fmt: skip
+                is_open = frozenset(((x, y), other)) in opened or (not shut and rng.random() < 0.05)
+                if max(other) < side and (not is_open or (shut and last in ((x, y), other))):
+                    walls.append(wall)
+    length, width = rng.uniform(0.35, 0.8), rng.uniform(0.1, 0.25)
+    bar = shapely.box(-length / 2, -width / 2, length / 2, width / 2)
+    arm = shapely.box(
+        *[(0, 0, 0, 0), (-width / 2, 0, width / 2, 0.35), (-length / 2, 0, width - length / 2, 0.35)][seed % 3]
+    )
+    goal = (side - 0.7, side - 0.7, side - 0.3, side - 0.3)
+    return _asked(rng, _ring(bar.union(arm)), walls, (0.3, 0.3, 0.7, 0.7), goal,
+                  workspace=_rectangle(0, 0, side, side), turned=seed % 2 == 1)  # fmt: skip
+
+
+def trap(seed: int) -> cfree.Scene:
+    """From one bug trap into another."""
+    rng = np.random.default_rng([2, seed])
+    slack = -(10.0 ** rng.uniform(-4, -1)) if _is_shut(seed) else 10.0 ** rng.uniform(-2.5, -0.2)
+    robot = BAR * (rng.uniform(0.7, 1.3), 1)
+    half = 0.2 * (1 + slack)
+    traps = []
+    for at in (-5.5, 5.5):
+        radius, k = rng.uniform(2.8, 3.6), int(rng.integers(3, 8))
+        ring = shapely.Point(0, 0).buffer(radius, quad_segs=k) - shapely.Point(0, 0).buffer(radius - 0.4, quad_segs=k)
+        lips = [shapely.box(0.45 * radius, y, 0.96 * radius, y + 0.3) for y in (half, -half - 0.3)]
+        whole = shapely.unary_union([ring - shapely.box(0, -half, 2 * radius, half), *lips])
+        body = affinity.rotate(max(shapely.get_parts(whole), key=shapely.area), rng.uniform(0, 360), origin=(0, 0))
+        traps.append(_ring(affinity.translate(body, at, 0)))
+    others = _scattered(rng, convex(60, seed, cell=7.0).rings(), (-12, -6, 12, 6), keep_off=traps)
+    return _asked(
+        rng,
+        robot,
+        [*traps, *others[:32]],
+        (-6.5, -1, -4.5, 1),
+        (4.5, -1, 6.5, 1),
+        workspace=_rectangle(-12.5, -6.5, 25, 13),
+    )
+
+
+def barrier(seed: int) -> cfree.Scene:
+    """Walls one after the other, two gates in each."""
+    rng = np.random.default_rng([3, seed])
+    count, walls = int(rng.integers(6, 11)), []
+    closed = int(rng.integers(count)) if _is_shut(seed) else -1
+    for k in range(count):
+        x, below, above = 3.0 * k + 2, rng.uniform(-2.6, -0.9), rng.uniform(0.9, 2.6)
+        wide = rng.uniform(0.42, 1.0, 2) if k != closed else 0.4 - 10.0 ** rng.uniform(-4, -1, 2)
+        ends = [-3.5, below - wide[0] / 2, below + wide[0] / 2, above - wide[1] / 2, above + wide[1] / 2, 3.5]
+        walls += [_rectangle(x, low, 0.3, high - low) for low, high in zip(ends[::2], ends[1::2], strict=True)]
+        walls += [_rectangle(x + 1.5, y, 0.2, 0.2) for y in rng.uniform(-3, 3, 2)]
+    robot = shapely.Polygon(BAR) - shapely.box(-0.2, 0, rng.uniform(0, 0.3), 1)
+    return _asked(rng, _ring(robot), walls, (0.5, -2, 1, 2), (3.0 * count + 1, -2, 3.0 * count + 1.4, 2),
+                  workspace=_rectangle(-0.5, -3.5, 3.0 * count + 2.5, 7), turned=True)  # fmt: skip
+
+
+def field(seed: int) -> cfree.Scene:
+    """Across star-shaped obstacles, dense or less so."""
+    rng = np.random.default_rng([4, seed])
+    count, cell = int(rng.integers(40, 120)), rng.uniform(7, 16)
+    side = (count * cell) ** 0.5
+    robot = np.array([(-0.9, -0.5), (0.9, -0.5), (0.9, -0.1), (-0.5, -0.1), (-0.5, 0.9), (-0.9, 0.9)]) * rng.uniform(
+        0.5, 1
+    )
+    return _asked(rng, robot, stars(count, seed + 100, cell).rings(), (0, 0, side / 4, side / 4),
+                  (0.75 * side, 0.75 * side, side, side), bounds=(0, 0, side, side))  # fmt: skip
+
+
+def nest(seed: int) -> cfree.Scene:
+    """Parts dropped where each comes to lie lowest, of some places and orientations; even seeds take a late one."""
+    rng = np.random.default_rng([5, seed])
+    wide, count = 12.0, 34
+    heights = np.arange(14, 0, -0.06)
+    bin_walls = [_rectangle(-0.5, -0.5, 13, 0.5), _rectangle(-0.5, 0, 0.5, 16), _rectangle(wide, 0, 0.5, 16)]
+    heap, parts = shapely.unary_union([shapely.Polygon(wall) for wall in bin_walls]), []
+    while len(parts) < count:
+        part, tries = _part(rng), []
+        for _ in range(6):
+            placed = affinity.rotate(part, rng.uniform(0, 360) if seed % 2 else 90.0 * rng.integers(4), origin=(0, 0))
+            x = rng.uniform(1, wide - 1)
+            falls = shapely.polygons(_ring(placed) + np.column_stack([np.full_like(heights, x), heights])[:, None])
+            hits = np.flatnonzero(shapely.intersects(heap, falls))
+            if hits[0] > 0:
+                tries.append(falls[hits[0] - 1])
+        if tries:
+            parts.append(min(tries, key=lambda placed: placed.bounds[3]))
+            heap = heap.union(parts[-1])
+    taken = int(rng.integers(0 if seed % 2 else count - 8, count))  # of the last ones that fell, or of all
+    at = parts[taken].representative_point()
+    robot = _ring(affinity.translate(parts[taken], -at.x, -at.y))
+    top = heap.bounds[3]
+    others = [_ring(part) for k, part in enumerate(parts) if k != taken]
+    scene = cfree.Scene(robot, [*bin_walls, *others], start=(at.x, at.y, 0), bounds=(-6, -2, 18, top + 6))
+    return replace(scene, goal=_free(rng, scene, (2, top + 2.5, 10, top + 5)))
+
+
+def throat(seed: int) -> cfree.Scene:
+    """Two furnished rooms and a throat between them."""
+    rng = np.random.default_rng([6, seed])
+    gap = 0.5 * (1 + (-1 if _is_shut(seed) else 1) * 10.0 ** -rng.uniform(1, 5))
+    walls = [_rectangle(0, -5, 1, 5 - gap), _rectangle(0, gap, 1, 5 - gap)]
+    rings = _scattered(rng, stars(60, seed + 200, 9).rings(), (-9, -4.5, 10, 4.5), keep_off=[_rectangle(-3, -2, 7, 4)])
+    robot = shapely.box(-0.8, -0.4, 0.8, 0.4).buffer(0.1, quad_segs=int(rng.integers(1, 5)))
+    return _asked(rng, _ring(robot), [*walls, *rings[:36]], (-9, -4, -3, 4), (4, -4, 10, 4),
+                  workspace=_rectangle(-10, -5, 21, 10), turned=seed % 2 == 0)  # fmt: skip
+
+
+def large(seed: int) -> cfree.Scene:
+    """A robot of many vertices, among obstacles as large as it is."""
+    rng = np.random.default_rng([7, seed])
+    count, cell = 10 * (seed + 1), rng.uniform(8, 14)
+    angles = 2 * np.pi * (np.arange(count) + rng.uniform(-0.3, 0.3, count)) / count
+    waves = 1 + 0.35 * np.cos(int(rng.integers(2, 6)) * angles + rng.uniform(0, 6)) + rng.uniform(-0.05, 0.05, count)
+    robot = 0.9 * waves[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+    side = (40 * cell) ** 0.5
+    return _asked(rng, robot, convex(40, seed + 300, cell).rings(), (0, 0, side / 4, side / 4),
+                  (0.75 * side, 0.75 * side, side, side), bounds=(0, 0, side, side))  # fmt: skip
+
+
+QUESTIONS: dict[str, Callable[[int], cfree.Scene]] = {
+    "maze": maze,
+    "trap": trap,
+    "barrier": barrier,
+    "field": field,
+    "nest": nest,
+    "throat": throat,
+    "large": large,
+}
+
+
+# --- parts of both ---
+
+
 def _spread_angles(rng: np.random.Generator, sizes: NDArray[np.int64]) -> Floats:
     """Rising angles for each ring, gaps from 0.2 to 1.8 of the mean: below pi for 4 and more."""
     offsets = _offsets(sizes)
@@ -225,3 +402,64 @@ def _stack(robot: Floats, rings: Floats) -> SceneArrays:
     """Rings of equal length, (count, length, 2)."""
     count, length, _ = rings.shape
     return SceneArrays(robot, rings.reshape(-1, 2), _offsets(np.full(count, length)))
+
+
+def _is_shut(seed: int) -> bool:
+    return seed % 3 == 2
+
+
+def _part(rng: np.random.Generator) -> shapely.Polygon:
+    """A U, an L, a C with a hook, or a star."""
+    size = rng.uniform(0.7, 1.3)
+    if rng.random() < 0.3:
+        count = int(rng.integers(6, 14))
+        angles = 2 * np.pi * (np.arange(count) + rng.uniform(-0.3, 0.3, count)) / count
+        return shapely.Polygon(
+            size * rng.uniform(0.4, 1, count)[:, None] * np.column_stack([np.cos(angles), np.sin(angles)])
+        )
+    w, h, t = size * rng.uniform(0.8, 1.2, 3) * (1, 1, 0.3)
+    right = shapely.box(w - t, -h, w, rng.uniform(-h + t, h))
+    top = shapely.box(-w, h - t, rng.uniform(0, w) - t, h)
+    sides = [shapely.box(-w, -h, w, t - h), shapely.box(-w, -h, t - w, h), right, top]
+    return shapely.unary_union(sides[: rng.integers(2, 5)])
+
+
+def _rectangle(x: float, y: float, width: float, height: float) -> Floats:
+    return np.array([(x, y), (x + width, y), (x + width, y + height), (x, y + height)])
+
+
+def _ring(polygon: shapely.Polygon) -> Floats:
+    return np.array(polygon.exterior.coords)[:-1]
+
+
+def _scattered(
+    rng: np.random.Generator, rings: Sequence[Floats], area: Box, keep_off: Sequence[Floats]
+) -> list[Floats]:
+    """Rings with their centres anywhere in an area, but off some shapes."""
+    x0, y0, x1, y1 = area
+    free_of = shapely.union_all([shapely.Polygon(ring).convex_hull for ring in keep_off])
+    moved = [ring - ring.mean(axis=0) + rng.uniform((x0, y0), (x1, y1)) for ring in rings]
+    return [ring for ring in moved if not shapely.Polygon(ring).intersects(free_of)]
+
+
+def _asked(
+    rng: np.random.Generator, robot: Floats, obstacles: Sequence[Floats], start: Box, goal: Box, *,
+    workspace: Floats | None = None, bounds: Box | None = None, turned: bool = False,
+) -> cfree.Scene:  # fmt: skip
+    """The scene with free poses in two boxes; all of it turned by some angle."""
+    angle = rng.uniform(0, 2 * np.pi) if turned else 0.0
+    c, s = np.cos(angle), np.sin(angle)
+    turn = np.array([(c, s), (-s, c)])
+    scene = cfree.Scene(robot, [ring @ turn for ring in obstacles], bounds=bounds,
+                        workspace=None if workspace is None else workspace @ turn)  # fmt: skip
+    return replace(scene, start=_free(rng, scene, start, turn), goal=_free(rng, scene, goal, turn))
+
+
+def _free(rng: np.random.Generator, scene: cfree.Scene, area: Box, turn: Floats | None = None) -> cfree.Pose:
+    """The first free pose of many."""
+    x0, y0, x1, y1 = area
+    rows = rng.uniform((x0, y0, 0), (x1, y1, 6), (2000, 3))
+    if turn is not None:
+        rows[:, :2] = rows[:, :2] @ turn
+    row = rows[np.flatnonzero(cfree.PoseChecker(scene).is_free(rows))[0]]
+    return cfree.Pose(*row.round(4).tolist())

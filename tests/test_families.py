@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 import shapely
 
+import cfree
+
 
 @pytest.fixture
 def families(monkeypatch: pytest.MonkeyPatch, request: pytest.FixtureRequest) -> ModuleType:
@@ -35,3 +37,13 @@ def test_convex_obstacles_have_4_vertices_and_a_third_and_keep_their_density(fam
         assert abs(np.prod(np.ptp(scene.vertices, axis=0)) / count - 9) < 2
         polygons = [shapely.Polygon(ring) for ring in scene.rings()[:99]]
         assert np.allclose(shapely.area(shapely.convex_hull(polygons)), shapely.area(polygons))
+
+
+@pytest.mark.parametrize("name", ["maze", "trap", "barrier", "field", "nest", "throat", "large"])
+def test_a_question_is_the_same_each_time_and_has_free_ends(families: ModuleType, name: str) -> None:
+    scene = families.QUESTIONS[name](0)
+    assert scene == families.QUESTIONS[name](0) != families.QUESTIONS[name](1)
+    assert len(scene.obstacles) >= 30
+    checker = cfree.MotionChecker(scene)
+    for pose in (scene.start, scene.goal):
+        assert checker.joins([pose, pose])
