@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <clocale>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -111,7 +112,7 @@ Ratio ratio_of(double value) {
     auto n = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
     if (n == 0) return {};
     exponent -= 53;
-    const int zeros = std::countr_zero(static_cast<std::uint64_t>(n));
+    const int zeros = std::ilogb(static_cast<double>(n & -n));
     n /= std::int64_t{1} << zeros, exponent += zeros;
     return exponent < 0 ? Ratio{n, Int(1) << static_cast<unsigned>(-exponent)}
                         : Ratio{Int(n) << static_cast<unsigned>(exponent), 1};

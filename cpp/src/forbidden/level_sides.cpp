@@ -65,7 +65,7 @@ private:
 };
 
 void LevelGluer::glue(Index rank, std::span<const Index> sides) {
-    if (std::ranges::none_of(sides, [&](Index s) { return whole[s / 2]; })) return;
+    if (std::none_of(sides.begin(), sides.end(), [&](Index s) { return whole[s / 2]; })) return;
     const int chart = rank > angles.middle ? 1 : 0;
     Junction at(scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
                 [&] { return angles.critical(rank, chart).exact(scene); });
@@ -206,7 +206,7 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
     std::vector<Index> chosen;
     for (const Sheet* s : sheets)
         for (const Index k : s->levels) chosen.push_back(k), levels[k].along = s->along;
-    if (std::ranges::none_of(chosen, [&](Index k) { return whole[levels[k].trapezoid]; })) return;
+    if (std::none_of(chosen.begin(), chosen.end(), [&](Index k) { return whole[levels[k].trapezoid]; })) return;
     std::sort(chosen.begin(), chosen.end());
     const Feature line = contact(levels[chosen[0]]);
     const int along = levels[chosen[0]].along;

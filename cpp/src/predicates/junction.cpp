@@ -206,7 +206,7 @@ Spot Junction::spot(const Feature& surface, const Feature& curve) const {
         n = at(p, 1) * r1 - 2 * at(p, 2) * r0, d = at(q, 1) * r1 - 2 * at(q, 2) * r0;
     }
     if (d.is_zero()) throw std::logic_error("a curve has no end");
-    result.given = std::make_shared<const Spot::Place>(n, d);
+    result.given = std::make_shared<const Spot::Place>(Spot::Place{n, d});
     return result;
 }
 
@@ -333,7 +333,7 @@ int Junction::across(const Feature& x, const Feature& y, const Spot& p, const Sp
     Int n, d = 1;
     for (Int low = 0, high = 1;;) {  // over d
         n = low + high, d *= 2, low *= 2, high *= 2;
-        const Spot at{x, 0, x, std::make_shared<const Spot::Place>(n, d)};
+        const Spot at{x, 0, x, std::make_shared<const Spot::Place>(Spot::Place{n, d})};
         const bool above = order(x, first, at) < 0, below = order(x, at, last) < 0;
         if (above && below) break;
         (above ? high : low) = n;

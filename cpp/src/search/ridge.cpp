@@ -251,8 +251,8 @@ std::vector<double> distances_asked(const Ridge& ridge, double radius, double sh
             if (from < to) parts.push_back({from, to, depth + 1});
             continue;
         }
-        const auto is_cut = [&](std::size_t k) {
-            return std::abs(at[k] - at[narrow]) < radius || (depth == 0 && (at[k] < radius || at[k] > at.back() - radius));
+        const auto is_cut = [&, first_depth = depth == 0](std::size_t k) {
+            return std::abs(at[k] - at[narrow]) < radius || (first_depth && (at[k] < radius || at[k] > at.back() - radius));
         };
         for (std::size_t k = begin; k <= end; ++k) {
             if (is_cut(k)) continue;
