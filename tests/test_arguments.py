@@ -69,7 +69,7 @@ def pool() -> list[Any]:
         cfree.rational.rational_surface(triangle, triangle, cfree.contact.VertexEdge(1, 2)), boundary.mesh(1.0),
         space.complex, cfree.Poses([[0, 0]], [0]), cfree.contact.contact_surface(triangle, triangle, contact),
         cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
-        cfree.exact.Surd(1),
+        cfree.exact.Surd(1), cfree.Preferences(),
     ]  # fmt: skip
 
 

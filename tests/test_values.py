@@ -76,6 +76,7 @@ def samples(x: int) -> dict[str, Any]:
         "Polygon": cfree.Polygon([(0, 0), (x, 0), (x + 1, 0), (0, 9)]),
         "Pose": Pose(x, 0, 1.5),
         "Poses": cfree.Poses([[x, 0], [0, 1]], [0.1, 3]),
+        "Preferences": cfree.Preferences(sideways=float(x)),
         "RationalHelix": rational_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexVertex(0, 1)),
         "RationalRange": surface.Phi if x == 4 else rational_range(TRIANGLE, SQUARE, EdgeVertex(0, 2)),
         "RationalSegment": rational_segment(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), EdgeEdge(0, 0)),
@@ -89,6 +90,7 @@ def samples(x: int) -> dict[str, Any]:
         "Surface": cfree.contact.contact_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexEdge(0, 0)),
         "Touch": cfree.collision.Touch("vertex-edge", (0, 0), (0, x)),
         "Translation": Translation((x, 0)),
+        "Unwanted": cfree.Unwanted("sideways", 1.0, 0, x),
         "VertexEdge": VertexEdge(0, x),
         "VertexVertex": VertexVertex(0, x),
         # not named in `cfree`, but what its values hold

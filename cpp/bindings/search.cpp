@@ -18,6 +18,8 @@ using namespace nb::literals;
 using PoseIntegers = std::array<nb::int_, 5>;
 using Numbers = std::array<double, 3>;
 
+static cfree::Costs costs_of(const std::array<double, 4>& c) { return {c[0], c[1], c[2], c[3]}; }
+
 static cfree::Configuration configuration(const PoseIntegers& n, const Numbers& place) {
     return {integer(n[0]), integer(n[1]), integer(n[2]), integer(n[3]), integer(n[4]), place[0], place[1], place[2]};
 }
@@ -57,22 +59,22 @@ void bind_search(nb::module_& m) {
     nb::class_<cfree::Nearness>(m, "Nearness")
         .def("__init__", [](cfree::Nearness* n, std::shared_ptr<const cfree::Scene> scene) { new (n) cfree::Nearness(*scene); }, "scene"_a);
     nb::class_<cfree::Shortcut>(m, "Shortcut")
-        .def("__init__", [](cfree::Shortcut* s, const cfree::MotionChecker& checker, std::array<int, 3> grid, double weight,
+        .def("__init__", [](cfree::Shortcut* s, const cfree::MotionChecker& checker, std::array<int, 3> grid, std::array<double, 4> costs,
                             const std::vector<PoseIntegers>& poses, const std::vector<Numbers>& places, std::uint64_t seed) {
-            cfree::Way way{checker, nullptr, {grid[0], grid[1], grid[2]}, {}, weight};
+            cfree::Way way{checker, nullptr, {grid[0], grid[1], grid[2]}, {}, costs_of(costs)};
             new (s) cfree::Shortcut(std::move(way), {route_of(poses, places), std::vector<double>(poses.size())}, seed);
-        }, "checker"_a, "grid"_a, "weight"_a, "poses"_a, "places"_a, "seed"_a, nb::keep_alive<1, 2>())
+        }, "checker"_a, "grid"_a, "costs"_a, "poses"_a, "places"_a, "seed"_a, nb::keep_alive<1, 2>())
         .def("run", &cfree::Shortcut::run, "checks"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("length", &cfree::Shortcut::length)
         .def("path", [](const cfree::Shortcut& s) { return list_of(s.path()); });
     m.def("balanced", [](const cfree::MotionChecker& checker, const cfree::Nearness& nearness, std::array<int, 3> grid,
-                         std::array<double, 4> limits, double weight, const std::vector<PoseIntegers>& poses,
+                         std::array<double, 4> limits, std::array<double, 4> costs, const std::vector<PoseIntegers>& poses,
                          const std::vector<Numbers>& places) {
         const cfree::Route route = route_of(poses, places);
-        const cfree::Way start{checker, &nearness, {grid[0], grid[1], grid[2]}, {limits[0], limits[1], limits[2], limits[3]}, weight};
+        const cfree::Way start{checker, &nearness, {grid[0], grid[1], grid[2]}, {limits[0], limits[1], limits[2], limits[3]}, costs_of(costs)};
         return watched([&] {
             auto [way, path] = cfree::balanced(start, route);
             return std::make_unique<cfree::Shortcut>(std::move(way), std::move(path), 0);
         });
-    }, "checker"_a, "nearness"_a, "grid"_a, "limits"_a, "weight"_a, "poses"_a, "places"_a, nb::keep_alive<0, 1>(), nb::keep_alive<0, 2>());
+    }, "checker"_a, "nearness"_a, "grid"_a, "limits"_a, "costs"_a, "poses"_a, "places"_a, nb::keep_alive<0, 1>(), nb::keep_alive<0, 2>());
 }

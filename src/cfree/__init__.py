@@ -54,6 +54,9 @@ if TYPE_CHECKING:
     from cfree.paths.clearance import clearance as clearance
     from cfree.paths.clearance import narrowest as narrowest
     from cfree.paths.path import Path as Path
+    from cfree.paths.preferences import Preferences as Preferences
+    from cfree.paths.preferences import Unwanted as Unwanted
+    from cfree.paths.preferences import unwanted as unwanted
     from cfree.planning.goals import AllSeparated as AllSeparated
     from cfree.planning.many import plan_many as plan_many
     from cfree.planning.planner import Planner as Planner
@@ -85,6 +88,7 @@ _HOMES = {
     "free.turn_in_place": "turn_in_place",
     "paths.path": "Path",
     "paths.clearance": "Clearance clearance narrowest",
+    "paths.preferences": "Preferences Unwanted unwanted",
     "planning.goals": "AllSeparated",
     "planning.planner": "Planner plan",
     "planning.many": "plan_many",

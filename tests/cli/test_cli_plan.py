@@ -21,6 +21,7 @@ from click.testing import CliRunner
 
 import cfree
 from cfree.cli.app import app
+from cfree.plot.path import UNWANTED
 
 SCENES = Path("examples/scenes")
 PARKING, SWIM, CONVEX = (str(SCENES / f"{name}.json") for name in ("benchmr_parking1", "nest_swim", "five_convex"))
@@ -136,6 +137,8 @@ def test_a_form_may_be_asked_for(run: Run, tmp_path: Path) -> None:
         (["--start", "inf,0,0"], "--start"),
         (["--improve", "soon"], "--improve: 'soon'"),
         (["--objective", "fast"], "--objective: 'fast'"),
+        (["--prefer", "crab=2"], "--prefer: 'crab=2': no 'crab'; give some of sideways, backward, turning"),
+        (["--prefer", "sideways=0.5"], "--prefer: 'sideways=0.5': sideways=0.5"),
         (["-o", "way.doc"], "way.doc: paths are written as"),
         (["--picture", "way.doc"], "way.doc"),
         (["--film", "way.doc"], "way.doc"),
@@ -146,6 +149,22 @@ def test_bad_wishes_get_one_clear_message(run: Run, arguments: list[str], messag
     assert result.exit_code == 2
     assert message in result.output
     assert "Traceback" not in result.output
+
+
+def test_a_path_says_where_it_does_what_is_dear(run: Run, tmp_path: Path) -> None:
+    scene = tmp_path / "corridor.json"
+    hall = [[0, 0], [2, 0], [2, 9], [0, 9]]
+    ends = {"start": [1, 1, 0], "goal": [1, 8, 0], "units": "m"}
+    robot = [[-1, -0.5], [1, -0.5], [1, 0.5], [-1, 0.5]]
+    scene.write_text(json.dumps({"robot": {"outer": robot}, "obstacles": [], "workspace": {"outer": hall}} | ends))
+    marked, plain = tmp_path / "marked.svg", tmp_path / "plain.svg"
+    result = run("plan", scene, "--prefer", "sideways=5,turning=2", "--picture", marked)
+    assert "7 m sideways in motion 0" in result.stdout
+    run("plan", scene, "--picture", plain)
+    assert UNWANTED in marked.read_text() and UNWANTED not in plain.read_text()
+    facts = json.loads(run("plan", scene, "--prefer", "sideways=5", "--json").stdout)
+    assert facts["rather not"] == [{"kind": "sideways", "amount": 7.0, "first": 0, "last": 0}]
+    assert json.loads(run("plan", scene, "--prefer", "turning=5", "--json").stdout)["rather not"] == []
 
 
 def test_a_forbidden_start_is_explained(run: Run, tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "cfree/search/rrt_connect.hpp"
@@ -26,7 +27,7 @@ constexpr int checks_at_once = 50, runs = 6;               // at one place
 // A few motions instead of many that cost as much, each pose one of the path's: doubling, then halving.
 Marked pruned(const Way& way, const Marked& path) {
     const Route& route = path.route;
-    const std::vector<double> at = costs_along(route, way.weight);
+    const std::vector<double> at = costs_along(route, way.costs);
     Marked found{{route.front()}, {path.mark.front()}};
     for (std::size_t i = 0; i + 1 < route.size();) {
         heed_stop();
@@ -66,6 +67,10 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
         turned(k, route.front());
         nodes.push_back({route[k], k, true});
         if (route.front().theta != route.back().theta) turned(k, route.back());
+        if (!way.costs.prefer() || k == 0 || k + 1 == route.size()) continue;
+        const Configuration &before = route[k - std::min(k, stride)], &beyond = route[std::min(k + stride, route.size() - 1)];
+        const double ahead = std::atan2(beyond.py - before.py, beyond.px - before.px);
+        for (const double theta : {ahead, ahead + std::numbers::pi}) turned(k, way.turned(route[k], theta));
     }
     const std::size_t count = nodes.size();
     struct Edge {
@@ -73,10 +78,10 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
         bool known = false;
         Marked way;
     };
-    const auto price = [&](const Route& r) { return cost_of(r, way.weight) + way.per_motion * static_cast<double>(r.size() - 1); };
+    const auto price = [&](const Route& r) { return cost_of(r, way.costs) + way.per_motion * static_cast<double>(r.size() - 1); };
     std::vector<Edge> edges(count * count);
     for (std::size_t i = 0, last = 0; i < count; ++i) {
-        for (std::size_t j = i + 1; j < count; ++j) edges[i * count + j].cost = price({nodes[i].pose, nodes[j].pose});
+        for (std::size_t j = i + 1; j < count; ++j) edges[i * count + j].cost = cost_between(nodes[i].pose, nodes[j].pose, way.length()) + way.per_motion;
         if (!nodes[i].own || i == 0) continue;
         Edge& e = edges[last * count + i];
         const auto begin = static_cast<std::ptrdiff_t>(nodes[last].of), end = static_cast<std::ptrdiff_t>(nodes[i].of) + 1;
@@ -114,12 +119,12 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
 bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks, Route& other) {
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
-    const double radius = way.weight, end = at.back();
+    const double radius = way.costs.weight, end = at.back();
     std::size_t narrowest = 0;
     double least = HUGE_VAL;
     const auto is_new = [&](std::size_t k) {
         return at[k] > radius && at[k] < end - radius && std::none_of(tried.begin(), tried.end(), [&](const Configuration& q) {
-            return cost_between(q, route[k], radius) < radius;
+            return cost_between(q, route[k], way.length()) < radius;
         });
     };
     for (std::size_t k = 0; k < at.size(); ++k)
@@ -138,7 +143,7 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks,
     }
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
-    RrtConnect search(joins, way.grid, area, way.weight, route[i], route[j], 0);
+    RrtConnect search(joins, way.grid, area, way.costs.weight, route[i], route[j], 0);
     Route found;
     for (int k = 0; k < runs && checks > 0 && found.empty(); ++k, checks -= checks_at_once) found = search.run(checks_at_once);
     if (found.empty()) return true;
@@ -151,14 +156,14 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks,
 // No part's ends, a radius from start and goal, can be farther from everything.
 double most_distance(const Way& way, const Route& route) {
     const auto distance = [&](const Configuration& q) { return way.nearness->distance({q.px, q.py, q.theta}, HUGE_VAL); };
-    return std::min({distance(route.front()), distance(route.back()), cost_of(route, way.weight)}) + way.weight;
+    return std::min({distance(route.front()), distance(route.back()), cost_of(route, way.length())}) + way.costs.weight;
 }
 
 double narrowest(const Ridge& top) { return *std::min_element(top.distance.begin() + 1, top.distance.end() - 1); }
 
 // From the ridge itself, while that makes its narrowest place wider.
 Ridge climbed_on(const Way& way, Ridge top, double level) {
-    while (top.distance.size() > 2 && narrowest(top) < narrow * way.weight) {
+    while (top.distance.size() > 2 && narrowest(top) < narrow * way.costs.weight) {
         Ridge next = ridge(way, top.path.route, level);
         const bool gains = next.distance.size() > 2 && narrowest(next) > climbs_on * std::max(narrowest(top), way.nearness->least());
         if (!gains) break;
@@ -171,11 +176,11 @@ Ridge climbed_on(const Way& way, Ridge top, double level) {
 Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
     std::optional<Balanced> found;
     for (const int depth : {1, all_parts}) {
-        Way along = way.asking(top.path, distances_asked(top, way.weight, share_asked, depth));
-        along.per_motion = worth_of_motion * way.weight;
+        Way along = way.asking(top.path, distances_asked(top, way.costs.weight, share_asked, depth));
+        along.per_motion = worth_of_motion * way.costs.weight;
         const std::size_t motions = pruned(along, top.path).route.size() - 1;
         Marked path = shortest(along, top.path, std::min(nodes, 6 + 2 * motions));
-        if (!found || cost_of(path.route, way.weight) < not_much * cost_of(found->path.route, way.weight))
+        if (!found || cost_of(path.route, way.costs) < not_much * cost_of(found->path.route, way.costs))
             found.emplace(Balanced{std::move(along), std::move(path)});
     }
     return std::move(*found);
@@ -187,7 +192,7 @@ Balanced balanced(const Way& way, const Route& route) {
     Way any = way;
     any.nearness = nullptr;
     Route path = pruned(any, {route, std::vector<double>(route.size())}).route, tried;
-    const double most = most_distance(way, path), radius = way.weight;
+    const double most = most_distance(way, path), radius = way.costs.weight;
     int checks = std::min(most_checks, checks_by_pose * static_cast<int>(route.size()));
     for (double level = std::min(most, lowest * radius);;) {
         const Ridge top = ridge(way, path, level);

@@ -61,7 +61,7 @@ std::array<double, 3> best_step(const std::vector<Slope>& slopes, double trust) 
 double climb(const Way& way, Place& q, const Three& direction, double enough) {
     const Three t = unit(direction), other = std::abs(t[2]) < 0.9 ? Three{0, 0, 1} : Three{1, 0, 0};
     const Three e = unit(cross(t, other)), f = cross(t, e);
-    const double radius = way.weight;
+    const double radius = way.costs.weight;
     const Area& limits = way.limits;
     double d = way.nearness->distance(q, enough), trust = std::min(0.25 * radius, 2 * enough);
     for (int k = 0; k < most_steps && d < enough; ++k) {
@@ -101,7 +101,7 @@ struct Step {
 
 class Climber {
 public:
-    Climber(const Way& w, const Route& r, double most) : way(w), route(r), enough(most), at(costs_along(r, w.weight)) {}
+    Climber(const Way& w, const Route& r, double most) : way(w), route(r), enough(most), at(costs_along(r, w.length())) {}
     Ridge run();
 
 private:
@@ -125,7 +125,7 @@ Sample Climber::sample(double where, double up_to) const {
     const double share = (where - at[k]) / std::max(at[k + 1] - at[k], 1e-300);
     const auto direction = [&](const Configuration& from, const Configuration& to, double here) -> Three {
         const Place before = along(from, to, here - 1e-3), beyond = along(from, to, here + 1e-3);
-        return {beyond.x - before.x, beyond.y - before.y, way.weight * (beyond.theta - before.theta)};
+        return {beyond.x - before.x, beyond.y - before.y, way.costs.weight * (beyond.theta - before.theta)};
     };
     Place q = along(a, b, share);
     Sample s{where, where == at[k] ? a : where == at[k + 1] ? b : way.grid.exact(q.x, q.y, q.theta), {}, 0};
@@ -141,7 +141,7 @@ Sample Climber::sample(double where, double up_to) const {
 
 // From goal to start. Near a narrow place no higher than a way from there can be.
 std::vector<Sample> Climber::samples() const {
-    const double step = std::max(spacing * way.weight, at.back() / most_poses);
+    const double step = std::max(spacing * way.costs.weight, at.back() / most_poses);
     std::vector<Sample> found;
     for (std::size_t k = route.size() - 1; k > 0; --k) {
         const int count = std::max(1, static_cast<int>(std::ceil((at[k] - at[k - 1]) / step)));
@@ -197,7 +197,7 @@ Ridge Climber::run() {
     for (int inserted = 0; !ahead.empty();) {
         heed_stop();
         const Sample next = ahead.back(), &last = kept.back();
-        const double apart = cost_between(last.high, next.high, way.weight), middle = 0.5 * (last.where + next.where);
+        const double apart = cost_between(last.high, next.high, way.length()), middle = 0.5 * (last.where + next.where);
         const bool divides = apart > 0.5 * std::min(last.distance, next.distance) && next.where - last.where > apart / 8 &&
                              last.where < middle && middle < next.where && inserted < most_inserted;
         auto between = joined(last, next, !divides);
@@ -214,7 +214,7 @@ Ridge Climber::run() {
     Ridge r{{{kept.front().own}, {0}}, {kept.front().distance}};
     for (const auto& between : steps)
         for (const auto& [pose, kept_there] : between) {
-            const double length = cost_between(r.path.route.back(), pose, way.weight);
+            const double length = cost_between(r.path.route.back(), pose, way.length());
             if (length == 0) continue;
             r.path.mark.push_back(r.path.mark.back() + length), r.path.route.push_back(pose);
             r.distance.back() = std::min(r.distance.back(), kept_there);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
 
 namespace cfree {
 
@@ -13,7 +15,7 @@ constexpr double least_gain = 1e-9;  // of the length
 }  // namespace
 
 Shortcut::Shortcut(Way w, Marked path, std::uint64_t seed)
-    : way(std::move(w)), route(std::move(path.route)), mark(std::move(path.mark)), at(costs_along(route, way.weight)), random(seed) {}
+    : way(std::move(w)), route(std::move(path.route)), mark(std::move(path.mark)), at(costs_along(route, way.costs)), random(seed) {}
 
 void Shortcut::run(int checks) {
     left = checks;
@@ -26,7 +28,7 @@ void Shortcut::run(int checks) {
 // The path from one of its poses to another by a fresh route, if that is shorter and keeps what is asked.
 bool Shortcut::replace(std::size_t i, std::size_t last, Route fresh) {
     const double motions = static_cast<double>(last - i) - static_cast<double>(fresh.size() - 1);
-    const double gain = at[last] - at[i] - cost_of(fresh, way.weight) + way.per_motion * motions, least = least_gain * length();
+    const double gain = at[last] - at[i] - cost_of(fresh, way.costs) + way.per_motion * motions, least = least_gain * length();
     if (gain < -least || (gain <= least && fresh.size() > last - i)) return false;
     const Marked path = way.marked(std::move(fresh), mark[i], mark[last]);
     for (std::size_t k = 1; k < path.route.size(); ++k) {
@@ -40,8 +42,18 @@ bool Shortcut::replace(std::size_t i, std::size_t last, Route fresh) {
         values = std::move(whole);
     };
     put(mark, path.mark), put(route, path.route);
-    at = costs_along(route, way.weight);
+    at = costs_along(route, way.costs);
     return true;
+}
+
+// A pose, turned ahead or back on its way.
+void Shortcut::steer() {
+    if (route.size() < 3) return;
+    const std::size_t k = 1 + static_cast<std::size_t>(random() * static_cast<double>(route.size() - 2));
+    const Configuration &before = route[k - 1], &beyond = route[k + 1];
+    const double ahead = std::atan2(beyond.py - before.py, beyond.px - before.px);
+    for (const double theta : {ahead, ahead + std::numbers::pi})
+        if (replace(k - 1, k + 1, {before, way.turned(route[k], theta), beyond})) return;
 }
 
 // All on the way between two poses with the orientation of one of them, as far as that helps.
@@ -65,6 +77,7 @@ void Shortcut::straighten() {
 
 // Two places on the path, joined anew: a turn and a straight way, in either order, or one rotation.
 void Shortcut::attempt() {
+    if (way.costs.prefer() && random() < 0.2) return steer();
     if (way.nearness && random() < 0.2) return straighten();
     const auto place = [&](double where) {  // the pose that begins its motion, and it
         const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, where);
@@ -92,6 +105,13 @@ void Shortcut::attempt() {
         if (kind == 0) fresh.push_back(corner(a, b));
         if (kind == 1) fresh.push_back(corner(b, a));
         fresh.push_back(b);
+        if (q) fresh.push_back(route[last]);
+        if (replace(i, last, std::move(fresh))) return;
+    }
+    if (!way.costs.prefer()) return;
+    for (const Route& driven : way.driven(a, b)) {
+        Route fresh{route[i]};
+        fresh.insert(fresh.end(), driven.begin() + !p, driven.end());
         if (q) fresh.push_back(route[last]);
         if (replace(i, last, std::move(fresh))) return;
     }

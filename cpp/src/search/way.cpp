@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace cfree {
 
@@ -13,19 +14,24 @@ void Marked::append(const Marked& further) {
     mark.insert(mark.end(), further.mark.begin() + 1, further.mark.end());
 }
 
-double cost_between(const Configuration& a, const Configuration& b, double weight) {
-    return travel_between(a, b) + weight * std::abs(turn_between(a, b));
+double cost_between(const Configuration& a, const Configuration& b, const Costs& costs) {
+    const double turn = turn_between(a, b), turning = costs.weight * std::abs(turn), travel = travel_between(a, b);
+    if (!costs.prefer()) return travel + turning;
+    const double heading = a.theta + 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;  // all along, as of the chord
+    const double ahead = std::cos(heading) * dx + std::sin(heading) * dy, across = std::cos(heading) * dy - std::sin(heading) * dx;
+    const double factor = std::hypot(ahead < 0 ? costs.backward * ahead : ahead, costs.sideways * across) / std::max(std::hypot(dx, dy), 1e-300);
+    return factor * travel + turning + (costs.turning - 1) * std::max(0.0, turning - travel);
 }
 
-double cost_of(const Route& route, double weight) {
+double cost_of(const Route& route, const Costs& costs) {
     double sum = 0;
-    for (std::size_t k = 1; k < route.size(); ++k) sum += cost_between(route[k - 1], route[k], weight);
+    for (std::size_t k = 1; k < route.size(); ++k) sum += cost_between(route[k - 1], route[k], costs);
     return sum;
 }
 
-std::vector<double> costs_along(const Route& route, double weight) {
+std::vector<double> costs_along(const Route& route, const Costs& costs) {
     std::vector<double> at{0};
-    for (std::size_t k = 1; k < route.size(); ++k) at.push_back(at.back() + cost_between(route[k - 1], route[k], weight));
+    for (std::size_t k = 1; k < route.size(); ++k) at.push_back(at.back() + cost_between(route[k - 1], route[k], costs));
     return at;
 }
 
@@ -36,12 +42,12 @@ Configuration corner(const Configuration& position, const Configuration& orienta
 }
 
 Way Way::asking(Marked along, std::vector<double> what) const {
-    return {checker, nearness, grid, limits, weight, per_motion, std::move(along), std::move(what)};
+    return {checker, nearness, grid, limits, costs, per_motion, std::move(along), std::move(what)};
 }
 
 std::size_t Way::nearest(const Place& at, double from, double to) const {
     const auto& mark = ridge.mark;
-    const double around = radii_around * weight;
+    const double around = radii_around * costs.weight;
     const auto begin = std::lower_bound(mark.begin(), mark.end(), from - around), end = std::upper_bound(begin, mark.end(), to + around);
     auto best = static_cast<std::size_t>(std::min(begin, mark.end() - 1) - mark.begin());
     double least = HUGE_VAL;
@@ -49,7 +55,7 @@ std::size_t Way::nearest(const Place& at, double from, double to) const {
         const Configuration& q = ridge.route[k];
         const double dx = q.px - at.x, dy = q.py - at.y, apart = dx * dx + dy * dy;
         if (apart >= least) continue;
-        const double turn = weight * wrapped(q.theta - at.theta);
+        const double turn = costs.weight * wrapped(q.theta - at.theta);
         if (const double square = apart + turn * turn; square < least) least = square, best = k;
     }
     return best;
@@ -97,12 +103,38 @@ Marked Way::marked(Route route, double from, double to) const {
     return {std::move(route), std::move(mark)};
 }
 
+std::vector<Route> Way::driven(const Configuration& a, const Configuration& b) const {
+    const double dx = b.px - a.px, dy = b.py - a.py, direction = std::atan2(dy, dx);
+    std::vector<Route> ways;
+    for (const double sign : {1.0, -1.0}) {
+        const double heading = sign > 0 ? direction : direction + std::numbers::pi;
+        const Configuration straight = turned(a, heading);
+        ways.push_back({a, straight, corner(b, straight), b});
+        ways.push_back({a, turned(a, 2 * heading - b.theta), b});  // an arc's chord is half way between its tangents
+        ways.push_back({a, turned(b, 2 * heading - a.theta), b});
+        // two arcs that meet on the line between the ends of tangents, all four parts as long
+        const double ux = sign * std::cos(a.theta), uy = sign * std::sin(a.theta), vx = sign * std::cos(b.theta), vy = sign * std::sin(b.theta);
+        const double both = dx * (ux + vx) + dy * (uy + vy), bend = 2 * (1 - ux * vx - uy * vy), square = dx * dx + dy * dy;
+        const double root = std::sqrt(both * both + bend * square);
+        const double length = square / (both + root);  // the positive root of bend l^2 + 2 both l - square
+        if (!(both + root > 1e-9 * std::sqrt(square))) continue;
+        const double x = dx - length * (ux + vx), y = dy - length * (uy + vy);
+        const double theta = std::atan2(sign * y, sign * x);
+        ways.push_back({a, grid.exact(0.5 * (a.px + b.px + length * (ux - vx)), 0.5 * (a.py + b.py + length * (uy - vy)), theta), b});
+    }
+    return ways;
+}
+
 Marked Way::simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const {
     std::vector<Route> ways{{a, b}};
     const bool turns = turn_between(a, b) != 0, moves = a.px != b.px || a.py != b.py;
     if (turns && moves) ways.push_back({a, corner(a, b), b}), ways.push_back({a, corner(b, a), b});
+    if (costs.prefer() && moves) {
+        for (Route& way : driven(a, b)) ways.push_back(std::move(way));
+        std::stable_sort(ways.begin(), ways.end(), [&](const Route& r, const Route& s) { return cost_of(r, costs) < cost_of(s, costs); });
+    }
     for (Route& way : ways) {
-        if (cost_of(way, weight) > most) continue;
+        if (cost_of(way, costs) > most) continue;
         if (Marked found = marked(std::move(way), from, to); joins(found)) return found;
     }
     return {};

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,6 +16,7 @@ from cfree.cli.terminal import printable
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.paths.path import Path as Motions
+    from cfree.paths.preferences import Unwanted
     from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
     from cfree.planning.separation import Separated
@@ -154,7 +155,8 @@ class Answering:
         space = self.planner.free_space
         shown = self.answer if isinstance(self.answer, Motions | Separated) else self.answer.proofs[0]
         with bar("picture"):
-            save_figure(drawn(shown, self.planner.scene, space.boundary), picture)
+            figure = drawn(shown, self.planner.scene, space.boundary, preferences=self.planner.preferences)
+            save_figure(figure, picture)
 
     def film(self, film: Path) -> None:
         """The film of a path."""
@@ -176,6 +178,11 @@ class Answering:
             facts = answer_facts(self.first, self.planner.scene)
             kept = ("length", "turning", "clearance")
             rows["before it was improved"] = {name: facts[name] for name in kept} if for_machines else _before(facts)
+        if self.path is not None and self.planner.preferences.matter:
+            from cfree.paths.preferences import unwanted
+
+            found = unwanted(self.path, self.planner.scene, self.planner.preferences)
+            rows["rather not"] = [asdict(part) for part in found] if for_machines else self._unwanted(found)
         if self.goal is None and self.path is not None:
             goal = self.path.goal
             x, y, theta = float(goal.x), float(goal.y), goal.theta
@@ -198,6 +205,10 @@ class Answering:
             return found
         names = " or ".join(scene.obstacle_names[k] for k in found)
         return f"there is a way without {names}" if found else "no single obstacle, taken away, opens a way"
+
+    def _unwanted(self, found: Sequence[Unwanted]) -> str:
+        units = self.planner.scene.units
+        return "; ".join(part.text(units) for part in found) or "nothing of it"
 
     def _nearest_miss(self) -> str:
         from cfree.analysis.margins import nearest_miss

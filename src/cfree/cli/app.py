@@ -25,6 +25,7 @@ from cfree.cli.values import (
     read_objective,
     read_pixels,
     read_pose,
+    read_preferences,
     read_seconds,
     read_size,
 )
@@ -161,6 +162,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json -o way.csv --improve 2s",
         "cfree plan scene.json -o - --format csv --step 0.05 --speed 0.5 > way.csv",
         "cfree plan scene.json --clearance 0.3",
+        "cfree plan scene.json --prefer sideways=5,turning=2 --picture way.png",
         "cfree plan scene.json --what-if",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
     )
@@ -203,6 +205,11 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     show_default=True,
     help='"balanced", "short", or "clear": as far from obstacles as it gets.',
 )
+@click.option(
+    "--prefer",
+    metavar="FACTORS",
+    help='How much dearer than ahead, as "sideways=5,backward=2,turning=3"; the answer says where it is done.',
+)
 @options.picture
 @file_option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.")
 @click.option(
@@ -215,7 +222,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @options.as_json
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, step: str | None,
-    turn: str | None, speed: str | None, clearance: str | None, improve: str | None, objective: str,
+    turn: str | None, speed: str | None, clearance: str | None, improve: str | None, objective: str, prefer: str | None,
     picture: Path | None, film: Path | None, miss: bool, what_if: bool, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
@@ -237,7 +244,8 @@ def plan(
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
-        found = Answering.of(planner_of(scene, max_seconds), ends, written, options)
+        planner = planner_of(scene, max_seconds, read_preferences(prefer))
+        found = Answering.of(planner, ends, written, options)
         if output:
             found.write(output, poses)
         if picture:

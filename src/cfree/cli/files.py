@@ -13,6 +13,7 @@ from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
+    from cfree.paths.preferences import Preferences
     from cfree.planning.planner import Planner
 
 
@@ -33,7 +34,7 @@ def boundary_of(
         return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
 
 
-def planner_of(source: Path, max_seconds: float | None) -> Planner:
+def planner_of(source: Path, max_seconds: float | None, preferences: Preferences) -> Planner:
     """For the scene in a file, with its free space if the file is a boundary."""
     from cfree.formats.scene_file import load_scene
     from cfree.planning.planner import Planner
@@ -44,10 +45,10 @@ def planner_of(source: Path, max_seconds: float | None) -> Planner:
 
         with bar("cells"):
             space = free_space(load_boundary(source))
-        return Planner(space.boundary.scene, space, phase=bar)
+        return Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
     with bar("reading"):
         scene = load_scene(source)
-    return Planner(scene, max_seconds=max_seconds, phase=bar)
+    return Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
 
 
 @contextmanager

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
     from cfree.paths.path import Objective
+    from cfree.paths.preferences import Preferences
 
 
 def read_numbers(text: str) -> list[int]:
@@ -92,6 +93,20 @@ def read_objective(text: str) -> Objective:
         if text == word:
             return word
     raise ValueError(f'--objective: {text!r}; give "balanced", "short" or "clear"')
+
+
+def read_preferences(text: str | None) -> Preferences:
+    """What a machine would rather not do, from "sideways=5,turning=2"."""
+    from cfree.paths.preferences import Preferences
+
+    names = Preferences.__dataclass_fields__
+    try:
+        given = [part.partition("=") for part in (text.split(",") if text is not None else ())]
+        if wrong := next((name for name, _, _ in given if name.strip() not in names), None):
+            raise ValueError(f"no {wrong.strip()!r}")
+        return Preferences(**{name.strip(): float(value) for name, _, value in given})
+    except ValueError as error:
+        raise ValueError(f'--prefer: {text!r}: {error}; give some of {", ".join(names)}, as in "sideways=5"') from None
 
 
 def read_size(text: str) -> float:

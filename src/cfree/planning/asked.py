@@ -9,6 +9,7 @@ from typing import Protocol
 from cfree.exact.pose import Pose
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
+from cfree.paths.preferences import Preferences
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
 
@@ -17,11 +18,10 @@ class Planner(Protocol):
     """See `cfree.Planner`."""
 
     scene: Scene
+    preferences: Preferences
 
     @property
     def free_space(self) -> FreeSpace: ...
-    @property
-    def angle_scale(self) -> float: ...
     def quick(self, start: Pose, goal: Pose) -> Sequence[Pose] | None: ...
     def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path: ...
     def plan(

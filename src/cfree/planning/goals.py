@@ -161,7 +161,7 @@ def plan_any(
             is_whole = is_whole and None not in found
 
     def shortest(paths: Sequence[Path]) -> Path:
-        return min(paths, key=lambda path: path.length + planner.angle_scale * path.turning)
+        return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
 
     asked = list(poses)
     if clearance is None:

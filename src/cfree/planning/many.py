@@ -11,6 +11,7 @@ from cfree.exact.pose import PoseLike
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
+from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
@@ -23,6 +24,7 @@ def plan_many(
     *,
     improve: float | None = None,
     objective: Objective = "balanced",
+    preferences: Preferences | None = None,
     threads: int | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> list[Path | Separated]:
@@ -35,6 +37,7 @@ def plan_many(
     improve : float, seconds, optional
         As in `plan`, for each of them.
     objective : "balanced", "short" or "clear"
+    preferences : Preferences, optional
         As in `plan`.
     threads : int, optional
         All cores by default. The answers do not depend on it, unless `improve` is given.
@@ -70,7 +73,7 @@ def plan_many(
         raise ValueError(f"threads: {threads}; give at least 1")
     space = free_space(boundary(scene)) if isinstance(scene, Scene) else scene
     asked = list(queries)
-    planner, answers = Planner(space.boundary.scene, space), []
+    planner, answers = Planner(space.boundary.scene, space, preferences=preferences or NONE), []
 
     def answer_to(number: int) -> Path | Separated:
         try:

@@ -29,6 +29,7 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
+from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.goals import AllSeparated, plan_any, to_goals
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
@@ -62,6 +63,7 @@ def plan(
     clearance: Number | None = None,
     improve: float | None = None,
     objective: Objective = "balanced",
+    preferences: Preferences | None = None,
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated: ...
@@ -74,6 +76,7 @@ def plan(
     clearance: Number | None = None,
     improve: float | None = None,
     objective: Objective = "balanced",
+    preferences: Preferences | None = None,
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated | AllSeparated: ...
@@ -86,6 +89,7 @@ def plan(
     clearance: Number | None = None,
     improve: float | None = None,
     objective: Objective = "balanced",
+    preferences: Preferences | None = None,
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Path | Separated | AllSeparated:
@@ -106,6 +110,8 @@ def plan(
     objective : "balanced", "short" or "clear"
         What to prefer: short paths that keep a distance where there is room, short ones, or paths that keep away from
         obstacles; see Notes.
+    preferences : Preferences, optional
+        What a machine would rather not do, such as going sideways. They decide which path is found, not whether one is.
     max_seconds : float, optional
         Give up if computing the free space takes longer.
     progress : callable, optional
@@ -143,7 +149,7 @@ def plan(
     """
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
-    planner = Planner(scene, space, max_seconds=max_seconds, progress=progress)
+    planner = Planner(scene, space, max_seconds, preferences or NONE, progress)
     if goal is not None and isinstance(goals := to_goals(goal), tuple):
         start, _ = required(scene, start, Pose(0, 0))
         return planner.plan_any(start, goals, clearance=clearance, improve=improve, objective=objective)
@@ -162,6 +168,8 @@ class Planner(Value):
         Computed when needed, unless given.
     max_seconds, progress
         As in `plan`, for that computation.
+    preferences : Preferences
+        As in `plan`, for all questions.
     phase : callable, optional
         Called with the name of each long part of the work; gives a context for it, which gives what to call with the
         share of that part that is done, or None.
@@ -170,6 +178,7 @@ class Planner(Value):
     scene: Scene
     space: FreeSpace | None = None
     max_seconds: float | None = None
+    preferences: Preferences = NONE
     progress: Callable[[float], object] | None = None
     phase: Phase = field(default=nullcontext, repr=False)
     stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
@@ -177,12 +186,12 @@ class Planner(Value):
     _lock: threading.RLock = field(default_factory=threading.RLock, repr=False)  # of all that is kept for later
 
     @property
-    def _content(self) -> tuple[Scene, float | None]:
+    def _content(self) -> tuple[Scene, float | None, Preferences]:
         """Not whether something has been computed."""
-        return self.scene, self.max_seconds
+        return self.scene, self.max_seconds, self.preferences
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Planner, (self.scene, self.space, self.max_seconds)
+        return Planner, (self.scene, self.space, self.max_seconds, self.preferences)
 
     @cached_property
     def checker(self) -> MotionChecker:
@@ -271,7 +280,7 @@ class Planner(Value):
 
     def _of(self, scene: Scene) -> Planner:
         """For the same question with another robot."""
-        return Planner(scene, None, self.max_seconds, self.progress, self.phase, self.stop)
+        return Planner(scene, None, self.max_seconds, self.preferences, self.progress, self.phase, self.stop)
 
     @checked
     def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path:
@@ -386,12 +395,12 @@ class Planner(Value):
     @checked
     def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         """A shorter path, after a number of attempts; or of ways found in half of some time the best, in the rest."""
-        if seconds == 0 or len(poses) < 3:
+        if seconds == 0 or len(poses) < (2 if self.preferences.matter else 3):
             return poses
         end = time.perf_counter() + (seconds or 0)
         searcher = self._searcher(poses)
         best = searcher.shortener(poses)
-        best.run(REFINE)
+        best.run(self._attempts(REFINE))
         seed = 0
         try:
             while seconds and time.perf_counter() < end - seconds / 2 and seed < OTHERS:
@@ -417,7 +426,7 @@ class Planner(Value):
         searcher, found = self._searcher(poses), poses
         try:
             best = searcher.balanced(poses, self.scene.bounds)
-            best.run(BALANCE * (len(best.path()) + len(poses)))
+            best.run(self._attempts(BALANCE * (len(best.path()) + len(poses))))
             found = searcher.poses(best.path())
             while time.perf_counter() < end:
                 self._look_up()
@@ -435,7 +444,7 @@ class Planner(Value):
         end = time.perf_counter() + (seconds or 0)
 
         def way_of(scene: Scene, start: Pose, goal: Pose) -> Sequence[Pose] | None:
-            larger = Planner(scene)
+            larger = Planner(scene, preferences=self.preferences)
             found = larger.quick(start, goal)
             is_small = larger.checker.features.patches <= COMPLETE
             if found is None and is_small and (cell := larger.free_space.common_cell(start, goal)) is not None:
@@ -474,7 +483,11 @@ class Planner(Value):
             raise KeyboardInterrupt
 
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
-        return Searcher(self.checker, area(self.scene, poses), self.angle_scale)
+        return Searcher(self.checker, area(self.scene, poses), self.angle_scale, self.preferences)
+
+    def _attempts(self, checks: int) -> int:
+        """To improve a path: more where there is more to try."""
+        return 3 * checks if self.preferences.matter else checks
 
 
 def _wish(clearance: Number | None, improve: float | None, objective: str) -> Fraction | None:

@@ -16,6 +16,7 @@ import numpy as np
 import cfree._core as _core
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
+from cfree.paths.preferences import NONE, Preferences
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
@@ -48,7 +49,9 @@ def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:
 class Searcher:
     """Searches in one scene."""
 
-    def __init__(self, checker: MotionChecker, area: Places, angle_scale: float) -> None:
+    def __init__(
+        self, checker: MotionChecker, area: Places, angle_scale: float, preferences: Preferences = NONE
+    ) -> None:
         self.checker = checker
         self._scale, self._shift = checker.units
         self._unit = float(Fraction(self._scale, 1 << self._shift))  # of lengths in the core's doubles
@@ -56,6 +59,7 @@ class Searcher:
         x0, y0, x1, y1 = self._area
         self._extent = math.frexp(max(x1 - x0, y1 - y0) or 1.0)[1]
         self._weight = angle_scale * self._unit
+        self._costs = [self._weight, *preferences.factors]
 
     def search(self, start: Pose, goal: Pose, seed: int = 0) -> Any:
         """To be run by ``run(checks)``, until it returns poses; see `poses`."""
@@ -67,7 +71,7 @@ class Searcher:
         """To be run by ``run(checks)``; ``path()`` is the best so far."""
         numbers, places = zip(*map(self._configuration, poses), strict=True)
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
-        return _core.Shortcut(self.checker.core, grid, self._weight, list(numbers), list(places), 0)
+        return _core.Shortcut(self.checker.core, grid, self._costs, list(numbers), list(places), 0)
 
     def balanced(self, poses: Sequence[Pose], bounds: tuple[Fraction, Fraction, Fraction, Fraction] | None) -> Any:
         """A shortener of a path beside this one that keeps a distance from obstacles where there is room."""
@@ -75,9 +79,7 @@ class Searcher:
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
         x0, y0, x1, y1 = map(float, bounds) if bounds else (-math.inf, -math.inf, math.inf, math.inf)
         limits = [c * self._unit for c in (x0, y0, x1, y1)]
-        return _core.balanced(
-            self.checker.core, self._nearness, grid, limits, self._weight, list(numbers), list(places)
-        )
+        return _core.balanced(self.checker.core, self._nearness, grid, limits, self._costs, list(numbers), list(places))
 
     def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
         """Exact poses from the core's."""

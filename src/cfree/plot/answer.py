@@ -15,6 +15,7 @@ from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
 from cfree.paths.path import Path
+from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.separation import Separated
 from cfree.plot.boundary import around, new_figure, new_space, plain, set_window, with_unit
 from cfree.plot.depth_sort import Painting
@@ -79,7 +80,13 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 
 @checked
-def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = None) -> Figure:
+def picture(
+    answer: Path | Separated,
+    scene: Scene,
+    boundary: Boundary | None = None,
+    *,
+    preferences: Preferences | None = None,
+) -> Figure:
     """An answer in the workspace, and beside it in the configuration space.
 
     Parameters
@@ -89,6 +96,8 @@ def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = 
         To which it is the answer.
     boundary : Boundary, optional
         Of that scene; without it a path is drawn in the workspace alone. A separation brings its own surface.
+    preferences : Preferences, optional
+        Where a path does what these find dear is marked.
 
     Returns
     -------
@@ -120,7 +129,7 @@ def picture(answer: Path | Separated, scene: Scene, boundary: Boundary | None = 
         return _picture_of_separation(answer, scene)
     track = Track.of(answer, scene)
     figure, ax = _new_picture(track.window, boundary is not None)
-    draw_track(ax, track)
+    draw_track(ax, track, preferences or NONE)
     if boundary is not None:
         _draw_track(_right(figure), track, boundary)
     _head(figure, scene, "a free path", statement(track))

@@ -17,6 +17,7 @@ from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
 from cfree.paths.clearance import Clearance, distances_beside, least_clearance
 from cfree.paths.path import Path
+from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import Travel
 from cfree.plot.boundary import around, new_axes, plain, set_window, with_unit
 from cfree.plot.workspace import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
@@ -25,6 +26,7 @@ from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 
+UNWANTED = "#aa3377"  # purple
 LIMIT = "#d55e00"  # vermilion: what the clearance ends at
 SCALE = "viridis"  # perceptually uniform, and fit for readers who do not tell red from green
 GHOSTS, APART = 48, 0.45  # so many at most, and no closer than this part of the robot's radius
@@ -106,7 +108,7 @@ class Track:
 
 
 @checked
-def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
+def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: Preferences | None = None) -> Axes:
     """A path in the workspace, coloured by clearance.
 
     Parameters
@@ -115,6 +117,8 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
     scene : Scene
         In which it is free.
     ax : matplotlib axes, optional
+    preferences : Preferences, optional
+        Where the path does what these find dear is marked.
 
     Returns
     -------
@@ -147,12 +151,12 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None) -> Axes:
     if ax is None:
         x0, y0, x1, y1 = track.window
         ax = new_axes((8, float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))), (0.09, 0.1, 0.78, 0.83))
-    draw_track(ax, track)
+    draw_track(ax, track, preferences or NONE)
     ax.set_title(statement(track))
     return ax
 
 
-def draw_track(ax: Any, track: Track) -> None:
+def draw_track(ax: Any, track: Track, preferences: Preferences) -> None:
     """The path among the obstacles, on axes."""
     from matplotlib.collections import LineCollection, PathCollection
 
@@ -177,9 +181,27 @@ def draw_track(ax: Any, track: Track) -> None:
     draw_robot(ax, scene, path.start, "start", faint=False)
     draw_robot(ax, scene, path.goal, "goal", faint=True)
     set_window(ax, track.window, scene.units)
+    for part in unwanted(path, scene, preferences):
+        _draw_unwanted(ax, path, part)
     if track.least is not None:
         _draw_least(ax, track)
         _draw_scale(ax, track)
+
+
+def _draw_unwanted(ax: Any, path: Path, part: Unwanted) -> None:
+    """Motions that do what is dear, and which; or the spot that is turned on."""
+    from matplotlib.patheffects import withStroke
+
+    shares = np.linspace(0, 1, 20)
+    ends = zip(path.poses[part.first : part.last + 1], path.motions[part.first : part.last + 1], strict=True)
+    xy = np.concatenate([motion.sample(pose, shares).xy for pose, motion in ends])
+    is_spot = part.kind == "turning"
+    ax.plot(*xy.T, "s" if is_spot else "--", color=UNWANTED, linewidth=2.0, markersize=7, zorder=4.5, label=part.kind)
+    text = f"{math.degrees(part.amount):.0f}°" if is_spot else part.kind
+    halo = [withStroke(linewidth=2.5, foreground="white")]
+    ax.annotate(
+        text, xy[len(xy) // 2], (6, -12), textcoords="offset points", color=UNWANTED, zorder=9, path_effects=halo
+    )
 
 
 def _draw_scale(ax: Any, track: Track) -> None:

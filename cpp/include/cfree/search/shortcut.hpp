@@ -16,6 +16,7 @@ public:
 private:
     void attempt();
     void straighten();
+    void steer();
     bool replace(std::size_t i, std::size_t last, Route fresh);
 
     const Way way;

@@ -19,11 +19,16 @@ struct Marked {
     void append(const Marked& further);  // which begins where this one ends
 };
 
-// Travel plus `weight` a radian.
-double cost_between(const Configuration& a, const Configuration& b, double weight);
-double cost_of(const Route& route, double weight);
+// What motions cost: travel plus `weight` a radian. Factors, at least 1, of travel sideways and backward, as the robot sees
+// it, whose x axis is forward; and of turning as far as no travel goes with it.
+struct Costs {
+    double weight, sideways = 1, backward = 1, turning = 1;
+    bool prefer() const { return sideways > 1 || backward > 1 || turning > 1; }
+};
+double cost_between(const Configuration& a, const Configuration& b, const Costs& costs);
+double cost_of(const Route& route, const Costs& costs);
 // Costs up to each pose.
-std::vector<double> costs_along(const Route& route, double weight);
+std::vector<double> costs_along(const Route& route, const Costs& costs);
 
 // The position of one with the orientation of another.
 Configuration corner(const Configuration& position, const Configuration& orientation);
@@ -33,7 +38,8 @@ struct Way {
     const Nearness* nearness;  // none: any free path will do
     Grid grid;
     Area limits;                   // of the reference point
-    double weight, per_motion = 0; // lengths that a radian and a motion are worth
+    Costs costs;
+    double per_motion = 0;         // the length that a motion is worth
     Marked ridge = {};                   // along which something is asked,
     std::vector<double> distances = {};  // of each pose of it a distance
 
@@ -45,8 +51,15 @@ struct Way {
     // The same of what is asked from mark to mark.
     bool joins(const Configuration& a, const Configuration& b, double from, double to) const;
     bool joins(const Marked& path) const;
-    // One motion, or a turn and a straight way in either order: the first that costs no more and is joined; or nothing.
+    // One motion, or a turn and a straight way in either order, or as it is driven: the first, or if something is preferred
+    // the cheapest, that costs no more and is joined; or nothing.
     Marked simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const;
+    // Ways that go ahead, or back, from place to place: turned, along a line or an arc, or along two arcs.
+    std::vector<Route> driven(const Configuration& a, const Configuration& b) const;
+    // A pose turned to a direction.
+    Configuration turned(const Configuration& q, double theta) const { return corner(q, grid.exact(q.px, q.py, theta)); }
+    // The plain length, which no preference changes.
+    Costs length() const { return {costs.weight}; }
     // A route with the marks of the nearest poses of the ridge.
     Marked marked(Route route, double from, double to) const;
 

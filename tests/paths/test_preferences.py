@@ -1,0 +1,83 @@
+"""What machines would rather not do: costs that paths obey, and that change no verdict."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+import cfree
+from cfree import MotionChecker, Path, Pose, Preferences, Scene, motion_between, plan, unwanted
+from cfree.planning.rrt_connect import Searcher
+
+Ring = list[tuple[float, float]]
+EVERYTHING = Preferences(2, 2, 2)
+
+
+def box(x: float, y: float, width: float, height: float) -> Ring:
+    return [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+
+
+def amount(path: Path, scene: Scene, kind: str) -> float:
+    return sum(part.amount for part in unwanted(path, scene, EVERYTHING) if part.kind == kind)
+
+
+@pytest.fixture(scope="module")
+def hall() -> Scene:
+    racks = [box(x, y, 4, 1) for x in (2, 8) for y in (2, 6, 10)]
+    ends = {"start": Pose(1, 1, "90deg"), "goal": Pose(13, 11, "90deg")}
+    return Scene(box(-0.4, -0.5, 2, 1), racks, workspace=box(0, 0, 14, 13), **ends)
+
+
+@pytest.mark.parametrize("objective", ["balanced", "short"])
+def test_a_forklift_does_not_crab(hall: Scene, objective: cfree.paths.path.Objective) -> None:
+    plain = plan(hall, objective=objective)
+    driven = plan(hall, objective=objective, preferences=Preferences(sideways=20))
+    assert isinstance(plain, Path) and isinstance(driven, Path) and driven.is_free(MotionChecker(hall))
+    assert amount(driven, hall, "sideways") < min(1.0, amount(plain, hall, "sideways") / 2)
+
+
+def test_ahead_where_back_is_dear_and_few_turns_on_the_spot_where_they_are(hall: Scene) -> None:
+    ahead, round_it = Preferences(sideways=20, backward=20), Preferences(turning=20)
+    for kind, preferences in (("backward", ahead), ("turning", round_it)):
+        plain, found = plan(hall), plan(hall, preferences=preferences)
+        assert isinstance(plain, Path) and isinstance(found, Path)
+        assert amount(found, hall, kind) < 0.5 * amount(plain, hall, kind)
+
+
+def test_what_is_dear_is_done_where_nothing_else_is_possible_and_the_answer_says_where() -> None:
+    corridor = Scene(box(-1, -0.5, 2, 1), [], workspace=box(0, 0, 2.2, 9), start=Pose(1.1, 1), goal=Pose(1.1, 8))
+    path = plan(corridor, preferences=Preferences(sideways=100))
+    assert isinstance(path, Path)
+    (part,) = unwanted(path, corridor, Preferences(sideways=100))
+    assert part.kind == "sideways" and part.amount == pytest.approx(7, rel=1e-3)
+    wall = Scene(corridor.robot, [box(-1, 4, 9, 0.1)], workspace=box(0, 0, 2.2, 9), start=(1.1, 1, 0), goal=(1.1, 8, 0))
+    assert plan(wall, preferences=EVERYTHING) == plan(wall)
+
+
+def test_the_core_and_the_report_count_the_same() -> None:
+    rng = np.random.default_rng(1)
+    scene = Scene(box(-1, -0.5, 3, 1), [])
+    for _ in range(20):
+        preferences = Preferences(*rng.uniform(1, 9, 3))
+        poses = [Pose(*row) for row in rng.uniform(-3, 3, (6, 3)).tolist()]
+        searcher = Searcher(MotionChecker(scene), (-9, -9, 9, 9), math.hypot(2, 0.5), preferences)
+        path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)])
+        core = searcher.shortener(poses).length() / searcher._unit
+        assert preferences.cost(path, scene) == pytest.approx(core, rel=1e-9)
+
+
+def test_all_ones_are_no_preferences(hall: Scene) -> None:
+    path = plan(hall)
+    assert isinstance(path, Path) and path == plan(hall, preferences=Preferences())
+    assert unwanted(path, hall, Preferences()) == ()
+    radius = math.hypot(1.6, 0.5)
+    assert Preferences().cost(path, hall) == pytest.approx(path.length + radius * path.turning)
+
+
+@pytest.mark.parametrize("factor", [0.5, math.nan, math.inf])
+def test_factors_are_one_or_more(factor: float) -> None:
+    with pytest.raises(ValueError, match="give a factor of 1 or more"):
+        Preferences(backward=factor)
