@@ -34,7 +34,9 @@ COMPUTED = ("contact_curve", "limits", "mesh", "mesh_face", "slice", "surface", 
 GUESSED = ("balance", "configuration", "nearness", "ridge", "rrt_connect", "shortcut", "surface_explorer", "way")
 # limits and notation of numbers as they come in and go out
 WRITTEN = ("coordinate_range", "ratio")
-NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED + WRITTEN for suffix in (".cpp", ".hpp")}
+# constants of mathematics
+CONSTANTS = ("elementary",)
+NOT_DECIDING = {name + suffix for name in COMPUTED + GUESSED + WRITTEN + CONSTANTS for suffix in (".cpp", ".hpp")}
 
 
 def tolerances(source: str) -> list[str]:

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "cfree/support/elementary.hpp"
 #include "support/parallel.hpp"
 
 namespace cfree {
@@ -41,7 +42,7 @@ std::size_t direction_of(const Vec<double>& d) {
     return std::size_t(d.x < 0) + 2 * std::size_t(d.y < 0) + 4 * std::size_t(y > x) + 8 * std::size_t(12 * less > 5 * more);
 }
 Vec<double> middle_of_direction(std::size_t k) {
-    const double less = std::tan((k & 8 ? 3 : 1) * std::numbers::pi / 16);
+    const double less = tangent((k & 8 ? 3 : 1) * std::numbers::pi / 16);
     const Vec<double> d = k & 4 ? Vec<double>{less, 1} : Vec<double>{1, less};
     return {k & 1 ? -d.x : d.x, k & 2 ? -d.y : d.y};
 }
@@ -76,7 +77,7 @@ PoseChecker::Pieces PoseChecker::pieces_of(const Shape& shape) {
 PoseChecker::PoseChecker(std::shared_ptr<const Scene> s, std::array<double, 4> bounds)
     : scene(std::move(s)), limits(bounds), robot(pieces_of(scene->robot)), obstacles(pieces_of(scene->obstacles)) {
     double largest = 0;
-    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, std::hypot(robot.x[k], robot.y[k]));
+    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, norm(robot.x[k], robot.y[k]));
     for (std::size_t k = 0; k < obstacles.x.size(); ++k)
         largest = std::max({largest, std::abs(obstacles.x[k]), std::abs(obstacles.y[k])});
     margin = margin_by_size * (largest + 4 * reach) + least_margin;
@@ -227,7 +228,7 @@ double PoseChecker::distance(const Pieces& p, Index piece, double x, double y) c
         inside = false;
         const double ex = p.x[next] - p.x[k], ey = p.y[next] - p.y[k], dx = x - p.x[k], dy = y - p.y[k];
         const double t = std::clamp((dx * ex + dy * ey) / std::max(ex * ex + ey * ey, least_square), 0.0, 1.0);
-        least = std::min(least, std::hypot(dx - t * ex, dy - t * ey));
+        least = std::min(least, norm(dx - t * ex, dy - t * ey));
     }
     return inside ? 0 : least;
 }
@@ -286,7 +287,7 @@ void PoseChecker::fill(Grid& g) const {
     std::partial_sum(g.start.begin(), g.start.end(), g.start.begin());
     Placed turned(robot);
     for (std::size_t k = 0; k < sectors; ++k) {
-        turned.place({0, 0, std::cos(middle_of(k)), std::sin(middle_of(k))});
+        turned.place({0, 0, cosine(middle_of(k)), sine(middle_of(k))});
         const double r = half_sector * reach + margin;
         for (const Ranges& at : turned.box) g.around.push_back({at.x0 - r, at.y0 - r, at.x1 + r, at.y1 + r});
     }
@@ -314,7 +315,7 @@ std::size_t PoseChecker::Grid::slot(double x, double y, double theta) const {
 static Vec<double> direction(double theta, std::size_t sector) {
     static const auto middles = [] {
         std::array<Vec<double>, sectors> found;
-        for (std::size_t k = 0; k < sectors; ++k) found[k] = {std::cos(middle_of(k)), std::sin(middle_of(k))};
+        for (std::size_t k = 0; k < sectors; ++k) found[k] = {cosine(middle_of(k)), sine(middle_of(k))};
         return found;
     }();
     const double d = theta - middle_of(sector), q = d * d;
@@ -389,7 +390,7 @@ bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::ar
     constexpr int deepest = 20;
     const auto within = [&](double x, double y) { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; };
     if (!within(from[0], from[1]) || !within(from[0] + by[0], from[1] + by[1])) return false;
-    const double length = std::hypot(by[0], by[1]) * (1 + rounding), angle = std::abs(by[2]) * (1 + rounding);
+    const double length = norm(by[0], by[1]) * (1 + rounding), angle = std::abs(by[2]) * (1 + rounding);
     const double slack = rounding * (std::abs(from[0]) + std::abs(from[1]) + length), turned = rounding * (std::abs(from[2]) + angle);
     std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
     std::iota(all.begin(), all.end(), 0);
@@ -399,7 +400,7 @@ bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::ar
         const auto [u, depth] = parts.back();
         parts.pop_back();
         const double half = std::ldexp(1, -depth), theta = from[2] + u * by[2];
-        placed.place({from[0] + u * by[0], from[1] + u * by[1], std::cos(theta), std::sin(theta)});
+        placed.place({from[0] + u * by[0], from[1] + u * by[1], cosine(theta), sine(theta)});
         const Verdict all_of_it = against(placed, all.data(), all.size(), {half * length + slack, half * angle + turned},
                                           [](Index, Index) { return Verdict::uncertain; });
         if (all_of_it == Verdict::free) continue;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cfree/scene/features.hpp"
+#include "cfree/support/elementary.hpp"
 #include "collision/box_tree.hpp"
 
 namespace cfree {
@@ -35,7 +36,7 @@ inline std::vector<Box> piece_boxes(const Shape& s) {
 inline double diagonal(const Shape& s) {
     Box box;
     for (std::size_t v = 0; v < s.x.size(); ++v) box.add(s.x[v], s.y[v]);
-    return std::hypot(box.x1 - box.x0, box.y1 - box.y0);
+    return norm(box.x1 - box.x0, box.y1 - box.y0);
 }
 
 }  // namespace cfree

@@ -9,6 +9,7 @@
 #include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/forbidden/curve_hash.hpp"
 #include "cfree/predicates/junction.hpp"
+#include "cfree/support/elementary.hpp"
 #include "collision/shape_boxes.hpp"
 #include "forbidden/patch_trimming.hpp"
 #include "support/parallel.hpp"
@@ -81,7 +82,7 @@ private:
     void for_each_near(Index patch, F&& report) const {
         const Shape& A = scene.robot;
         double reach = 0;
-        for (std::size_t v = 0; v < A.x.size(); ++v) reach = std::max(reach, std::hypot(A.x[v], A.y[v]));
+        for (std::size_t v = 0; v < A.x.size(); ++v) reach = std::max(reach, norm(A.x[v], A.y[v]));
         tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach), [&](Index near) {
             for (Index p = first_patch[near]; p < first_patch[near + 1]; ++p)
                 for (Index k = first_live[p]; k < first_live[p + 1]; ++k) report(p, k);

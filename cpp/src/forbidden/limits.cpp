@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 double Limits::inside(double tau, double from, double to) {
@@ -44,7 +46,7 @@ Limits::Meeting Limits::meets(const Feature& contact, const Line& l, std::uint64
     const auto [q, v] = line(f, r);
     const double across = v.x * l.u.y - v.y * l.u.x;
     const double t = -(v.x * (l.p.y - q.y) - v.y * (l.p.x - q.x)) / across;
-    const double sine = std::abs(across) / (std::hypot(v.x, v.y) * std::hypot(l.u.x, l.u.y));
+    const double sine = std::abs(across) / (norm(v.x, v.y) * norm(l.u.x, l.u.y));
     return {t > 0 ? std::min(t, 1.0) : 0.0, sine};  // rounding may lead out of the patch
 }
 

@@ -12,7 +12,8 @@ void PillarIndex::near(Index j, std::vector<Index>& out) const {
     tree.query(grown(contact, robot_diagonal), [&](Index k) { out.push_back(k); });
     const double x = contact.x0 + contact.x1, y = contact.y0 + contact.y1;
     const auto distance = [&](Index k) {
-        return std::hypot(boxes[k].x0 + boxes[k].x1 - x, boxes[k].y0 + boxes[k].y1 - y);
+        const double dx = boxes[k].x0 + boxes[k].x1 - x, dy = boxes[k].y0 + boxes[k].y1 - y;
+        return dx * dx + dy * dy;
     };
     std::sort(out.begin(), out.end(), [&](Index p, Index q) {
         const double dp = distance(p), dq = distance(q);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -117,7 +119,7 @@ void Shadows::stand(const Shape& s, Index edge, bool of_robot) {
     }
     radius.clear();
     for (std::size_t v = 0; any_parallel && v < turning.seen.size(); ++v)
-        radius.push_back(std::hypot(turning.along[v], turning.across[v]));
+        radius.push_back(norm(turning.along[v], turning.across[v]));
 }
 
 // Whether a turning vertex may just reach the height of an edge along the line.

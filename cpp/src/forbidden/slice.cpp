@@ -6,6 +6,7 @@
 #include <limits>
 #include <unordered_map>
 
+#include "cfree/support/elementary.hpp"
 #include "cfree/support/stop.hpp"
 
 namespace cfree {
@@ -109,7 +110,7 @@ std::vector<Index> Slicer::chained(const Segments& s) const {
     tails.reserve(static_cast<std::size_t>(2 * n));
     for (Index k = 0; k < n; ++k) tails.emplace(end_name(s.trapezoid[k], t.lower[s.trapezoid[k]]), k);
     const auto gap = [&](Index head, Index tail) {
-        return std::hypot(s.xy[4 * head + 2] - s.xy[4 * tail], s.xy[4 * head + 3] - s.xy[4 * tail + 1]);
+        return norm(s.xy[4 * head + 2] - s.xy[4 * tail], s.xy[4 * head + 3] - s.xy[4 * tail + 1]);
     };
     std::vector<Index> next(n, -1);
     const auto link = [&](Index k, auto begin, auto end) {

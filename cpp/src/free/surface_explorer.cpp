@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "cfree/contact/contact_line.hpp"
+#include "cfree/support/elementary.hpp"
 #include "free/touching_patches.hpp"
 
 namespace cfree {
@@ -16,7 +17,7 @@ namespace {
 // Where a segment of a trapezoid begins and ends at an angle: rounded.
 using Ends = std::array<Vec<double>, 2>;
 
-double apart(const Vec<double>& p, const Vec<double>& q) { return std::hypot(p.x - q.x, p.y - q.y); }
+double apart(const Vec<double>& p, const Vec<double>& q) { return norm(p.x - q.x, p.y - q.y); }
 
 // What is to be explored next: what is nearest, on the way to a target if there is one.
 struct Growth {
@@ -146,7 +147,7 @@ bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const
     if (std::abs(rows.tau_from(other) - there) > same_angle && std::abs(rows.tau_to(other) - there) > same_angle) return false;
     const auto [p, q] = std::pair(ends(k, inside(k, tau)), ends(other, inside(other, there)));
     const Vec<double> U = p[1] - p[0];
-    const double length = std::hypot(U.x, U.y);
+    const double length = norm(U.x, U.y);
     if (length <= nearness) return apart(p[0], q[0]) <= nearness || apart(p[0], q[1]) <= nearness;
     for (const auto& x : q)
         if (std::abs(cross(U, x - p[0])) > nearness * length) return false;

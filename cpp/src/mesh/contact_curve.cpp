@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -68,8 +70,8 @@ void ContactCurve::meet_mixed(const Places::Parts& still, const Places::Parts& t
 Complex ContactCurve::at(double phi) const {
     const Complex z = std::polar(1.0, phi);
     Complex x = c + z * (m + z * m_twice) + std::conj(z) * m_back;
-    if (k != 0) x += 0.5 * k / std::tan(half(phi)) * e;
-    if (l != 0) x += 0.5 * l * std::tan(half(phi)) * e;
+    if (k != 0) x += 0.5 * k / tangent(half(phi)) * e;
+    if (l != 0) x += 0.5 * l * tangent(half(phi)) * e;
     return x;
 }
 
@@ -77,8 +79,9 @@ Complex ContactCurve::at(double phi) const {
 double ContactCurve::speed(double from, double to) const {
     double tangent = 0, cotangent = 0;
     for (const double phi : {from, to}) {
-        if (l != 0) tangent = std::max(tangent, 1 / std::pow(std::cos(half(phi)), 2));
-        if (k != 0) cotangent = std::max(cotangent, 1 / std::pow(std::sin(half(phi)), 2));
+        const CosineSine at = cosine_sine(half(phi));
+        if (l != 0) tangent = std::max(tangent, 1 / (at.c * at.c));
+        if (k != 0) cotangent = std::max(cotangent, 1 / (at.s * at.s));
     }
     return std::abs(m) + std::abs(m_back) + 2 * std::abs(m_twice) + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
 }
@@ -86,7 +89,8 @@ double ContactCurve::speed(double from, double to) const {
 double ContactCurve::bend(double from, double to) const {
     double tangent = 0, cotangent = 0;
     for (const double phi : {from, to}) {
-        const double s = std::abs(std::sin(half(phi))), t = std::abs(std::cos(half(phi)));
+        const CosineSine at = cosine_sine(half(phi));
+        const double s = std::abs(at.s), t = std::abs(at.c);
         if (l != 0) tangent = std::max(tangent, s / (t * t * t));
         if (k != 0) cotangent = std::max(cotangent, t / (s * s * s));
     }

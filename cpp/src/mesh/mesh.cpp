@@ -10,6 +10,7 @@
 
 #include "cfree/mesh/mesh_face.hpp"
 #include "cfree/mesh/triangulation.hpp"
+#include "cfree/support/elementary.hpp"
 #include "cfree/support/stop.hpp"
 
 namespace cfree {
@@ -34,7 +35,8 @@ public:
           error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
           half_edges(static_cast<Index>(cells.face.size())) {
         for (Index v = 0; v < in.vertices; ++v) {  // the robot as it is, the obstacles from their origin
-            const double c = std::cos(in.theta[v]), s = std::sin(in.theta[v]), a = scene.frame[2], b = scene.frame[3];
+            const auto [c, s] = cosine_sine(in.theta[v]);
+            const double a = scene.frame[2], b = scene.frame[3];
             places.emplace_back(in.xy[2 * v] + (0 - (c * a - s * b)), in.xy[2 * v + 1] + (0 - (s * a + c * b)));
         }
         mesh_faces.reserve(static_cast<std::size_t>(faces));

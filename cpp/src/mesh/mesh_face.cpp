@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -13,11 +15,12 @@ constexpr Complex i_unit{0, 1};
 constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
 
 double square(double x) { return x * x; }
+double cube(double x) { return x * x * x; }
 
 // The greatest |cos| from one angle to another.
 double most_cosine(double from, double to) {
     if (std::floor(to / pi) > std::floor(from / pi)) return 1;
-    return std::max(std::abs(std::cos(from)), std::abs(std::cos(to)));
+    return std::max(std::abs(cosine(from)), std::abs(cosine(to)));
 }
 }  // namespace
 
@@ -45,7 +48,7 @@ MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower
     }
     fixed = parts.b, h = dot(normal, parts.a);
     const double start = dot(parts.a, direction), middle = start + 0.5 * parts.length;
-    shear = 0.5 * h / std::hypot(w, middle);
+    shear = 0.5 * h / norm(w, middle);
     for (int k = 0; k <= 8 && !is_thin(); ++k) most_width = std::max(most_width, width_u(from + k * (to - from) / 8));
 }
 
@@ -80,7 +83,7 @@ double MeshFace::most_form(const Corners& c) const {
 }
 
 double MeshFace::third_order(const Spread& d) const {
-    return d.reach * std::pow(d.angle, 3) / 48 + std::abs(h) * std::pow(d.angle, 4) / 288;
+    return d.reach * cube(d.angle) / 48 + std::abs(h) * square(square(d.angle)) / 288;
 }
 
 double MeshFace::slice_distance(const Corners& c, const Spread& d) const {
@@ -95,7 +98,7 @@ double MeshFace::beyond(const Corners& c, const Spread& d) const {
     for (int side = 0; side < 2; ++side) {
         std::array<const MeshPoint*, 3> p = c;
         std::sort(p.begin(), p.end(), [&](auto* x, auto* y) { return x->inward[side] < y->inward[side]; });
-        const double bend = curves[side].bend(d.low, d.high), turn = std::cos(d.angle);
+        const double bend = curves[side].bend(d.low, d.high), turn = cosine(d.angle);
         const double least = p[0]->inward[side] * turn;
         const double plain = bend * square(d.angle) / 8 - least;
         const double two = std::max(bend * square(p[1]->phi - p[0]->phi) / 8 - least,
@@ -109,14 +112,14 @@ double MeshFace::excess(const Corners& c) const {
     if (is_thin()) return 0;
     const Spread d(c);
     if (d.angle > pi / 2) return infinity;
-    const double over = beyond(c, d), plain = std::hypot(slice_distance(c, d), over) / eps;
+    const double over = beyond(c, d), plain = norm(slice_distance(c, d), over) / eps;
     if (plain <= 1 || !is_saddle) return plain;
-    return std::min(plain, std::max(std::hypot(slice_distance_near_sides(c, d), over) / eps, excess_inside(c)));
+    return std::min(plain, std::max(norm(slice_distance_near_sides(c, d), over) / eps, excess_inside(c)));
 }
 
 // Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
 double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) const {
-    const double all = slice_distance(c, d), forms = most_form(c), turn = std::cos(d.angle), margin = eps / w;
+    const double all = slice_distance(c, d), forms = most_form(c), turn = cosine(d.angle), margin = eps / w;
     double most = 0;
     // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
     const auto add = [&](std::array<double, 3> height, double near_by, double bend) {
@@ -143,10 +146,10 @@ double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) co
 double MeshFace::excess_inside(const Corners& c) const {
     const Spread d(c);
     const double rest = third_order(d);
-    const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * std::pow(d.angle, 3) / 48 +
-                        eps * std::hypot(1, (std::abs(h) + eps * std::hypot(1, d.reach / w)) / w);
+    const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * cube(d.angle) / 48 +
+                        eps * norm(1, (std::abs(h) + eps * norm(1, d.reach / w)) / w);
     const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;
-    const double G = std::hypot(1, r), slope = std::copysign(r / (w * G), s);  // the tangent of a convex function
+    const double G = norm(1, r), slope = std::copysign(r / (w * G), s);  // the tangent of a convex function
     double most = 0;
     for (int k = 0; k < 3; ++k) {
         const MeshPoint &p = *c[k], &q = *c[(k + 1) % 3];

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -120,7 +122,7 @@ bool Triangulation::is_outside_circle(Index t, int k) const {
     };
     double sine_a, sine_o;
     const double cosine_a = cotangents(a, b, c, sine_a), cosine_o = cotangents(o, c, b, sine_o);
-    const double size = std::hypot(cosine_a, sine_a) * std::hypot(cosine_o, sine_o);
+    const double size = norm(cosine_a, sine_a) * norm(cosine_o, sine_o);
     return sine_a * cosine_o + cosine_a * sine_o >= -flat * size;  // the sine of the two angles' sum
 }
 

@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "cfree/contact/surface.hpp"
+#include "cfree/support/elementary.hpp"
 #include "cfree/support/stop.hpp"
 
 namespace cfree {
@@ -21,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 Vec<double> moved(const Scene& scene, double theta) {
     const auto [x, y, a, b] = scene.frame;
     if (x == 0 && y == 0 && a == 0 && b == 0) return {0, 0};
-    const double c = std::cos(theta), s = std::sin(theta);
+    const auto [c, s] = cosine_sine(theta);
     return {x - (c * a - s * b), y - (s * a + c * b)};
 }
 
@@ -46,7 +47,7 @@ FaceGraph::FaceGraph(std::shared_ptr<const CellComplex> of, double scale)
 void FaceGraph::middles(Index face, std::vector<Place>& found) const {
     const Trapezoids& table = cells->boundary->trapezoids;
     const double turn = table.chart[face] * pi;
-    const double low = 2 * std::atan(table.tau_from(face)) + turn, high = 2 * std::atan(table.tau_to(face)) + turn;
+    const double low = 2 * arc_tangent(table.tau_from(face)) + turn, high = 2 * arc_tangent(table.tau_to(face)) + turn;
     const Feature contact = cells->boundary->patches.contact(table.patch[face]);
     const Index first = cells->first[face], end = cells->first[face + 1];
     for (Index h = first; h < end; ++h) {
@@ -66,7 +67,7 @@ void FaceGraph::middles(Index face, std::vector<Place>& found) const {
             const double turned = theta + 2 * pi * std::nearbyint(((low + high) / 2 - theta) / (2 * pi));
             result.theta += std::min(std::max(turned, low), high) / 2;
         }
-        const auto t = limits.of(face, std::tan((result.theta - turn) / 2));
+        const auto t = limits.of(face, tangent((result.theta - turn) / 2));
         const Place at = surface_at(scene, contact, t[side == Side::upper], result.theta);
         const Vec<double> by = moved(*cells->boundary->scene, result.theta);
         result.x = at.x + by.x, result.y = at.y + by.y;
@@ -74,7 +75,7 @@ void FaceGraph::middles(Index face, std::vector<Place>& found) const {
 }
 
 double FaceGraph::apart(const Place& a, const Place& b) const {
-    return std::hypot(b.x - a.x, b.y - a.y) + angle_scale * std::abs(std::remainder(b.theta - a.theta, 2 * pi));
+    return norm(b.x - a.x, b.y - a.y) + angle_scale * std::abs(std::remainder(b.theta - a.theta, 2 * pi));
 }
 
 std::vector<FaceGraph::Step> FaceGraph::shortest(const Place& start, std::span<const Mark> starts, const Place& goal,

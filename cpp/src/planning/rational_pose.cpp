@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 HalfAngle HalfAngle::of(int chart, const Ratio& tau) {
@@ -22,8 +24,8 @@ double HalfAngle::theta() const {
     constexpr double pi = std::numbers::pi;
     if (q.is_zero()) return pi;
     const Ratio local = tau();
-    if (chart() == 1) return pi + 2 * std::atan(nearest(local.n, local.d));
-    const double theta = 2 * std::atan(nearest(local.n, local.d));
+    if (chart() == 1) return pi + 2 * arc_tangent(nearest(local.n, local.d));
+    const double theta = 2 * arc_tangent(nearest(local.n, local.d));
     const double positive = theta < 0 ? theta + 2 * pi : theta;
     return positive < 2 * pi ? positive : 0;
 }

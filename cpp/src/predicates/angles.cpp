@@ -1,6 +1,7 @@
 // The order of critical angles, and samples between them; theory, "Degrees".
 #include <stdexcept>
 
+#include "cfree/support/elementary.hpp"
 #include "predicates/form.hpp"
 
 namespace cfree {
@@ -45,7 +46,7 @@ struct ParallelAngle {
 
 // Of a direction whose coordinates are together within 8 u times `error` of the truth, x on the side given.
 ParallelAngle angle_of(double x, double y, int side, double error) {
-    const double length = std::hypot(x, y);
+    const double length = norm(x, y);
     return {side, y > 0, side * y / (length + std::abs(x)), 16 * u * error / length + 4 * u};
 }
 
@@ -67,7 +68,7 @@ ParallelAngle parallel_angle(const Scene& scene, Index g, Index f, Counters& cou
         const auto side = certain_sign(exact.x);
         if (!side) return {};
         const Vec<Ball> d = as_balls(exact);
-        const double length = std::hypot(d.x.hi, d.y.hi);
+        const double length = norm(d.x.hi, d.y.hi);
         if (!(d.x.radius + d.y.radius < u * length)) return {};
         return angle_of(d.x.hi, d.y.hi, *side, 0.75 * length);  // less than 3 u times the length
     });

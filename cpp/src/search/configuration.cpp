@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 using std::numbers::pi;
@@ -13,10 +15,10 @@ Configuration Grid::exact(double px, double py, double theta) const {
     q.theta = std::remainder(theta, 2 * pi);
     const bool beside = std::abs(q.theta) > 0.5 * pi;  // half the angle is nearer to the y axis
     const double half = 0.5 * (beside ? q.theta - std::copysign(pi, q.theta) : q.theta);
-    const auto across = static_cast<long long>(std::llround(std::ldexp(std::tan(half), angle_bits)));
+    const auto across = static_cast<long long>(std::llround(std::ldexp(tangent(half), angle_bits)));
     const long long one = 1LL << angle_bits;
     q.hx = beside ? -across : one, q.hy = beside ? one : across;
-    q.theta = 2 * std::atan2(static_cast<double>(beside ? one : across), static_cast<double>(beside ? -across : one));
+    q.theta = 2 * arc_tangent(static_cast<double>(beside ? one : across), static_cast<double>(beside ? -across : one));
     if (q.theta > pi) q.theta -= 2 * pi;
     const double x = std::nearbyint(std::ldexp(px, place_bits)), y = std::nearbyint(std::ldexp(py, place_bits));
     q.px = std::ldexp(x, -place_bits), q.py = std::ldexp(y, -place_bits);
@@ -60,16 +62,17 @@ double wrapped(double angle) {
 }
 
 double travel_between(const Configuration& a, const Configuration& b) {
-    const double half = 0.5 * std::abs(turn_between(a, b)), chord = std::hypot(b.px - a.px, b.py - a.py);
-    return half > 1e-6 ? chord * half / std::sin(half) : chord;
+    const double half = 0.5 * std::abs(turn_between(a, b)), chord = norm(b.px - a.px, b.py - a.py);
+    return half > 1e-6 ? chord * half / sine(half) : chord;
 }
 
 Place along(const Configuration& a, const Configuration& b, double share) {
     const double turn = turn_between(a, b), half = 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;
     if (std::abs(half) < 1e-9) return {a.px + share * dx, a.py + share * dy, a.theta + share * turn};
     // from a: the chord of share * turn, which leaves the whole chord's direction by the rest's half
-    const double scale = std::sin(share * half) / std::sin(half), off = (share - 1) * half;
-    const double c = std::cos(off) * scale, s = std::sin(off) * scale;
+    const double scale = sine(share * half) / sine(half), off = (share - 1) * half;
+    const CosineSine to = cosine_sine(off);
+    const double c = to.c * scale, s = to.s * scale;
     return {a.px + c * dx - s * dy, a.py + s * dx + c * dy, a.theta + share * turn};
 }
 

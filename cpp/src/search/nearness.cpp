@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cfree/support/elementary.hpp"
 #include "collision/box_tree.hpp"
 
 namespace cfree {
@@ -24,7 +25,7 @@ Nearness::Pieces Nearness::pieces_of(const Shape& s) {
         if (end - begin < 3 || s.piece_layer[k] != 0) continue;
         for (Index m = begin; m < end; ++m) {
             const Index v = s.piece_vertex[m], w = s.piece_vertex[m + 1 < end ? m + 1 : begin];
-            const double ex = s.x[w] - s.x[v], ey = s.y[w] - s.y[v], length = std::max(std::hypot(ex, ey), 1e-300);
+            const double ex = s.x[w] - s.x[v], ey = s.y[w] - s.y[v], length = std::max(norm(ex, ey), 1e-300);
             p.x.push_back(s.x[v]), p.y.push_back(s.y[v]);
             p.nx.push_back(ey / length), p.ny.push_back(-ex / length);
             p.h.push_back(p.nx.back() * s.x[v] + p.ny.back() * s.y[v]);
@@ -34,7 +35,7 @@ Nearness::Pieces Nearness::pieces_of(const Shape& s) {
         for (std::size_t m = begin_at; m < p.x.size(); ++m) box.add(p.x[m], p.y[m]);
         p.disc.push_back({0.5 * (box.x0 + box.x1), 0.5 * (box.y0 + box.y1), 0});
         for (std::size_t m = begin_at; m < p.x.size(); ++m)
-            p.disc.back().radius = std::max(p.disc.back().radius, std::hypot(p.x[m] - p.disc.back().x, p.y[m] - p.disc.back().y));
+            p.disc.back().radius = std::max(p.disc.back().radius, norm(p.x[m] - p.disc.back().x, p.y[m] - p.disc.back().y));
         p.first.push_back(static_cast<Index>(p.x.size()));
     }
     return p;
@@ -49,7 +50,7 @@ Nearness::Nearness(const Scene& scene) : robot(pieces_of(scene.robot)), obstacle
             size = std::max({size, std::abs(obstacles.x[k]), std::abs(obstacles.y[k])});
         }
     least_distance = rounding * size;
-    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, std::hypot(robot.x[k], robot.y[k]));
+    for (std::size_t k = 0; k < robot.x.size(); ++k) reach = std::max(reach, norm(robot.x[k], robot.y[k]));
     tree = std::make_unique<BoxTree>(std::move(boxes));
 }
 Nearness::~Nearness() = default;
@@ -59,7 +60,7 @@ struct Nearness::Placed {
     double px, py, c, s;
     std::vector<double> x, y;
     Placed(const Pieces& p, const Place& at)
-        : px(at.x), py(at.y), c(std::cos(at.theta)), s(std::sin(at.theta)), x(p.x.size()), y(p.x.size()) {
+        : px(at.x), py(at.y), c(cosine(at.theta)), s(sine(at.theta)), x(p.x.size()), y(p.x.size()) {
         for (std::size_t k = 0; k < x.size(); ++k) {
             x[k] = px + (c * p.x[k] - s * p.y[k]);
             y[k] = py + (s * p.x[k] + c * p.y[k]);
@@ -208,7 +209,7 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
                 const Vec<double> n = w.normal, r = m.seen_from(n.x, n.y);
                 double robots = HUGE_VAL, others = -HUGE_VAL, robots_own = HUGE_VAL, others_own = -HUGE_VAL;
                 for (Index v = begin; v < end; ++v) {
-                    const double bulge = std::hypot(m.x[v] - 0.5 * (p.x[v] + q.x[v]), m.y[v] - 0.5 * (p.y[v] + q.y[v]));
+                    const double bulge = norm(m.x[v] - 0.5 * (p.x[v] + q.x[v]), m.y[v] - 0.5 * (p.y[v] + q.y[v]));
                     robots = std::min(robots, std::min(n.x * p.x[v] + n.y * p.y[v], n.x * q.x[v] + n.y * q.y[v]) - bulge);
                     robots_own = std::min(robots_own, r.x * robot.x[v] + r.y * robot.y[v]);
                 }
@@ -217,7 +218,7 @@ bool Nearness::keeps(const Configuration& a, const Configuration& b, const std::
                     others = std::max(others, n.x * x + n.y * y);
                     const auto s = p.seen_from(x - p.px, y - p.py), t = q.seen_from(x - q.px, y - q.py);
                     const auto u = m.seen_from(x - m.px, y - m.py);
-                    const double bulge = std::hypot(u.x - 0.5 * (s.x + t.x), u.y - 0.5 * (s.y + t.y));
+                    const double bulge = norm(u.x - 0.5 * (s.x + t.x), u.y - 0.5 * (s.y + t.y));
                     others_own = std::max(others_own, std::max(r.x * s.x + r.y * s.y, r.x * t.x + r.y * t.y) + bulge);
                 }
                 if (std::max(robots - others, robots_own - others_own) < nearly * asked) holds = false;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -20,13 +22,13 @@ bool are_one(const Configuration& a, const Configuration& b) {
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed)
     : joins(std::move(j)), grid(g), area(a), weight(w),
-      range(longest_step * (std::hypot(a.x1 - a.x0, a.y1 - a.y0) + w * std::numbers::pi)), random(seed) {
+      range(longest_step * (norm(a.x1 - a.x0, a.y1 - a.y0) + w * std::numbers::pi)), random(seed) {
     trees[0] = {{std::move(start)}, {-1}};
     trees[1] = {{std::move(goal)}, {-1}};
 }
 
 double RrtConnect::distance(const Configuration& a, const Configuration& b) const {
-    return std::hypot(b.px - a.px, b.py - a.py) + weight * std::abs(turn_between(a, b));
+    return norm(b.px - a.px, b.py - a.py) + weight * std::abs(turn_between(a, b));
 }
 
 Index RrtConnect::nearest(const Tree& tree, const Configuration& q) const {
