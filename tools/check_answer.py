@@ -364,7 +364,7 @@ class Scene:
         self, robot: list[Polygon], obstacles: list[Polygon], workspace: Polygon | None, bounds: Fractions | None
     ) -> None:
         self.robot, self.obstacles, self.workspace, self.bounds = robot, obstacles, workspace, bounds
-        self.asked: dict[str, Pose] = {}
+        self.asked: dict[str, list[Pose | Point]] = {}  # any one of them; a place is any pose at it
         polygons = [*robot, *obstacles, *filter(None, [workspace])]
         self.scale = math.lcm(*(p.unit for p in polygons), *(b.denominator for b in bounds or ()))
         coordinates = [c for p in polygons for ring in p.rings for point in ring for c in point]
@@ -393,7 +393,7 @@ class Scene:
 def read_scene(data: Any) -> Scene:
     refuse_if(isinstance(data, dict) and "type" in data, "GeoJSON is not read here; save the scene as a JSON scene")
     optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
-    got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], **optional)
+    got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], goals=[], **optional)
     one_of(got["version"], "version", 1)
     robot = [got["robot"]] if isinstance(got["robot"], dict) else items(got["robot"], "robot", 1)
     obstacles = enumerate(items(got["obstacles"], "obstacles"))
@@ -403,8 +403,18 @@ def read_scene(data: Any) -> Scene:
         None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
-    found.asked = {end: read_pose(got[end], end) for end in ("start", "goal") if got[end] is not None}
+    goals = items(got["goals"], "goals")
+    refuse_if(got["goal"] is not None and goals, "goals: there is a goal, too")
+    found.asked["start"] = [read_pose(value, "start") for value in [got["start"]] if value is not None]
+    found.asked["goal"] = [read_goal(value, "goal") for value in [got["goal"], *goals] if value is not None]
     return found
+
+def read_goal(value: Any, place: str) -> Pose | Point:
+    if len(items(value, place, 2, 3)) == 3:
+        return read_pose(value, place)
+    read_pose([*value, 0], place)
+    x, y = numbers(value, place, 2)
+    return x, y
 
 def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
     got = members(value, place, outer=REQUIRED, holes=[], **more)
@@ -940,9 +950,10 @@ class Answer:
     def check_asked(self, scene: Scene) -> None:
         refute_if(self.sha256 != scene.sha256, "it is an answer for another scene")
         refute_if(self.box != scene.box, "scene.robot is not the box around the robot")
-        for name, pose in scene.asked.items():
-            if pose != getattr(self, name):
-                raise RefutedError(f"the {name} is {getattr(self, name)}, and {pose} in the scene")
+        for name, asked in scene.asked.items():
+            pose = getattr(self, name)
+            if asked and pose not in asked and (pose.x, pose.y) not in asked:
+                raise RefutedError(f"the {name} is {pose}, and {' or '.join(map(str, asked))} in the scene")
 
 def off(decimals: dict[Any, Fraction], place: Any, exact: Fractions) -> Fraction:
     return sum((abs(decimals[place, k] - c) for k, c in enumerate(exact)), ZERO)

@@ -129,6 +129,18 @@ def test_a_form_may_be_asked_for(run: Run, tmp_path: Path) -> None:
     assert run("plan", CONVEX, "-o", file, "--format", "xml").exit_code == 2
 
 
+def test_goals_may_be_in_the_scene(run: Run, tmp_path: Path) -> None:
+    scene, picture = tmp_path / "scene.json", tmp_path / "scene.png"
+    shape, walls = {"outer": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}, [{"outer": [[4, -9], [5, -9], [5, 9], [4, 9]]}]
+    goals = {"start": [0, 0, 0], "goals": [[9, 0], [0, 3, 0]], "bounds": [-9, -9, 9, 9]}
+    scene.write_text(json.dumps({"robot": shape, "obstacles": walls} | goals))
+    said = run("check", scene).stdout
+    assert "goal 0     x 9, y 0, any theta: free" in said and "goal 1     x 0, y 3, theta 0 degrees: free" in said
+    assert json.loads(run("plan", scene, "--json").stdout)["goal reached"] == [0, 3, 0]
+    assert run("plan", scene, "--goal", "9,0").exit_code == 1
+    assert run("boundary", scene, "--picture", picture).exit_code == 0 and picture.exists()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -89,6 +89,34 @@ def test_unnamed_obstacles_are_numbered_and_others_keep_their_names(tmp_path: Pa
     assert "obstacle 0" not in scene_text(scene)
 
 
+def test_goals_may_be_places_and_several(tmp_path: Path) -> None:
+    scene = read(tmp_path, f'{{"robot": {TRIANGLE}, "goal": [1, "1/3"]}}')
+    assert (scene.goal, scene.goals) == (None, ((1, Fraction(1, 3)),)) and scene == Scene(scene.robot, goal=(1, "1/3"))
+    assert '"goal": [1, "1/3"]\n' in scene_text(scene)
+    several = read(tmp_path, f'{{"robot": {TRIANGLE}, "goals": [[1, 2], [3, 4, "90deg"]]}}')
+    assert several.goals == ((1, 2), Pose(3, 4, "90deg")) != scene.goals
+    assert read(tmp_path, f'{{"robot": {TRIANGLE}, "goals": [[3, 4, "90deg"]]}}').goal == Pose(3, 4, "90deg")
+    for each in (scene, several):
+        save_scene(each, tmp_path / "again.json")
+        assert load_scene(tmp_path / "again.json") == each
+    with pytest.raises(ValueError, match="goal and goals: give one of them"):
+        Scene(scene.robot, goal=(1, 2), goals=[(1, 2)])
+
+
+@pytest.mark.parametrize(
+    ("goals", "fault"),
+    [
+        ('"goal": [1]', "1:56 goal: expected [x, y, theta], or [x, y] for any theta, got [1]"),
+        ('"goal": [1, "x"]', '1:60 goal[1]: expected a number or "p/q", got "x"'),
+        ('"goals": [[1, 1e151]]', "1:58 goals[0]: a position beyond 1e150; give one nearer to the scene"),
+        ('"goals": [[1, 2, "x"]]', '1:65 goals[0][2]: expected radians, "90deg" or {"tau": "p/q"}, got "x"'),
+        ('"goals": [[1, 2]], "goal": [1, 2]', '1:57 goals: there is a "goal", too; give one of them'),
+    ],
+)
+def test_faults_of_goals_have_their_places(tmp_path: Path, goals: str, fault: str) -> None:
+    assert faults(tmp_path, f'{{"robot": {TRIANGLE}, {goals}}}') == [f"scene.json:{fault}"]
+
+
 # what is wrong with them
 
 
@@ -113,7 +141,7 @@ def test_all_problems_are_told_at_once_with_their_places(tmp_path: Path) -> None
     [[0, 0], [1, 0], [0, 1]], {"holes": 5}
   ],
   "bounds": [0, 0, 0, 5],
-  "start": [0, 0, "abc"], "goal": [0, 1], "workspace": {"outer": []},
+  "start": [0, 0, "abc"], "goal": [0], "workspace": {"outer": []},
   "check": {"a": -Infinity, "b": 1},
   "source": {"licence": 5}
 }"""
@@ -142,8 +170,8 @@ def test_all_problems_are_told_at_once_with_their_places(tmp_path: Path) -> None
         "scene.json:12:13 bounds: [0, 0, 0, 5] is empty; "
         "give [xmin, ymin, xmax, ymax] with xmin < xmax and ymin < ymax",
         'scene.json:13:19 start[2]: expected radians, "90deg" or {"tau": "p/q"}, got "abc"',
-        "scene.json:13:35 goal: expected [x, y, theta], got [0, 1]",
-        "scene.json:13:66 workspace.outer: outer ring: 0 points; give at least 3",
+        "scene.json:13:35 goal: expected [x, y, theta], or [x, y] for any theta, got [0]",
+        "scene.json:13:63 workspace.outer: outer ring: 0 points; give at least 3",
         "scene.json:14:18 check.a: -Infinity is not finite; give a finite number",
         "scene.json:15:25 source.licence: expected text in quotes, got 5",
     ]

@@ -75,6 +75,23 @@ def test_of_several_the_nearest_is_reached() -> None:
     assert some == plan(free_space(boundary(SHUT)), START, [(0, -5), (3, 5, "30deg")], improve=None)
 
 
+def test_goals_of_a_scene_are_what_is_asked() -> None:
+    place = gate(1, start=START, goal=(0, -5))
+    path = plan(place)
+    assert isinstance(path, Path) and (path.goal.x, path.goal.y) == (0, -5)
+    assert verified_in_a_file(place, path).verified
+    assert not verified_in_a_file(gate(1, start=START, goal=(0, -6)), path).verified
+    several = gate(1, start=START, goals=[(0, -5), Pose(3, 5)])
+    found = plan(several)
+    assert isinstance(found, Path) and found.goal == Pose(3, 5) and verified_in_a_file(several, found).verified
+    none = plan(gate("2/5", start=START, goals=[(0, -5), Pose(0, -6)]))
+    assert isinstance(none, AllSeparated) and len(none.goals) == 2
+    assert cfree.verify.answer(gate("2/5", start=START, goals=[(0, -5)]), none).verified
+    assert not cfree.verify.answer(gate("2/5", start=START, goals=[(0, -5), (1, -5)]), none).verified
+    with pytest.raises(InvalidPoseError, match="no goal: the scene has several, or a place"):
+        cfree.max_margin(several)
+
+
 def test_if_none_is_there_is_a_proof_for_each_interval() -> None:
     proof = plan(SHUT, START, [(0, -5), (8, "-4.5", 0), (0, "-2.6")])
     assert isinstance(proof, AllSeparated) and proof.of == "closed" and len(proof.proofs) == 4

@@ -98,7 +98,7 @@ class Answering:
         from cfree.exact.pose import Pose
         from cfree.scene.scene import required
 
-        given, goals = ends
+        given, goals = ends[0], ends[1] or planner.scene.goals
         is_one = not goals or (len(goals) == 1 and isinstance(goals[0], Pose))
         start, goal = required(planner.scene, given, goals[0] if is_one and goals else None if is_one else Pose(0, 0))
         try:

@@ -10,11 +10,13 @@ import numpy as np
 from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
 from cfree.forbidden.kinds import KINDS
+from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, scene_features
 
 if TYPE_CHECKING:
     from cfree.forbidden.slice import Slice
+    from cfree.scene.goals import Goal
     from cfree.scene.scene import Scene
 
 
@@ -64,6 +66,7 @@ def describe(scene: Scene) -> dict[str, Any]:
         "patches": expected_patches(scene, features),
         "start": _pose_facts(checker, scene.start),
         "goal": _pose_facts(checker, scene.goal),
+        "goals": [_goal_facts(scene, goal) for goal in scene.goals],
     }
 
 
@@ -114,6 +117,14 @@ def _counts(shapes: Sequence[Polygon]) -> dict[str, int]:
         "holes": sum(len(shape.ring_offsets) - 2 for shape in shapes),
         "pieces": sum(len(shape.pieces) for shape in shapes),
     }
+
+
+def _goal_facts(scene: Scene, goal: Goal) -> dict[str, Any]:
+    """Of a pose, or of a place: is it free in any orientation?"""
+    if isinstance(goal, Pose):
+        return {**(_pose_facts(PoseChecker(scene), goal) or {})}
+    x, y = map(float, goal)
+    return {"x": x, "y": y, "degrees": None, "free": bool(turn_in_place(scene, Pose(*goal)))}
 
 
 def _pose_facts(checker: PoseChecker | None, pose: Pose | None) -> dict[str, Any] | None:

@@ -39,10 +39,12 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]
         yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
-    for name in ("start", "goal"):
-        if pose := facts[name]:
+    goals = {f"goal {k}": pose for k, pose in enumerate(facts["goals"])}
+    for name, pose in {"start": facts["start"], "goal": facts["goal"], **goals}.items():
+        if pose:
             verdict = "free" if pose["free"] else "FORBIDDEN"
-            yield f"{name:<10} x {pose['x']:g}, y {pose['y']:g}, theta {pose['degrees']:g} degrees: {verdict}"
+            theta = "any theta" if pose["degrees"] is None else f"theta {pose['degrees']:g} degrees"
+            yield f"{name:<10} x {pose['x']:g}, y {pose['y']:g}, {theta}: {verdict}"
     for point in facts["removed"]:
         place = "outer ring" if point["ring"] == 0 else f"hole {point['ring'] - 1}"
         yield f"removed    {point['shape']}: {place}, point {point['index']}: {point['reason']}"

@@ -26,6 +26,7 @@ from cfree.formats.findings import Findings, read_text
 from cfree.formats.json_text import read_json, read_literals, with_numbers
 from cfree.formats.scene_values import scene_from_plain
 from cfree.polygons.polygon import Polygon
+from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
@@ -158,7 +159,11 @@ def scene_text(scene: Scene) -> str:
         lines["bounds"] = f"[{', '.join(map(number_text, scene.bounds))}]"
     for key, pose in (("start", scene.start), ("goal", scene.goal)):
         if pose:
-            lines[key] = f"[{number_text(pose.x)}, {number_text(pose.y)}, {_angle_text(pose)}]"
+            lines[key] = _goal_text(pose)
+    if len(scene.goals) == 1:
+        lines["goal"] = _goal_text(scene.goals[0])
+    elif scene.goals:
+        lines["goals"] = _list([_goal_text(goal) for goal in scene.goals])
     if scene.check:
         lines["check"] = _json(scene.check)
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in lines.items()) + "\n}\n"
@@ -221,6 +226,13 @@ def _shape(polygon: Polygon, name: str = "") -> str:
 
 def _list(shapes: Sequence[str]) -> str:
     return "[" + ",".join(f"\n    {shape}" for shape in shapes) + ("\n  ]" if shapes else "]")
+
+
+def _goal_text(goal: Goal) -> str:
+    """A pose, or a place."""
+    if not isinstance(goal, Pose):
+        return f"[{', '.join(map(number_text, goal))}]"
+    return f"[{number_text(goal.x)}, {number_text(goal.y)}, {_angle_text(goal)}]"
 
 
 def _angle_text(pose: Pose) -> str:

@@ -21,8 +21,11 @@ from pydantic import (
     ModelWrapValidatorHandler,
     PlainValidator,
     PrivateAttr,
+    TypeAdapter,
     ValidationError,
+    ValidatorFunctionWrapHandler,
     WithJsonSchema,
+    WrapValidator,
     model_validator,
 )
 from pydantic_core import ErrorDetails
@@ -40,6 +43,7 @@ from cfree.formats.scene_values import (
     known_version,
     list_of,
     not_empty,
+    place,
     plain,
     plain_polygon,
     pose,
@@ -96,6 +100,21 @@ Configuration = Annotated[
     BeforeValidator(list_of(3, "[x, y, theta]")),
     AfterValidator(pose),
 ]
+Place = Annotated[tuple[Coordinate, Coordinate], AfterValidator(place)]
+_A_PLACE = TypeAdapter(Place)
+
+
+def _place_or(value: Any, handler: ValidatorFunctionWrapHandler) -> Any:
+    """A configuration, or a place."""
+    if isinstance(value, list) and len(value) == 2:
+        return _A_PLACE.validate_python(value)
+    if isinstance(value, list) and len(value) == 3:
+        return handler(value)
+    raise Fault("expected [x, y, theta], or [x, y] for any theta, got {got}")
+
+
+_GOAL_SCHEMA = {"anyOf": [TypeAdapter(Configuration).json_schema(), _A_PLACE.json_schema()]}
+Goal = Annotated[Configuration, WrapValidator(_place_or), WithJsonSchema(_GOAL_SCHEMA)]
 Version = Annotated[int, PlainValidator(known_version), WithJsonSchema({"const": VERSION})]
 Text = Annotated[str, Field(max_length=MAX_TEXT)]
 Plain = Annotated[dict[str, Any], AfterValidator(plain)]
@@ -152,7 +171,8 @@ class SceneModel(Strict):
     workspace: PolygonModel | None = None
     bounds: Bounds | None = None
     start: Configuration | None = None
-    goal: Configuration | None = None
+    goal: Goal | None = None
+    goals: list[Goal] = []
     check: Plain = {}
 
 
@@ -167,6 +187,9 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
             if single_robot and path[:1] == ("robot",):
                 path = ("robot", *path[2:])
             report(findings, path, item)
+    else:
+        if model.goal is not None and model.goals:
+            findings.under(("goals",), 'there is a "goal", too; give one of them')
     findings.fail_if_any()
     robot, obstacles = ([part.polygon for part in parts] for parts in (model.robot, model.obstacles))
     workspace = model.workspace.polygon if model.workspace else None
@@ -212,4 +235,4 @@ def report(findings: Findings, path: Path, item: ErrorDetails, keys_at: Callable
         findings.under(path, f"expected {expected}, got {{got}}")
 
 
-_PLAIN_FIELDS = ("bounds", "start", "goal", "units", "version", "name", "note", "source", "check")
+_PLAIN_FIELDS = ("bounds", "start", "goal", "goals", "units", "version", "name", "note", "source", "check")

@@ -19,6 +19,7 @@ from cfree.exact.pose import Pose
 from cfree.formats.json_text import Literal, number_of
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import LARGEST
+from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 
 VERSION = 1
@@ -77,6 +78,11 @@ def pose(value: tuple[Fraction, Fraction, Any]) -> Pose:
     return Pose(*value)
 
 
+def place(value: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
+    pose((*value, 0))
+    return value
+
+
 def not_empty(value: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
     xmin, ymin, xmax, ymax = value
     if xmin >= xmax or ymin >= ymax:
@@ -128,6 +134,8 @@ def scene_from_plain(data: object) -> Scene | None:
     room = None if workspace is None else plain_polygon(workspace, POLYGON)
     if None in parts or None in bodies or (room is None and workspace is not None):
         return None
+    if data.get("goal") is not None and data.get("goals"):
+        return None
     names = [obstacle.get("name") for obstacle in obstacles]
     try:
         others = {key: read(data[key]) for key, read in _READERS.items() if key in data}
@@ -178,12 +186,22 @@ def _configuration(value: Any) -> Pose | None:
     return pose((coordinate(x), coordinate(y), angle(theta)))
 
 
+def _goal(value: Any) -> Goal | None:
+    """A pose, or a place."""
+    if isinstance(value, list) and len(value) == 2:
+        x, y = map(coordinate, value)
+        return place((x, y))
+    return _configuration(value)
+
+
 _SHAPES = {"robot", "obstacles", "workspace"}
 _READERS: dict[str, Callable[[Any], Any]] = {
     "version": lambda value: known_version(number_of(value) if isinstance(value, Literal) else value),
     **dict.fromkeys(("name", "note", "units"), _text),
     "source": lambda value: {key: _text(text) for key, text in _object(value).items()},
     "bounds": _bounds,
-    **dict.fromkeys(("start", "goal"), _configuration),
+    "start": _configuration,
+    "goal": lambda value: None if value is None else _goal(value),
+    "goals": lambda value: [_goal(goal) for goal in value],
     "check": _object,
 }

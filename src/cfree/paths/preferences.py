@@ -71,6 +71,7 @@ class Preferences:
         """In the order of the parameters."""
         return self.sideways, self.backward, self.turning
 
+    @checked
     def cost(self, path: Path, scene: Scene) -> float:
         """Of a path in a scene: its length, plus turning times the robot's radius, with these factors."""
         radius, cost = robot_radius(scene), 0.0

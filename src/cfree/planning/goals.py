@@ -7,29 +7,26 @@ there. So one pose stands for each of them.
 from __future__ import annotations
 
 import math
-import reprlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Literal
-
-import numpy as np
+from typing import TYPE_CHECKING, Literal
 
 from cfree.arguments import checked
 from cfree.collision.nearest_free import require_free
 from cfree.errors import InvalidPoseError
-from cfree.exact.number import ExactPoint, to_fraction
-from cfree.exact.pose import Pose, to_pose
+from cfree.exact.number import ExactPoint
+from cfree.exact.pose import Pose
 from cfree.paths.path import Objective, Path
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp
+from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
     from cfree.exact.angle_interval import AngleInterval
     from cfree.planning.asked import Planner
 
-Goal = Pose | ExactPoint
 BITS = 20  # of orientations next to the end of an interval, then twice as many, and so on
 INWARD = math.radians(10)  # from the end of an interval, or a quarter of it
 
@@ -92,49 +89,6 @@ class AllSeparated:
     def obstacles(self) -> tuple[int, ...]:
         """Whose contacts form the surfaces; -1 is the bounds, -2 the workspace."""
         return tuple(sorted({k for proof in self.proofs for k in proof.obstacles}))
-
-
-def to_goals(value: Any) -> tuple[Goal, ...] | Pose:
-    """One pose, or several goals; a pair is a place.
-
-    Raises
-    ------
-    InvalidPoseError, TypeError
-        If it is neither, with the number of the goal.
-
-    Examples
-    --------
-    >>> to_goals((1, 2)), to_goals((1, 2, 0)) == Pose(1, 2), len(to_goals([(1, 2, 0), (1, 2)]))
-    (((Fraction(1, 1), Fraction(2, 1)),), True, 2)
-    """
-    if isinstance(value, Pose) or (_is_row(value) and len(value) == 3):
-        return to_pose(value, "goal")
-    if _is_row(value) and len(value) == 2:
-        return (_place(value, "goal"),)
-    if not isinstance(value, Sequence | np.ndarray) or isinstance(value, str) or _is_row(value) or len(value) == 0:
-        to_pose(value, "goal")
-    return tuple(
-        _place(item, f"goal {k}") if _is_row(item) and len(item) == 2 else to_pose(item, f"goal {k}")
-        for k, item in enumerate(value)
-    )
-
-
-def _is_row(value: Any) -> bool:
-    """Is it one goal, and not many?"""
-    return (
-        isinstance(value, Sequence | np.ndarray)
-        and not isinstance(value, str)
-        and len(value) > 0
-        and all(np.ndim(part) == 0 and not isinstance(part, Pose) for part in value)
-    )
-
-
-def _place(value: Any, name: str) -> ExactPoint:
-    try:
-        x, y = map(to_fraction, value)
-    except ValueError as error:
-        raise InvalidPoseError(f"{name}: {reprlib.repr(value)}: {error}") from None
-    return x, y
 
 
 def plan_any(

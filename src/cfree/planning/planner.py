@@ -30,12 +30,13 @@ from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
-from cfree.planning.goals import AllSeparated, plan_any, to_goals
+from cfree.planning.goals import AllSeparated, plan_any
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
 from cfree.planning.separation import Insets, Separated, inset_powers, separation
 from cfree.planning.surroundings import STEP, Surroundings
 from cfree.scene.coordinate_range import LARGEST
+from cfree.scene.goals import to_goals
 from cfree.scene.scene import Scene, required, robot_radius
 from cfree.value import Value
 
@@ -150,6 +151,8 @@ def plan(
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
     planner = Planner(scene, space, max_seconds, preferences or NONE, progress)
+    if goal is None and scene.goals:
+        goal = scene.goals
     if goal is not None and isinstance(goals := to_goals(goal), tuple):
         start, _ = required(scene, start, Pose(0, 0))
         return planner.plan_any(start, goals, clearance=clearance, improve=improve, objective=objective)

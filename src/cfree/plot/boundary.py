@@ -53,9 +53,14 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
 
     ax = ax or new_axes((7, 6))
     boxes = draw_surroundings(ax, scene)
-    poses = {name: pose for name, pose in (("start", scene.start), ("goal", scene.goal)) if pose is not None}
+    ends = {"start": scene.start, "goal": scene.goal}
+    ends |= {f"goal {k}": goal for k, goal in enumerate(scene.goals) if isinstance(goal, Pose)}
+    poses = {name: pose for name, pose in ends.items() if pose is not None}
     for name, pose in (poses or {"at rest": Pose(0, 0)}).items():
         boxes.append(draw_robot(ax, scene, pose, name, faint=name != "start"))
+    for x, y in (goal for goal in scene.goals if not isinstance(goal, Pose)):
+        ax.plot(float(x), float(y), "*", color="#20242b", markersize=12, label="goal, any theta")
+        boxes.append((float(x), float(y), float(x), float(y)))
     set_window(ax, around(boxes), scene.units)
     ax.set_title("workspace")
     return ax

@@ -22,6 +22,7 @@ from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.polygons.polygon import Polygon
 from cfree.scene.coordinate_range import range_fault
+from cfree.scene.goals import Goal, to_goals
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 
@@ -46,7 +47,9 @@ class Scene:
     workspace : shape, optional
         The whole robot stays in this one polygon.
     start, goal : Pose or (x, y, theta), optional
-        Configurations, theta as `Pose` takes it.
+        Configurations, theta as `Pose` takes it. A goal may also be a place (x, y), at which any orientation will do.
+    goals : sequence of such, optional
+        Instead of a goal, several: any one of them will do. A place given as the goal is here, too.
     units, name, note : str, optional
         Unit of length, title and remarks.
     source : mapping of str to str, optional
@@ -61,7 +64,7 @@ class Scene:
     InvalidPolygonError
         If a shape is not a polygon, or the robot is empty.
     ValueError
-        If the bounds are empty, or names and obstacles differ in number.
+        If the bounds are empty, names and obstacles differ in number, or there are both a goal and goals.
     UnsupportedError
         If a coordinate is larger than 1e150, or all of them over one common denominator are integers of more than 1110
         bits: lengths from 1e-150 to 1e150 may meet in one scene.
@@ -82,6 +85,7 @@ class Scene:
     workspace: Polygon | None
     start: Pose | None
     goal: Pose | None
+    goals: tuple[Goal, ...]
     units: str
     name: str
     note: str
@@ -98,7 +102,8 @@ class Scene:
         bounds: Sequence[Number] | None = None,
         workspace: Any = None,
         start: PoseLike | None = None,
-        goal: PoseLike | None = None,
+        goal: PoseLike | Sequence[PoseLike] | None = None,
+        goals: Sequence[PoseLike] = (),
         units: str = "",
         name: str = "",
         note: str = "",
@@ -115,6 +120,11 @@ class Scene:
         names: Sequence[str | None] = [None] * len(items) if obstacle_names is None else obstacle_names
         if len(names) != len(items):
             raise ValueError(f"{len(names)} names for {len(items)} obstacles; give one for each, or None")
+        if goal is not None and len(goals):
+            raise ValueError("goal and goals: give one of them")
+        aims = to_goals(list(goals) if goal is None else goal) if goal is not None or len(goals) else ()
+        aim = aims if isinstance(aims, Pose) else aims[0] if len(aims) == 1 else None
+        aim = aim if isinstance(aim, Pose) else None
         with collection_paused():
             shapes = [
                 (name, polygon)
@@ -128,7 +138,8 @@ class Scene:
             "bounds": None if bounds is None else _rectangle(bounds),
             "workspace": None if workspace is None else _one(workspace),
             "start": None if start is None else to_pose(start, "start"),
-            "goal": None if goal is None else to_pose(goal, "goal"),
+            "goal": aim,
+            "goals": aims if aim is None else (),
             "units": units,
             "name": name,
             "note": note,
@@ -282,6 +293,7 @@ def required(scene: Scene, start: PoseLike | None, goal: PoseLike | None) -> tup
     for name, given in (("start", start), ("goal", goal)):
         pose = getattr(scene, name) if given is None else given
         if pose is None:
-            raise InvalidPoseError(f"no {name}: the scene has none, and none was given; give x, y and theta")
+            has = "several, or a place" if name == "goal" and scene.goals else "none"
+            raise InvalidPoseError(f"no {name}: the scene has {has}, and none was given; give x, y and theta")
         found.append(to_pose(pose, name))
     return found[0], found[1]

@@ -12,9 +12,10 @@ from typing import TYPE_CHECKING
 from cfree.arguments import checked
 from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
-from cfree.planning.goals import AllSeparated, Goal
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, stamp_of
+from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 from cfree.verify.leeway import is_around_disc, roomier, with_disc
 from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
@@ -126,8 +127,9 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
     findings, checks, world = list[Finding](), list[Check](), World(scene)
     if scene.start not in (None, given.start):
         findings.append(Finding(ASKED, "start", f"it is {_text(given.start)}, and another in the scene"))
-    if scene.goal is not None and scene.goal not in given.goals:
-        findings.append(Finding(ASKED, "goal", f"{_text(scene.goal)} in the scene is none of them"))
+    for goal in (scene.goal, *scene.goals):
+        if goal is not None and goal not in given.goals:
+            findings.append(Finding(ASKED, "goal", f"{_goal_text(goal)} in the scene is none of them"))
     without = Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace)
     for k, proof in enumerate(given.proofs):
         report(k / len(given.proofs))
@@ -159,11 +161,15 @@ def _goal_text(goal: Goal) -> str:
 
 def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
     asked = {"start": (scene.start, given.start), "goal": (scene.goal, given.goal)}
-    return [
+    findings = [
         Finding(ASKED, name, f"it is {_text(its)}, and {_text(pose)} in the scene")
         for name, (pose, its) in asked.items()
         if pose is not None and pose != its
     ]
+    if scene.goals and given.goal not in scene.goals and (given.goal.x, given.goal.y) not in scene.goals:
+        goals = ", ".join(map(_goal_text, scene.goals))
+        findings.append(Finding(ASKED, "goal", f"it is {_text(given.goal)}, and one of {goals} in the scene"))
+    return findings
 
 
 def _other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
