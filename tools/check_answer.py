@@ -6,9 +6,8 @@
 prints one line. Exit code 0: verified. 1: refuted. 2: a file cannot be read; so are scenes in GeoJSON or WKT, and
 answers without exact numbers. The formats are those of docs/scene-format.md and docs/answer-format.md.
 
-What has to be believed: this file; Python's integers, `fractions`, `decimal`, `json` and `hashlib`; and the mathematics
-below. Nothing is computed in floating point but the rational that an angle in radians or degrees stands for ("Angles").
-All signs are signs of integers. No part of cfree is used, and none of its code is here.
+What has to be believed: this file; Python's integers, `fractions`, `decimal`, `json`, `hashlib`; the mathematics below.
+All signs are of integers; only the rational that an angle stands for is found in floating point. None of cfree is here.
 
 A point a of the robot is at R(theta) a + r. A pose is forbidden if the interior of one of its polygons meets the
 interior of an obstacle, or leaves the workspace, or if r leaves the bounds.
@@ -19,12 +18,11 @@ vertex is there is the sign of a polynomial. So one moment stands for all betwee
 
 Proofs that there is none. A contact surface is a set of poses at which a vertex is on an edge. A piece of it is {(t,
 theta): lower(theta) <= t <= upper(theta), from <= theta <= to}, t the place on the edge. If every part of an edge of
-one of the pieces is one of an even number of them, then they have no boundary, and a closed path crosses them an even
-number of times, if it crosses them properly. If a ray from the start does so an odd number of times, and one from the
-goal an even number, every path between these poses meets a piece: there the robot touches something. That is why
-"interior" proofs exclude paths that keep a distance. "closed" ones are made of contacts of a robot strictly inside the
-real one: where it touches, the real one overlaps. A clearance is kept by a robot larger by a polygon around a disc; it
-is not if a robot all of which is nearer to the real one touches.
+a piece is one of an even number of them, then they have no boundary, and a closed path crosses them an even number of
+times, if properly. If a ray from the start does so an odd number of times, and one from the goal an even number, every
+path between them meets a piece, where the robot touches something. So "interior" proofs exclude paths that keep a
+distance. "closed" ones are made of contacts of a robot strictly inside the real one: where it touches, the real one
+overlaps. A clearance is kept by a robot larger by a polygon around a disc; it is not if a robot all nearer touches.
 """
 
 from __future__ import annotations
@@ -147,16 +145,15 @@ def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
 #
 # The formats define which rational an angle in radians or degrees stands for. Let k be the integer nearest to theta /
 # (pi / 2), and r = theta - k pi / 2, which counts as 0 if it is at most an ulp of the double theta. Then tau is that of
-# r, plus k right angles, and that of r is the fraction of least denominator within 2^-53 of the double tan(r / 2),
-# relatively.
+# r, plus k right angles; that of r is the fraction of least denominator within 2^-53 t of the double t = tan(r / 2).
 
 @dataclass
 class Pose:
-    """r = (x, y), and tau."""
+    """r = (x, y), and tau; that of a goal may be "any"."""
 
     x: Fraction
     y: Fraction
-    tau: Fraction | None
+    tau: Any
 
     @property
     def rotation(self) -> tuple[Fraction, Fraction]:
@@ -232,10 +229,10 @@ def read_angle(value: Any, place: str) -> Fraction | None:
 def read_tau(value: Any, place: str) -> Fraction | None:
     return None if value in ("inf", "-inf", "1/0") and isinstance(value, str) else number(value, place)
 
-def read_pose(value: Any, place: str) -> Pose:
-    x, y = numbers(items(value, place, 3, 3)[:2], place, 2)
+def read_pose(value: Any, place: str, least: int = 3) -> Pose:
+    x, y = numbers(items(value, place, least, 3)[:2], place, 2)
     refuse_if(max(abs(x), abs(y)) > LARGEST, f"{place}: a position beyond 1e150")
-    return Pose(x, y, read_angle(value[2], place))
+    return Pose(x, y, read_angle(value[2], place) if len(value) == 3 else "any")
 
 # === Polygons ===
 def cross(u: Point, v: Point) -> Any:
@@ -364,7 +361,7 @@ class Scene:
         self, robot: list[Polygon], obstacles: list[Polygon], workspace: Polygon | None, bounds: Fractions | None
     ) -> None:
         self.robot, self.obstacles, self.workspace, self.bounds = robot, obstacles, workspace, bounds
-        self.asked: dict[str, list[Pose | Point]] = {}  # any one of them; a place is any pose at it
+        self.asked: dict[str, list[Pose]] = {}  # any one of them
         polygons = [*robot, *obstacles, *filter(None, [workspace])]
         self.scale = math.lcm(*(p.unit for p in polygons), *(b.denominator for b in bounds or ()))
         coordinates = [c for p in polygons for ring in p.rings for point in ring for c in point]
@@ -396,25 +393,17 @@ def read_scene(data: Any) -> Scene:
     got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], goals=[], **optional)
     one_of(got["version"], "version", 1)
     robot = [got["robot"]] if isinstance(got["robot"], dict) else items(got["robot"], "robot", 1)
-    obstacles = enumerate(items(got["obstacles"], "obstacles"))
     found = Scene(
         [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
-        [read_polygon(part, f"obstacles[{k}]", name=None) for k, part in obstacles],
+        [read_polygon(part, f"obstacles[{k}]", name=None) for k, part in enumerate(items(got["obstacles"], "obstacles"))],
         None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
-    goals = items(got["goals"], "goals")
-    refuse_if(got["goal"] is not None and goals, "goals: there is a goal, too")
+    refuse_if(got["goal"] is not None and bool(got["goals"]), "goals: there is a goal, too")
     found.asked["start"] = [read_pose(value, "start") for value in [got["start"]] if value is not None]
-    found.asked["goal"] = [read_goal(value, "goal") for value in [got["goal"], *goals] if value is not None]
+    goals = items(got["goals"], "goals") or [goal for goal in [got["goal"]] if goal is not None]
+    found.asked["goal"] = [read_pose(goal, "goal", 2) for goal in goals]
     return found
-
-def read_goal(value: Any, place: str) -> Pose | Point:
-    if len(items(value, place, 2, 3)) == 3:
-        return read_pose(value, place)
-    read_pose([*value, 0], place)
-    x, y = numbers(value, place, 2)
-    return x, y
 
 def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
     got = members(value, place, outer=REQUIRED, holes=[], **more)
@@ -952,8 +941,8 @@ class Answer:
         refute_if(self.box != scene.box, "scene.robot is not the box around the robot")
         for name, asked in scene.asked.items():
             pose = getattr(self, name)
-            if asked and pose not in asked and (pose.x, pose.y) not in asked:
-                raise RefutedError(f"the {name} is {pose}, and {' or '.join(map(str, asked))} in the scene")
+            known = not asked or any(q in (pose, Pose(pose.x, pose.y, "any")) for q in asked)
+            refute_if(not known, f"the {name} is {pose}, and another in the scene")
 
 def off(decimals: dict[Any, Fraction], place: Any, exact: Fractions) -> Fraction:
     return sum((abs(decimals[place, k] - c) for k, c in enumerate(exact)), ZERO)

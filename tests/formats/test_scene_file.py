@@ -110,6 +110,8 @@ def test_goals_may_be_places_and_several(tmp_path: Path) -> None:
         ('"goal": [1, "x"]', '1:60 goal[1]: expected a number or "p/q", got "x"'),
         ('"goals": [[1, 1e151]]', "1:58 goals[0]: a position beyond 1e150; give one nearer to the scene"),
         ('"goals": [[1, 2, "x"]]', '1:65 goals[0][2]: expected radians, "90deg" or {"tau": "p/q"}, got "x"'),
+        ('"goals": [null]', "1:58 goals[0]: expected [x, y, theta], or [x, y] for any theta, got null"),
+        ('"goals": 5', "1:57 goals: expected a list, got 5"),
         ('"goals": [[1, 2]], "goal": [1, 2]', '1:57 goals: there is a "goal", too; give one of them'),
     ],
 )

@@ -180,18 +180,20 @@ def _bounds(value: Any) -> tuple[Fraction, ...] | None:
 
 
 def _configuration(value: Any) -> Pose | None:
-    if value is None:
-        return None
+    return None if value is None else _pose(value)
+
+
+def _pose(value: Any) -> Pose:
     x, y, theta = list_of(3, "a configuration")(value)
     return pose((coordinate(x), coordinate(y), angle(theta)))
 
 
-def _goal(value: Any) -> Goal | None:
-    """A pose, or a place."""
+def _goal(value: Any) -> Goal:
+    """A pose, or a place; no null."""
     if isinstance(value, list) and len(value) == 2:
         x, y = map(coordinate, value)
         return place((x, y))
-    return _configuration(value)
+    return _pose(value)
 
 
 _SHAPES = {"robot", "obstacles", "workspace"}
@@ -202,6 +204,6 @@ _READERS: dict[str, Callable[[Any], Any]] = {
     "bounds": _bounds,
     "start": _configuration,
     "goal": lambda value: None if value is None else _goal(value),
-    "goals": lambda value: [_goal(goal) for goal in value],
+    "goals": lambda value: [_goal(goal) for goal in (value if isinstance(value, list) else [None])],
     "check": _object,
 }
