@@ -395,7 +395,7 @@ def read_scene(data: Any) -> Scene:
     robot = [got["robot"]] if isinstance(got["robot"], dict) else items(got["robot"], "robot", 1)
     found = Scene(
         [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
-        [read_polygon(part, f"obstacles[{k}]", name=None) for k, part in enumerate(items(got["obstacles"], "obstacles"))],
+        [read_polygon(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(got["obstacles"], "obstacles"))],
         None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
