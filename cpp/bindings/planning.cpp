@@ -91,7 +91,9 @@ static void bind_surroundings(nb::module_& m) {
             new (of) Connecting(std::move(around), pose(start), pose(goal));
         }, "around"_a, "start"_a, "goal"_a)
         .def("run", [](Connecting& of, int most) { watched([&] { return of.run(most), 0; }); }, "most"_a)
+        .def("run_around", [](Connecting& of, int end) { watched([&] { return of.run_around(end), 0; }); }, "end"_a)
         .def_prop_ro("verdict", [](const Connecting& of) { return of.found().verdict; })
+        .def_prop_ro("inside", [](const Connecting& of) { return of.found().inside; })
         .def_prop_ro("surface", [](const Connecting& of) { return of.found().surface; })
         .def("way", [](const Connecting& of, double angle_scale, const Slide& slide) {
             return with_slides(slide, [&](const cfree::Slides& slides) {

@@ -29,7 +29,7 @@ def connected(scene: Scene, start: Pose, goal: Pose) -> Connecting:
 
 
 def agrees(space: FreeSpace, start: Pose, goal: Pose) -> Verdict:
-    """With all of the free space, off contacts; a way that is found is free."""
+    """With all of the free space, off contacts; a way that is found is free, a surface one of all, however found."""
     scene = space.boundary.scene
     found = connected(scene, start, goal)
     if found.verdict == Verdict.JOINED:
@@ -39,6 +39,11 @@ def agrees(space: FreeSpace, start: Pose, goal: Pose) -> Verdict:
         same = space.common_cell(start, goal) is not None
         assert found.verdict == Verdict.UNCLEAR or found.verdict == (Verdict.JOINED if same else Verdict.APART)
     if found.verdict == Verdict.APART:
+        again = Surroundings(scene, MotionChecker(scene)).connecting(start, goal)
+        assert again.decide(found.inside) == Verdict.APART and again.inside == found.inside
+        assert rows(again.surface, range(len(again.surface.trapezoids))) == rows(
+            found.surface, range(len(found.surface.trapezoids))
+        )
         surface = rows(found.surface, range(len(found.surface.trapezoids)))
         assert any(
             surface == rows(space.surfaces, np.flatnonzero(space.component == k)) for k in range(len(space.parent))
@@ -46,11 +51,11 @@ def agrees(space: FreeSpace, start: Pose, goal: Pose) -> Verdict:
     return found.verdict
 
 
-def rows(boundary: Boundary, faces: Iterable[int]) -> set[tuple[int | float, ...]]:
-    """Trapezoids by what they are, whatever their numbers."""
+def rows(boundary: Boundary, faces: Iterable[int]) -> list[tuple[int | float, ...]]:
+    """Trapezoids in their order, by what they are."""
     table = boundary.trapezoids
     columns = table.patch, table.chart, table.lower, table.upper, table.from_lo, table.to_hi
-    return {tuple(column[k].item() for column in columns) for k in faces}
+    return [tuple(column[k].item() for column in columns) for k in faces]
 
 
 @pytest.mark.parametrize("kind", sorted(KINDS))

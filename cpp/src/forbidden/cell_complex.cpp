@@ -264,14 +264,14 @@ std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int thre
 GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds, Index target) {
     std::vector<Parts> lists = matched_sides(*boundary, whole, 1);
     auto [faces, missing] = reached(lists, whole, seeds);
-    if (!missing.empty() && !std::binary_search(faces.begin(), faces.end(), target)) return {nullptr, std::move(missing)};
+    if (!missing.empty() && !std::binary_search(faces.begin(), faces.end(), target)) return {nullptr, std::move(faces), std::move(missing)};
     std::vector<Index> face_of(whole.size(), -1);
     Trapezoids rows;
     for (const Index k : faces) face_of[k] = static_cast<Index>(rows.size()), rows.push_row(boundary->trapezoids, k);
     for (Parts& list : lists) keep(list, face_of);
     const auto part = std::make_shared<const Boundary>(boundary->scene, boundary->patches, boundary->trimmed, std::move(rows),
                                                        IsolatedParts{});
-    return {shared(Assembly(*boundary, std::move(faces), 1).run(std::move(lists)), part), std::move(missing)};
+    return {shared(Assembly(*boundary, std::vector(faces), 1).run(std::move(lists)), part), std::move(faces), std::move(missing)};
 }
 
 }  // namespace cfree

@@ -19,6 +19,17 @@ using Ends = std::array<Vec<double>, 2>;
 
 double apart(const Vec<double>& p, const Vec<double>& q) { return norm(p.x - q.x, p.y - q.y); }
 
+// What of a trapezoid says where its segments are.
+struct Sheet {
+    ContactLine<double> line;
+    std::array<Curve, 2> curves;  // lower, upper
+};
+
+struct Doubles {
+    Vec<double> vertex(const Shape& s, Index v) const { return {s.x[v], s.y[v]}; }
+    Vec<double> edge(const Shape& s, Index e) const { return vertex(s, s.w[e]) - vertex(s, s.v[e]); }
+};
+
 // What is to be explored next: what is nearest, on the way to a target if there is one.
 struct Growth {
     struct Item {
@@ -54,9 +65,10 @@ struct SurfaceExplorer::State {
     GluedPart glued(Growth& of, Index seed, Index target);
     Vec<double> middle(Index k) const;
     Ends ends(Index k, double tau) const;
-    double value(Index k, std::uint64_t curve, double tau) const;
     double inside(Index k, double tau) const;
+    bool may_share_curve(Index k, Index other) const;
     bool shares_curve(Index k, bool upper, Index other) const;
+    bool may_share_level(Index k, bool last, Index other) const;
     bool shares_level(Index k, bool last, Index other) const;
     SharedBoundary boundary(Trapezoids of) const {
         return std::make_shared<const Boundary>(given, one.patches, trimmed, std::move(of), IsolatedParts{});
@@ -70,8 +82,13 @@ struct SurfaceExplorer::State {
     Trapezoids rows;                               // of patches in the order they were trimmed in
     std::vector<std::array<Index, 2>> faces_of;    // each patch: its rows
     std::vector<std::uint8_t> trimmed;
+    std::vector<Sheet> sheets;                     // of each row
     std::vector<char> whole;                       // of each row, whether all that its sides meet is trimmed
-    std::vector<std::vector<Index>> beside;        // then: those that seem to be across its sides
+    struct Neighbours {
+        std::vector<Index> all;     // that its sides may meet
+        std::vector<Index> beside;  // that seem to be across them
+    };
+    std::vector<Neighbours> around;                // then
     std::map<Index, Growth> growing;               // by seed
     double nearness = 0;                           // of points that may be one; it decides what is looked at first
     Index pillars_of = -1;
@@ -81,18 +98,24 @@ struct SurfaceExplorer::State {
 
 void SurfaceExplorer::State::trim(Index patch) {
     if (trimmed[patch]) return;
-    if (const Index feature = one.patches.obstacle[patch]; feature != pillars_of) {
-        one.pillars_near(feature, pillars);
-        pillars_of = feature;
+    const Feature contact = one.patches.contact(patch);
+    if (contact.obstacle != pillars_of) {
+        one.pillars_near(contact.obstacle, pillars);
+        pillars_of = contact.obstacle;
     }
     std::vector<Trapezoid> found, thin;
     one.trim(patch, pillars, found, thin, tally);
     trimmed[patch] = 1;
     const std::size_t before = rows.size();
-    for (const Trapezoid& x : found) rows.push_back(x);
+    const ContactLine<double> line(scene, contact, Doubles{});
+    for (const Trapezoid& x : found) {
+        rows.push_back(x);
+        const Predicates on(scene, {contact, x.chart});
+        sheets.push_back({line, {on.curve(x.lower), on.curve(x.upper)}});
+    }
     for (auto* column : rows.features())
         for (std::size_t k = before; k < rows.size(); ++k) (*column)[k] = named(names, (*column)[k]);
-    whole.resize(rows.size(), 0), beside.resize(rows.size());
+    whole.resize(rows.size(), 0), around.resize(rows.size());
     faces_of[patch] = {static_cast<Index>(before), static_cast<Index>(rows.size())};
 }
 
@@ -102,29 +125,25 @@ void SurfaceExplorer::State::trim(std::vector<Index>& patches) {
     for (const Index patch : patches) trim(patch);
 }
 
-double SurfaceExplorer::State::value(Index k, std::uint64_t curve, double tau) const {
-    const Feature on = one.patches.contact(rows.patch[k]), f = unpacked(curve);
-    const Curve c = Predicates(scene, {on, rows.chart[k]}).curve(f);
-    return c.N.polar(tau, tau) / c.D.polar(tau, tau);
-}
-
 Ends SurfaceExplorer::State::ends(Index k, double tau) const {
-    const Feature on = one.patches.contact(rows.patch[k]);
+    const Sheet& sheet = sheets[k];
     const auto R = rotation_by(rows.chart[k], tau);
-    const auto place = [&](const Feature& helix) {
-        const Vec<double> a{scene.robot.x[helix.robot], scene.robot.y[helix.robot]};
-        return Vec<double>{scene.obstacles.x[helix.obstacle], scene.obstacles.y[helix.obstacle]} - R(a);
+    const auto P = sheet.line.start(R), U = sheet.line.direction(R);
+    const auto at = [&](const Curve& c) {
+        const double t = c.N.polar(tau, tau) / c.D.polar(tau, tau);
+        return Vec<double>{P.x + t * U.x, P.y + t * U.y};
     };
-    const auto P = place(end_helix(scene, on, 0)), U = place(end_helix(scene, on, 1)) - P;
-    const auto at = [&](double t) { return Vec<double>{P.x + t * U.x, P.y + t * U.y}; };
-    return {at(value(k, rows.lower[k], tau)), at(value(k, rows.upper[k], tau))};
+    return {at(sheet.curves[0]), at(sheet.curves[1])};
 }
 
-// Whether another trapezoid's side may be on the curve of a side of this one.
+// Whether another trapezoid is there at an angle of this one.
+bool SurfaceExplorer::State::may_share_curve(Index k, Index other) const {
+    return rows.chart[k] == rows.chart[other] && rows.from_lo[k] <= rows.to_hi[other] && rows.from_lo[other] <= rows.to_hi[k];
+}
+
+// Then whether one of its sides is on the curve of a side of this one.
 bool SurfaceExplorer::State::shares_curve(Index k, bool upper, Index other) const {
-    if (rows.chart[k] != rows.chart[other]) return false;
     const double from = std::max(rows.from_lo[k], rows.from_lo[other]), to = std::min(rows.to_hi[k], rows.to_hi[other]);
-    if (from > to) return false;
     const double tau = 0.5 * (from + to);
     const Vec<double> p = ends(k, tau)[upper];
     const Ends q = ends(other, tau);
@@ -137,14 +156,18 @@ double SurfaceExplorer::State::inside(Index k, double tau) const {
     return tau + share * (0.5 * (rows.tau_from(k) + rows.tau_to(k)) - tau);
 }
 
-// Whether another trapezoid begins or ends on the line where this one does, beside it.
+// Whether another trapezoid begins or ends at the angle where this one does.
+bool SurfaceExplorer::State::may_share_level(Index k, bool last, Index other) const {
+    const auto& [lo, hi] = last ? std::pair{rows.to_lo[k], rows.to_hi[k]} : std::pair{rows.from_lo[k], rows.from_hi[k]};
+    if (rows.chart[k] != rows.chart[other])  // at the end of both charts
+        return std::abs(lo) == 1 && lo == hi && (rows.from_lo[other] == -lo || rows.to_hi[other] == -lo);
+    return (rows.from_lo[other] <= hi && lo <= rows.from_hi[other]) || (rows.to_lo[other] <= hi && lo <= rows.to_hi[other]);
+}
+
+// Then whether its line is the same, and it is beside it there.
 bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const {
     const double tau = last ? rows.tau_to(k) : rows.tau_from(k);
-    const bool is_chart_end = std::abs(tau) == 1;
-    if (rows.chart[k] != rows.chart[other] && !is_chart_end) return false;
     const double there = rows.chart[k] == rows.chart[other] ? tau : -tau;
-    constexpr double same_angle = 1e-9;
-    if (std::abs(rows.tau_from(other) - there) > same_angle && std::abs(rows.tau_to(other) - there) > same_angle) return false;
     const auto [p, q] = std::pair(ends(k, inside(k, tau)), ends(other, inside(other, there)));
     const Vec<double> U = p[1] - p[0];
     const double length = norm(U.x, U.y);
@@ -159,25 +182,32 @@ bool SurfaceExplorer::State::shares_level(Index k, bool last, Index other) const
 
 void SurfaceExplorer::State::explore(Index k) {
     const Surface on = surface_of(one.patches, rows, k);
-    const double tau = 0.5 * (rows.tau_from(k) + rows.tau_to(k));
-    std::vector<Index> patches, found;
-    const auto look = [&](auto&& shares) {
+    std::vector<Index> patches;
+    Neighbours found;
+    const auto look = [&](double lo, double hi, auto&& may_share, auto&& shares) {
+        std::erase_if(patches, [&](Index patch) { return !trimmed[patch] && !touching.is_there(patch, on.chart, lo, hi); });
         trim(patches);
         for (const Index patch : patches)
-            for (Index other = faces_of[patch][0]; other < faces_of[patch][1]; ++other)
-                if (other != k && shares(other)) found.push_back(other);
+            for (Index other = faces_of[patch][0]; other < faces_of[patch][1]; ++other) {
+                if (other == k || !may_share(other)) continue;
+                found.all.push_back(other);
+                if (shares(other)) found.beside.push_back(other);
+            }
         patches.clear();
     };
+    const double from = rows.from_lo[k], to = rows.to_hi[k];
     for (const bool upper : {false, true}) {
-        touching.on_curve(on, unpacked((upper ? rows.upper : rows.lower)[k]), tau, patches);
-        look([&](Index other) { return shares_curve(k, upper, other); });
+        touching.on_curve(on, unpacked((upper ? rows.upper : rows.lower)[k]), 0.5 * (from + to), patches);
+        look(from, to, [&](Index other) { return may_share_curve(k, other); },
+             [&](Index other) { return shares_curve(k, upper, other); });
     }
     for (const bool last : {false, true}) {
         const auto& [lo, hi] = last ? std::pair{rows.to_lo[k], rows.to_hi[k]} : std::pair{rows.from_lo[k], rows.from_hi[k]};
         touching.on_line(on, lo, hi, patches);
-        look([&](Index other) { return shares_level(k, last, other); });
+        look(lo, hi, [&](Index other) { return may_share_level(k, last, other); },
+             [&](Index other) { return shares_level(k, last, other); });
     }
-    whole[k] = 1, beside[k] = std::move(found);
+    whole[k] = 1, around[k] = std::move(found);
 }
 
 Vec<double> SurfaceExplorer::State::middle(Index k) const {
@@ -192,22 +222,39 @@ Growth& SurfaceExplorer::State::growth(Index seed) {
 }
 
 void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
-    g.seen.resize(rows.size());
+    if (g.seen.size() < rows.size()) g.seen.resize(rows.size());
     if (g.seen[k] != Growth::Seen::no) return;
     g.seen[k] = Growth::Seen::queued;
     constexpr double haste = 2;  // a way as short as possible is not asked for
     g.queue.push({g.target < 0 ? way : way + haste * apart(middle(k), g.goal), way, k});
 }
 
-// The surface, if nothing of it is missing or if the target is reached; what is missing is to be explored next.
+// The surface, if nothing of it is missing or if the target is reached. Else it is explored further from what is missing of it, and
+// what only seemed to be across its sides is forgotten. Glued is what may be reached from the seed over sides: of what has been
+// explored for it, or on the way to a target of all that is whole.
 GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     g.glued = g.explored;
-    GluedPart part = glue_part(boundary(rows), whole, {seed}, target);
-    for (const Index k : part.missing) {
-        g.seen.resize(rows.size());
-        g.seen[k] = Growth::Seen::no;
-        look_at(g, k, 0);
+    const bool is_reached = g.has(target);
+    const auto is_whole = [&](Index k) { return is_reached ? whole[k] != 0 : g.has(k); };
+    std::vector<Index> number(rows.size(), -1), chosen{seed};
+    number[seed] = 0;
+    for (std::size_t n = 0; n < chosen.size(); ++n) {
+        if (!is_whole(chosen[n])) continue;
+        for (const Index other : around[chosen[n]].all)
+            if (number[other] < 0) number[other] = 0, chosen.push_back(other);
     }
+    std::sort(chosen.begin(), chosen.end(), [&](Index x, Index y) {
+        return rows.patch[x] != rows.patch[y] ? rows.patch[x] < rows.patch[y] : x < y;
+    });
+    Trapezoids some;
+    std::vector<char> some_whole;
+    for (const Index k : chosen)
+        number[k] = static_cast<Index>(some.size()), some.push_row(rows, k), some_whole.push_back(is_whole(k));
+    GluedPart part = glue_part(boundary(std::move(some)), std::move(some_whole), {number[seed]}, is_reached ? number[target] : -1);
+    if (part.missing.empty() || part.complex) return part;
+    g.seen.assign(rows.size(), Growth::Seen::no), g.queue = {};
+    for (const Index k : part.faces) g.seen[chosen[k]] = Growth::Seen::explored;
+    for (const Index k : part.missing) look_at(g, chosen[k], 0);
     return part;
 }
 
@@ -254,7 +301,7 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
         if (!s.whole[k]) s.explore(k);
         g.seen[k] = Growth::Seen::explored, ++g.explored;
         const Vec<double> here = s.middle(k);
-        for (const Index next : s.beside[k])
+        for (const Index next : s.around[k].beside)
             s.look_at(g, next, way + (g.target < 0 ? 1 : apart(here, s.middle(next))));
     }
 }

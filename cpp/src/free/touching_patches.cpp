@@ -126,6 +126,18 @@ void TouchingPatches::on_line(const Surface& on, double lo, double hi, std::vect
     }
 }
 
+// The edges e and f of the vertex in contact, and the other's edge: R e x E <= 0 <= R f x E for edges of the robot. A single
+// point has no edges: all is zero.
+bool TouchingPatches::is_there(Index patch, int chart, double lo, double hi) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Feature on = one.patches.contact(patch);
+    const Predicates decide(scene, {on, chart});
+    const auto sign = [&](Index g, Index f) { return Predicates::sign_on(decide.parallel(g, f), lo, hi); };
+    const Index i = on.robot, j = on.obstacle;
+    if (on.kind == Kind::vertex_edge) return sign(A.previous[i], j) <= 0 && sign(i, j) >= 0;
+    return sign(i, j) <= 0 && sign(i, O.previous[j]) >= 0;
+}
+
 // The robot's vertices from b0: (q - b0 + R o) + R a', where o + a' are its vertices as given.
 void TouchingPatches::at_pose(const ExactPose& q, Index b0, std::vector<Index>& out) {
     const Shape &A = scene.robot, &O = scene.obstacles;

@@ -14,6 +14,8 @@ public:
     void on_curve(const Surface& on, const Feature& curve, double tau, std::vector<Index>& out);
     // Whose line may be that of another surface at an angle between two.
     void on_line(const Surface& on, double lo, double hi, std::vector<Index>& out);
+    // Whether a patch may have an orientation between two of a chart.
+    bool is_there(Index patch, int chart, double lo, double hi) const;
     // Whose contact may be there at a pose; seen from an obstacle vertex near by.
     void at_pose(const ExactPose& pose, Index vertex, std::vector<Index>& out);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
@@ -187,6 +188,10 @@ void Connecting::run(Index most) {
     if (is_over && result.verdict == Connection::Verdict::open) result.verdict = Connection::Verdict::unclear;
 }
 
+void Connecting::run_around(int k) {
+    if (result.verdict == Connection::Verdict::open && !ends[k].ended) look(k, std::numeric_limits<Index>::max());
+}
+
 void Connecting::look(int k, Index most) {
     auto &one = ends[k], &other = ends[1 - k];
     if (const auto common = around->advance(one, most, other.seed)) return join(common);
@@ -196,7 +201,8 @@ void Connecting::look(int k, Index most) {
     if (one.surface < 0) return;
     const auto holds = around->is_around(one.surface, other);
     if (!holds && !around->start_again(other)) other.ended = other.failed = true;
-    if (holds && !*holds) result.verdict = Connection::Verdict::apart, result.surface = around->surface(one.surface);
+    if (holds && !*holds)
+        result.verdict = Connection::Verdict::apart, result.surface = around->surface(one.surface), result.inside = k;
 }
 
 // Over islands, then over a surface or far away, then over other islands.

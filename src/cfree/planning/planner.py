@@ -47,7 +47,7 @@ if TYPE_CHECKING:
 Phase = Callable[[str], AbstractContextManager[Any]]
 SEARCH = 10_000  # motions checked at most before all of the free space is built
 QUICK = 1000  # before anything exact is
-CHECKS = 3  # that take about as long as a trapezoid of a surface
+CHECKS = 1  # that take about as long as a trapezoid of a surface
 REFINE = 400  # motions checked to improve a path if no time is given
 BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance
 OTHERS = 30  # other ways looked for
@@ -361,7 +361,8 @@ class Planner(Value):
                 most *= 2
             if found.verdict == _core.Verdict.JOINED:
                 return found.way(self.angle_scale, self._slides)
-            return self._insets.closed(start, goal, inset_powers(self.scene)[0])
+            end = found.inside if found.verdict == _core.Verdict.APART else None
+            return self._insets.closed(start, goal, inset_powers(self.scene)[0], end)
 
     def _late(self) -> IncompleteError:
         return IncompleteError(f"{self.max_seconds} seconds were not enough to compute the free space; give more")

@@ -193,13 +193,13 @@ class Insets:
         self._around: dict[int, Surroundings | None] = {}
         self._spaces: dict[int, FreeSpace] = {}
 
-    def closed(self, start: Pose, goal: Pose, power: int) -> Separated | None:
-        """A proof by an inset by 2**power of the robot's size, if there is one."""
+    def closed(self, start: Pose, goal: Pose, power: int, end: int | None = None) -> Separated | None:
+        """A proof by an inset by 2**power of the robot's size, if there is one, likely around start (0) or goal (1)."""
         around = self._surroundings(power)
         if around is None:
             return None
         found, pieces = around.connecting(start, goal), None
-        if found.decide() == _core.Verdict.APART:
+        if found.decide(end) == _core.Verdict.APART:
             surface = found.surface
             pieces = Pieces.of(surface, np.arange(len(surface.trapezoids), dtype=np.int32))
         elif found.verdict == _core.Verdict.UNCLEAR:

@@ -5,6 +5,8 @@ docs/theory/one-surface.md tells how. What is unclear here the whole free space 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import cfree._core as _core
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.slide import Slide
@@ -53,18 +55,28 @@ class Connecting:
 
     def run(self, most: int) -> bool:
         """Go on by about so many trapezoids around each of the two; whether that was enough, or no more can be said."""
-        try:
-            self._core.run(most)
-        except RuntimeError as error:
-            raise InvariantError(str(error), state=self._ends) from error
+        self._call(self._core.run, most)
         return self.verdict != _core.Verdict.OPEN
 
-    def decide(self) -> _core.Verdict:
-        """Go on to the end."""
+    def decide(self, end: int | None = None) -> _core.Verdict:
+        """Go on to the end; first around one of the two, start (0) or goal (1), if that is likely to be enough."""
+        if end is not None:
+            self._call(self._core.run_around, end)
         most = STEP
         while not self.run(most):
             most *= 2
         return self.verdict
+
+    def _call(self, run: Callable[[int], None], of: int) -> None:
+        try:
+            run(of)
+        except RuntimeError as error:
+            raise InvariantError(str(error), state=self._ends) from error
+
+    @property
+    def inside(self) -> int:
+        """Of two poses that are apart, the one that the surface is around: start (0) or goal (1)."""
+        return self._core.inside
 
     def way(self, angle_scale: float, slides: dict[tuple[Pose, Pose], Slide]) -> list[Pose] | None:
         """Poses from the start to the goal, the motions between them free; None if none are found on the surfaces."""

@@ -30,7 +30,7 @@ std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int thre
 // there is no complex; but with a target that is reached there is one of those that are whole, its sides to others without twin.
 struct GluedPart {
     std::shared_ptr<const CellComplex> complex;
-    std::vector<Index> missing;
+    std::vector<Index> faces, missing;  // whole ones of the surfaces, and others
 };
 GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds, Index target = -1);
 

@@ -71,6 +71,7 @@ struct Connection {
     enum class Verdict { open, unclear, apart, joined };  // open: not yet known
     Verdict verdict = Verdict::open;
     std::shared_ptr<const CellComplex> surface;  // apart: it is around one of them and not the other
+    int inside = 0;                              // then: that one
     // Joined: the way goes to the first of two poses near these, straight to stretches one after another, and so to the goal.
     // After the first `before` of them it may be far away to the left.
     RationalPose start, goal;
@@ -86,6 +87,8 @@ public:
     Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
     // Go on by about so many trapezoids around each.
     void run(Index most);
+    // Around one of them, to the end.
+    void run_around(int k);
     const Connection& found() const { return result; }
     const std::shared_ptr<Surroundings> around;
 
