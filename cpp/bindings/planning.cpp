@@ -8,12 +8,14 @@
 #include <nanobind/stl/vector.h>
 
 #include "cfree/planning/connecting_way.hpp"
+#include "cfree/planning/exact_fits.hpp"
 #include "integers.hpp"
 #include "watched.hpp"
 
 namespace nb = nanobind;
 using namespace nb::literals;
-using cfree::BoundaryWalker, cfree::Connecting, cfree::Connection, cfree::Feature, cfree::Surroundings, cfree::RationalPose, cfree::Poses;
+using cfree::BoundaryWalker, cfree::Connecting, cfree::Connection, cfree::ContactSlide, cfree::Feature, cfree::FoundSlides,
+    cfree::Passages, cfree::Poses, cfree::RationalPose, cfree::Surroundings;
 
 using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
 
@@ -37,43 +39,39 @@ static BoundaryWalker::End end(const End& given) {
     return {pose(given.first), {x, y, theta}};
 }
 
-// slide(from, to, contact, curve) tells whether one leads there.
-using Slide = nb::typed<nb::callable, bool(PoseTuple, PoseTuple, std::array<int, 3>, std::uint64_t)>;
+using Five = std::array<nb::int_, 5>;
+// Poses from and to; kind, robot and obstacle feature of each contact; x, y, d; the half-angle tangent as q, p.
+using SlideTuple = std::tuple<PoseTuple, PoseTuple, std::array<std::array<int, 3>, 2>, Five, Five, Five, nb::int_, nb::int_>;
 
-// Poses of a way that asks Python for slides.
-template <class Find>
-static std::vector<PoseTuple> with_slides(const Slide& slide, Find&& find) {
-    Raised raised;
-    const cfree::Slides slides = [&](const RationalPose& from, const RationalPose& to, const Feature& contact, std::uint64_t curve) {
-        const nb::gil_scoped_acquire lock;
-        try {
-            const std::array<int, 3> on{static_cast<int>(contact.kind), contact.robot, contact.obstacle};
-            return nb::cast<bool>(slide(tuple_of(from), tuple_of(to), on, curve));
-        } catch (nb::python_error& error) {
-            raised.keep(std::move(error));
-            throw cfree::Stopped();
-        }
-    };
-    try {
-        return list_of(watched([&] { return find(slides); }));
-    } catch (const cfree::Stopped&) {
-        raised.rethrow();
-        throw;
-    }
+static SlideTuple tuple_of(const ContactSlide& s) {
+    const auto contact = [](const Feature& f) { return std::array{static_cast<int>(f.kind), f.robot, f.obstacle}; };
+    const auto five = [](const auto& c) { return Five{integer(c[0]), integer(c[1]), integer(c[2]), integer(c[3]), integer(c[4])}; };
+    return {tuple_of(s.from), tuple_of(s.to), {contact(s.contacts[0]), contact(s.contacts[1])}, five(s.x), five(s.y), five(s.d),
+            integer(s.tau.d), integer(s.tau.n)};
 }
 
-static std::vector<PoseTuple> walk(const BoundaryWalker& walker, const End& start, const End& goal, int cell, const Slide& slide) {
+// Poses, and the slides that join some of them.
+using WayTuple = std::pair<std::vector<PoseTuple>, std::vector<SlideTuple>>;
+
+static WayTuple way_of(const Poses& way, const FoundSlides& slides) {
+    std::vector<SlideTuple> on_it;
+    for (const auto& slide : slides.along(way)) on_it.push_back(tuple_of(slide));
+    return {list_of(way), std::move(on_it)};
+}
+
+static WayTuple walk(const BoundaryWalker& walker, const End& start, const End& goal, int cell) {
     const auto first = end(start), last = end(goal);
-    return with_slides(slide, [&](const cfree::Slides& slides) { return walker.walk(first, last, cell, slides); });
+    return way_of(watched([&] { return walker.walk(first, last, cell); }), *walker.slides);
 }
 
-// A face, and whether its last angle is meant or its first.
-using EndOfFace = std::pair<int, bool>;
-static std::optional<std::vector<PoseTuple>> turn(const BoundaryWalker& walker, const EndOfFace& from, const EndOfFace& to, int attempts) {
-    const auto found = watched([&] { return walker.turn({from.first, from.second}, {to.first, to.second}, attempts); });
-    if (!found) return {};
-    return list_of(*found);
+static std::optional<WayTuple> path(Passages& passages, const std::array<nb::int_, 6>& start, const std::array<nb::int_, 6>& goal,
+                                    bool irrational) {
+    const auto first = pose(start), last = pose(goal);
+    const auto found = watched([&] { return passages.path(first, last, irrational); });
+    return found ? std::optional(way_of(*found, *passages.places.walker->slides)) : std::nullopt;
 }
+
+static Feature contact_of(const std::array<int, 3>& c) { return {static_cast<cfree::Kind>(c[0]), c[1], c[2]}; }
 
 static void bind_surroundings(nb::module_& m) {
     nb::enum_<Connection::Verdict>(m, "Verdict")
@@ -95,19 +93,38 @@ static void bind_surroundings(nb::module_& m) {
         .def_prop_ro("verdict", [](const Connecting& of) { return of.found().verdict; })
         .def_prop_ro("inside", [](const Connecting& of) { return of.found().inside; })
         .def_prop_ro("surface", [](const Connecting& of) { return of.found().surface; })
-        .def("way", [](const Connecting& of, double angle_scale, const Slide& slide) {
-            return with_slides(slide, [&](const cfree::Slides& slides) {
-                return cfree::connecting_way(*of.around, of.found(), angle_scale, slides);
-            });
-        }, "angle_scale"_a, "slide"_a);
+        .def("way", [](const Connecting& of, double angle_scale) {
+            const auto slides = std::make_shared<FoundSlides>();
+            const auto find = [&] { return cfree::connecting_way(*of.around, of.found(), angle_scale, slides); };
+            return way_of(watched(find), *slides);
+        }, "angle_scale"_a);
 }
 
 void bind_planning(nb::module_& m) {
     bind_surroundings(m);
+    nb::class_<FoundSlides>(m, "FoundSlides").def(nb::init<>());
     nb::class_<BoundaryWalker>(m, "BoundaryWalker")
         .def(nb::init<std::shared_ptr<const cfree::FreeSpace>, std::shared_ptr<const cfree::CellComplex>,
-                      std::shared_ptr<const cfree::MotionChecker>, double>(),
-             "space"_a, "cells"_a, "checker"_a, "angle_scale"_a)
-        .def("walk", &walk, "start"_a, "goal"_a, "cell"_a, "slide"_a)
-        .def("turn", &turn, "start"_a, "goal"_a, "attempts"_a);
+                      std::shared_ptr<const cfree::MotionChecker>, double, std::shared_ptr<FoundSlides>>(),
+             "space"_a, "cells"_a, "checker"_a, "angle_scale"_a, "slides"_a)
+        .def("walk", &walk, "start"_a, "goal"_a, "cell"_a);
+    nb::class_<Passages>(m, "Passages")
+        .def("__init__", [](Passages* of, std::shared_ptr<const BoundaryWalker> walker,
+                            std::shared_ptr<const cfree::CellComplex> slits) {
+            watched([&] { return new (of) Passages(std::move(walker), std::move(slits)); });
+        }, "walker"_a, "slits"_a.none())
+        .def("path", &path, "start"_a, "goal"_a, "irrational"_a);
+    m.def("slide_along", [](const cfree::Scene& scene, const std::array<nb::int_, 6>& from, const std::array<int, 3>& first,
+                            const std::array<int, 3>& last, const nb::int_& q, const nb::int_& p) -> std::optional<SlideTuple> {
+        const auto found = cfree::slide_along(scene, pose(from), contact_of(first), contact_of(last), {integer(p), integer(q)});
+        return found ? std::optional(tuple_of(*found)) : std::nullopt;
+    }, "scene"_a, "pose"_a, "first"_a, "last"_a, "q"_a, "p"_a);
+    m.def("isolated_end", [](const cfree::Boundary& boundary, int part) -> std::optional<PoseTuple> {
+        const auto end = cfree::ThinPart(boundary, part).ends[0];
+        return end ? std::optional(tuple_of(*end)) : std::nullopt;
+    }, "boundary"_a, "part"_a);
+    m.def("middle_of", [](const cfree::Boundary& boundary, bool isolated, int row, const nb::int_& q, const nb::int_& p) {
+        const auto& table = isolated ? boundary.isolated.parts : boundary.trapezoids;
+        return tuple_of(cfree::middle_of(boundary, table, row, {integer(p), integer(q)}));
+    }, "boundary"_a, "isolated"_a, "row"_a, "q"_a, "p"_a);
 }

@@ -31,7 +31,7 @@ struct Rooms {
     std::shared_ptr<const CellComplex> cells = glue(compute_boundary(scene));
     std::shared_ptr<const FreeSpace> space = FreeSpace::of(*cells);
     std::shared_ptr<const MotionChecker> checker = std::make_shared<const MotionChecker>(scene);
-    BoundaryWalker walker{space, cells, checker, 11};
+    BoundaryWalker walker{space, cells, checker, 11, std::make_shared<FoundSlides>()};
 };
 
 static BoundaryWalker::End end_of(const RationalPose& q) { return {q, q.place()}; }
@@ -39,11 +39,10 @@ static BoundaryWalker::End end_of(const RationalPose& q) { return {q, q.place()}
 static void walks_are_free_and_lead_to_their_goal() {
     const Rooms rooms;
     const RationalPose left{{20}, {20}, {}}, right{{180}, {20}, {1, 1}}, beyond{{500}, {20}, {}}, behind{{-100}, {0}, {0, 1}};
-    const Slides none = [](const auto&...) { return false; };
     for (const auto& [start, goal] : {std::pair{left, right}, {right, left}, {beyond, behind}}) {
         const Index cell = rooms.space->locate(start.exact(*rooms.scene));
         CHECK(cell >= 0 && cell == rooms.space->locate(goal.exact(*rooms.scene)));
-        const Poses way = rooms.walker.walk(end_of(start), end_of(goal), cell, none);
+        const Poses way = rooms.walker.walk(end_of(start), end_of(goal), cell);
         CHECK(way.front() == start && way.back() == goal && way.size() > 2);
         for (std::size_t k = 1; k < way.size(); ++k)
             CHECK(rooms.checker->is_free(

@@ -63,7 +63,27 @@ static void numbers_that_nearly_agree_are_told_apart() {
     CHECK(sign_on(p, Dyadic::from(0.79), Dyadic::from(0.8)) == 1 && sign_on(p, Dyadic::from(0.7), Dyadic::from(0.8)) == 0);
 }
 
+static void rational_roots_are_known() {
+    const Poly p = product({-1, 3}, {-2, 0, 1});  // (3 x - 1) (x^2 - 2)
+    CHECK(rational_value({p, {0, 0}, {1, 0}}) == (Ratio{1, 3}));
+    CHECK(!rational_value({p, {1, 0}, {2, 0}}));
+    const Int n = (Int(1) << 300) + 7, d = (Int(1) << 310) + 1;
+    CHECK(rational_value({product({-n, d}, {1, 0, 1}), {0, 0}, {1, 0}}) == reduced(n, d));
+    CHECK(!rational_value({{-n, 0, d}, {0, 0}, {1, 0}}));
+    CHECK(rational_value({{-3, 4}, {3, 2}, {3, 2}}) == (Ratio{3, 4}));
+}
+
+static void common_factors_are_divided_out() {
+    const Poly f = {2, 6};  // 2 + 6 x
+    std::array<Poly, 3> parts{product(f, {1, 1}), product(f, {0, -5}), Poly{}};
+    cancel(parts);
+    CHECK(parts[0].size() == 2 && parts[0][0] == parts[0][1] && parts[1].size() == 2 && parts[1][0].is_zero());
+    CHECK(parts[1][1] == -5 * parts[0][0] && abs(parts[0][0]) == 1 && parts[2].empty());
+}
+
 int main() {
+    rational_roots_are_known();
+    common_factors_are_divided_out();
     narrowing_doubles_the_digits();
     numbers_that_nearly_agree_are_told_apart();
     signs_at_dyadics_are_exact();

@@ -19,6 +19,7 @@ from flint import fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import cfree._core as _core
 import cfree.verify
 import strategies
 from cfree import FormatError, MotionChecker, Path, Pose, Rotation, Scene, Slide, clearance, is_free, save
@@ -27,8 +28,7 @@ from cfree.collision import Touch
 from cfree.errors import InvalidPoseError, UnsupportedError
 from cfree.formats.answer_file import load_answer as load
 from cfree.paths.clearance import narrowest
-from cfree.planning.double_contact import slide as slide_along
-from cfree.planning.exact_face import contact_line, cross, positions
+from cfree.planning.core_ways import numbers_of, slide_of
 from cfree.scene.features import SceneFeatures
 from cfree.verify.course import Course, place_of
 from cfree.verify.motions import CONTINUOUS, ENDS, FREE, KEPT, is_nowhere_positive, positive
@@ -50,6 +50,35 @@ curves = st.builds(
 )
 
 
+def contact_line(features: SceneFeatures, contact: tuple[int, int, int], tau: Fraction | None) -> tuple[Any, Any]:
+    """P and U: the reference point is on the line P + s U where two features touch, at an orientation."""
+    kind, i, j = contact
+    A, O, turn = features.robot, features.obstacles, Pose(0, 0, {"tau": tau})
+
+    def vertex(shape: Any, k: int) -> Any:
+        return tuple(F(c, features.scale) for c in shape.vertices[k])
+
+    a = vertex(A, i)
+    P = minus(vertex(O, j), *turn.apply_exact([a]))
+    if kind == 1:
+        return P, minus(vertex(O, O.w[j]), vertex(O, j))
+    return P, minus(*turn.apply_exact([a, vertex(A, A.w[i])]))
+
+
+def minus(u: Any, v: Any) -> tuple[Fraction, Fraction]:
+    return u[0] - v[0], u[1] - v[1]
+
+
+def cross(u: Any, v: Any) -> Fraction:
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def slide_along(features: SceneFeatures, pose: Pose, first: Any, last: Any, tau: Fraction) -> Slide | None:
+    """Along two contacts that a pose is in, as the core has it; it need not be free."""
+    found = _core.slide_along(features.core, numbers_of(pose), first, last, tau.denominator, tau.numerator)
+    return slide_of(found[2:], features) if found else None
+
+
 def contact_slides(scene: Scene, rng: random.Random, count: int) -> Iterator[tuple[Pose, Slide]]:
     """From poses at which the lines of two contacts meet, degenerate ones among them."""
     features: SceneFeatures = MotionChecker(scene).features
@@ -57,10 +86,10 @@ def contact_slides(scene: Scene, rng: random.Random, count: int) -> Iterator[tup
     for _ in range(count):
         first, last = ((rng.choice((1, 2)), rng.randrange(n), rng.randrange(m)) for _ in "ab")
         turned = rng.choice([F(0), F(1), F(rng.randrange(-8, 9), rng.randrange(1, 9)), None])
-        (P, U), (Q, V) = (positions(contact_line(features, *contact), turned) for contact in (first, last))
+        (P, U), (Q, V) = (contact_line(features, contact, turned) for contact in (first, last))
         if (across := cross(U, V)) == 0:
             continue
-        s = cross((Q[0] - P[0], Q[1] - P[1]), V) / across
+        s = cross(minus(Q, P), V) / across
         pose = Pose(P[0] + s * U[0], P[1] + s * U[1], {"tau": turned})
         tau = F(rng.choice((-1, 1)), rng.choice((1, 2, 8, 64, 1024)))
         if (slide := slide_along(features, pose, first, last, tau)) is not None:
@@ -183,8 +212,8 @@ def test_slides_along_contacts_in_corridors() -> None:
     every = [(kind, i, j) for kind in (1, 2) for i in range(4) for j in range(len(features.obstacles.previous))]
     for u in (0, F(1, 2), F(5, 7), 1):
         pose = turning().at(START, u)
-        lines = [(c, *positions(contact_line(features, *c), pose.tau)) for c in every]
-        touching = [c for c, P, U in lines if cross(U, (pose.x - P[0], pose.y - P[1])) == 0]
+        lines = [(c, *contact_line(features, c, pose.tau)) for c in every]
+        touching = [c for c, P, U in lines if cross(U, minus((pose.x, pose.y), P)) == 0]
         for tau in (F(1, 16), F(-1, 16), F(-3, 4)):
             for first, last in combinations(touching, 2):
                 if (slide := slide_along(features, pose, first, last, tau)) is None:

@@ -12,7 +12,6 @@ import pytest
 import cfree.verify
 from cfree import MotionChecker, Path, Planner, Pose, Scene, Slide, boundary, free_space, nearest_miss, plan
 from cfree.errors import InvalidPoseError
-from cfree.planning.meeting_places import Part
 
 F = Fraction
 Ring = Sequence[tuple[Any, Any]]
@@ -122,15 +121,6 @@ def test_a_slot_narrower_by_however_little_is_closed(k: int) -> None:
     scene = slot(1 - F(1, 2**k), F(1, 3), 0)
     ends = posed(-4, "1/3", {"tau": "1/3"}, F(1, 3), 0), posed(6, "-1/7", {"tau": "-1/5"}, F(1, 3), 0)
     assert answered(scene, *ends) == "closed"
-
-
-def test_places_are_held_by_what_meets_there() -> None:
-    """The slot is an isolated segment; its ends are on the boundary of the rooms before and behind it."""
-    planner = Planner(slot(1, LONG, 0))
-    assert isinstance(planner.plan(posed(-4, 1, 0, LONG, 0), posed(6, 1, 0, LONG, 0), improve=0), Path)
-    places = planner._passages.places
-    held = [places.holders(pose) for pose in places.rational]
-    assert any(any(isinstance(x, Part) for x in of) and any(isinstance(x, int) for x in of) for of in held)
 
 
 def test_a_curve_named_by_another_edge_on_its_line_is_slid_along() -> None:

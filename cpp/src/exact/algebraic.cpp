@@ -7,6 +7,15 @@
 
 namespace cfree {
 
+namespace {
+
+// The floor of n / 2^k.
+Int floor_shifted(const Int& n, unsigned k) {
+    return n.sign() < 0 ? Int(-((-n + (Int(1) << k) - 1) >> k)) : Int(n >> k);
+}
+
+}  // namespace
+
 void RealRoot::halve() {
     if (is_dyadic()) return;
     heed_stop();
@@ -32,7 +41,7 @@ void RealRoot::narrow() {
     heed_stop();
     const unsigned b = digits() / 2;
     if (is_dyadic() || b < 4) return halve();
-    const Int below = value_at(p, {from, k}), above = value_at(p, {from + width, k});
+    const Int below = value_at(p, Dyadic{from, k}), above = value_at(p, Dyadic{from + width, k});
     const Int part = (abs(below) << b) / (abs(below) + abs(above)), last = Int(1) << b;
     const Dyadic l{(from << b) + width * (part == 0 ? part : Int(part - 1)), k + b};
     const Dyadic h{(from << b) + width * std::min(Int(part + 2), last), k + b};
@@ -42,6 +51,24 @@ void RealRoot::narrow() {
     else if (at_l != below.sign()) hi = l, halve();
     else if (at_h != above.sign()) lo = h, halve();
     else lo = l, hi = h;
+}
+
+Int value_at(const Poly& p, const Ratio& x) {
+    Int value = 0, power = 1;
+    for (int k = p.size(); k-- > 0; power *= x.d) value = value * x.n + p[k] * power;
+    return value;
+}
+
+// Its denominator divides the leading coefficient: narrowed until no two of those quotients are left.
+std::optional<Ratio> rational_value(RealRoot x) {
+    for (; !x.is_dyadic(); x.narrow()) {
+        const Int lead = abs(x.p.back());
+        const Int first = -floor_shifted(-lead * x.lo.n, x.lo.k), last = floor_shifted(lead * x.hi.n, x.hi.k);
+        if (first < last) continue;
+        const Ratio value = reduced(first, lead);
+        return first == last && value_at(x.p, value).is_zero() ? std::optional(value) : std::nullopt;
+    }
+    return reduced(x.lo.n, Int(1) << x.lo.k);
 }
 
 namespace {

@@ -150,6 +150,14 @@ Poly product(const Poly& p, const Poly& q) {
     return r;
 }
 
+Poly sum(const Poly& p, const Poly& q) {
+    Poly r = p;
+    if (r.size() < q.size()) r.resize(q.size());
+    for (int i = 0; i < q.size(); ++i) r[i] += q[i];
+    r.trim();
+    return r;
+}
+
 Poly difference(const Poly& p, const Poly& q) {
     Poly r = p;
     if (r.size() < q.size()) r.resize(q.size());
@@ -209,6 +217,32 @@ Poly squarefree(const Poly& p) {
     if (p.size() <= 2) return p;
     const Poly g = greatest_common_divisor(p, derivative(p));
     return g.size() > 1 ? quotient(p, g) : p;
+}
+
+void cancel(std::span<Poly> parts) {
+    const auto content = [](const Int& so_far, const Poly& f) {
+        Int g = so_far;
+        for (const Int& c : f) g = gcd(g, c);
+        return g;
+    };
+    Poly common;
+    for (const Poly& f : parts) common = greatest_common_divisor(common, f);
+    const Int number = content(0, common);
+    for (Int& c : common) c /= number;
+    Int rest = 0;
+    for (Poly& f : parts) {
+        if (f.empty()) continue;
+        Poly divided;  // its coefficients are integers: the divisor's have no common factor
+        divided.resize(f.size() - common.size() + 1);
+        for (int k = divided.size(); k-- > 0;) {
+            divided[k] = f[k + common.size() - 1] / common.back();
+            for (int i = 0; i < common.size(); ++i) f[i + k] -= divided[k] * common[i];
+        }
+        f = divided;
+        rest = content(rest, f);
+    }
+    for (Poly& f : parts)
+        for (Int& c : f) c /= rest;
 }
 
 Sturm::Sturm(const Poly& p) {

@@ -274,4 +274,15 @@ GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, con
     return {shared(Assembly(*boundary, std::vector(faces), 1).run(std::move(lists)), part), std::move(faces), std::move(missing)};
 }
 
+std::vector<std::vector<Index>> pinched(const CellComplex& cells) {
+    std::vector<Index> count(static_cast<std::size_t>(cells.edges), 0), place(count.size(), -1);
+    for (const Index e : cells.edge) ++count[e];
+    std::vector<std::vector<Index>> found;
+    for (Index e = 0; e < cells.edges; ++e)
+        if (count[e] > 2) place[e] = static_cast<Index>(found.size()), found.emplace_back();
+    for (Index h = 0; h < static_cast<Index>(cells.edge.size()); ++h)
+        if (const Index k = place[cells.edge[h]]; k >= 0) found[k].push_back(h);
+    return found;
+}
+
 }  // namespace cfree

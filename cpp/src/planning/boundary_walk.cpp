@@ -40,8 +40,8 @@ void append(Poses& way, const Poses& more, std::size_t from) {
 // One walk.
 class BoundaryWalker::Run {
 public:
-    Run(const BoundaryWalker& on, const Slides& slides)
-        : walker(on), motions(*on.space->boundary->scene, *on.checker, slides), landings(*on.space, on.extent, motions) {}
+    explicit Run(const BoundaryWalker& on)
+        : walker(on), motions(on.motions()), landings(*on.space, on.extent, motions) {}
 
     Poses from(const End& start, const End& goal, Index cell) const {
         const auto first = landings.of(start.pose, cell), last = landings.of(goal.pose, cell);
@@ -201,7 +201,7 @@ private:
         Sheet g = landings.sheet(next);
         const auto side = static_cast<Side>(walker.cells->side[h]);
         if (side == Side::lower || side == Side::upper) {
-            const Ratio tau = common_tau(f, g);
+            const Ratio tau = common_tau({&f, &g});
             const Station p = station(f, tau), q = station(g, tau);
             along(f, from, p, way);
             over_curve(f, p, g, q, side == Side::upper, way);
@@ -221,8 +221,10 @@ private:
 };
 
 BoundaryWalker::BoundaryWalker(std::shared_ptr<const FreeSpace> of, std::shared_ptr<const CellComplex> surfaces,
-                               std::shared_ptr<const MotionChecker> by, double angle_scale)
-    : space(std::move(of)), cells(std::move(surfaces)), checker(std::move(by)), graph(cells, angle_scale),
+                               std::shared_ptr<const MotionChecker> by, double scale,
+                               std::shared_ptr<FoundSlides> found)
+    : space(std::move(of)), cells(std::move(surfaces)), checker(std::move(by)), slides(std::move(found)),
+      angle_scale(scale), graph(cells, angle_scale),
       extent(*cells, ratio_of(angle_scale)) {}
 
 std::shared_ptr<const std::vector<Link>> BoundaryWalker::links(const Landings& landings, Index cell) const {
@@ -235,15 +237,14 @@ std::shared_ptr<const std::vector<Link>> BoundaryWalker::links(const Landings& l
     return known.emplace(cell, std::move(found)).first->second;
 }
 
-Poses BoundaryWalker::walk(const End& start, const End& goal, Index cell, const Slides& slides) const {
+Poses BoundaryWalker::walk(const End& start, const End& goal, Index cell) const {
     if (space->surfaces.component.empty())
         return {start.pose, {start.pose.x, start.pose.y, goal.pose.half}, goal.pose};
-    return Run(*this, slides).from(start, goal, cell);
+    return Run(*this).from(start, goal, cell);
 }
 
 std::optional<Poses> BoundaryWalker::turn(const EndOfFace& from, const EndOfFace& to, int attempts) const {
-    const Slides none;
-    return Run(*this, none).turn(from, to, attempts);
+    return Run(*this).turn(from, to, attempts);
 }
 
 }  // namespace cfree

@@ -15,7 +15,8 @@ std::shared_ptr<const FreeSpace> cell_of(const CellComplex& surface) {
 
 }  // namespace
 
-Poses connecting_way(const Surroundings& around, const Connection& joined, double angle_scale, const Slides& slides) {
+Poses connecting_way(const Surroundings& around, const Connection& joined, double angle_scale,
+                     const std::shared_ptr<FoundSlides>& slides) {
     const Scene& scene = *around.scene;
     const auto first = RationalPose::of(joined.near_start, scene), last = RationalPose::of(joined.near_goal, scene);
     Poses way{joined.start, first};
@@ -33,9 +34,9 @@ Poses connecting_way(const Surroundings& around, const Connection& joined, doubl
         if (k == joined.stretches.size()) break;
         const auto& [surface, enter, leave] = joined.stretches[k];
         const auto space = cell_of(*surface);
-        const BoundaryWalker walker(space, surface, around.checker, angle_scale);
+        const BoundaryWalker walker(space, surface, around.checker, angle_scale, slides);
         const auto from = RationalPose::of(enter, scene), to = RationalPose::of(leave, scene);
-        const Poses along = walker.walk({from, from.place()}, {to, to.place()}, space->cell_of[0], slides);
+        const Poses along = walker.walk({from, from.place()}, {to, to.place()}, space->cell_of[0]);
         way.insert(way.end(), along.begin(), along.end());
     }
     way.insert(way.end(), {last, joined.goal});

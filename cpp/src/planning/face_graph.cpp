@@ -26,14 +26,6 @@ Vec<double> moved(const Scene& scene, double theta) {
     return {x - (c * a - s * b), y - (s * a + c * b)};
 }
 
-Place surface_at(const Scene& scene, const Feature& contact, double t, double theta) {
-    const ContactLine<double> l(scene, contact, UserUnits{});
-    const Vec<double> q = l.on_edge ? l.E : Vec<double>{0, 0}, g = l.on_edge ? Vec<double>{0, 0} : l.E;
-    double at[2];
-    evaluate_points({l.b.x, l.b.y, q.x, q.y, l.a.x, l.a.y, g.x, g.y}, &t, &theta, 1, at);
-    return {at[0], at[1], theta};
-}
-
 }  // namespace
 
 Vec<double> position(const CellComplex& cells, Index v) {
@@ -41,8 +33,17 @@ Vec<double> position(const CellComplex& cells, Index v) {
     return {cells.xy[2 * v] + by.x, cells.xy[2 * v + 1] + by.y};
 }
 
+Place position_on(const Scene& scene, const Feature& contact, double t, double theta) {
+    const ContactLine<double> l(scene.near(), contact, UserUnits{});
+    const Vec<double> q = l.on_edge ? l.E : Vec<double>{0, 0}, g = l.on_edge ? Vec<double>{0, 0} : l.E;
+    double at[2];
+    evaluate_points({l.b.x, l.b.y, q.x, q.y, l.a.x, l.a.y, g.x, g.y}, &t, &theta, 1, at);
+    const Vec<double> by = moved(scene, theta);
+    return {at[0] + by.x, at[1] + by.y, theta};
+}
+
 FaceGraph::FaceGraph(std::shared_ptr<const CellComplex> of, double scale)
-    : cells(std::move(of)), scene(cells->boundary->scene->near()), limits(*cells->boundary), angle_scale(scale) {}
+    : cells(std::move(of)), scene(*cells->boundary->scene), limits(*cells->boundary), angle_scale(scale) {}
 
 void FaceGraph::middles(Index face, std::vector<Place>& found) const {
     const Trapezoids& table = cells->boundary->trapezoids;
@@ -68,9 +69,7 @@ void FaceGraph::middles(Index face, std::vector<Place>& found) const {
             result.theta += std::min(std::max(turned, low), high) / 2;
         }
         const auto t = limits.of(face, tangent((result.theta - turn) / 2));
-        const Place at = surface_at(scene, contact, t[side == Side::upper], result.theta);
-        const Vec<double> by = moved(*cells->boundary->scene, result.theta);
-        result.x = at.x + by.x, result.y = at.y + by.y;
+        result = position_on(scene, contact, t[side == Side::upper], result.theta);
     }
 }
 

@@ -20,8 +20,12 @@ std::optional<Poses> FreeMotions::first_free(std::initializer_list<Poses> ways) 
 }
 
 bool FreeMotions::along_curve(const RationalPose& from, const RationalPose& to, const Sheet& sheet, std::size_t side) const {
-    const auto curve = sheet.curves[side];
-    return unpacked(curve).kind == Kind::vertex_vertex ? join({from, to}) : slides(from, to, sheet.contact, curve);
+    const Feature curve = unpacked(sheet.curves[side]);
+    if (curve.kind == Kind::vertex_vertex) return join({from, to});
+    auto slide = free_slide(scene, checker, from, to, sheet.contact, curve);
+    if (!slide) return false;
+    slides.add(std::move(*slide));
+    return true;
 }
 
 std::optional<Ratio> FreeMotions::free_share(const RationalPose& from, const Ratio& dx, const Ratio& dy) const {

@@ -20,6 +20,12 @@ Ratio HalfAngle::tau() const {
     return p.sign() > 0 ? Ratio{-q, p} : Ratio{q, -p};
 }
 
+HalfAngle HalfAngle::turned(const Int& c, const Int& s) const {
+    Int x = q * c - p * s, y = q * s + p * c;
+    const Int common = x.sign() < 0 || (x.is_zero() && y.sign() < 0) ? Int(-gcd(x, y)) : gcd(x, y);
+    return {x / common, y / common};
+}
+
 double HalfAngle::theta() const {
     constexpr double pi = std::numbers::pi;
     if (q.is_zero()) return pi;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cfree/planning/moving_line.hpp"
+
 namespace cfree {
 
 namespace {
@@ -11,29 +13,6 @@ constexpr unsigned finest = 32;  // bits of tau that doubles are trusted with
 
 Ratio ratio_of(const Dyadic& x) { return reduced(x.n, Int(1) << x.k); }
 
-// Positions of a contact line times 1 + tau^2, polynomials in tau.
-struct Moving {
-    std::array<Poly, 2> P, U;
-    Moving(const ContactLine<Int>& l, int chart) {
-        const Int sign = chart ? -1 : 1;
-        const auto turned = [&](const Vec<Int>& fixed, const Vec<Int>& v) {  // fixed - R v
-            const Int x = sign * v.x, y = sign * v.y;
-            return std::array{Poly{fixed.x - x, 2 * y, fixed.x + x}, Poly{fixed.y - y, -2 * x, fixed.y + y}};
-        };
-        const Vec<Int> none{0, 0};
-        P = turned(l.b, l.a);
-        U = l.on_edge ? turned(l.E, none) : turned(none, l.E);
-    }
-};
-Poly cross(const std::array<Poly, 2>& u, const std::array<Poly, 2>& v) {
-    return difference(product(u[0], v[1]), product(u[1], v[0]));
-}
-// n^k r^(degree - k) of a root n / r, summed up.
-Int value_at(const Poly& f, const Ratio& at) {
-    Int value = 0, power = 1;
-    for (int k = f.size(); k-- > 0; power *= at.d) value = value * at.n + f[k] * power;
-    return value;
-}
 // Without the factor r tau - n.
 Poly divided(const Poly& f, const Ratio& root) {
     Poly result;
@@ -44,6 +23,11 @@ Poly divided(const Poly& f, const Ratio& root) {
         result[k - 1] = carried;
     }
     return result;
+}
+
+// t of where another line meets one, over its denominator.
+std::array<Poly, 2> quotient(const MovingLine& one, const MovingLine& other) {
+    return {cross(difference(other.P, one.P), other.U), cross(one.U, other.U)};
 }
 
 }  // namespace
@@ -61,6 +45,12 @@ Sheet Sheet::of(const Boundary& boundary, const PointLocation& points, Index fac
     Sheet sheet(boundary, points, face);
     for (unsigned digits = 2 * finest; sheet.low >= sheet.high; digits *= 2) sheet.refine(digits);
     return sheet;
+}
+
+Sheet Sheet::isolated(const Boundary& boundary, Index part) {
+    const Trapezoids& table = boundary.isolated.parts;
+    return {*boundary.scene, boundary.patches.contact(table.patch[part]), table.chart[part], {table.lower[part], table.upper[part]},
+            cfree::ratio_of(table.from_hi[part]), cfree::ratio_of(table.to_lo[part])};
 }
 
 void Sheet::refine(unsigned digits) {
@@ -87,14 +77,38 @@ Ratio Sheet::limit(std::uint64_t curve, const HalfAngle& half, const Line& l, co
     const ContactLine<Int> other(scene, f, CoreUnits<Int>{});
     const auto r = half.rotation();
     const Vec<Int> Q = other.start(r), V = other.direction(r);
-    const Int d = cfree::cross(l.U, V);
-    return d.is_zero() ? limit_around(other, tau) : reduced(cfree::cross(Q - l.P, V), d);
+    const Int d = cross(l.U, V);
+    return d.is_zero() ? limit_around(other, tau) : reduced(cross(Q - l.P, V), d);
+}
+
+MovingLine Sheet::moving(const ContactLine<Int>& of) const { return {of, {chart ? -1 : 1, 0, 1}}; }
+
+std::vector<Int> Sheet::trace(std::size_t side) const {
+    const Feature f = unpacked(curves[side]);
+    const MovingLine own = moving(line);
+    std::array<Poly, 2> t;
+    if (f.kind == Kind::vertex_vertex) {
+        const Ratio at = along(f);
+        t = {Poly{at.n}, Poly{at.d}};
+    } else {
+        t = quotient(own, moving({scene, f, CoreUnits<Int>{}}));
+    }
+    const auto& [n, d] = t;
+    std::array<Poly, 3> parts{sum(product(own.P[0], d), product(n, own.U[0])), sum(product(own.P[1], d), product(n, own.U[1])),
+                              product(d, {1, 0, 1})};
+    cancel(parts);
+    const Int sign = parts[2].back().sign();
+    std::vector<Int> name;
+    for (const Poly& part : parts) {
+        name.push_back(part.size());
+        for (const Int& c : part) name.push_back(sign * c);
+    }
+    return name;
 }
 
 // Where two lines coincide: common factors are divided out.
 Ratio Sheet::limit_around(const ContactLine<Int>& other, const Ratio& tau) const {
-    const Moving one(line, chart), two(other, chart);
-    Poly n = cross({difference(two.P[0], one.P[0]), difference(two.P[1], one.P[1])}, two.U), d = cross(one.U, two.U);
+    auto [n, d] = quotient(moving(line), moving(other));
     while (!d.empty() && value_at(d, tau).is_zero() && value_at(n, tau).is_zero()) {
         d = divided(d, tau);
         if (!n.empty()) n = divided(n, tau);
@@ -132,12 +146,21 @@ Ratio Sheet::t_of(const RationalPose& pose, const Ratio& tau) const {
     return reduced(x * l.U.x * pose.y.d + y * l.U.y * pose.x.d, pose.x.d * pose.y.d * dot(l.U, l.U));
 }
 
-Ratio common_tau(Sheet& f, Sheet& g) {
+RationalPose middle_of(const Boundary& boundary, const Trapezoids& table, Index row, const Ratio& tau) {
+    const Feature contact = boundary.patches.contact(table.patch[row]);
+    const Sheet sheet(*boundary.scene, contact, table.chart[row], {table.lower[row], table.upper[row]}, tau, tau);
+    const auto [lower, upper] = sheet.limits(tau);
+    return sheet.pose((lower + upper) / Ratio{2}, tau);
+}
+
+Ratio common_tau(std::initializer_list<Sheet*> sheets) { return common_tau(std::span(sheets.begin(), sheets.size())); }
+Ratio common_tau(std::span<Sheet* const> sheets) {
     for (unsigned bits = finest;;) {
-        const Ratio &low = std::max(f.low, g.low), &high = std::min(f.high, g.high);
+        Ratio low = sheets[0]->low, high = sheets[0]->high;
+        for (const Sheet* f : sheets) low = std::max(low, f->low), high = std::min(high, f->high);
         if (low < high) return simple_middle(low, high);
         bits *= 2;
-        f.refine(bits), g.refine(bits);
+        for (Sheet* f : sheets) f->refine(bits);
     }
 }
 

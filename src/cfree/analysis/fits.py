@@ -12,14 +12,15 @@ from typing import Any
 
 import numpy as np
 
+import cfree._core as _core
 from cfree.exact.algebraic import between, part
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.exact.half_angle import normalize_angles
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import Trapezoids
-from cfree.forbidden.critical_angle import critical_angle, rational_critical_angle
-from cfree.planning.exact_face import Sheet, isolated_end
+from cfree.forbidden.critical_angle import critical_angle
+from cfree.planning.core_ways import from_numbers
 from cfree.scene.scene import Scene, polygons_of
 
 
@@ -154,13 +155,11 @@ class Orientations:
 
     def _pose(self, table: Trapezoids, row: int, k: int) -> Pose | None:
         """Of a trapezoid or an isolated part; None if it is at one orientation whose tangent is irrational."""
-        is_face = table is self.boundary.trapezoids
+        core, is_isolated = self.boundary.core, table is self.boundary.isolated
         if self._from[k] == self._to[k]:
-            tau = rational_critical_angle(self.boundary, table, row, False)
-            return None if tau is None else isolated_end(self.boundary, row, False, tau)
+            end = _core.isolated_end(core, row)
+            return None if end is None else from_numbers(end)
         ends = [critical_angle(self.boundary, table, row, last) for last in (False, True)]
         part(*ends)
         tau = between(ends[0].hi, ends[1].lo)
-        sheet = Sheet.of(self.boundary, row) if is_face else Sheet.isolated(self.boundary, row)
-        lower, upper = sheet.limits(tau)
-        return sheet.pose((lower + upper) / 2 if is_face else lower, tau)
+        return from_numbers(_core.middle_of(core, is_isolated, row, tau.denominator, tau.numerator))

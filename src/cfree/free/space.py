@@ -397,21 +397,6 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
     return FreeSpace(boundary, surfaces.component, surfaces.parent, inside, surfaces.turns, surfaces.lift, core)
 
 
-def surfaces_with_slits(boundary: Boundary) -> FreeSpace | None:
-    """Each closed surface as a cell of its own, slits of no width included; None if there are no slits.
-
-    All of a surface is free: so any two poses on one are joined along it.
-    """
-    if bounding_surfaces(boundary) is boundary:
-        return None
-    component, surfaces = boundary.complex.component, boundary.complex.components
-    parent, all_free, turns = np.full(surfaces, -1, np.int32), np.ones(surfaces, bool), np.zeros(surfaces, np.int32)
-    columns = component, parent, all_free, turns, np.zeros(len(component), np.int32)
-    space = FreeSpace(boundary, *columns, _in_core(boundary, *columns))
-    space.surfaces = boundary
-    return space
-
-
 def bounding_surfaces(boundary: Boundary, threads: int | None = None) -> Boundary:
     """The boundary of the interior of the free space."""
     if not _core.may_have_slits(boundary.features.core):

@@ -1,8 +1,7 @@
 """Paths: quick searches first, then walks on the boundary of a cell, and ways through exact fits.
 
-`planner` puts them together; `rrt_connect` joins random poses, `boundary_walk` follows trapezoids (`exact_face` is
-one), `exact_fits` knows poses without room around them. Nothing but a check of `cfree.collision.motion_checker` says
-that a motion is free.
+`planner` puts them together; `rrt_connect` joins random poses, `boundary_walk` follows trapezoids, `exact_fits` leads
+through places without room, all three in the core. Nothing but a check of the core says that a motion is free.
 """
 
 from typing import TYPE_CHECKING

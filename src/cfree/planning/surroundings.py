@@ -9,12 +9,11 @@ from collections.abc import Callable
 
 import cfree._core as _core
 from cfree.collision.motion_checker import MotionChecker
-from cfree.collision.slide import Slide
 from cfree.errors import InvariantError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.record import Stats
-from cfree.planning.curve_motions import CurveMotions, from_numbers, numbers_of
+from cfree.planning.core_ways import Slides, numbers_of, way_of
 from cfree.scene.scene import Scene
 
 STEP = 64  # trapezoids around each of two poses; then twice as many each time
@@ -78,13 +77,13 @@ class Connecting:
         """Of two poses that are apart, the one that the surface is around: start (0) or goal (1)."""
         return self._core.inside
 
-    def way(self, angle_scale: float, slides: dict[tuple[Pose, Pose], Slide]) -> list[Pose] | None:
+    def way(self, angle_scale: float, slides: Slides) -> list[Pose] | None:
         """Poses from the start to the goal, the motions between them free; None if none are found on the surfaces."""
-        curves = CurveMotions(self._around.checker, slides)
         try:
-            return [*map(from_numbers, self._core.way(angle_scale, curves.slid_by_numbers))]
+            found = self._core.way(angle_scale)
         except RuntimeError:
             return None
+        return way_of(found, self._around.checker.features, slides)
 
     @property
     def surface(self) -> Boundary:

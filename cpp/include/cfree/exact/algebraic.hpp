@@ -1,6 +1,7 @@
 // Real algebraic numbers of degree at most 6, compared exactly.
 #pragma once
 #include "cfree/exact/polynomial.hpp"
+#include "cfree/exact/ratio.hpp"
 
 namespace cfree {
 
@@ -14,6 +15,10 @@ struct RealRoot {
     void narrow();  // by ever more, once the polynomial is nearly straight in the interval
 };
 
+// Times a power of the denominator, the degree.
+Int value_at(const Poly& p, const Ratio& x);
+// A root, if it is rational.
+std::optional<Ratio> rational_value(RealRoot x);
 // Sign of q at the root; narrows its interval.
 int sign_at(const Poly& q, RealRoot& x);
 // Order of two roots; narrows their intervals.

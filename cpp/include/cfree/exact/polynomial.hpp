@@ -2,6 +2,7 @@
 #pragma once
 #include <array>
 #include <initializer_list>
+#include <span>
 #include <vector>
 
 #include "cfree/exact/ball.hpp"
@@ -64,6 +65,7 @@ private:
 };
 
 Poly product(const Poly& p, const Poly& q);
+Poly sum(const Poly& p, const Poly& q);
 Poly difference(const Poly& p, const Poly& q);
 Poly derivative(const Poly& p);
 Int value_at(const Poly& p, const Dyadic& tau);  // times 2^(k d), d the degree
@@ -71,6 +73,8 @@ int sign_at(const Poly& p, const Dyadic& tau);
 int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi);  // on the whole closed interval, 0 if not certain
 Poly greatest_common_divisor(Poly p, Poly q);
 Poly squarefree(const Poly& p);
+// Divided by what all of them have in common, numbers as well; one at least is not zero.
+void cancel(std::span<Poly> parts);
 
 // Sturm's chain of a squarefree polynomial.
 class Sturm {

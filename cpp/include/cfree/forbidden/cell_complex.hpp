@@ -21,6 +21,9 @@ struct CellComplex {
     Index edges = 0, vertices = 0, components = 0;
 };
 
+// Half-edges along each edge at which more than two faces meet.
+std::vector<std::vector<Index>> pinched(const CellComplex& cells);
+
 // The same for any number of threads. A side without a partner, as a message that names trapezoids, is thrown as
 // std::logic_error.
 std::shared_ptr<const CellComplex> glue(const SharedBoundary& boundary, int threads = 1);

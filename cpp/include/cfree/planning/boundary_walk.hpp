@@ -13,9 +13,9 @@ namespace cfree {
 
 class BoundaryWalker {
 public:
-    // Lengths are travel plus angle_scale, the robot's radius, times turning.
+    // Lengths are travel plus angle_scale, the robot's radius, times turning. The slides on ways are added to those found.
     BoundaryWalker(std::shared_ptr<const FreeSpace> space, std::shared_ptr<const CellComplex> cells,
-                   std::shared_ptr<const MotionChecker> checker, double angle_scale);
+                   std::shared_ptr<const MotionChecker> checker, double angle_scale, std::shared_ptr<FoundSlides> slides);
 
     // Poses from the start to the goal, both in the cell or on its boundary; the motions between them are free. Places: the
     // same in doubles. Throws std::logic_error if no way is found. Calls from several threads are fine.
@@ -23,7 +23,7 @@ public:
         RationalPose pose;
         Place place;
     };
-    Poses walk(const End& start, const End& goal, Index cell, const Slides& slides) const;
+    Poses walk(const End& start, const End& goal, Index cell) const;
 
     // From the middle of one face to the middle of another, over their last or first angles, nearer and nearer to these. Nothing if
     // none was found.
@@ -33,13 +33,20 @@ public:
     };
     std::optional<Poses> turn(const EndOfFace& from, const EndOfFace& to, int attempts) const;
 
-private:
-    class Run;
-    std::shared_ptr<const std::vector<Link>> links(const Landings& landings, Index cell) const;
+    Sheet sheet(Index face) const { return Sheet::of(*space->boundary, space->points(), face); }
+    Index cell_at(Index face) const { return space->cell_of[space->surfaces.component[face]]; }
+    FreeMotions motions() const { return {*space->boundary->scene, *checker, *slides}; }
 
     const std::shared_ptr<const FreeSpace> space;
     const std::shared_ptr<const CellComplex> cells;
     const std::shared_ptr<const MotionChecker> checker;
+    const std::shared_ptr<FoundSlides> slides;
+    const double angle_scale;
+
+private:
+    class Run;
+    std::shared_ptr<const std::vector<Link>> links(const Landings& landings, Index cell) const;
+
     const FaceGraph graph;
     const Extent extent;
     mutable std::mutex lock;  // of what is kept for later

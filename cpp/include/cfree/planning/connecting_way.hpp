@@ -6,6 +6,7 @@
 namespace cfree {
 
 // Poses from the start to the goal; the motions between them are free. Throws std::logic_error if no way is found along a surface.
-Poses connecting_way(const Surroundings& around, const Connection& joined, double angle_scale, const Slides& slides);
+Poses connecting_way(const Surroundings& around, const Connection& joined, double angle_scale,
+                     const std::shared_ptr<FoundSlides>& slides);
 
 }  // namespace cfree

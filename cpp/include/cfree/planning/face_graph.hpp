@@ -19,7 +19,9 @@ struct Mark {
     Place at;
 };
 
+// In the user's units.
 Vec<double> position(const CellComplex& cells, Index vertex);
+Place position_on(const Scene& scene, const Feature& contact, double t, double theta);
 
 class FaceGraph {
 public:
@@ -41,7 +43,7 @@ public:
     const std::shared_ptr<const CellComplex> cells;
 
 private:
-    const Scene& scene;  // near
+    const Scene& scene;
     const Limits limits;
     const double angle_scale;
 };

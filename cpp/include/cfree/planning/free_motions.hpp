@@ -1,20 +1,16 @@
 // Motions between rational poses, decided exactly.
 #pragma once
-#include <functional>
-
+#include "cfree/planning/double_contact.hpp"
 #include "cfree/planning/sheet.hpp"
 
 namespace cfree {
 
 using Poses = std::vector<RationalPose>;
 
-// Whether a slide along a contact's surface and a curve on it leads from one pose freely to another.
-using Slides = std::function<bool(const RationalPose& from, const RationalPose& to, const Feature& contact, std::uint64_t curve)>;
-
 class FreeMotions {
 public:
-    // All three are referred to.
-    FreeMotions(const Scene& of, const MotionChecker& by, const Slides& along) : scene(of), checker(by), slides(along) {}
+    // All three are referred to; the slides found are added.
+    FreeMotions(const Scene& of, const MotionChecker& by, FoundSlides& along) : scene(of), checker(by), slides(along) {}
 
     // Whether the one motion from each pose to the next is free.
     bool join(const Poses& way) const;
@@ -27,7 +23,7 @@ public:
 private:
     const Scene& scene;
     const MotionChecker& checker;
-    const Slides& slides;
+    FoundSlides& slides;
 };
 
 }  // namespace cfree

@@ -19,6 +19,8 @@ struct HalfAngle {
     Ratio tau_in(int which) const { return which == chart() ? tau() : -tau(); }
     Rotation<Int> rotation() const { return {q * q - p * p, 2 * q * p, q * q + p * p}; }
     double theta() const;  // in [0, 2 pi)
+    // Turned further, by the half angle of (c, s), which is not (0, 0).
+    HalfAngle turned(const Int& c, const Int& s) const;
     friend bool operator==(const HalfAngle&, const HalfAngle&) = default;
 };
 
@@ -30,6 +32,9 @@ struct RationalPose {
     ExactPose exact(const Scene& scene) const;
     Configuration configuration(const Scene& scene) const;  // without its doubles
     friend bool operator==(const RationalPose&, const RationalPose&) = default;
+    // To be ordered and looked up by.
+    using Key = std::array<Int, 6>;
+    Key key() const { return {x.n, x.d, y.n, y.d, half.q, half.p}; }
 };
 
 }  // namespace cfree

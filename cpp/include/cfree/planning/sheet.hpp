@@ -1,9 +1,12 @@
 // A trapezoid of a boundary, exactly: poses on it at rational t and tau, rational ends included.
 #pragma once
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "cfree/forbidden/cell_complex.hpp"
+#include "cfree/planning/moving_line.hpp"
 #include "cfree/planning/rational_pose.hpp"
 
 namespace cfree {
@@ -14,6 +17,9 @@ public:
     Sheet(const Scene& scene, const Feature& contact, int chart, std::array<std::uint64_t, 2> curves, Ratio low, Ratio high);
     // Of a face, with `points` to know its ends better.
     static Sheet of(const Boundary& boundary, const PointLocation& points, Index face);
+
+    // An isolated part: both its curves are it, or name its ends; see IsolatedParts. Its ends are not refined.
+    static Sheet isolated(const Boundary& boundary, Index part);
 
     const Feature contact;
     const int chart;
@@ -36,6 +42,8 @@ public:
     RationalPose pose(const Ratio& t, const Ratio& tau) const { return pose(t, HalfAngle::of(chart, tau)); }
     // Of another orientation than its own as well: the same points touch, on their lines.
     RationalPose pose(const Ratio& t, const HalfAngle& half) const;
+    // A name of a curve of it in its chart: the same for the same positions.
+    std::vector<Int> trace(std::size_t side) const;
     // t of a pose on its line, at this orientation.
     Ratio t_of(const RationalPose& pose, const Ratio& tau) const;
 
@@ -44,6 +52,7 @@ private:
     Ratio limit(std::uint64_t curve, const HalfAngle& half, const Line& line, const Ratio& tau) const;
     Ratio limit_around(const ContactLine<Int>& other, const Ratio& tau) const;
     Ratio along(const Feature& helix) const;
+    MovingLine moving(const ContactLine<Int>& of) const;
 
     const Scene& scene;
     const PointLocation* points = nullptr;
@@ -51,8 +60,11 @@ private:
     const ContactLine<Int> line;
 };
 
-// An orientation strictly within two sheets that share a part of a curve; refines them.
-Ratio common_tau(Sheet& f, Sheet& g);
+// In the middle of a trapezoid or an isolated part at an orientation strictly within.
+RationalPose middle_of(const Boundary& boundary, const Trapezoids& table, Index row, const Ratio& tau);
+// An orientation strictly within sheets that share a part of a curve; refines them.
+Ratio common_tau(std::span<Sheet* const> sheets);
+Ratio common_tau(std::initializer_list<Sheet*> sheets);
 // t on two sheets at orientations of theirs where one is beside the other: in the middle of what they share, if they do.
 std::optional<std::pair<Ratio, Ratio>> common_part(const Sheet& f, const Ratio& sigma, const Sheet& g, const Ratio& tau);
 

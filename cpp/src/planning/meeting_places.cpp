@@ -1,0 +1,230 @@
+// Where to look for places without width, and what holds them; theory, "Paths", "Exact fits".
+#include "cfree/planning/meeting_places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "cfree/planning/clusters.hpp"
+#include "cfree/support/elementary.hpp"
+#include "cfree/support/stop.hpp"
+#include "collision/box_tree.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// Each closed surface as a cell of its own: any two poses on one are joined along it.
+std::unique_ptr<const BoundaryWalker> walker_on_slits(const BoundaryWalker& walker, std::shared_ptr<const CellComplex> cells) {
+    if (!cells) return nullptr;
+    const auto count = static_cast<std::size_t>(cells->components);
+    Surfaces surfaces{cells->component, std::vector<Index>(count, -1), std::vector<std::uint8_t>(count, 1),
+                      std::vector<Index>(count, 0), std::vector<Index>(cells->component.size(), 0)};
+    auto space = std::make_shared<const FreeSpace>(cells->boundary, std::move(surfaces));
+    return std::make_unique<const BoundaryWalker>(std::move(space), std::move(cells), walker.checker, walker.angle_scale, walker.slides);
+}
+
+std::vector<ThinPart> thin_parts(const Boundary& boundary) {
+    std::vector<ThinPart> parts;
+    for (Index k = 0; k < static_cast<Index>(boundary.isolated.parts.size()); ++k) {
+        heed_stop();
+        parts.emplace_back(boundary, k);
+    }
+    return parts;
+}
+
+double largest(const CellComplex& cells) {
+    double size = 0;
+    for (const Shape* shape : {&cells.boundary->scene->robot, &cells.boundary->scene->obstacles})
+        for (const double c : shape->xy) size = std::max(size, std::abs(c));
+    for (Index v = 0; v < cells.vertices; ++v) {
+        const auto [x, y] = position(cells, v);
+        size = std::max({size, std::abs(x), std::abs(y)});
+    }
+    return size > 0 ? size : 1;
+}
+
+void append(Poses& found, const Poses& more) { found.insert(found.end(), more.begin(), more.end()); }
+
+std::vector<Index> sorted(const std::set<Index>& numbers) { return {numbers.begin(), numbers.end()}; }
+
+}  // namespace
+
+MeetingPlaces::MeetingPlaces(std::shared_ptr<const BoundaryWalker> of, std::shared_ptr<const CellComplex> with_slits)
+    : walker(std::move(of)), slits(walker_on_slits(*walker, std::move(with_slits))),
+      parts(thin_parts(slits ? *slits->space->boundary : *walker->space->boundary)), size(largest(*walker->cells)) {
+    const CellComplex& cells = *walker->cells;
+    first_at.assign(static_cast<std::size_t>(cells.vertices) + 1, 0);
+    for (const Index v : cells.vertex) ++first_at[v + 1];
+    for (Index v = 0; v < cells.vertices; ++v) first_at[v + 1] += first_at[v];
+    face_at.resize(cells.vertex.size());
+    auto next = first_at;
+    for (std::size_t h = 0; h < cells.vertex.size(); ++h) face_at[next[cells.vertex[h]]++] = cells.face[h];
+    if (parts.empty()) return;
+    std::vector<Box> around, at;
+    for (const ThinPart& part : parts) around.push_back(part.box(not_told_apart * size));
+    for (Index v = 0; v < cells.vertices; ++v) {
+        const auto [x, y] = position(cells, v);
+        at.push_back({x, y, x, y});
+    }
+    tree = std::make_unique<const BoxTree>(std::move(around)), vertices = std::make_unique<const BoxTree>(std::move(at));
+}
+MeetingPlaces::~MeetingPlaces() = default;
+
+std::vector<Holder> MeetingPlaces::holders(const RationalPose& pose) const {
+    const ExactPose exact = pose.exact(*walker->space->boundary->scene);
+    std::vector<Holder> found;
+    const auto add = [&](const Holder& holder) {
+        if (std::find(found.begin(), found.end(), holder) == found.end()) found.push_back(holder);
+    };
+    for (const Index face : walker->space->points().nearby(exact).on) add({Holder::Of::cell, walker->cell_at(face)});
+    if (found.empty())
+        if (const Index cell = walker->space->locate(exact); cell >= 0) return {{Holder::Of::cell, cell}};
+    if (slits)
+        for (const Index face : slits->space->points().nearby(exact).on) add({Holder::Of::surface, slits->cell_at(face)});
+    const Place at = pose.place();
+    for (const Index k : parts_near({at.x, at.y, at.x, at.y}))
+        if (parts[k].holds(pose)) found.push_back({Holder::Of::part, k});
+    return found;
+}
+
+std::optional<Poses> MeetingPlaces::way(const RationalPose& start, const RationalPose& goal, const Holder& holder) const {
+    if (holder.of == Holder::Of::part) return parts[holder.index].way(start, goal, walker->motions());
+    const BoundaryWalker& on = holder.of == Holder::Of::surface ? *slits : *walker;
+    return on.walk({start, start.place()}, {goal, goal.place()}, holder.index);
+}
+
+std::vector<Index> MeetingPlaces::parts_near(const Box& box) const {
+    std::vector<Index> found;
+    if (tree) tree->query(box, [&](Index k) { found.push_back(k); });
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
+Poses MeetingPlaces::candidates() const {
+    Poses found;
+    std::set<Index> seen;
+    const auto add_corners = [&](const std::vector<Index>& faces) {
+        for (const Index face : faces)
+            if (seen.insert(face).second) append(found, corners(*walker, face));
+    };
+    for (const Encounter& encounter : encounters()) add_corners(encounter.faces);
+    at_edges(*walker, found);
+    for (const ThinPart& part : parts) {
+        at_part(part, found);
+        add_corners(faces_near(part));
+    }
+    on_surfaces(found);
+    return found;
+}
+
+// Of surfaces with slits: a pose well within each face, its corners, and where surfaces touch.
+void MeetingPlaces::on_surfaces(Poses& found) const {
+    if (!slits) return;
+    for (Index face = 0; face < static_cast<Index>(slits->cells->component.size()); ++face) {
+        heed_stop();
+        const Sheet sheet = slits->sheet(face);
+        const Ratio tau = simple_middle(sheet.low, sheet.high);
+        found.push_back(sheet.pose(sheet.middle(tau), tau));
+        append(found, corners(*slits, face));
+    }
+    at_edges(*slits, found);
+}
+
+// --- at vertices ---
+
+std::vector<Encounter> MeetingPlaces::encounters() const {
+    const CellComplex& cells = *walker->cells;
+    std::vector<std::array<double, 4>> points;
+    std::vector<double> thetas;
+    const auto add = [&](double x, double y, double theta) {
+        const auto [c, s] = cosine_sine(theta);
+        points.push_back({x / size, y / size, c, s});
+        thetas.push_back(theta);
+    };
+    for (Index v = 0; v < cells.vertices; ++v) {
+        const auto [x, y] = position(cells, v);
+        add(x, y, cells.theta[v]);
+    }
+    for (const ThinPart& part : parts)
+        for (const Place& end : part.rounded) add(end.x, end.y, end.theta);
+    std::vector<Encounter> found;
+    for (const auto& group : clusters(points, not_told_apart)) {
+        std::set<Index> of_cells, of_parts, faces;
+        for (const Index k : group) {
+            if (k >= cells.vertices) {
+                of_parts.insert((k - cells.vertices) / 2);
+                continue;
+            }
+            of_cells.insert(walker->cell_at(face_at[first_at[k]]));
+            faces.insert(face_at.begin() + first_at[k], face_at.begin() + first_at[k + 1]);
+        }
+        if (of_cells.size() + of_parts.size() > 1) found.push_back({sorted(faces), sorted(of_parts), thetas[group.front()]});
+    }
+    return found;
+}
+
+// Of a face, at its first and last orientations as far as they are rational.
+Poses MeetingPlaces::corners(const BoundaryWalker& on, Index face) {
+    heed_stop();
+    const Sheet sheet = on.sheet(face);
+    Poses found;
+    for (const bool last : {false, true}) {
+        const auto tau = rational_angle(*on.space->boundary, face, last);
+        if (!tau) continue;
+        const auto [lower, upper] = sheet.limits(*tau);
+        for (const Ratio& t : {lower, upper}) found.push_back(sheet.pose(t, *tau));
+    }
+    return found;
+}
+
+// --- along edges ---
+
+// Within curves along which cells touch.
+void MeetingPlaces::at_edges(const BoundaryWalker& on, Poses& found) const {
+    for (const auto& coedges : pinched(*on.cells)) {
+        const auto side = static_cast<Side>(on.cells->side[coedges[0]]);
+        if (side != Side::lower && side != Side::upper) continue;
+        std::vector<Sheet> sheets;
+        std::set<Index> of_cells;
+        for (const Index h : coedges) {
+            sheets.push_back(on.sheet(on.cells->face[h]));
+            of_cells.insert(on.cell_at(on.cells->face[h]));
+        }
+        if (of_cells.size() < 2) continue;
+        std::vector<Sheet*> all;
+        for (Sheet& sheet : sheets) all.push_back(&sheet);
+        const Ratio tau = common_tau(all);
+        const auto [lower, upper] = sheets[0].limits(tau);
+        found.push_back(sheets[0].pose(side == Side::upper ? upper : lower, tau));
+    }
+}
+
+// --- on isolated parts ---
+
+// Its ends, and where it crosses others.
+void MeetingPlaces::at_part(const ThinPart& part, Poses& found) const {
+    heed_stop();
+    for (const auto& end : part.ends)
+        if (end) found.push_back(*end);
+    for (const Index k : parts_near(part.box(not_told_apart * size)))
+        if (k != part.number)
+            if (const auto pose = part.crossing(parts[k])) found.push_back(*pose);
+}
+
+// Faces with a vertex near a part.
+std::vector<Index> MeetingPlaces::faces_near(const ThinPart& part) const {
+    const double low = part.rounded[0].theta - not_told_apart, high = part.rounded[1].theta + not_told_apart;
+    std::set<Index> faces;
+    vertices->query(part.box(not_told_apart * size), [&](Index v) {
+        const double after = walker->cells->theta[v] - low;
+        if (after - turn * std::floor(after / turn) <= high - low)
+            faces.insert(face_at.begin() + first_at[v], face_at.begin() + first_at[v + 1]);
+    });
+    return sorted(faces);
+}
+
+}  // namespace cfree
