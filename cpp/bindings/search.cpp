@@ -69,12 +69,13 @@ void bind_search(nb::module_& m) {
         .def("path", [](const cfree::Shortcut& s) { return list_of(s.path()); });
     m.def("balanced", [](const cfree::MotionChecker& checker, const cfree::Nearness& nearness, std::array<int, 3> grid,
                          std::array<double, 4> limits, std::array<double, 4> costs, const std::vector<PoseIntegers>& poses,
-                         const std::vector<Numbers>& places) {
+                         const std::vector<Numbers>& places, std::uint64_t seed) {
         const cfree::Route route = route_of(poses, places);
         const cfree::Way start{checker, &nearness, {grid[0], grid[1], grid[2]}, {limits[0], limits[1], limits[2], limits[3]}, costs_of(costs)};
         return watched([&] {
             auto [way, path] = cfree::balanced(start, route);
-            return std::make_unique<cfree::Shortcut>(std::move(way), std::move(path), 0);
+            return std::make_unique<cfree::Shortcut>(std::move(way), std::move(path), seed);
         });
-    }, "checker"_a, "nearness"_a, "grid"_a, "limits"_a, "costs"_a, "poses"_a, "places"_a, nb::keep_alive<0, 1>(), nb::keep_alive<0, 2>());
+    }, "checker"_a, "nearness"_a, "grid"_a, "limits"_a, "costs"_a, "poses"_a, "places"_a, "seed"_a,
+       nb::keep_alive<0, 1>(), nb::keep_alive<0, 2>());
 }

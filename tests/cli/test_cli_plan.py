@@ -303,7 +303,8 @@ def test_poses_with_times_and_standard_output(run: Run, tmp_path: Path) -> None:
 def test_improving_says_what_there_was_before(run: Run) -> None:
     flat = "examples/scenes/flat.json"
     facts = json.loads(run("plan", flat, "--improve", "300ms", "--json").stdout)
-    assert facts["length"] <= facts["before it was improved"]["length"]
+    before, gained = facts["before it was improved"], facts["gained"]
+    assert facts["length"] <= before["length"] and gained["length"] == before["length"] - facts["length"]
     said = run("plan", flat, "--improve", "100ms").stdout
-    assert "before it was improved" in said and "least clearance" in said
+    assert "before it was improved" in said and "least clearance" in said and "less way" in said
     assert "before it was improved" not in run("plan", flat, "--improve", "0").stdout

@@ -101,9 +101,26 @@ def test_time_makes_it_shorter_not_nearer() -> None:
     assert least(better, scene) >= 0.5 * 0.05
 
 
+def test_other_ways_are_looked_for_if_there_is_time() -> None:
+    """The search's first way past these racks is half as long again as the shortest; each core tries others."""
+    racks = [box(x, y, 4, 1) for x in (2, 8) for y in (2, 6, 10)]
+    ends = {"start": Pose(1, 1), "goal": Pose(13, 11, "90deg")}
+    scene = Scene(box(-0.4, -0.5, 2, 1), racks, workspace=box(0, 0, 14, 13), **ends)
+    assert found(scene, improve=0.6).length < 0.8 * found(scene).length
+
+
+def test_improving_ends_with_the_wish_to_stop() -> None:
+    scene = throat(0.1)
+    planner = Planner(scene)
+    poses = list(found(scene, improve=0).poses)
+    planner.stop.set()
+    with pytest.raises(KeyboardInterrupt):
+        planner._improver(poses).balanced(poses, 60.0)
+
+
 def test_what_doubles_guided_wrongly_is_not_taken(monkeypatch: pytest.MonkeyPatch) -> None:
     scene = throat(0.1)
     planner = Planner(scene)
     poses = [q for q in found(scene, improve=0).poses]
     monkeypatch.setattr(cfree.MotionChecker, "joins", lambda self, way: False)
-    assert planner.balanced(poses, None) is poses
+    assert planner._improver(poses).balanced(poses, None) is poses

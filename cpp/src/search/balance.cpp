@@ -189,7 +189,9 @@ Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
 }  // namespace
 
 Balanced balanced(const Way& way, const Route& route) {
-    Way any = way;
+    Way plain = way;  // preferences come last
+    plain.costs = way.length();
+    Way any = plain;
     any.nearness = nullptr;
     Route path = pruned(any, {route, std::vector<double>(route.size())}).route, tried;
     const double most = most_distance(way, path), radius = way.costs.weight;
@@ -198,7 +200,7 @@ Balanced balanced(const Way& way, const Route& route) {
         const Ridge top = ridge(way, path, level);
         std::vector<double> asked = distances_asked(top, radius, share_between, all_parts);
         if (level < most && *std::max_element(asked.begin(), asked.end()) > gained * share_between * level) {
-            path = pruned(way.asking(top.path, std::move(asked)), top.path).route;
+            path = pruned(plain.asking(top.path, std::move(asked)), top.path).route;
             level = std::min(most, level * (level < radius / 5 ? 4 : 2));
             continue;
         }

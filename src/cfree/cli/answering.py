@@ -176,8 +176,10 @@ class Answering:
             rows: dict[str, Any] = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
         if self.path is not None and self.first is not None:
             facts = answer_facts(self.first, self.planner.scene)
+            now = answer_facts(self.answer, self.planner.scene)
             kept = ("length", "turning", "clearance")
             rows["before it was improved"] = {name: facts[name] for name in kept} if for_machines else _before(facts)
+            rows["gained"] = _gained(facts, now) if for_machines else _in_words(_gained(facts, now))
         if self.path is not None and self.planner.preferences.matter:
             from cfree.paths.preferences import unwanted
 
@@ -220,6 +222,25 @@ class Answering:
     def _leave_out(self, name: str, file: Path, why: str) -> None:
         self.files.pop(name, None)
         print(printable(f"{file} is not written: {why}"), file=sys.stderr)
+
+
+def _gained(before: dict[str, Any], now: dict[str, Any]) -> dict[str, float]:
+    """How much shorter, how much less turning, how much more clearance."""
+    gained = {name: before[name] - now[name] for name in ("length", "turning")}
+    if before["clearance"] and now["clearance"]:
+        gained["clearance"] = now["clearance"]["found"] - before["clearance"]["found"]
+    return gained
+
+
+def _in_words(gained: dict[str, float]) -> str:
+    def signed(name: str, more: str, less: str, scale: float = 1.0) -> str:
+        value = scale * gained[name]
+        return f"{abs(value):.4g} {more if value >= 0 else less}"
+
+    texts = [signed("length", "less way", "more way"), signed("turning", "degrees less", "degrees more", 180 / math.pi)]
+    if "clearance" in gained:
+        texts.append(signed("clearance", "more clearance", "less clearance"))
+    return ", ".join(texts)
 
 
 def _before(facts: dict[str, Any]) -> str:

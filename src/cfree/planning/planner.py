@@ -31,6 +31,7 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.goals import AllSeparated, plan_any
+from cfree.planning.improving import Improver
 from cfree.planning.near_poles import near_poles
 from cfree.planning.rrt_connect import Searcher, area, simple_ways
 from cfree.planning.separation import Insets, Separated, inset_powers, separation
@@ -48,9 +49,6 @@ Phase = Callable[[str], AbstractContextManager[Any]]
 SEARCH = 10_000  # motions checked at most before all of the free space is built
 QUICK = 1000  # before anything exact is
 CHECKS = 1  # that take about as long as a trapezoid of a surface
-REFINE = 400  # motions checked to improve a path if no time is given
-BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance
-OTHERS = 30  # other ways looked for
 COMPLETE = 30_000  # contact patches at most of a grown robot whose free space is computed
 BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 
@@ -106,8 +104,8 @@ def plan(
     clearance : number, optional
         A distance that the path keeps from obstacles and workspace; not from bounds. Or no path does, proved.
     improve : float, seconds, optional
-        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given. Ctrl-C ends it
-        early, and the path so far is the answer.
+        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given; given a time,
+        other ways are tried, too, on all cores. Ctrl-C ends it early, and the path so far is the answer.
     objective : "balanced", "short" or "clear"
         What to prefer: short paths that keep a distance where there is room, short ones, or paths that keep away from
         obstacles; see Notes.
@@ -292,9 +290,14 @@ class Planner(Value):
         seconds = improve and improve / len(parts)
         with self.phase("clearer paths" if objective == "clear" else "shorter paths"):
             if objective == "clear":
-                return self.path([q for part in parts for q in self._cleared(self.shortened(part, None), seconds)])
-            improved = self.balanced if objective == "balanced" else self.shortened
-            return self.path([q for part in parts for q in improved(part, seconds)])
+                shorter = (self._improver(part).shortened(part, None) for part in parts)
+                return self.path([q for part in shorter for q in self._cleared(part, seconds)])
+            better = [
+                improver.balanced(part, seconds) if objective == "balanced" else improver.shortened(part, seconds)
+                for part in parts
+                for improver in [self._improver(part)]
+            ]
+            return self.path([q for part in better for q in part])
 
     def _way(self, start: Pose, goal: Pose) -> list[Pose] | Separated:
         """Poses of a path, or a proof; the way back is the same."""
@@ -396,52 +399,6 @@ class Planner(Value):
         after = [k for k in range(1, len(poses)) if self._slide(poses[k - 1], poses[k])]
         return [poses[i:j] for i, j in pairwise([0, *after, len(poses)])]
 
-    @checked
-    def shortened(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
-        """A shorter path, after a number of attempts; or of ways found in half of some time the best, in the rest."""
-        if seconds == 0 or len(poses) < (2 if self.preferences.matter else 3):
-            return poses
-        end = time.perf_counter() + (seconds or 0)
-        searcher = self._searcher(poses)
-        best = searcher.shortener(poses)
-        best.run(self._attempts(REFINE))
-        seed = 0
-        try:
-            while seconds and time.perf_counter() < end - seconds / 2 and seed < OTHERS:
-                seed += 1
-                if other := self._run(searcher.search(poses[0], poses[-1], seed), end - seconds / 2):
-                    shortener = searcher.shortener(searcher.poses(other))
-                    shortener.run(REFINE)
-                    best = min(best, shortener, key=lambda s: s.length())
-            while time.perf_counter() < end:
-                self._look_up()
-                best.run(BLOCK)
-        except KeyboardInterrupt:  # enough: there is a path
-            if self.stop.is_set():
-                raise
-        return searcher.poses(best.path())
-
-    @checked
-    def balanced(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
-        """A path that keeps its distance where there is room, and is short among those; see `cfree.plan`."""
-        if seconds == 0 or len(poses) < 2:
-            return poses
-        end = time.perf_counter() + (seconds or 0)
-        searcher, found = self._searcher(poses), poses
-        try:
-            best = searcher.balanced(poses, self.scene.bounds)
-            best.run(self._attempts(BALANCE * (len(best.path()) + len(poses))))
-            found = searcher.poses(best.path())
-            while time.perf_counter() < end:
-                self._look_up()
-                best.run(BLOCK)
-        except KeyboardInterrupt:  # enough: there is a path
-            if self.stop.is_set():
-                raise
-        else:
-            found = searcher.poses(best.path())
-        return found if self.checker.joins(found) else poses  # doubles guided it
-
     def _cleared(self, poses: Sequence[Pose], seconds: float | None) -> Sequence[Pose]:
         from cfree.planning.keep_clear import clear
 
@@ -455,7 +412,8 @@ class Planner(Value):
                 found = larger._walker.walk(start, goal, cell)
             if found is None or len(larger._without_slides(found)) > 1:
                 return None
-            return larger.shortened(found, seconds and max(0.0, end - time.perf_counter()) / 3)
+            left = seconds and max(0.0, end - time.perf_counter()) / 3
+            return larger._improver(found).shortened(found, left)
 
         return clear(self.scene, self.checker, poses, self.angle_scale, way_of)
 
@@ -471,15 +429,11 @@ class Planner(Value):
 
     def _searched(self, start: Pose, goal: Pose, most: int = SEARCH) -> Sequence[Pose] | None:
         searcher = self._searcher([start, goal])
-        found = self._run(searcher.search(start, goal), math.inf, most)
-        return searcher.poses(found) if found else None
-
-    def _run(self, search: Any, end: float, most: int = SEARCH) -> Any:
-        """What a search finds in time."""
+        search = searcher.search(start, goal)
         for _ in range(0, min(most, self._checks), BLOCK):
             self._look_up()
-            if (found := search.run(BLOCK)) or time.perf_counter() > end:
-                return found
+            if found := search.run(BLOCK):
+                return searcher.poses(found)
         return None
 
     def _look_up(self) -> None:
@@ -489,9 +443,8 @@ class Planner(Value):
     def _searcher(self, poses: Sequence[Pose]) -> Searcher:
         return Searcher(self.checker, area(self.scene, poses), self.angle_scale, self.preferences)
 
-    def _attempts(self, checks: int) -> int:
-        """To improve a path: more where there is more to try."""
-        return 3 * checks if self.preferences.matter else checks
+    def _improver(self, poses: Sequence[Pose]) -> Improver:
+        return Improver(self.scene, self.checker, self._searcher(poses), self.preferences, self.stop)
 
 
 def _wish(clearance: Number | None, improve: float | None, objective: str) -> Fraction | None:

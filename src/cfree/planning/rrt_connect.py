@@ -67,19 +67,23 @@ class Searcher:
         grid = self._grid(PLACE_BITS, ANGLE_BITS)
         return _core.RrtConnect(self.checker.core, grid, self._area, self._weight, p, at, q, to, seed)
 
-    def shortener(self, poses: Sequence[Pose]) -> Any:
+    def shortener(self, poses: Sequence[Pose], seed: int = 0) -> Any:
         """To be run by ``run(checks)``; ``path()`` is the best so far."""
         numbers, places = zip(*map(self._configuration, poses), strict=True)
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
-        return _core.Shortcut(self.checker.core, grid, self._costs, list(numbers), list(places), 0)
+        return _core.Shortcut(self.checker.core, grid, self._costs, list(numbers), list(places), seed)
 
-    def balanced(self, poses: Sequence[Pose], bounds: tuple[Fraction, Fraction, Fraction, Fraction] | None) -> Any:
+    def balanced(
+        self, poses: Sequence[Pose], bounds: tuple[Fraction, Fraction, Fraction, Fraction] | None, seed: int
+    ) -> Any:
         """A shortener of a path beside this one that keeps a distance from obstacles where there is room."""
         numbers, places = zip(*map(self._configuration, poses), strict=True)
         grid = self._grid(FINE_PLACE_BITS, FINE_ANGLE_BITS)
         x0, y0, x1, y1 = map(float, bounds) if bounds else (-math.inf, -math.inf, math.inf, math.inf)
         limits = [c * self._unit for c in (x0, y0, x1, y1)]
-        return _core.balanced(self.checker.core, self._nearness, grid, limits, self._costs, list(numbers), list(places))
+        return _core.balanced(
+            self.checker.core, self._nearness, grid, limits, self._costs, list(numbers), list(places), seed
+        )
 
     def poses(self, found: list[tuple[int, int, int, int, int]]) -> list[Pose]:
         """Exact poses from the core's."""
