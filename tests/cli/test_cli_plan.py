@@ -141,6 +141,22 @@ def test_goals_may_be_in_the_scene(run: Run, tmp_path: Path) -> None:
     assert run("boundary", scene, "--picture", picture).exit_code == 0 and picture.exists()
 
 
+def test_the_picture_shows_what_is_in_the_way(run: Run, tmp_path: Path) -> None:
+    scene, picture = tmp_path / "scene.json", tmp_path / "way.svg"
+    shape = {"outer": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}
+    walls = [
+        {"name": name, "outer": [[x, -9], [x + 1, -9], [x + 1, 9], [x, 9]]} for name, x in (("gate", 4), ("fence", 4.5))
+    ]
+    ends = {"start": [0, 0, 0], "goal": [9, 0, 0], "bounds": [-9, -9, 12, 9]}
+    scene.write_text(json.dumps({"robot": shape, "obstacles": walls[:1]} | ends))
+    result = run("plan", scene, "--what-if", "--picture", picture)
+    assert result.exit_code == 1 and "there is a way without gate" in result.stdout
+    assert "<!-- without gate -->" in picture.read_text()
+    scene.write_text(json.dumps({"robot": shape, "obstacles": walls} | ends))
+    result = run("plan", scene, "--what-if", "--picture", picture)
+    assert "no single obstacle" in result.stdout and "parted by" in picture.read_text()
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

@@ -6,6 +6,7 @@ import math
 import sys
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +15,7 @@ from cfree.cli.files import bar
 from cfree.cli.terminal import printable
 
 if TYPE_CHECKING:
+    from cfree.analysis.blockers import Blocker
     from cfree.exact.pose import Pose
     from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Unwanted
@@ -145,17 +147,33 @@ class Answering:
             with replacing(output) as unfinished:
                 unfinished.write_text(text, encoding="utf-8", newline="\n")
 
-    def draw(self, picture: Path) -> None:
-        """The picture, with the configuration space; of several proofs that of the first."""
+    @cached_property
+    def blockers(self) -> tuple[Blocker, ...]:
+        """Obstacles that, taken away, open a way from start to goal."""
+        from cfree.analysis.blockers import blockers
+
+        clearance = getattr(self.answer, "clearance", None) or None
+        with bar("what if") as progress:
+            return blockers(self.planner.scene, self.start, self.goal, clearance=clearance, progress=progress)
+
+    def draw(self, picture: Path, *, what_if: bool) -> None:
+        """The picture, with the configuration space, of several proofs that of the first; or what opens a way."""
         from cfree.paths.path import Path as Motions
         from cfree.planning.separation import Separated
         from cfree.plot.answer import picture as drawn
         from cfree.plot.boundary import save_figure
 
+        preferences = self.planner.preferences
+        if what_if and self.path is None and self.goal and self.blockers:
+            from cfree.plot.blockers import plot_blockers
+
+            with bar("picture"):
+                save_figure(plot_blockers(self.blockers, self.planner.scene, preferences=preferences), picture)
+            return
         space = self.planner.free_space
         shown = self.answer if isinstance(self.answer, Motions | Separated) else self.answer.proofs[0]
         with bar("picture"):
-            figure = drawn(shown, self.planner.scene, space.boundary, preferences=self.planner.preferences)
+            figure = drawn(shown, self.planner.scene, space.boundary, preferences=preferences)
             save_figure(figure, picture)
 
     def film(self, film: Path) -> None:
@@ -197,15 +215,10 @@ class Answering:
         return rows
 
     def _what_if(self, for_machines: bool) -> str | list[int]:
-        from cfree.analysis.blockers import blockers
-
-        scene = self.planner.scene
-        clearance = getattr(self.answer, "clearance", None) or None
-        with bar("what if") as progress:
-            found = [b.obstacle for b in blockers(scene, self.start, self.goal, clearance=clearance, progress=progress)]
+        found = [blocker.obstacle for blocker in self.blockers]
         if for_machines:
             return found
-        names = " or ".join(scene.obstacle_names[k] for k in found)
+        names = " or ".join(self.planner.scene.obstacle_names[k] for k in found)
         return f"there is a way without {names}" if found else "no single obstacle, taken away, opens a way"
 
     def _unwanted(self, found: Sequence[Unwanted]) -> str:

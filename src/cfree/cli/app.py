@@ -163,7 +163,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json -o - --format csv --step 0.05 --speed 0.5 > way.csv",
         "cfree plan scene.json --clearance 0.3",
         "cfree plan scene.json --prefer sideways=5,turning=2 --picture way.png",
-        "cfree plan scene.json --what-if",
+        "cfree plan scene.json --what-if --picture blockers.png",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
     )
 )
@@ -216,7 +216,9 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     "--nearest-miss", "miss", is_flag=True, help="Of a proof: by how much, and where. Takes a dozen times as long."
 )
 @click.option(
-    "--what-if", is_flag=True, help="Of a proof: which single obstacles, taken away, open a way. Each is decided."
+    "--what-if",
+    is_flag=True,
+    help="Of a proof: which single obstacles, taken away, open a way; the picture shows these.",
 )
 @options.max_seconds
 @options.as_json
@@ -249,7 +251,7 @@ def plan(
         if output:
             found.write(output, poses)
         if picture:
-            found.draw(picture)
+            found.draw(picture, what_if=what_if)
         if film:
             found.film(film)
         rows = found.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)

@@ -7,6 +7,7 @@ from cfree.lazy import lazy_names
 if TYPE_CHECKING:
     from cfree.plot.answer import picture as picture
     from cfree.plot.answer import plot_path_space as plot_path_space
+    from cfree.plot.blockers import plot_blockers as plot_blockers
     from cfree.plot.boundary import plot_boundary as plot_boundary
     from cfree.plot.boundary import plot_overview as plot_overview
     from cfree.plot.boundary import plot_slice as plot_slice
@@ -19,6 +20,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
         "answer": "picture plot_path_space",
+        "blockers": "plot_blockers",
         "boundary": "plot_boundary plot_overview plot_slice plot_workspace",
         "development": "plot_development",
         "path": "plot_path",

@@ -1,0 +1,67 @@
+"""What is in the way: each obstacle that, taken away, opens a way, and the way that it opens."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from cfree.analysis.blockers import Blocker
+from cfree.arguments import checked
+from cfree.paths.preferences import NONE, Preferences
+from cfree.plot.boundary import new_figure, plain
+from cfree.plot.path import LIMIT, Track, draw_track, statement
+from cfree.plot.workspace import path_of, rings_of
+from cfree.scene.scene import Scene
+
+ACROSS = 3  # panels beside each other
+
+
+@checked
+def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Preferences | None = None) -> Figure:
+    """Each obstacle that, taken away, opens a way, hatched, and the way.
+
+    Parameters
+    ----------
+    found : sequence of Blocker
+        At least one, of `cfree.blockers`.
+    scene : Scene
+        With all obstacles.
+    preferences : Preferences, optional
+        Where a path does what these find dear is marked.
+
+    Returns
+    -------
+    matplotlib figure
+
+    Raises
+    ------
+    ValueError
+        If there is none.
+
+    Examples
+    --------
+    >>> from cfree import Scene, blockers
+    >>> wall = [(2, -9), (3, -9), (3, 9), (2, 9)]
+    >>> scene = Scene([(0, 0), (1, 0), (1, 1), (0, 1)], [wall], bounds=(-5, -5, 5, 5))
+    >>> [ax.get_title() for ax in plot_blockers(blockers(scene, (0, 0, 0), (4, 0, 0)), scene).axes]
+    ['without obstacle 0\\n1 motion, length 4, turning 0°']
+    """
+    from matplotlib.patches import PathPatch
+
+    if not found:
+        raise ValueError("no obstacle opens a way: there is nothing to draw")
+    across, down = min(ACROSS, len(found)), math.ceil(len(found) / ACROSS)
+    tracks = [Track.of(blocker.path, blocker.path.scene or scene) for blocker in found]
+    x0, y0, x1, y1 = tracks[0].window
+    figure = new_figure((7 * across, down * float(np.clip(1.3 + 6 * (y1 - y0) / (x1 - x0), 3, 9))))
+    for k, (blocker, track) in enumerate(zip(found, tracks, strict=True)):
+        ax = figure.add_subplot(down, across, k + 1)
+        draw_track(ax, track, preferences or NONE)
+        gone = path_of(rings_of([scene.obstacles[blocker.obstacle]]))
+        ax.add_patch(PathPatch(gone, fill=False, edgecolor=LIMIT, hatch="///", linewidth=1.4, zorder=2.6, label="gone"))
+        ax.set_title(f"without {plain(scene.obstacle_names[blocker.obstacle])}\n{statement(track)}", fontsize=10)
+    figure.tight_layout()
+    return figure
