@@ -56,8 +56,8 @@ BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
 @overload
 def plan(
     scene: Scene | FreeSpace,
-    start: PoseLike | None = None,
-    goal: Pose | tuple[Any, Any, Any] | None = None,
+    start: PoseLike | None,
+    goal: Pose | tuple[Any, Any, Any],
     *,
     clearance: Number | None = None,
     improve: float | None = None,
