@@ -7,15 +7,6 @@
 
 namespace cfree {
 
-namespace {
-
-// The floor of n / 2^k.
-Int floor_shifted(const Int& n, unsigned k) {
-    return n.sign() < 0 ? Int(-((-n + (Int(1) << k) - 1) >> k)) : Int(n >> k);
-}
-
-}  // namespace
-
 void RealRoot::halve() {
     if (is_dyadic()) return;
     heed_stop();
@@ -59,16 +50,19 @@ Int value_at(const Poly& p, const Ratio& x) {
     return value;
 }
 
-// Its denominator divides the leading coefficient: narrowed until no two of those quotients are left.
+// Its denominator divides the leading coefficient: in a narrow interval there is one such number at most.
 std::optional<Ratio> rational_value(RealRoot x) {
-    for (; !x.is_dyadic(); x.narrow()) {
-        const Int lead = abs(x.p.back());
-        const Int first = -floor_shifted(-lead * x.lo.n, x.lo.k), last = floor_shifted(lead * x.hi.n, x.hi.k);
-        if (first < last) continue;
-        const Ratio value = reduced(first, lead);
-        return first == last && value_at(x.p, value).is_zero() ? std::optional(value) : std::nullopt;
+    const auto [n, k] = x.lo;
+    if (x.is_dyadic()) return reduced(n, Int(1) << k);
+    const Int lead = abs(x.p.back());
+    if (x.digits() < msb(lead) + 2) {
+        x.narrow();
+        return rational_value(x);
     }
-    return reduced(x.lo.n, Int(1) << x.lo.k);
+    const Int near = lead * n, twice = (2 * abs(near)) >> k;
+    const Ratio value = reduced(near.sign() * ((twice + 1) >> 1), lead);
+    const bool is_within = (value.n << k) >= n * value.d && (value.n << x.hi.k) <= x.hi.n * value.d;
+    return is_within && value_at(x.p, value).is_zero() ? std::optional(value) : std::nullopt;
 }
 
 namespace {

@@ -63,6 +63,7 @@ MeetingPlaces::MeetingPlaces(std::shared_ptr<const BoundaryWalker> of, std::shar
     face_at.resize(cells.vertex.size());
     auto next = first_at;
     for (std::size_t h = 0; h < cells.vertex.size(); ++h) face_at[next[cells.vertex[h]]++] = cells.face[h];
+    met = find_encounters();
     if (parts.empty()) return;
     std::vector<Box> around, at;
     for (const ThinPart& part : parts) around.push_back(part.box(not_told_apart * size));
@@ -136,7 +137,7 @@ void MeetingPlaces::on_surfaces(Poses& found) const {
 
 // --- at vertices ---
 
-std::vector<Encounter> MeetingPlaces::encounters() const {
+std::vector<Encounter> MeetingPlaces::find_encounters() const {
     const CellComplex& cells = *walker->cells;
     std::vector<std::array<double, 4>> points;
     std::vector<double> thetas;

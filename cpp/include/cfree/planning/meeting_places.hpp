@@ -2,6 +2,8 @@
 //
 // Doubles say where to look; what is there, and what holds it, is computed.
 #pragma once
+#include <compare>
+
 #include "cfree/planning/boundary_walk.hpp"
 #include "cfree/planning/thin_part.hpp"
 
@@ -40,13 +42,14 @@ public:
     Poses candidates() const;
 
     // Of vertices that bound several cells, or are near to isolated parts.
-    std::vector<Encounter> encounters() const;
+    const std::vector<Encounter>& encounters() const { return met; }
 
     const std::shared_ptr<const BoundaryWalker> walker;
     const std::unique_ptr<const BoundaryWalker> slits;  // on surfaces with slits, each a cell of its own, or none
     const std::vector<ThinPart> parts;
 
 private:
+    std::vector<Encounter> find_encounters() const;
     static Poses corners(const BoundaryWalker& walker, Index face);
     void at_edges(const BoundaryWalker& walker, Poses& found) const;
     void at_part(const ThinPart& part, Poses& found) const;
@@ -56,6 +59,7 @@ private:
 
     const double size;  // the largest coordinate
     std::vector<Index> face_at, first_at;  // faces by vertex, and where each vertex's begin
+    std::vector<Encounter> met;
     std::unique_ptr<const BoxTree> tree, vertices;  // of isolated parts, of vertices
 };
 
