@@ -11,7 +11,7 @@ namespace cfree {
 
 class BoxTree;
 
-inline constexpr double not_told_apart = 1e-9;  // of the scene's size, or in an angle
+inline constexpr double not_told_apart = 0x1p-30;  // of the scene's size, or in an angle: where to look, which decides nothing
 
 // What may hold a pose: a cell, an isolated part, or a closed surface with slits of no width.
 struct Holder {
