@@ -24,7 +24,9 @@ namespace cfree {
 // shift + turn |a|, a point b of an obstacle, seen from the robot, by shift + turn |b - r|.
 namespace {
 constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
-constexpr double most_cells = 1 << 16, cells_in_reach = 8;
+constexpr double cells_in_reach = 8;
+// From so many poses on a grid may have so many cells: it takes no longer to make than these poses take.
+constexpr std::array<std::pair<std::size_t, double>, 3> levels_by_poses{{{0, 1 << 8}, {1 << 14, 1 << 12}, {1 << 16, 1 << 14}}};
 constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
 
@@ -233,7 +235,7 @@ double PoseChecker::distance(const Pieces& p, Index piece, double x, double y) c
     return inside ? 0 : least;
 }
 
-void PoseChecker::fill(Grid& g) const {
+void PoseChecker::fill(Grid& g, double most_cells) const {
     Ranges around{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                   -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const Ranges& b : box) {
@@ -297,9 +299,13 @@ void PoseChecker::fill(Grid& g) const {
             std::fill_n(&g.known[c * sectors], sectors, blocked[c] ? State::forbidden : State::free);
 }
 
-PoseChecker::Grid& PoseChecker::near() const {
-    std::call_once(once, [this] { fill(grid); });
-    return grid;
+PoseChecker::Grid& PoseChecker::near(std::size_t poses) const {
+    const std::size_t all = asked.fetch_add(poses, std::memory_order_relaxed) + poses;
+    std::size_t k = levels.size() - 1;
+    while (all < levels_by_poses[k].first) --k;
+    Level& level = levels[k];
+    std::call_once(level.once, [&] { fill(level.grid, levels_by_poses[k].second); });
+    return level.grid;
 }
 
 // Box of a pose in the grid: its cell times `sectors`, and its sector.
@@ -351,7 +357,7 @@ Verdict PoseChecker::verdict(Grid& g, std::size_t slot, const double* pose, Plac
 }
 
 void PoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {
-    Grid& g = near();
+    Grid& g = near(count);
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
     in_parallel(threads, stop, [&] {

@@ -75,17 +75,22 @@ private:
         std::vector<std::atomic<State>> known;
         std::size_t slot(double x, double y, double theta) const;
     };
-    Grid& near() const;  // made when first asked for
+    // For so many poses more: the more have been asked for, the finer. Each is made when first needed.
+    Grid& near(std::size_t poses) const;
     Verdict verdict(Grid& grid, std::size_t slot, const double* pose, Placed& placed) const;
-    void fill(Grid& grid) const;
+    void fill(Grid& grid, double most_cells) const;
 
     std::shared_ptr<const Scene> scene;
     std::array<double, 4> limits;
     Pieces robot, obstacles;
     std::vector<Ranges> box;       // of the obstacles' pieces
     double reach = 0, margin = 0;  // of the robot around its reference point, rounded up; see above
-    mutable std::once_flag once;
-    mutable Grid grid;
+    struct Level {
+        std::once_flag once;
+        Grid grid;
+    };
+    mutable std::array<Level, 3> levels;
+    mutable std::atomic<std::size_t> asked{0};
 };
 
 }  // namespace cfree
