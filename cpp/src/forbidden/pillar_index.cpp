@@ -1,6 +1,8 @@
 // Boxes around pieces, in a tree; theory, "The trimmed boundary".
 #include "forbidden/pillar_index.hpp"
 
+#include <algorithm>
+
 namespace cfree {
 
 PillarIndex::PillarIndex(const Scene& s)
@@ -15,9 +17,18 @@ void PillarIndex::near(Index j, std::vector<Index>& out) const {
         const double dx = boxes[k].x0 + boxes[k].x1 - x, dy = boxes[k].y0 + boxes[k].y1 - y;
         return dx * dx + dy * dy;
     };
+    // where the distance does not tell, by the places of their vertices, and not by the order of input
+    const Shape& O = scene.obstacles;
+    const auto is_lower = [&](Index p, Index q) {
+        const auto begin = O.piece_vertex.begin();
+        return std::lexicographical_compare(
+            begin + O.piece[p], begin + O.piece[p + 1], begin + O.piece[q], begin + O.piece[q + 1],
+            [&](Index v, Index w) { return O.x[v] != O.x[w] ? O.x[v] < O.x[w] : O.y[v] < O.y[w]; });
+    };
     std::sort(out.begin(), out.end(), [&](Index p, Index q) {
         const double dp = distance(p), dq = distance(q);
-        return dp < dq || (dp == dq && p < q);
+        if (dp != dq) return dp < dq;
+        return is_lower(p, q) || (p < q && !is_lower(q, p));
     });
 }
 

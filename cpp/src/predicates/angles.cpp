@@ -198,19 +198,24 @@ std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
 
 // The root's bracket shrunk to about the precision of balls: certain, opposite signs at its ends.
 const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
-    constexpr std::size_t size = 256;
-    if (recent.empty()) recent.resize(size, {{{}, {}, 2, 2}, {}});
+    constexpr std::size_t least = 16, most = 256;  // most patches have few such angles
+    const auto empty_of = [this](std::size_t size) { recent.assign(size, {{{}, {}, 2, 2}, {}}), misses = 0; };
+    if (recent.empty()) empty_of(least);
     const auto mixed = [](const Feature& f) {
         return 4 * (static_cast<std::size_t>(f.obstacle) * 31 + static_cast<std::size_t>(f.robot)) + static_cast<std::size_t>(f.kind);
     };
     const auto same = [](const Feature& f, const Feature& g) {
         return f.kind == g.kind && f.robot == g.robot && f.obstacle == g.obstacle;
     };
-    Narrowed& known = recent[(mixed(x.first) + 7 * mixed(x.second)) % size];
-    const Event& y = known.x;
-    if (!(same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine))
-        known = {x, found_narrowed(x)};
-    return known.bracket;
+    const auto is_known = [&](const Event& y) {
+        return same(x.first, y.first) && same(x.second, y.second) && x.lo == y.lo && x.hi == y.hi && x.fine == y.fine;
+    };
+    const auto place = [&] { return ((mixed(x.first) + 7 * mixed(x.second)) * 0x9e3779b9u >> 16) % recent.size(); };
+    if (const Narrowed& known = recent[place()]; is_known(known.x)) return known.bracket;
+    if (++misses > recent.size() && recent.size() < most) empty_of(4 * recent.size());
+    Narrowed& next = recent[place()];
+    next = {x, found_narrowed(x)};
+    return next.bracket;
 }
 
 std::optional<Predicates::Bracket> Predicates::found_narrowed(const Event& x) const {

@@ -203,6 +203,7 @@ private:
         std::optional<Bracket> bracket;
     };
     std::vector<Narrowed> recent;  // a table by features, since one angle is compared with many; empty until then
+    std::size_t misses = 0;        // since it has its size
 };
 
 }  // namespace cfree
