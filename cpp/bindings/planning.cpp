@@ -1,43 +1,20 @@
-// Ways along the boundary of a cell. A pose is (x, y, p / q) as (numerator, denominator) of x and of y, and q, p: integers.
+// What is asked of a scene and its poses: paths, surfaces between poses, all of the free space.
 #include <nanobind/nanobind.h>
-#include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/tuple.h>
-#include <nanobind/stl/vector.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 
+#include "arrays.hpp"
+#include "caller.hpp"
 #include "cfree/planning/connecting_way.hpp"
-#include "cfree/planning/exact_fits.hpp"
-#include "integers.hpp"
-#include "watched.hpp"
+#include "cfree/planning/planner.hpp"
+#include "cfree/polygons/inset.hpp"
+#include "rational_poses.hpp"
 
-namespace nb = nanobind;
 using namespace nb::literals;
-using cfree::BoundaryWalker, cfree::Connecting, cfree::Connection, cfree::ContactSlide, cfree::Feature, cfree::FoundSlides,
-    cfree::Passages, cfree::Poses, cfree::RationalPose, cfree::Surroundings;
-
-using PoseTuple = std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>;
-
-static RationalPose pose(const std::array<nb::int_, 6>& n) {
-    const auto at = [&](std::size_t k) { return integer(n[k]); };
-    return {{at(0), at(1)}, {at(2), at(3)}, {at(4), at(5)}};
-}
-static PoseTuple tuple_of(const RationalPose& q) {
-    return {integer(q.x.n), integer(q.x.d), integer(q.y.n), integer(q.y.d), integer(q.half.q), integer(q.half.p)};
-}
-static std::vector<PoseTuple> list_of(const Poses& way) {
-    std::vector<PoseTuple> poses;
-    for (const auto& q : way) poses.push_back(tuple_of(q));
-    return poses;
-}
-
-// A pose and (x, y, theta), the same rounded.
-using End = std::pair<std::array<nb::int_, 6>, std::array<double, 3>>;
-static BoundaryWalker::End end(const End& given) {
-    const auto [x, y, theta] = given.second;
-    return {pose(given.first), {x, y, theta}};
-}
+using cfree::Built, cfree::Connecting, cfree::Connection, cfree::ContactSlide, cfree::Feature, cfree::FoundSlides, cfree::Insets,
+    cfree::KnownScene, cfree::Planner, cfree::Poses, cfree::Separation;
 
 using Five = std::array<nb::int_, 5>;
 // Poses from and to; kind, robot and obstacle feature of each contact; x, y, d; the half-angle tangent as q, p.
@@ -59,64 +36,146 @@ static WayTuple way_of(const Poses& way, const FoundSlides& slides) {
     return {list_of(way), std::move(on_it)};
 }
 
-static WayTuple walk(const BoundaryWalker& walker, const End& start, const End& goal, int cell) {
-    const auto first = end(start), last = end(goal);
-    return way_of(watched([&] { return walker.walk(first, last, cell); }), *walker.slides);
-}
-
-static std::optional<WayTuple> path(Passages& passages, const std::array<nb::int_, 6>& start, const std::array<nb::int_, 6>& goal,
-                                    bool irrational) {
-    const auto first = pose(start), last = pose(goal);
-    const auto found = watched([&] { return passages.path(first, last, irrational); });
-    return found ? std::optional(way_of(*found, *passages.places.walker->slides)) : std::nullopt;
-}
-
 static Feature contact_of(const std::array<int, 3>& c) { return {static_cast<cfree::Kind>(c[0]), c[1], c[2]}; }
 
-static void bind_surroundings(nb::module_& m) {
+// --- all of the free space ---
+
+using Parts = std::tuple<cfree::SharedBoundary, std::shared_ptr<const cfree::CellComplex>, std::shared_ptr<const cfree::FreeSpace>>;
+
+static Parts build(KnownScene& scene, const nb::object& who) {
+    Caller caller(who);
+    const auto found = caller.run([&] { return scene.build(caller.listener); });
+    return {found->boundary, found->surfaces, found->space};
+}
+
+static void keep(KnownScene& scene, cfree::SharedBoundary boundary, std::shared_ptr<const cfree::CellComplex> surfaces,
+                 std::shared_ptr<const cfree::FreeSpace> space) {
+    scene.keep(std::make_shared<const Built>(Built{std::move(boundary), std::move(surfaces), std::move(space)}));
+}
+
+static std::optional<Separation> barrier(const std::shared_ptr<KnownScene>& scene, const PoseNumbers& start, const PoseNumbers& goal,
+                                         const nb::object& who) {
+    Caller caller(who);
+    auto found = caller.run([&, first = pose_of(start), last = pose_of(goal)] { return scene->barrier(first, last, caller.listener); });
+    if (!found) return {};
+    return Separation{std::move(*found), scene, true};
+}
+
+// --- plans ---
+
+static std::variant<WayTuple, Separation, std::string> plan(Planner& planner, const EndNumbers& start, const EndNumbers& goal,
+                                                           const nb::object& who, bool few) {
+    Caller caller(who);
+    const auto most = few ? Planner::Effort::few_surfaces : Planner::Effort::all;
+    const auto answer = caller.run([&, first = end_of(start), last = end_of(goal)] {
+        return planner.plan(first, last, caller.listener, most);
+    });
+    if (const auto* way = std::get_if<cfree::Poses>(&answer)) return way_of(*way, *planner.slides);
+    if (const auto* proof = std::get_if<Separation>(&answer)) return *proof;
+    switch (std::get<Planner::Refused>(answer)) {
+        case Planner::Refused::start: return "start";
+        case Planner::Refused::goal: return "goal";
+        case Planner::Refused::unclear: break;
+    }
+    return "unclear";
+}
+
+static std::optional<WayTuple> walk(Planner& planner, const EndNumbers& start, const EndNumbers& goal, const nb::object& who) {
+    Caller caller(who);
+    const auto way = caller.run([&, first = end_of(start), last = end_of(goal)] { return planner.walk(first, last, caller.listener); });
+    return way ? std::optional(way_of(*way, *planner.slides)) : std::nullopt;
+}
+
+static std::optional<std::vector<PoseTuple>> quick(const Planner& planner, const EndNumbers& start, const EndNumbers& goal,
+                                                   const nb::object& who) {
+    Caller caller(who);
+    const auto way = caller.run([&, first = end_of(start), last = end_of(goal)] { return planner.quick(first, last); });
+    if (!way) return {};
+    return list_of(*way);
+}
+
+static Separation separation(const std::shared_ptr<const KnownScene>& scene, Insets& insets, const PoseNumbers& start,
+                             const PoseNumbers& goal, const std::vector<int>& powers, const nb::object& who) {
+    Caller caller(who);
+    return caller.run([&, first = pose_of(start), last = pose_of(goal)] {
+        return cfree::separation(scene, *scene->built(), insets, first, last, powers, caller.listener);
+    });
+}
+
+static void bind_known_scene(nb::module_& m) {
+    nb::register_exception_translator([](const std::exception_ptr& p, void*) {
+        try {
+            std::rethrow_exception(p);
+        } catch (const cfree::TooLate& error) {
+            const nb::object type = nb::module_::import_("cfree.errors").attr("IncompleteError");
+            PyErr_SetObject(type.ptr(), type(error.what()).ptr());
+        }
+    });
     nb::enum_<Connection::Verdict>(m, "Verdict")
         .value("OPEN", Connection::Verdict::open)
         .value("UNCLEAR", Connection::Verdict::unclear)
         .value("APART", Connection::Verdict::apart)
         .value("JOINED", Connection::Verdict::joined);
-    nb::class_<Surroundings>(m, "Surroundings")
-        .def(nb::init<std::shared_ptr<const cfree::Scene>, std::shared_ptr<const cfree::MotionChecker>, bool>(), "scene"_a,
-             "checker"_a, "regularized"_a)
-        .def_prop_ro("trimmed_patches", &Surroundings::trimmed_patches);
     nb::class_<Connecting>(m, "Connecting")
-        .def("__init__", [](Connecting* of, std::shared_ptr<Surroundings> around, const std::array<nb::int_, 6>& start,
-                            const std::array<nb::int_, 6>& goal) {
-            new (of) Connecting(std::move(around), pose(start), pose(goal));
-        }, "around"_a, "start"_a, "goal"_a)
-        .def("run", [](Connecting& of, int most) { watched([&] { return of.run(most), 0; }); }, "most"_a)
-        .def("run_around", [](Connecting& of, int end) { watched([&] { return of.run_around(end), 0; }); }, "end"_a)
-        .def_prop_ro("verdict", [](const Connecting& of) { return of.found().verdict; })
+        .def("decide", [](Connecting& of, std::optional<int> likely) {
+            return watched([&] { return of.decide({}, likely); });
+        }, "likely"_a = nb::none())
         .def_prop_ro("inside", [](const Connecting& of) { return of.found().inside; })
         .def_prop_ro("surface", [](const Connecting& of) { return of.found().surface; })
+        .def_prop_ro("trimmed_patches", [](const Connecting& of) { return of.around->trimmed_patches(); })
         .def("way", [](const Connecting& of, double angle_scale) {
             const auto slides = std::make_shared<FoundSlides>();
             const auto find = [&] { return cfree::connecting_way(*of.around, of.found(), angle_scale, slides); };
             return way_of(watched(find), *slides);
         }, "angle_scale"_a);
+    nb::class_<KnownScene>(m, "KnownScene")
+        .def(nb::init<std::shared_ptr<const cfree::SceneFeatures>, std::shared_ptr<const cfree::MotionChecker>>(), "features"_a,
+             "checker"_a)
+        .def("keep", &keep, "boundary"_a, "surfaces"_a, "space"_a)
+        .def("build", &build, "caller"_a)
+        .def("connecting", [](KnownScene& scene, const PoseNumbers& start, const PoseNumbers& goal) {
+            return scene.connecting(pose_of(start), pose_of(goal));
+        }, "start"_a, "goal"_a)
+        .def("barrier", &barrier, "start"_a, "goal"_a, "caller"_a);
+}
+
+static void bind_separations(nb::module_& m) {
+    using Fraction = std::pair<nb::int_, nb::int_>;
+    nb::class_<Separation>(m, "Separation")
+        .def_ro("is_closed", &Separation::is_closed)
+        .def_prop_ro("boundary", [](const Separation& s) { return s.surface.boundary; })
+        .def_prop_ro("faces", [](const Separation& s) { return Made<const int>(s.surface.faces.data(), {s.surface.faces.size()}); })
+        .def_prop_ro("features", [](const Separation& s) { return s.of->features; })
+        .def_prop_ro("robot", [](const Separation& s) { return s.of->shapes().robot; })
+        .def_prop_ro("bounds", [](const Separation& s) -> std::optional<std::vector<Fraction>> {
+            if (!s.of->shapes().bounds) return {};
+            std::vector<Fraction> found;
+            for (const auto& bound : *s.of->shapes().bounds) found.emplace_back(integer(bound.n), integer(bound.d));
+            return found;
+        });
+    nb::class_<Insets>(m, "Insets")
+        .def("__init__", [](Insets* of, const cfree::SceneFeatures& features) { new (of) Insets(features.shapes); }, "features"_a)
+        .def_ro("powers", &Insets::powers)
+        .def_ro("size", &Insets::size)
+        .def_prop_ro("known", &Insets::known);
+    m.def("separation", &separation, "scene"_a, "insets"_a, "start"_a, "goal"_a, "powers"_a, "caller"_a);
+    m.def("inset", [](const cfree::Polygon& polygon, const nb::int_& n, const nb::int_& d) {
+        return cfree::inset(polygon, {integer(n), integer(d)});
+    }, "polygon"_a, "numerator"_a, "denominator"_a, nb::sig("def inset(polygon: Polygon, numerator: int, denominator: int) -> Polygon | None"));
+    nb::class_<Planner>(m, "Planner")
+        .def(nb::init<std::shared_ptr<KnownScene>, double>(), "scene"_a, "angle_scale"_a)
+        .def("plan", &plan, "start"_a, "goal"_a, "caller"_a, "few"_a)
+        .def("walk", &walk, "start"_a, "goal"_a, "caller"_a)
+        .def("quick", &quick, "start"_a, "goal"_a, "caller"_a)
+        .def_prop_ro("most_checks", &Planner::most_checks);
 }
 
 void bind_planning(nb::module_& m) {
-    bind_surroundings(m);
-    nb::class_<FoundSlides>(m, "FoundSlides").def(nb::init<>());
-    nb::class_<BoundaryWalker>(m, "BoundaryWalker")
-        .def(nb::init<std::shared_ptr<const cfree::FreeSpace>, std::shared_ptr<const cfree::CellComplex>,
-                      std::shared_ptr<const cfree::MotionChecker>, double, std::shared_ptr<FoundSlides>>(),
-             "space"_a, "cells"_a, "checker"_a, "angle_scale"_a, "slides"_a)
-        .def("walk", &walk, "start"_a, "goal"_a, "cell"_a);
-    nb::class_<Passages>(m, "Passages")
-        .def("__init__", [](Passages* of, std::shared_ptr<const BoundaryWalker> walker,
-                            std::shared_ptr<const cfree::CellComplex> slits) {
-            watched([&] { return new (of) Passages(std::move(walker), std::move(slits)); });
-        }, "walker"_a, "slits"_a.none())
-        .def("path", &path, "start"_a, "goal"_a, "irrational"_a);
-    m.def("slide_along", [](const cfree::Scene& scene, const std::array<nb::int_, 6>& from, const std::array<int, 3>& first,
+    bind_known_scene(m);
+    bind_separations(m);
+    m.def("slide_along", [](const cfree::Scene& scene, const PoseNumbers& from, const std::array<int, 3>& first,
                             const std::array<int, 3>& last, const nb::int_& q, const nb::int_& p) -> std::optional<SlideTuple> {
-        const auto found = cfree::slide_along(scene, pose(from), contact_of(first), contact_of(last), {integer(p), integer(q)});
+        const auto found = cfree::slide_along(scene, pose_of(from), contact_of(first), contact_of(last), {integer(p), integer(q)});
         return found ? std::optional(tuple_of(*found)) : std::nullopt;
     }, "scene"_a, "pose"_a, "first"_a, "last"_a, "q"_a, "p"_a);
     m.def("isolated_end", [](const cfree::Boundary& boundary, int part) -> std::optional<PoseTuple> {

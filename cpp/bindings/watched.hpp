@@ -31,10 +31,20 @@ auto watched(Work&& work) {
         const nanobind::gil_scoped_acquire lock;
         if (raised.is_signalled()) stop = true;
     };
-    try {
+    const auto unlocked = [&] {
         const nanobind::gil_scoped_release release;
         const cfree::Lookout watching(stop, look);
         return work();
+    };
+    try {
+        if constexpr (std::is_void_v<decltype(work())>) {
+            unlocked();
+            return raised.rethrow();  // the work ended before it heard of it
+        } else {
+            auto result = unlocked();
+            raised.rethrow();
+            return result;
+        }
     } catch (const cfree::Stopped&) {
     }
     raised.rethrow();

@@ -59,8 +59,8 @@ if TYPE_CHECKING:
     from cfree.paths.preferences import unwanted as unwanted
     from cfree.planning.goals import AllSeparated as AllSeparated
     from cfree.planning.many import plan_many as plan_many
+    from cfree.planning.plan import plan as plan
     from cfree.planning.planner import Planner as Planner
-    from cfree.planning.planner import plan as plan
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
     from cfree.polygons.polygon import Polygon as Polygon
@@ -90,7 +90,8 @@ _HOMES = {
     "paths.clearance": "Clearance clearance narrowest",
     "paths.preferences": "Preferences Unwanted unwanted",
     "planning.goals": "AllSeparated",
-    "planning.planner": "Planner plan",
+    "planning.plan": "plan",
+    "planning.planner": "Planner",
     "planning.many": "plan_many",
     "planning.separation": "Separated separation",
     "analysis.blockers": "Blocker blockers",

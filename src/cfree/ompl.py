@@ -23,14 +23,15 @@ try:
 except ImportError as error:
     raise ImportError("cfree.ompl needs OMPL; install it: pip install 'cfree[ompl]'", name="ompl") from error
 
+import cfree._core as _core
 from cfree.collision.motion import Motion, motion_between
 from cfree.collision.motion_checker import MotionChecker
 from cfree.collision.nearest_free import require_free
 from cfree.collision.pose_checker import PoseChecker
 from cfree.exact.pose import Pose
 from cfree.paths.path import Path
-from cfree.planning.rrt_connect import area
-from cfree.scene.scene import Scene
+from cfree.planning.separation import known_scene
+from cfree.scene.scene import Scene, robot_radius
 
 MOST_HALVINGS = 30
 
@@ -54,7 +55,8 @@ def state_space(scene: Scene) -> Any:
     by twice the robot's radius.
     """
     space, limits = ob.SE2StateSpace(), ob.RealVectorBounds(2)
-    x0, y0, x1, y1 = area(scene, [pose for pose in (scene.start, scene.goal) if pose])
+    places = [(float(pose.x), float(pose.y), pose.theta) for pose in (scene.start, scene.goal) if pose]
+    x0, y0, x1, y1 = _core.search_area(known_scene(MotionChecker(scene)), places, robot_radius(scene))
     for k, (low, high) in enumerate(((x0, x1), (y0, y1))):
         limits.setLow(k, low)
         limits.setHigh(k, high)

@@ -10,7 +10,9 @@ import pytest
 
 import cfree
 from cfree import MotionChecker, Path, Pose, Preferences, Scene, motion_between, plan, unwanted
-from cfree.planning.rrt_connect import Searcher
+from cfree._core import Searcher
+from cfree.planning.core_ways import end_of
+from cfree.planning.separation import known_scene
 
 Ring = list[tuple[float, float]]
 EVERYTHING = Preferences(2, 2, 2)
@@ -63,9 +65,11 @@ def test_the_core_and_the_report_count_the_same() -> None:
     for _ in range(20):
         preferences = Preferences(*rng.uniform(1, 9, 3))
         poses = [Pose(*row) for row in rng.uniform(-3, 3, (6, 3)).tolist()]
-        searcher = Searcher(MotionChecker(scene), (-9, -9, 9, 9), math.hypot(2, 0.5), preferences)
+        costs = math.hypot(2, 0.5), *preferences.factors
+        ends = [*map(end_of, poses)]
+        searcher = Searcher(known_scene(MotionChecker(scene)), [place for _, place in ends], costs)
         path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)])
-        core = searcher.shortener(poses).length() / searcher._unit
+        core = searcher.shortener(ends, 0).length()
         assert preferences.cost(path, scene) == pytest.approx(core, rel=1e-9)
 
 

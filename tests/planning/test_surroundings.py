@@ -6,14 +6,16 @@ import random
 from collections.abc import Iterable
 from fractions import Fraction
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 import cfree
-from cfree import Boundary, FreeSpace, MotionChecker, Pose, Scene, boundary, free_space, load_scene, plan
-from cfree._core import Verdict
-from cfree.planning.surroundings import Connecting, Surroundings
+from cfree import FreeSpace, MotionChecker, Pose, Scene, boundary, free_space, load_scene, plan
+from cfree._core import Connecting, Verdict
+from cfree.planning.core_ways import numbers_of, way_of
+from cfree.planning.separation import known_scene
 from cfree.scene.scene import robot_radius
 from questions import random_question
 from shapes import KINDS, random_scene
@@ -22,38 +24,42 @@ from spaces import INSIDE, OUTSIDE, room
 ROOT = Path(__file__).parents[2]
 
 
-def connected(scene: Scene, start: Pose, goal: Pose) -> Connecting:
-    found = Surroundings(scene, MotionChecker(scene)).connecting(start, goal)
-    found.decide()
-    return found
+def connected(scene: Scene, start: Pose, goal: Pose) -> tuple[Connecting, Verdict]:
+    found = known_scene(MotionChecker(scene)).connecting(numbers_of(start), numbers_of(goal))
+    return found, found.decide()
 
 
 def agrees(space: FreeSpace, start: Pose, goal: Pose) -> Verdict:
     """With all of the free space, off contacts; a way that is found is free, a surface one of all, however found."""
     scene = space.boundary.scene
-    found = connected(scene, start, goal)
-    if found.verdict == Verdict.JOINED:
-        way = found.way(robot_radius(scene), {})
-        assert way is not None and (way[0], way[-1]) == (start, goal) and MotionChecker(scene).joins(way)
+    found, verdict = connected(scene, start, goal)
+    if verdict == Verdict.JOINED:
+        way = way_of(found.way(robot_radius(scene)), space.boundary.features, {})
+        assert (way[0], way[-1]) == (start, goal) and MotionChecker(scene).joins(way)
     if min(space.locate([start, goal])) >= 0 and not any(len(space.nearby(pose).on) for pose in (start, goal)):
         same = space.common_cell(start, goal) is not None
-        assert found.verdict == Verdict.UNCLEAR or found.verdict == (Verdict.JOINED if same else Verdict.APART)
-    if found.verdict == Verdict.APART:
-        again = Surroundings(scene, MotionChecker(scene)).connecting(start, goal)
+        assert verdict == Verdict.UNCLEAR or verdict == (Verdict.JOINED if same else Verdict.APART)
+    if verdict == Verdict.APART:
+        surface = rows_of(found)
+        again = known_scene(MotionChecker(scene)).connecting(numbers_of(start), numbers_of(goal))
         assert again.decide(found.inside) == Verdict.APART and again.inside == found.inside
-        assert rows(again.surface, range(len(again.surface.trapezoids))) == rows(
-            found.surface, range(len(found.surface.trapezoids))
-        )
-        surface = rows(found.surface, range(len(found.surface.trapezoids)))
+        assert rows_of(again) == surface
         assert any(
-            surface == rows(space.surfaces, np.flatnonzero(space.component == k)) for k in range(len(space.parent))
+            surface == rows(space.surfaces.trapezoids, np.flatnonzero(space.component == k))
+            for k in range(len(space.parent))
         )
-    return found.verdict
+    return verdict
 
 
-def rows(boundary: Boundary, faces: Iterable[int]) -> list[tuple[int | float, ...]]:
+def rows_of(found: Connecting) -> list[tuple[int | float, ...]]:
+    """Of the surface."""
+    assert found.surface is not None
+    table = found.surface.boundary.trapezoids
+    return rows(table, range(len(table.patch)))
+
+
+def rows(table: Any, faces: Iterable[int]) -> list[tuple[int | float, ...]]:
     """Trapezoids in their order, by what they are."""
-    table = boundary.trapezoids
     columns = table.patch, table.chart, table.lower, table.upper, table.from_lo, table.to_hi
     return [tuple(column[k].item() for column in columns) for k in faces]
 
@@ -92,9 +98,9 @@ def test_cost_follows_the_answer() -> None:
     near = [[(0, 0), (1, 0), (1, 9), (0, 9)], [(3, 0), (4, 0), (4, 9), (3, 9)]]
     far = [[(x, y), (x + 3, y), (x + 3, y + 3), (x, y + 3)] for x in range(50, 150, 5) for y in range(0, 50, 5)]
     scene = Scene([(0, 0), (1, 0), (0, 1)], near + far)
-    found = connected(scene, Pose("3/2", 4), Pose(20, 4))
-    assert found.verdict == Verdict.JOINED
-    assert found._around._core.trimmed_patches < 0.05 * MotionChecker(scene).features.patches
+    found, verdict = connected(scene, Pose("3/2", 4), Pose(20, 4))
+    assert verdict == Verdict.JOINED
+    assert found.trimmed_patches < 0.05 * MotionChecker(scene).features.patches
 
 
 def test_answers_are_those_of_a_built_space() -> None:

@@ -45,10 +45,10 @@ def answered(scene: Scene, start: Pose, goal: Pose) -> str:
 def walked(scene: Scene, start: Pose, goal: Pose) -> Path:
     """Without a search."""
     space = free_space(boundary(scene))
-    cell = space.common_cell(start, goal)
-    assert cell is not None
     planner = Planner(space.boundary.scene, space)
-    return planner.path(planner._walker.walk(start, goal, cell))
+    way = planner.walk(start, goal)
+    assert way is not None
+    return planner.path(way)
 
 
 def slot(gap: Fraction | int, tau: Fraction, offset: int, reference: int = 0) -> Scene:

@@ -66,7 +66,9 @@ def mistakes(kind: str, number: int, tally: Counter[str], most: int = 3) -> list
     pairs = list(combinations(range(len(poses)), 2))
     rng.shuffle(pairs)
     for i, j in [(i, j) for i, j in pairs if cells[i] == cells[j]][:most]:
-        walked = planner.path(planner._walker.walk(poses[i], poses[j], cells[i]))
+        way = planner.walk(poses[i], poses[j])
+        assert way is not None
+        walked = planner.path(way)
         tally["walks"] += 1
         if not (walked.is_free(checker) and walked.start == poses[i] and walked.goal == poses[j]):
             wrong.append(f"walk from {poses[i]} to {poses[j]} is not free")

@@ -14,7 +14,6 @@ from typing import Literal
 import fuzz
 from cfree import MotionChecker, Polygon, Pose, Scene
 from cfree.errors import InvalidPolygonError
-from cfree.planning.rrt_connect import simple_ways
 from compared import plain_of, scene_of
 from shapes import PlainScene, Point, Shape, box, comb, l_shape, mapped, moved, random_lattice_shape
 
@@ -276,6 +275,12 @@ def random_question(rng: random.Random, plain: PlainScene) -> Question | None:
         if len(free) == 5:
             break
     return Question(plain, *free[:2]) if len(free) > 1 else None
+
+
+def simple_ways(start: Pose, goal: Pose) -> list[list[Pose]]:
+    """A turn and a straight way in either order, and one motion."""
+    turned, moved = (Pose(p.x, p.y, {"tau": q.tau}) for p, q in ((start, goal), (goal, start)))
+    return [[start, turned, goal], [start, moved, goal], [start, goal]]
 
 
 def _pose(rng: random.Random, plain: PlainScene) -> Pose:

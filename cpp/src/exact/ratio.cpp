@@ -125,6 +125,12 @@ Ratio reduced(Int n, Int d) {
     return {std::move(n), std::move(d)};
 }
 
+Ratio power_of_two(int exponent) {
+    Int power = 1;
+    power <<= static_cast<unsigned>(exponent < 0 ? -exponent : exponent);
+    return exponent < 0 ? Ratio{1, power} : Ratio{power, 1};
+}
+
 // The common beginning of the two continued fractions, then the least number that separates them.
 Ratio simplest_between(const Ratio& low, const Ratio& high) {
     if (low.n.sign() <= 0) return high.n.sign() < 0 ? -simplest_between(-high, -low) : Ratio{};

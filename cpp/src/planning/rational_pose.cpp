@@ -15,6 +15,12 @@ HalfAngle HalfAngle::of(int chart, const Ratio& tau) {
     return tau.n.sign() > 0 ? HalfAngle{tau.n, -tau.d} : HalfAngle{-tau.n, tau.d};
 }
 
+HalfAngle HalfAngle::along(const Int& x, const Int& y) {
+    if (x.is_zero()) return {0, 1};
+    const Ratio slope = reduced(y, x);
+    return {slope.d, slope.n};
+}
+
 Ratio HalfAngle::tau() const {
     if (chart() == 0) return {p, q};
     return p.sign() > 0 ? Ratio{-q, p} : Ratio{q, -p};

@@ -7,11 +7,13 @@
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
+#include "cfree/support/stop.hpp"
 
 namespace cfree {
 
 namespace {
 
+constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of two poses
 constexpr int most_attempts = 48;  // places near a pose from which a ray is tried, nearer and nearer
 
 Configuration configuration(const ExactPose& q) {
@@ -190,6 +192,15 @@ void Connecting::run(Index most) {
 
 void Connecting::run_around(int k) {
     if (result.verdict == Connection::Verdict::open && !ends[k].ended) look(k, std::numeric_limits<Index>::max());
+}
+
+Connection::Verdict Connecting::decide(const std::function<bool(Index most)>& go_on, std::optional<int> likely) {
+    if (likely) run_around(*likely);
+    for (Index most = first_step;; most = std::min(2 * most, last_step)) {
+        run(most);
+        if (result.verdict != Connection::Verdict::open || (go_on && !go_on(most))) return result.verdict;
+        heed_stop();
+    }
 }
 
 void Connecting::look(int k, Index most) {

@@ -265,6 +265,7 @@ Int floor_divide(const Int& n, const Int& d) {
 
 SceneFeatures scene_features(const SceneShapes& shapes) {
     SceneFeatures result;
+    result.shapes = shapes;
     Int scale = 1;  // the common denominator
     const auto include = [&](const Int& denominator) {
         if (scale % denominator != 0) scale = lcm(scale, denominator);

@@ -17,11 +17,11 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.pose import PoseLike
 from cfree.forbidden.boundary import boundary
 from cfree.free.space import FreeSpace, free_space
-from cfree.planning.separation import inset_powers
+from cfree.planning.separation import Insets
 from cfree.polygons.offset import inset
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import FARTHEST_OUT, grown
-from cfree.scene.scene import Scene, required, size_power, with_robot
+from cfree.scene.scene import Scene, required, with_robot
 
 Progress = Callable[[float], object]
 BITS = 16  # of the numbers that are tried
@@ -122,10 +122,11 @@ def nearest_miss(
         space = spaces[by]
         return space is None or space.common_cell(start, goal) is None
 
-    most = _deepest(smaller_robot, Fraction(2) ** size_power(scene))
+    known = Insets(scene)
+    most = _deepest(smaller_robot, Fraction(2) ** known.size)
     if not most or separated(most):
         return None
-    insets = [by for k in inset_powers(scene) if (by := Fraction(2) ** (size_power(scene) + k)) < most]
+    insets = [by for power in known.powers if (by := Fraction(2) ** (known.size + power)) < most]
     least = next(filter(separated, insets), None)
     if least is None:
         return NearestMiss(0.0, float(min([*insets, most])), ())
@@ -231,7 +232,7 @@ def max_margin(
     def is_joined(radius: Fraction) -> bool:
         return _space(with_robot(scene, grown(scene, radius), scene.bounds)).common_cell(start, goal) is not None
 
-    lo, hi = _bracket(is_joined, Fraction(2) ** (size_power(scene) - 3))
+    lo, hi = _bracket(is_joined, Fraction(2) ** (Insets(scene).size - 3))
     if lo and hi:
         lo, hi = _bisected(is_joined, lo, hi, tolerance, progress)
     return Interval(float(lo), math.nextafter(float(hi) * FARTHEST_OUT, math.inf) if hi else math.inf)

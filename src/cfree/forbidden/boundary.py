@@ -25,7 +25,7 @@ from cfree.forbidden.mesh import Mesh, triangulated
 from cfree.forbidden.patch import IsolatedPart, Patches, Trapezoid
 from cfree.forbidden.record import BoundaryRecord, Stats
 from cfree.forbidden.slice import Slice
-from cfree.scene.features import scene_features
+from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
 
 PHASES = ("trim", "collect", "isolated", "intervals", "exact")
@@ -115,8 +115,15 @@ def _computed(
         raise InvariantError(str(error), state=scene) from error
     if progress is not None:
         progress(1.0)
-    seconds = {"features": prepared - start} | {phase: getattr(core.tally, f"{phase}_seconds") for phase in PHASES}
-    seconds["total"] = time.perf_counter() - start
+    found = boundary_of(scene, features, core)
+    found.stats.seconds.update(features=prepared - start, total=time.perf_counter() - start)
+    return found
+
+
+def boundary_of(scene: Scene, features: SceneFeatures, core: _core.Boundary) -> Boundary:
+    """What the core has computed."""
+    seconds = {phase: getattr(core.tally, f"{phase}_seconds") for phase in PHASES}
+    seconds["total"] = sum(seconds[phase] for phase in PHASES[:3])
     counts = {name: getattr(core.tally, name) for name in COUNTS}
     stats = Stats(patches=len(core.trimmed), trapezoids=len(core.trapezoids.patch), seconds=seconds, **counts)
     return Boundary._of(scene, features, core, stats)

@@ -23,12 +23,13 @@ from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import InvalidPoseError, InvariantError
 from cfree.exact.half_angle import chart_of, tau_in_chart
 from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
-from cfree.forbidden.boundary import Boundary, regularize_by
+from cfree.forbidden.boundary import Boundary, boundary_of, regularize_by
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.columns import Floats, Ints
 from cfree.forbidden.record import glue_by
 from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.scene.features import BOUNDS, WORKSPACE
+from cfree.scene.features import BOUNDS, WORKSPACE, SceneFeatures
+from cfree.scene.scene import Scene
 from cfree.value import Value
 
 FORBIDDEN, NO_CELL = -1, -2
@@ -392,6 +393,21 @@ def free_space(boundary: Boundary, *, threads: int | None = None) -> FreeSpace:
         core = _core.free_space(bounding.core_complex)
     except RuntimeError as error:
         raise InvariantError(str(error), state=boundary.scene) from error
+    return _of_core(boundary, core)
+
+
+def built_space(
+    scene: Scene, features: SceneFeatures, core: _core.Boundary, surfaces: _core.CellComplex, cells: _core.FreeSpace
+) -> FreeSpace:
+    """What the core has built: the boundary, the surfaces that bound its cells, and these."""
+    boundary = boundary_of(scene, features, core)
+    if _core.may_have_slits(features.core):
+        boundary.regularized = boundary_of(scene, features, surfaces.boundary)
+    bounding_surfaces(boundary).core_complex = surfaces
+    return _of_core(boundary, cells)
+
+
+def _of_core(boundary: Boundary, core: _core.FreeSpace) -> FreeSpace:
     surfaces = core.surfaces
     inside = surfaces.free_inside.view(np.bool_)
     return FreeSpace(boundary, surfaces.component, surfaces.parent, inside, surfaces.turns, surfaces.lift, core)

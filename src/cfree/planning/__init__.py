@@ -1,7 +1,7 @@
-"""Paths: quick searches first, then walks on the boundary of a cell, and ways through exact fits.
+"""Paths, or proofs that there are none: the core finds poses and surfaces, here they become objects.
 
-`planner` puts them together; `rrt_connect` joins random poses, `boundary_walk` follows trapezoids, `exact_fits` leads
-through places without room, all three in the core. Nothing but a check of the core says that a motion is free.
+`planner` asks it, for one pair of poses; `goals`, `many` and `clearance` ask several times. Nothing but a check of the
+core says that a motion is free.
 """
 
 from typing import TYPE_CHECKING

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Protocol
 
+import cfree._core as _core
 from cfree.exact.pose import Pose
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
@@ -23,6 +24,8 @@ class Planner(Protocol):
     @property
     def free_space(self) -> FreeSpace: ...
     def quick(self, start: Pose, goal: Pose) -> Sequence[Pose] | None: ...
+    def way(self, start: Pose, goal: Pose, *, few: bool = False) -> list[Pose] | Separated | None: ...
+    def barrier(self, start: Pose, goal: Pose) -> _core.Separation | None: ...
     def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path: ...
     def plan(
         self,

@@ -22,7 +22,7 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.paths.path import Objective, Path
 from cfree.planning.asked import Planner
-from cfree.planning.separation import Separated, separation
+from cfree.planning.separation import Separated
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
 from cfree.scene.dilation import around_disc, cores, grown_by, inside_disc
@@ -111,13 +111,9 @@ def _proof(
     x0, y0, x1, y1 = scene.bounds or (by, by, -by, -by)
     robot = [Polygon(convex_sum(core.exact_vertices, ring)) for core in within]
     inner = with_robot(scene, robot, scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by))
-    space = planner(inner).free_space
-    if (found := separation(space, start, goal, ())) is None:
+    if (found := planner(inner).barrier(start, goal)) is None:
         return None
-    return replace(
-        found, of="closed", robot=inner.robot, bounds=inner.bounds, clearance=clearance, cores=tuple(within),
-        scene=scene, units=scene.units,
-    )  # fmt: skip
+    return replace(Separated._of(found, scene, start, goal), clearance=clearance, cores=tuple(within))
 
 
 def _farthest(ring: Sequence[ExactPoint]) -> float:

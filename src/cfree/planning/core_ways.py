@@ -22,6 +22,11 @@ def numbers_of(pose: Pose) -> Numbers:
     return pose.x.numerator, pose.x.denominator, pose.y.numerator, pose.y.denominator, q, p
 
 
+def end_of(pose: Pose) -> tuple[Numbers, tuple[float, float, float]]:
+    """The same, and rounded."""
+    return numbers_of(pose), (float(pose.x), float(pose.y), pose.theta)
+
+
 def from_numbers(numbers: Sequence[int]) -> Pose:
     """A pose as the core gives it."""
     a, b, c, d, q, p = numbers

@@ -114,20 +114,19 @@ def plan_any(
             poses |= dict.fromkeys(pose for pose in found if pose is not None)
             is_whole = is_whole and None not in found
 
-    def shortest(paths: Sequence[Path]) -> Path:
-        return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
-
-    asked = list(poses)
+    answers: Sequence[Path | Separated]
     if clearance is None:
-        ways = [[pose] if pose == start else planner.quick(start, pose) for pose in asked]
-        if quick := [way for way in ways if way]:
-            share = improve and improve / len(quick)
-            return shortest([planner.improved(way, share, objective) for way in quick])
-        space = planner.free_space
-        asked = [pose for pose in poses if space.common_cell(start, pose) is not None] or asked
-    answers = [planner.plan(start, pose, clearance=clearance, improve=improve, objective=objective) for pose in asked]
+        ways = [planner.way(start, pose, few=True) for pose in poses]
+        if not any(isinstance(way, list) for way in ways):
+            ways = [way or planner.way(start, pose) for way, pose in zip(ways, poses, strict=True)]
+        free = [way for way in ways if isinstance(way, list)]
+        share = improve and improve / len(free) if free else None
+        answers = [planner.improved(way, share, objective) for way in free]
+        answers = answers or [proof for proof in ways if isinstance(proof, Separated)]
+    else:
+        answers = [planner.plan(start, p, clearance=clearance, improve=improve, objective=objective) for p in poses]
     if paths := [answer for answer in answers if isinstance(answer, Path)]:
-        return shortest(paths)
+        return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
     proofs = tuple(answer for answer in answers if isinstance(answer, Separated))
     is_closed = is_whole and all(proof.of == "closed" for proof in proofs)
     places = tuple(dict.fromkeys(goal for goal in goals if not isinstance(goal, Pose)))

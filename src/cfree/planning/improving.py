@@ -15,13 +15,14 @@ from concurrent.futures import ThreadPoolExecutor, wait
 from itertools import pairwise
 from typing import Any
 
+import cfree._core as _core
 from cfree.collision.motion import motion_between
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
 from cfree.paths.clearance import clearance
 from cfree.paths.path import Path
 from cfree.paths.preferences import Preferences
-from cfree.planning.rrt_connect import Searcher
+from cfree.planning.core_ways import end_of, from_numbers
 from cfree.scene.scene import Scene
 
 REFINE = 400  # motions checked to improve a path if no time is given
@@ -43,14 +44,19 @@ class Improver:
     scene : Scene
     checker : MotionChecker
         Of the scene.
-    searcher : Searcher
+    searcher : _core.Searcher
     preferences : Preferences
     stop : Event
         Ends all of it, without a result.
     """
 
     def __init__(
-        self, scene: Scene, checker: MotionChecker, searcher: Searcher, preferences: Preferences, stop: threading.Event
+        self,
+        scene: Scene,
+        checker: MotionChecker,
+        searcher: _core.Searcher,
+        preferences: Preferences,
+        stop: threading.Event,
     ) -> None:
         self.scene, self.checker, self.searcher, self.stop = scene, checker, searcher, stop
         self._prefers = preferences.matter
@@ -82,18 +88,18 @@ class Improver:
         return found if self.checker.joins(found) else poses  # doubles guided it
 
     def _shorter(self, poses: Sequence[Pose], seed: int) -> Better:
-        found = self.searcher.shortener(poses, seed)
+        found = self.searcher.shortener([*map(end_of, poses)], seed)
         found.run((DEAR if self._prefers else 1) * REFINE)
         return found
 
     def _balanced(self, poses: Sequence[Pose], seed: int) -> Better:
-        found = self.searcher.balanced(poses, self.scene.bounds, seed)
+        found = self.searcher.balanced([*map(end_of, poses)], seed)
         found.run((DEAR if self._prefers else 1) * BALANCE * (len(found.path()) + len(poses)))
         return found
 
     def _least(self, found: Better) -> float:
         """The least clearance."""
-        poses = self.searcher.poses(found.path())
+        poses = [*map(from_numbers, found.path())]
         place = clearance(Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)]), self.scene)
         return place.least if place else math.inf
 
@@ -138,16 +144,16 @@ class Improver:
             return poses
         if self.stop.is_set():
             raise KeyboardInterrupt
-        return self.searcher.poses(min(found, key=_length).path())
+        return [*map(from_numbers, min(found, key=_length).path())]
 
     def _other(self, poses: Sequence[Pose], seed: int, end: float) -> Sequence[Pose] | None:
         """Another way from the first to the last, if one is found in time."""
-        search = self.searcher.search(poses[0], poses[-1], seed)
+        search = self.searcher.search(end_of(poses[0]), end_of(poses[-1]), seed)
         for _ in range(0, SEARCH, BLOCK):
             if self._is_over(end):
                 return None
             if found := search.run(BLOCK):
-                return self.searcher.poses(found)
+                return [*map(from_numbers, found)]
         return None
 
     def _is_over(self, end: float) -> bool:

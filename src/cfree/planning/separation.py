@@ -6,12 +6,11 @@ without what is used here.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,25 +19,18 @@ import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collision.motion_checker import MotionChecker
 from cfree.contact.kind import Kind
-from cfree.errors import InvalidPoseError, InvariantError, UnsupportedError
+from cfree.errors import InvalidPoseError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose, PoseLike, to_pose
-from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import CODED, COLUMNS, Ints, Trapezoids
-from cfree.free.space import FORBIDDEN, FreeSpace, free_space
-from cfree.planning.surroundings import Surroundings
-from cfree.polygons.offset import inset
-from cfree.polygons.polygon import Polygon
+from cfree.free.space import FORBIDDEN, FreeSpace
+from cfree.planning.caller import Caller
+from cfree.planning.core_ways import numbers_of
+from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.digest import Stamp
-from cfree.scene.features import unpacked
-from cfree.scene.scene import Bounds, Scene, size_power, with_robot
+from cfree.scene.features import SceneFeatures, unpacked
+from cfree.scene.scene import Bounds, Scene
 from cfree.value import Value
-
-if TYPE_CHECKING:
-    from cfree.scene.features import SceneFeatures
-
-
-FIRST, ENOUGH = 20, 160  # insets are 2**-20 of the robot's size and smaller
 
 
 @dataclass(frozen=True)
@@ -87,19 +79,19 @@ class Pieces(Value):
         return len(self.kind)
 
     @classmethod
-    @checked
-    def of(cls, boundary: Boundary, faces: Ints) -> Pieces:
+    def _of(cls, found: _core.Separation) -> Pieces:
         """Some trapezoids of a boundary."""
-        patch = boundary.trapezoids.patch[faces]
-        a, b = boundary.features.robot, boundary.features.obstacles
+        features, faces = SceneFeatures.of(found.features), found.faces
+        patches, trapezoids = found.boundary.patches, found.boundary.trapezoids
+        patch = trapezoids.patch[faces]
         robot, obstacle = (
             np.column_stack([shape.owner_polygon[of[patch]], shape.owner_vertex[of[patch]]])
-            for shape, of in ((a, boundary.contact_robot), (b, boundary.contact_obstacle))
+            for shape, of in ((features.robot, patches.robot), (features.obstacles, patches.obstacle))
         )
-        columns = {name: getattr(boundary.trapezoids, name)[faces] for name in COLUMNS}
+        columns = {name: getattr(trapezoids, name)[faces] for name in COLUMNS}
         columns["patch"] = np.arange(len(faces), dtype=np.int32)
         table = Trapezoids(**columns)
-        return cls(boundary.contact_kind[patch], robot, obstacle, table, tuple(_auxiliary(boundary.features, table)))
+        return cls(patches.kind[patch], robot, obstacle, table, tuple(_auxiliary(features, table)))
 
 
 def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary]:
@@ -171,6 +163,18 @@ class Separated:
     def obstacles(self) -> tuple[int, ...]:
         return tuple(np.unique(self.pieces.obstacle[:, 0]).tolist())
 
+    @classmethod
+    def _of(cls, found: _core.Separation, scene: Scene, start: Pose, goal: Pose) -> Separated:
+        """What the core has found about a scene."""
+        pieces = Pieces._of(found)
+        if not found.is_closed:
+            return cls(start, goal, "interior", pieces, units=scene.units, scene=scene)
+        robot, bounds = tuple(map(polygon_of, found.robot)), None
+        if found.bounds is not None:
+            x0, y0, x1, y1 = (Fraction(n, d) for n, d in found.bounds)
+            bounds = x0, y0, x1, y1
+        return cls(start, goal, "closed", pieces, robot, bounds, scene.units, scene=scene)
+
     def reversed(self) -> Separated:
         """The same proof for the way back."""
         return replace(self, start=self.goal, goal=self.start)
@@ -179,70 +183,22 @@ class Separated:
 class Insets:
     """Scenes with a robot a little smaller, in bounds as much larger; what is found of each is kept.
 
-    A pose at which the smaller robot touches an obstacle is one at which the robot overlaps it. What that proves
-    is in docs/theory/separations.md.
-
     Parameters
     ----------
     scene : Scene
+
+    Attributes
+    ----------
+    powers : list of int
+        Insets that a proof may need, as powers of two of the robot's size.
+    size : int
+        The power of two that is about as large as the robot.
     """
 
     def __init__(self, scene: Scene) -> None:
-        self.scene = scene
-        self._size = size_power(scene)
-        self._around: dict[int, Surroundings | None] = {}
-        self._spaces: dict[int, FreeSpace] = {}
-
-    def closed(self, start: Pose, goal: Pose, power: int, end: int | None = None) -> Separated | None:
-        """A proof by an inset by 2**power of the robot's size, if there is one, likely around start (0) or goal (1)."""
-        around = self._surroundings(power)
-        if around is None:
-            return None
-        found, pieces = around.connecting(start, goal), None
-        if found.decide(end) == _core.Verdict.APART:
-            surface = found.surface
-            pieces = Pieces.of(surface, np.arange(len(surface.trapezoids), dtype=np.int32))
-        elif found.verdict == _core.Verdict.UNCLEAR:
-            pieces = self._by_all(power, around.scene, start, goal)
-        if pieces is None:
-            return None
-        inner, scene = around.scene, self.scene
-        return Separated(start, goal, "closed", pieces, inner.robot, inner.bounds, scene.units, scene=scene)
-
-    def _by_all(self, power: int, scene: Scene, start: Pose, goal: Pose) -> Pieces | None:
-        """A surface between two poses, of all of the free space."""
-        if power not in self._spaces:
-            self._spaces[power] = free_space(boundary(scene))
-        space = self._spaces[power]
-        cells = space.locate([start, goal]).tolist()
-        if min(cells) < 0:
-            raise InvariantError(f"poses are in {cells} of a smaller robot", state=self.scene)
-        return None if cells[0] == cells[1] else Pieces.of(space.surfaces, _between(space, *cells))
-
-    def _surroundings(self, power: int) -> Surroundings | None:
-        """None if nothing is left of the robot, or coordinates are beyond what is allowed."""
-        if power not in self._around:
-            by = Fraction(2) ** (self._size + power)
-            robot = [smaller for part in self.scene.robot for smaller in inset(part, by)]
-            x0, y0, x1, y1 = self.scene.bounds or (by, by, -by, -by)
-            bounds = self.scene.bounds and (x0 - by, y0 - by, x1 + by, y1 + by)
-            try:
-                inner = with_robot(self.scene, robot, bounds) if robot else None
-                self._around[power] = Surroundings(inner, MotionChecker(inner)) if inner else None
-            except UnsupportedError:
-                self._around[power] = None
-        return self._around[power]
-
-
-def inset_powers(scene: Scene) -> list[int]:
-    """Insets that a proof may need, as powers of two of the robot's size: each is half as many digits as the next.
-
-    The narrowest gap may be as narrow as the scene's coordinates have digits, and some times that.
-    """
-    polygons = [*scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])]
-    scale = math.lcm(*(polygon.denominator for polygon in polygons), *(b.denominator for b in scene.bounds or ()))
-    deepest = ENOUGH + 4 * scale.bit_length()
-    return [-(FIRST << k) for k in range(deepest.bit_length()) if FIRST << k <= deepest]
+        self.checker = MotionChecker(scene)
+        self.core = _core.Insets(self.checker.features.made)
+        self.powers, self.size = self.core.powers, self.core.size
 
 
 @checked
@@ -299,28 +255,15 @@ def separation(
         return None
     scene = space.boundary.scene
     insets = insets or Insets(scene)
-    for power in inset_powers(scene) if powers is None else powers:
-        if (proof := insets.closed(start, goal, power)) is not None:
-            return proof
-    pieces = Pieces.of(space.surfaces, _between(space, *cells))
-    return Separated(start, goal, "interior", pieces, units=scene.units, scene=scene)
+    known = known_scene(insets.checker, space)
+    chosen = insets.powers if powers is None else list(powers)
+    found = _core.separation(known, insets.core, numbers_of(start), numbers_of(goal), chosen, Caller())
+    return Separated._of(found, scene, start, goal)
 
 
-def _between(space: FreeSpace, first: int, second: int) -> Ints:
-    """Faces of the closed surface with the fewest that is around one of two cells and not around the other."""
-    candidates = _around(space, first) ^ _around(space, second)
-    if not candidates:
-        return np.empty(0, np.int32)
-    sizes = np.bincount(space.component, minlength=len(space.parent))
-    chosen = min(candidates, key=lambda surface: (sizes[surface], surface))
-    return np.flatnonzero(space.component == chosen).astype(np.int32)
-
-
-def _around(space: FreeSpace, cell: int) -> set[int]:
-    """The closed surfaces around a cell."""
-    found: set[int] = set()
-    (surface,) = np.flatnonzero((space.cell_of == cell) & space.free_inside)[:1].tolist() or [-1]
-    while surface >= 0:
-        found.add(surface)
-        surface = int(space.parent[surface])
-    return found
+def known_scene(checker: MotionChecker, space: FreeSpace | None = None) -> _core.KnownScene:
+    """What the core finds out about a checker's scene; with all of its free space, if that is known."""
+    known = _core.KnownScene(checker.features.made, checker.core)
+    if space is not None:
+        known.keep(space.boundary.core, space.surfaces.core_complex, space.core)
+    return known

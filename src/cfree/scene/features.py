@@ -92,6 +92,8 @@ class SceneFeatures:
         Common denominator of all coordinates.
     rim : (xmin, ymin, xmax, ymax) or None
         If bounds or a workspace are given: a rectangle around all patches.
+    made : _core.SceneFeatures
+        What all of these are views of.
     """
 
     robot: ShapeFeatures
@@ -99,6 +101,15 @@ class SceneFeatures:
     core: _core.Scene
     scale: int
     rim: tuple[float, float, float, float] | None
+    made: _core.SceneFeatures
+
+    @classmethod
+    def of(cls, made: _core.SceneFeatures) -> SceneFeatures:
+        """What the core has made of a scene."""
+        core, scale = made.scene, made.scene.scale
+        robot = ShapeFeatures(core.robot, core.near.robot, made.robot, scale)
+        obstacles = ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale)
+        return cls(robot, obstacles, core, scale, made.rim, made)
 
     @property
     def frame(self) -> tuple[float, float, float, float]:
@@ -125,15 +136,8 @@ def unpacked(code: Any) -> tuple[Any, Any, Any]:
 
 def scene_features(scene: Scene) -> SceneFeatures:
     """Number everything the core needs to know of a scene."""
-    made = _core.SceneFeatures(*core_shapes(scene.robot, scene.obstacles, scene.workspace, scene.bounds))
-    core, scale = made.scene, made.scene.scale
-    features = SceneFeatures(
-        ShapeFeatures(core.robot, core.near.robot, made.robot, scale),
-        ShapeFeatures(core.obstacles, core.near.obstacles, made.obstacles, scale),
-        core,
-        scale,
-        made.rim,
-    )
+    shapes = core_shapes(scene.robot, scene.obstacles, scene.workspace, scene.bounds)
+    features = SceneFeatures.of(_core.SceneFeatures(*shapes))
     refuse_too_many(features)
     return features
 

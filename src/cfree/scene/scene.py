@@ -168,12 +168,6 @@ def robot_radius(scene: Scene) -> float:
     return max(math.hypot(x, y) for part in scene.robot for x, y in part.vertices.tolist())
 
 
-def size_power(scene: Scene) -> int:
-    """The power of two that is about as large as the robot."""
-    boxes = np.array([part.bounds for part in scene.robot])
-    return math.frexp(float((boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)).max()))[1]
-
-
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
     """A scene with another robot, in other bounds."""
     return Scene(robot, scene.obstacles, bounds=bounds, workspace=scene.workspace)

@@ -24,6 +24,7 @@ inline constexpr int most_digits = 4000;  // longer numbers are refused: no coor
 std::optional<Ratio> ratio_of(std::string_view text);
 Ratio ratio_of(double value);  // finite
 Ratio reduced(Int n, Int d);   // d is not zero
+Ratio power_of_two(int exponent);
 
 inline Ratio operator-(const Ratio& x) { return {-x.n, x.d}; }
 inline Ratio operator+(const Ratio& x, const Ratio& y) { return reduced(x.n * y.d + y.n * x.d, x.d * y.d); }

@@ -12,6 +12,8 @@ struct HalfAngle {
     Int q = 1, p = 0;
     // From a coordinate in a chart.
     static HalfAngle of(int chart, const Ratio& tau);
+    // Of a direction that may not be in lowest terms, or point the other way.
+    static HalfAngle along(const Int& x, const Int& y);
     // Chart and coordinate; what is on the border belongs to chart 0.
     int chart() const { return abs(p) <= q ? 0 : 1; }
     Ratio tau() const;

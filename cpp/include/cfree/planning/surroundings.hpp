@@ -2,6 +2,8 @@
 // is closed. Met from inside it is the outer boundary of the pose's cell. An island of the cell is met from outside: where the
 // ray leaves it for the last time it is in the cell again, and goes on. theory, "One surface alone".
 #pragma once
+#include <functional>
+
 #include "cfree/free/surface_explorer.hpp"
 #include "cfree/planning/rational_pose.hpp"
 
@@ -89,6 +91,9 @@ public:
     void run(Index most);
     // Around one of them, to the end.
     void run_around(int k);
+    // Go on to the end, by twice as many each time, as long as whoever is asked then, with the number, wants to. First around one
+    // of them, 0 or 1, if that is likely to be enough.
+    Connection::Verdict decide(const std::function<bool(Index most)>& go_on = {}, std::optional<int> likely = {});
     const Connection& found() const { return result; }
     const std::shared_ptr<Surroundings> around;
 

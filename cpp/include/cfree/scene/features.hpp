@@ -33,6 +33,7 @@ struct Owners {
 };
 
 struct SceneFeatures {
+    SceneShapes shapes;
     std::shared_ptr<const Scene> scene;
     Owners robot, obstacles;
     std::optional<std::array<double, 4>> rim;  // around all patches, if bounds or a workspace are given

@@ -1,0 +1,56 @@
+// Can the robot get from start to goal? Poses of a path, the motions between them free, or a proof that there is none.
+//
+// Cheap things come first: one motion, a turn and a straight way; then a search with random poses and the closed surfaces around
+// the two poses in turns, by counted work: the same answer everywhere, in about twice the time of the better of both. What
+// they do not settle, the cells of the free space do: they name the answer, and a walk along a cell's boundary is a path.
+#pragma once
+#include <variant>
+
+#include "cfree/planning/exact_fits.hpp"
+#include "cfree/planning/insets.hpp"
+#include "cfree/planning/searcher.hpp"
+
+namespace cfree {
+
+class Planner {
+public:
+    Planner(std::shared_ptr<KnownScene> scene, double angle_scale);
+
+    enum class Refused { start, goal, unclear };  // forbidden ends; unclear without more effort
+    using Answer = std::variant<Poses, Separation, Refused>;
+    enum class Effort { few_surfaces, all };
+    // The way back is the same, backwards. Some neighbours on a way are joined by slides. Calls from several threads are fine.
+    Answer plan(const End& start, const End& goal, const Listener& listener, Effort most = Effort::all);
+
+    // Along the boundary of the first cell that both poses are in or on the boundary of, if one is.
+    std::optional<Poses> walk(const End& start, const End& goal, const Listener& listener);
+    // Poses of a path between free poses, if simple ways or a search find one.
+    std::optional<Poses> quick(const End& start, const End& goal) const;
+    // Motions that a search may check: these take about as long as the free space does.
+    int most_checks() const;
+
+    const std::shared_ptr<KnownScene> scene;
+    const double angle_scale;  // length per radian: the robot's radius about its reference point
+    const std::shared_ptr<FoundSlides> slides;  // on all ways so far
+
+private:
+    using Found = std::variant<Poses, Separation>;
+    std::optional<Found> by_few(const End& start, const End& goal, const Listener& listener);
+    std::optional<Poses> in_a_cell(const End& start, const End& goal, const Listener& listener);
+    Found by_all(const End& start, const End& goal, const Listener& listener);
+    std::optional<Poses> simple_way(const RationalPose& start, const RationalPose& goal) const;
+    std::optional<Poses> searched(const End& start, const End& goal, int most) const;
+    const std::shared_ptr<const BoundaryWalker>& walker(const Listener& listener);
+    Passages& passages(const Listener& listener);
+    Insets& insets();
+
+    std::mutex working;  // one thread at a time asks more than a search
+    std::shared_ptr<const BoundaryWalker> walks;
+    std::unique_ptr<Passages> fits;
+    std::unique_ptr<Insets> smaller;
+};
+
+// The way back, in as many motions; half a turn, which could go on either side, in two.
+Poses reversed(const Poses& way);
+
+}  // namespace cfree

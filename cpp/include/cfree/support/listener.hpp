@@ -1,0 +1,52 @@
+// Who waits for long work: is told which part of it has begun and how much of that is done, and may end it.
+#pragma once
+#include <functional>
+#include <limits>
+#include <stdexcept>
+
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+struct TooLate : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+struct Listener {
+    std::function<void(const char* phase)> begin = {};
+    std::function<void()> end = {};                    // of the phase that has begun last
+    std::function<bool(double share)> go_on = {};      // asked ten times a second where the share that is done is known
+    int threads = 1;
+    double max_seconds = std::numeric_limits<double>::infinity();  // for the free space, and for surfaces around poses
+};
+
+// A named part of the work, as long as it lives.
+class Phase {
+public:
+    Phase(const Listener& to, const char* name) : listener(to) {
+        if (listener.begin) listener.begin(name);
+    }
+    ~Phase() {
+        if (listener.end) listener.end();
+    }
+    Phase(const Phase&) = delete;
+    Phase& operator=(const Phase&) = delete;
+
+private:
+    const Listener& listener;
+};
+
+// Time that is limited.
+class Deadline {
+public:
+    explicit Deadline(const Listener& of) : seconds(of.max_seconds) {}
+    bool is_over() const { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; }
+    void heed() const;  // throws TooLate
+
+private:
+    using Clock = std::chrono::steady_clock;
+    const double seconds;
+    const Clock::time_point start = Clock::now();
+};
+
+}  // namespace cfree

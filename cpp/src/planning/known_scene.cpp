@@ -1,0 +1,197 @@
+// Boundary, surfaces and cells, one after the other; theory, "Cells" and "Separations".
+#include "cfree/planning/known_scene.hpp"
+
+#include <algorithm>
+#include <set>
+
+namespace cfree {
+
+namespace {
+
+std::int64_t count_of(const std::vector<char>& flags) { return std::count_if(flags.begin(), flags.end(), [](char c) { return c != 0; }); }
+
+// The closed surfaces around a cell.
+std::set<Index> around_cell(const Built& built, Index cell) {
+    const FreeSpace& space = *built.space;
+    const Surfaces& surfaces = space.surfaces;
+    std::set<Index> found;
+    for (std::size_t k = 0; k < space.cell_of.size(); ++k) {
+        if (space.cell_of[k] != cell || !surfaces.free_inside[k]) continue;
+        for (Index next = static_cast<Index>(k); next >= 0; next = surfaces.parent[next]) found.insert(next);
+        break;
+    }
+    return found;
+}
+
+// A boundary, with the share that is done; unless time is up.
+SharedBoundary computed(const std::shared_ptr<const Scene>& scene, bool regularized, const Listener& listener) {
+    const Deadline deadline(listener);
+    const auto* flag = stop_flag;
+    const auto watch = [&](double share) {
+        if ((listener.go_on && !listener.go_on(share)) || (flag && *flag)) return Wish::cancel;
+        return deadline.is_over() ? Wish::finish : Wish::go_on;
+    };
+    auto found = compute_boundary(scene, {listener.threads, regularized, watch});
+    if (!found->is_complete()) deadline.heed();
+    if (listener.go_on && !listener.go_on(1)) throw Stopped();
+    return found;
+}
+
+}  // namespace
+
+Index Built::common_cell(const RationalPose& start, const RationalPose& goal) const {
+    const auto first = space->cells_at(start.exact(*boundary->scene)), second = space->cells_at(goal.exact(*boundary->scene));
+    Index found = -1;
+    for (const Index cell : first)
+        if (cell >= 0 && (found < 0 || cell < found) && std::find(second.begin(), second.end(), cell) != second.end()) found = cell;
+    return found;
+}
+
+KnownScene::KnownScene(std::shared_ptr<const SceneFeatures> made, std::shared_ptr<const MotionChecker> by)
+    : features(std::move(made)), checker(std::move(by)) {
+    if (!shapes().workspace) return;
+    const Shape& O = scene().obstacles;
+    for (Index k = 0; k < O.ring_vertices; ++k) {
+        const Int &x = O.X[k], &y = O.Y[k];
+        if (O.layer[k] != body_layer) continue;
+        if (!frame) frame = {x, y, x, y};
+        auto& [x0, y0, x1, y1] = *frame;
+        x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+    }
+}
+
+std::shared_ptr<KnownScene> KnownScene::of(const SceneShapes& shapes) {
+    auto features = std::make_shared<const SceneFeatures>(scene_features(shapes));
+    auto checker = std::make_shared<const MotionChecker>(features->scene);
+    return std::make_shared<KnownScene>(std::move(features), std::move(checker));
+}
+
+// Within the bounds, and not beyond the frame around the workspace: what is around these is not all of the plane.
+bool KnownScene::is_within_limits(const RationalPose& pose) const {
+    if (shapes().bounds) {
+        const auto& [x0, y0, x1, y1] = *shapes().bounds;
+        if (pose.x < x0 || pose.x > x1 || pose.y < y0 || pose.y > y1) return false;
+    }
+    if (!frame) return true;
+    const auto& [x0, y0, x1, y1] = *frame;
+    const auto R = pose.half.rotation();
+    const ExactPose at = pose.exact(scene());
+    const Int unit = at.W * R.w;
+    for (const auto& part : shapes().robot) {
+        const Int factor = scene().scale / part->denominator;
+        const Int u = part->vertices.X[0] * factor, v = part->vertices.Y[0] * factor;
+        const Int x = at.X * R.w + (R.c * u - R.s * v) * at.W, y = at.Y * R.w + (R.s * u + R.c * v) * at.W;
+        if (x <= x0 * unit || x >= x1 * unit || y <= y0 * unit || y >= y1 * unit) return false;
+    }
+    return true;
+}
+
+bool KnownScene::is_free(const RationalPose& pose) const {
+    const Configuration at = pose.configuration(scene());
+    return is_within_limits(pose) && checker->is_free(motion_between(at, at));
+}
+
+std::int64_t KnownScene::patches() const {
+    const Shape &A = scene().robot, &O = scene().obstacles;
+    const auto size = [](const auto& column) { return static_cast<std::int64_t>(column.size()); };
+    return count_of(A.convex) * size(O.convex) + size(A.convex) * count_of(O.convex);
+}
+
+const Nearness& KnownScene::nearness() const {
+    const std::lock_guard guard(lock);
+    if (!near) near = std::make_unique<const Nearness>(scene());
+    return *near;
+}
+
+const Area& KnownScene::box() const {
+    const std::lock_guard guard(lock);
+    if (around_all) return *around_all;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    around_all = {inf, inf, -inf, -inf};
+    auto& [x0, y0, x1, y1] = *around_all;
+    const auto add = [&](const Polygon& polygon) {
+        for (Index k = 0; k < polygon.vertices.size(); ++k) {
+            const double x = nearest(polygon.vertices.X[k], polygon.denominator), y = nearest(polygon.vertices.Y[k], polygon.denominator);
+            x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+        }
+    };
+    if (shapes().workspace) add(*shapes().workspace);
+    else
+        for (const auto& obstacle : shapes().obstacles) add(*obstacle);
+    return *around_all;
+}
+
+Connecting KnownScene::connecting(const RationalPose& start, const RationalPose& goal) {
+    if (!around) around = std::make_shared<Surroundings>(features->scene, checker, may_have_slits(scene()));
+    return {around, start, goal};
+}
+
+std::optional<Barrier> KnownScene::barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener,
+                                           std::optional<int> likely) {
+    if (!built()) {
+        const Deadline deadline(listener);
+        Connecting found = connecting(start, goal);
+        const auto verdict = found.decide([&](Index) {
+            deadline.heed();
+            return true;
+        }, likely);
+        if (verdict == Connection::Verdict::joined) return {};
+        if (verdict == Connection::Verdict::apart) {
+            const CellComplex& surface = *found.found().surface;
+            std::vector<Index> all(surface.component.size());
+            for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Index>(k);
+            return Barrier{surface.boundary, std::move(all)};
+        }
+    }
+    const auto all = build(listener);
+    if (all->common_cell(start, goal) >= 0) return {};
+    const Index first = all->space->locate(start.exact(scene())), second = all->space->locate(goal.exact(scene()));
+    if (first < 0 || second < 0) throw std::logic_error("poses that touch nothing are in no cell");
+    return barrier_between(*all, first, second);
+}
+
+std::shared_ptr<const Built> KnownScene::built() const {
+    const std::lock_guard guard(lock);
+    return space;
+}
+
+void KnownScene::keep(std::shared_ptr<const Built> found) {
+    const std::lock_guard guard(lock);
+    space = std::move(found);
+}
+
+std::shared_ptr<const Built> KnownScene::build(const Listener& listener) {
+    if (auto found = built()) return found;
+    Built result;
+    {
+        const Phase phase(listener, "free space");
+        result.boundary = computed(features->scene, false, listener);
+    }
+    {
+        const Phase phase(listener, "cells");
+        const bool has_slits = may_have_slits(scene());
+        result.surfaces = glue(has_slits ? computed(features->scene, true, listener) : result.boundary, listener.threads);
+        result.space = FreeSpace::of(*result.surfaces);
+    }
+    keep(std::make_shared<const Built>(std::move(result)));
+    return built();
+}
+
+Barrier barrier_between(const Built& built, Index first, Index second) {
+    const auto one = around_cell(built, first), other = around_cell(built, second);
+    std::vector<Index> candidates;
+    std::set_symmetric_difference(one.begin(), one.end(), other.begin(), other.end(), std::back_inserter(candidates));
+    Barrier result{built.space->boundary, {}};
+    if (candidates.empty()) return result;
+    const auto& component = built.space->surfaces.component;
+    const auto size = [&](Index k) { return std::count(component.begin(), component.end(), k); };
+    Index chosen = candidates.front();
+    auto least = size(chosen);
+    for (const Index k : candidates)
+        if (const auto n = size(k); n < least) least = n, chosen = k;
+    for (std::size_t k = 0; k < component.size(); ++k)
+        if (component[k] == chosen) result.faces.push_back(static_cast<Index>(k));
+    return result;
+}
+
+}  // namespace cfree

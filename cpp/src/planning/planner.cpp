@@ -1,0 +1,185 @@
+// Simple ways, search and surfaces in turns, all of the free space; theory, "Paths" and "One surface alone".
+#include "cfree/planning/planner.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "cfree/planning/connecting_way.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr int search_checks = 10000;  // motions checked at most before all of the free space is built
+constexpr int quick_checks = 1000;    // before anything exact is
+constexpr int checks_each = 1;        // that take about as long as a trapezoid of a surface
+constexpr int block = 200;            // motions checked between two looks at a search
+
+bool is_before(const RationalPose& a, const RationalPose& b) {
+    if (a.x != b.x) return a.x < b.x;
+    if (a.y != b.y) return a.y < b.y;
+    if (a.half.q.is_zero() || b.half.q.is_zero()) return !a.half.q.is_zero() && b.half.q.is_zero();
+    return Ratio{a.half.p, a.half.q} < Ratio{b.half.p, b.half.q};
+}
+
+// A quarter turn about the middle of two poses, from one to half a turn away from it.
+RationalPose half_way(const RationalPose& from, const RationalPose& to) {
+    const Ratio half{1, 2}, x = half * (from.x + to.x), y = half * (from.y + to.y), u = from.x - x, v = from.y - y;
+    return {x - v, y + u, HalfAngle::along(from.half.q - from.half.p, from.half.q + from.half.p)};
+}
+
+}  // namespace
+
+Poses reversed(const Poses& way) {
+    Poses back{way.back()};
+    for (auto after = way.rbegin(), pose = after + 1; pose != way.rend(); ++after, ++pose) {
+        const HalfAngle &a = pose->half, &b = after->half;
+        if (Int(a.q * b.q + a.p * b.p).is_zero()) back.push_back(half_way(*pose, *after));
+        back.push_back(*pose);
+    }
+    return back;
+}
+
+Planner::Planner(std::shared_ptr<KnownScene> of, double radius)
+    : scene(std::move(of)), angle_scale(radius), slides(std::make_shared<FoundSlides>()) {}
+
+Planner::Answer Planner::plan(const End& start, const End& goal, const Listener& listener, Effort most) {
+    const bool is_forth = !is_before(goal.pose, start.pose);
+    const End &first = is_forth ? start : goal, &last = is_forth ? goal : start;
+    std::optional<Poses> way;
+    {
+        const Phase phase(listener, "simple ways");
+        if (!scene->is_free(start.pose)) return Refused::start;
+        if (!scene->is_free(goal.pose)) return Refused::goal;
+        if (start.pose == goal.pose) return Poses{start.pose};
+        way = simple_way(first.pose, last.pose);
+        const auto built = scene->built();
+        if (!way && built && built->common_cell(first.pose, last.pose) >= 0) way = searched(first, last, quick_checks);
+    }
+    if (!way) {
+        const std::lock_guard guard(working);
+        std::optional<Found> found;
+        const bool is_built = scene->built() != nullptr;
+        if (!is_built) found = by_few(first, last, listener);
+        if (!found && (is_built || most == Effort::all)) found = in_a_cell(first, last, listener);
+        if (!found && most == Effort::all) found = by_all(first, last, listener);
+        if (!found) return Refused::unclear;
+        if (auto* proof = std::get_if<Separation>(&*found)) return std::move(*proof);
+        way = std::get<Poses>(std::move(*found));
+    }
+    return is_forth ? *way : reversed(*way);
+}
+
+std::optional<Poses> Planner::simple_way(const RationalPose& start, const RationalPose& goal) const {
+    const FreeMotions motions(scene->scene(), *scene->checker, *slides);
+    const RationalPose turned{start.x, start.y, goal.half}, moved{goal.x, goal.y, start.half};
+    auto way = motions.first_free({{start, turned, goal}, {start, moved, goal}, {start, goal}});
+    if (way) way->erase(std::unique(way->begin(), way->end()), way->end());
+    return way;
+}
+
+std::optional<Poses> Planner::quick(const End& start, const End& goal) const {
+    if (auto way = simple_way(start.pose, goal.pose)) return way;
+    return searched(start, goal, search_checks);
+}
+
+std::optional<Poses> Planner::searched(const End& start, const End& goal, int most) const {
+    const std::array ends{start.place, goal.place};
+    const Searcher searcher(scene, ends, {angle_scale});
+    RrtConnect search = searcher.search(start, goal);
+    for (int done = 0, limit = std::min(most, most_checks()); done < limit; done += block)
+        if (const Route route = search.run(block); !route.empty()) return searcher.poses(route);
+    return {};
+}
+
+int Planner::most_checks() const {
+    return static_cast<int>(std::min<std::int64_t>(search_checks, 500 + 3 * scene->patches() / 2));
+}
+
+std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal, const Listener& listener) {
+    const Deadline deadline(listener);
+    const std::array ends{start.place, goal.place};
+    const Searcher searcher(scene, ends, {angle_scale});
+    RrtConnect search = searcher.search(start, goal);
+    {
+        const Phase phase(listener, "search");
+        if (const Route route = search.run(quick_checks); !route.empty()) return searcher.poses(route);
+    }
+    const Phase phase(listener, "surfaces around the two poses");
+    Connecting joined = scene->connecting(start.pose, goal.pose);
+    std::optional<Poses> way;
+    const auto verdict = joined.decide([&, limit = most_checks()](Index most) {
+        if (2 * checks_each * static_cast<std::int64_t>(most) <= limit)
+            if (const Route route = search.run(checks_each * most); !route.empty()) way = searcher.poses(route);
+        if (!way) deadline.heed();
+        return !way;
+    });
+    if (way) return std::move(*way);
+    if (verdict == Connection::Verdict::joined) {
+        try {
+            return connecting_way(*joined.around, joined.found(), angle_scale, slides);
+        } catch (const std::logic_error&) {  // there is none along these surfaces
+            return {};
+        }
+    }
+    const auto inside = verdict == Connection::Verdict::apart ? std::optional(joined.found().inside) : std::nullopt;
+    if (auto proof = insets().closed(start.pose, goal.pose, insets().first(), listener, inside)) return std::move(*proof);
+    return {};
+}
+
+std::optional<Poses> Planner::walk(const End& start, const End& goal, const Listener& listener) {
+    const std::lock_guard guard(working);
+    return in_a_cell(start, goal, listener);
+}
+
+std::optional<Poses> Planner::in_a_cell(const End& start, const End& goal, const Listener& listener) {
+    const auto built = scene->build(listener);
+    const Phase phase(listener, "path in a cell");
+    const Index cell = built->common_cell(start.pose, goal.pose);
+    if (cell < 0) return {};
+    return walker(listener)->walk(start, goal, cell);
+}
+
+// Two poses in different cells, or in none.
+Planner::Found Planner::by_all(const End& start, const End& goal, const Listener& listener) {
+    const int first = insets().first();
+    {
+        const Phase phase(listener, "proof");
+        if (auto proof = insets().closed(start.pose, goal.pose, first, listener)) return std::move(*proof);
+    }
+    {
+        const Phase phase(listener, "exact fits");
+        if (auto way = passages(listener).path(start.pose, goal.pose, false)) return std::move(*way);
+    }
+    std::vector<int> others = insets().powers;
+    std::erase(others, first);
+    Separation proof{};
+    {
+        const Phase phase(listener, "closer proofs");
+        proof = separation(scene, *scene->built(), insets(), start.pose, goal.pose, others, listener);
+    }
+    if (proof.is_closed) return proof;
+    const Phase phase(listener, "other exact fits");
+    if (auto way = passages(listener).path(start.pose, goal.pose, true)) return std::move(*way);
+    return proof;
+}
+
+const std::shared_ptr<const BoundaryWalker>& Planner::walker(const Listener& listener) {
+    const auto built = scene->build(listener);
+    if (!walks) walks = std::make_shared<const BoundaryWalker>(built->space, built->surfaces, scene->checker, angle_scale, slides);
+    return walks;
+}
+
+Passages& Planner::passages(const Listener& listener) {
+    const auto& boundary = scene->build(listener)->boundary;
+    const auto slits = [&] { return may_have_slits(scene->scene()) ? glue(boundary, listener.threads) : nullptr; };
+    if (!fits) fits = std::make_unique<Passages>(walker(listener), slits());
+    return *fits;
+}
+
+Insets& Planner::insets() {
+    if (!smaller) smaller = std::make_unique<Insets>(scene->shapes());
+    return *smaller;
+}
+
+}  // namespace cfree

@@ -1,0 +1,95 @@
+// Few bits for random poses, more for those on paths; theory, "Paths".
+#include "cfree/planning/searcher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "cfree/search/balance.hpp"
+#include "cfree/support/stop.hpp"
+
+namespace cfree {
+
+namespace {
+
+constexpr int place_bits = 24, angle_bits = 20;            // of random poses: few, for short integers
+constexpr int fine_place_bits = 40, fine_angle_bits = 36;  // of poses on paths
+
+Area scaled(const Area& area, double by) { return {area.x0 * by, area.y0 * by, area.x1 * by, area.y1 * by}; }
+
+Area area_of(const std::array<Ratio, 4>& bounds) {
+    const auto at = [&](std::size_t k) { return nearest(bounds[k].n, bounds[k].d); };
+    return {at(0), at(1), at(2), at(3)};
+}
+
+int extent_of(const Area& area) {
+    const double size = std::max(area.x1 - area.x0, area.y1 - area.y0);
+    int exponent = 0;
+    std::frexp(size != 0 ? size : 1, &exponent);
+    return exponent;
+}
+
+}  // namespace
+
+Area search_area(const KnownScene& scene, std::span<const Place> poses, double radius) {
+    const SceneShapes& shapes = scene.shapes();
+    if (shapes.bounds) return area_of(*shapes.bounds);
+    Area around = scene.box();
+    for (const auto& [x, y, theta] : poses)
+        around = {std::min(around.x0, x), std::min(around.y0, y), std::max(around.x1, x), std::max(around.y1, y)};
+    const double margin = shapes.workspace ? 0 : 2 * radius;
+    return {around.x0 - margin, around.y0 - margin, around.x1 + margin, around.y1 + margin};
+}
+
+Searcher::Searcher(std::shared_ptr<const KnownScene> of, std::span<const Place> poses, const Costs& given)
+    : unit(nearest(of->scene().scale, power_of_two(of->scene().shift).n)), scene(std::move(of)),
+      costs{given.weight * unit, given.sideways, given.backward, given.turning},
+      area(scaled(search_area(*scene, poses, given.weight), unit)), extent(extent_of(area)) {}
+
+Grid Searcher::grid(int of_places, int of_angles) const { return {scene->scene().shift, of_places - extent, of_angles}; }
+
+Configuration Searcher::configuration(const End& end) const {
+    Configuration found = end.pose.configuration(scene->scene());
+    found.px = end.place.x * unit, found.py = end.place.y * unit;
+    found.theta = std::remainder(end.place.theta, 2 * std::numbers::pi);
+    return found;
+}
+
+Route Searcher::route(std::span<const End> way) const {
+    Route result;
+    for (const End& end : way) result.push_back(configuration(end));
+    return result;
+}
+
+RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t seed) const {
+    auto joins = [checker = scene->checker](const Configuration& a, const Configuration& b) {
+        heed_stop();
+        return checker->is_free(motion_between(a, b));
+    };
+    return {std::move(joins), grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed};
+}
+
+Shortcut Searcher::shortener(std::span<const End> way, std::uint64_t seed) const {
+    Way free{*scene->checker, nullptr, grid(fine_place_bits, fine_angle_bits), {}, costs};
+    return {std::move(free), {route(way), std::vector<double>(way.size())}, seed};
+}
+
+Shortcut Searcher::balanced(std::span<const End> way, std::uint64_t seed) const {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    const Area limits = scene->shapes().bounds ? scaled(area_of(*scene->shapes().bounds), unit) : Area{-inf, -inf, inf, inf};
+    const Way start{*scene->checker, &scene->nearness(), grid(fine_place_bits, fine_angle_bits), limits, costs};
+    auto [asking, path] = cfree::balanced(start, route(way));
+    return {std::move(asking), std::move(path), seed};
+}
+
+Poses Searcher::poses(const Route& found) const {
+    Poses result;
+    for (const Configuration& q : found) {
+        const Int whole = q.unit * scene->scene().scale;
+        result.push_back({reduced(q.x, whole), reduced(q.y, whole), HalfAngle::along(q.hx, q.hy)});
+    }
+    return result;
+}
+
+}  // namespace cfree

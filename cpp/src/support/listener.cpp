@@ -1,0 +1,12 @@
+// What is said when time is up.
+#include "cfree/support/listener.hpp"
+
+#include "cfree/exact/ratio.hpp"
+
+namespace cfree {
+
+void Deadline::heed() const {
+    if (is_over()) throw TooLate(text_of(seconds) + " seconds were not enough to compute the free space; give more");
+}
+
+}  // namespace cfree

@@ -1,0 +1,122 @@
+"""One question, and all that may be wished of its answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, overload
+
+from cfree.arguments import checked
+from cfree.exact.number import Number
+from cfree.exact.pose import Pose, PoseLike
+from cfree.free.space import FreeSpace
+from cfree.paths.path import Objective, Path
+from cfree.paths.preferences import NONE, Preferences
+from cfree.planning.goals import AllSeparated
+from cfree.planning.planner import Planner
+from cfree.planning.separation import Separated
+from cfree.scene.goals import to_goals
+from cfree.scene.scene import Scene, required
+
+
+@overload
+def plan(
+    scene: Scene | FreeSpace,
+    start: PoseLike | None,
+    goal: Pose | tuple[Any, Any, Any],
+    *,
+    clearance: Number | None = None,
+    improve: float | None = None,
+    objective: Objective = "balanced",
+    preferences: Preferences | None = None,
+    max_seconds: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Path | Separated: ...
+@overload
+def plan(
+    scene: Scene | FreeSpace,
+    start: PoseLike | None = None,
+    goal: PoseLike | Sequence[PoseLike] | None = None,
+    *,
+    clearance: Number | None = None,
+    improve: float | None = None,
+    objective: Objective = "balanced",
+    preferences: Preferences | None = None,
+    max_seconds: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Path | Separated | AllSeparated: ...
+@checked
+def plan(
+    scene: Scene | FreeSpace,
+    start: PoseLike | None = None,
+    goal: PoseLike | Sequence[PoseLike] | None = None,
+    *,
+    clearance: Number | None = None,
+    improve: float | None = None,
+    objective: Objective = "balanced",
+    preferences: Preferences | None = None,
+    max_seconds: float | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> Path | Separated | AllSeparated:
+    """A path from start to goal, each motion of it proved free, or a proof that there is none.
+
+    Parameters
+    ----------
+    scene : Scene or FreeSpace
+        With its free space known, which of the two it is takes two calls of `locate`, unless exact fits join cells.
+    start, goal : Pose or (x, y, theta), optional
+        Those of the scene unless given. A goal may also be a place (x, y), at which any orientation will do, or a
+        list of poses and places, any one of which will.
+    clearance : number, optional
+        A distance that the path keeps from obstacles and workspace; not from bounds. Or no path does, proved.
+    improve : float, seconds, optional
+        How long to improve a path, 0 for the first one found. A fixed number of attempts unless given; given a time,
+        other ways are tried, too, on all cores. Ctrl-C ends it early, and the path so far is the answer.
+    objective : "balanced", "short" or "clear"
+        What to prefer: short paths that keep a distance where there is room, short ones, or paths that keep away from
+        obstacles; see Notes.
+    preferences : Preferences, optional
+        What a machine would rather not do, such as going sideways. They decide which path is found, not whether one is.
+    max_seconds : float, optional
+        Give up if computing the free space takes longer.
+    progress : callable, optional
+        Called with the share of the free space that is computed, if it has to be.
+
+    Returns
+    -------
+    Path, Separated or AllSeparated
+        A path leads to the goal that is reached by the shortest path found. The last is for places and lists.
+
+    Raises
+    ------
+    InvalidPoseError
+        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance.
+    IncompleteError
+        If `max_seconds` were not enough. If the largest clearance of a path is within 0.1 % of the one asked for this
+        is an `UndecidedError`, which has the interval.
+
+    Notes
+    -----
+    A path's length is the way of the reference point, plus the turning times the robot's radius about that point. The
+    same question has the same answer everywhere, unless a time is given. "balanced" keeps a share of the distance that
+    the narrowest place of the way taken has, and of what is left beside that, of the narrowest place there; then it
+    prefers short paths of few motions. What a path keeps, `clearance` certifies. "clear" looks for a path of a robot
+    grown by a margin, as large as is found, between the first place on a short path where that one fits and the last.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> wall = [(2, -9), (3, -9), (3, 1), (2, 1)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], bounds=(-5, -5, 5, 5))
+    >>> path = plan(scene, cfree.Pose(0, 0), cfree.Pose(4, 0))
+    >>> path.is_free(cfree.MotionChecker(scene)), path.goal == cfree.Pose(4, 0)
+    (True, True)
+    """
+    space = scene if isinstance(scene, FreeSpace) else None
+    scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
+    planner = Planner(scene, space, max_seconds, preferences or NONE, progress)
+    if goal is None and scene.goals:
+        goal = scene.goals
+    if goal is not None and isinstance(goals := to_goals(goal), tuple):
+        start, _ = required(scene, start, Pose(0, 0))
+        return planner.plan_any(start, goals, clearance=clearance, improve=improve, objective=objective)
+    return planner.plan(*required(scene, start, goal), clearance=clearance, improve=improve, objective=objective)
