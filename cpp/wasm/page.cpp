@@ -1,0 +1,95 @@
+// The core as a page calls it: one scene, what is computed of it, and answers as columns. Errors are text.
+#include <emscripten.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "asking.hpp"
+#include "shown.hpp"
+
+// Tells whoever waits the share that is done.
+EM_JS(void, report_share, (double share), { if (Module['share']) Module['share'](share); });
+
+namespace {
+
+cfree::Reply reply;
+std::string error;
+std::unique_ptr<cfree::World> world;
+
+// What a call does; whether it went well.
+int answer(const std::function<void()>& call) {
+    reply.columns.clear(), error.clear();
+    try {
+        call();
+        return 1;
+    } catch (const std::invalid_argument& fault) {
+        error = fault.what();
+    } catch (const std::bad_alloc&) {
+        error = "there is not enough memory";
+    } catch (const std::exception& fault) {
+        error = std::string("a fault of cfree: ") + fault.what();
+    }
+    return 0;
+}
+
+cfree::World& given() {
+    if (!world) throw std::invalid_argument("no scene yet");
+    return *world;
+}
+
+}  // namespace
+
+extern "C" {
+EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
+    return answer([&] {
+        world.reset();
+        world = std::make_unique<cfree::World>(cfree::shapes_of(words));
+        cfree::show_scene(*world, reply);
+    });
+}
+EMSCRIPTEN_KEEPALIVE int boundary() {
+    return answer([] {
+        given().compute([](double share) { report_share(share); });
+        cfree::show_counts(given(), reply);
+    });
+}
+EMSCRIPTEN_KEEPALIVE int columns() {
+    return answer([] { cfree::show_columns(given(), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int mesh(double error_allowed, double most) {
+    return answer([&] { cfree::show_mesh(given(), error_allowed, most, reply); });
+}
+EMSCRIPTEN_KEEPALIVE int slice(double theta) {
+    return answer([&] { cfree::show_slice(given(), theta, reply); });
+}
+EMSCRIPTEN_KEEPALIVE int pose(const char* words) {
+    return answer([&] { cfree::ask_pose(given(), cfree::pose_of(words), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal) {
+    return answer([&] { cfree::ask_way(given(), cfree::pose_of(start), cfree::pose_of(goal), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int walk(const char* poses) {
+    return answer([&] { cfree::ask_walk(given(), poses, reply); });
+}
+EMSCRIPTEN_KEEPALIVE int stop(const char* from, const char* to) {
+    return answer([&] { cfree::ask_stop(given(), cfree::pose_of(from), cfree::pose_of(to), reply); });
+}
+EMSCRIPTEN_KEEPALIVE int picked(int trapezoid, double x, double y, double theta) {
+    return answer([&] { cfree::show_contact(given(), trapezoid, {x, y, theta}, reply); });
+}
+EMSCRIPTEN_KEEPALIVE int angle(double theta, int fine) {
+    return answer([&] {
+        const cfree::HalfAngle half = cfree::half_angle_of(theta, fine);
+        reply.text("tau", cfree::words_of({{}, {}, half}).substr(4));
+        reply.add("theta", half.theta());
+    });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* fault() { return error.c_str(); }
+EMSCRIPTEN_KEEPALIVE int count() { return static_cast<int>(reply.columns.size()); }
+EMSCRIPTEN_KEEPALIVE const char* name(int k) { return reply.columns[static_cast<std::size_t>(k)].name.c_str(); }
+EMSCRIPTEN_KEEPALIVE int type(int k) { return static_cast<int>(reply.columns[static_cast<std::size_t>(k)].type); }
+EMSCRIPTEN_KEEPALIVE const void* bytes(int k) { return reply.columns[static_cast<std::size_t>(k)].bytes.data(); }
+EMSCRIPTEN_KEEPALIVE int size(int k) { return static_cast<int>(reply.columns[static_cast<std::size_t>(k)].bytes.size()); }
+}

@@ -1,0 +1,116 @@
+#include "reading.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "cfree/scene/coordinate_range.hpp"
+#include "cfree/support/elementary.hpp"
+
+namespace cfree {
+
+namespace {
+
+class Words {
+public:
+    explicit Words(std::string_view of) : rest(of) { next(); }
+    std::string_view word() const { return current; }
+    bool ended() const { return current.empty(); }
+    void next() {
+        const auto begin = rest.find_first_not_of(" \n");
+        if (begin == rest.npos) {
+            rest = current = {};
+            return;
+        }
+        const auto end = std::min(rest.find_first_of(" \n", begin), rest.size());
+        current = rest.substr(begin, end - begin);
+        rest.remove_prefix(end);
+    }
+    Ratio number() {
+        const auto value = ratio_of(current);
+        if (!value) throw std::invalid_argument("expected a number or \"p/q\", got \"" + std::string(current.substr(0, 60)) + "\"");
+        next();
+        return *value;
+    }
+
+private:
+    std::string_view rest, current;
+};
+
+std::shared_ptr<const Polygon> polygon_of(Words& words, const std::string& name) try {
+    std::vector<RatioRing> rings;
+    while (words.word() == "ring") {
+        words.next();
+        auto& ring = rings.emplace_back();
+        while (!words.ended() && words.word() != "ring" && words.word() != "robot" && words.word() != "obstacle" &&
+               words.word() != "workspace" && words.word() != "bounds") {
+            Ratio x = words.number();
+            ring.push_back({std::move(x), words.number()});
+        }
+    }
+    return std::make_shared<const Polygon>(std::move(rings));
+} catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + ": " + error.what());
+}
+
+}  // namespace
+
+SceneShapes shapes_of(std::string_view text) {
+    SceneShapes shapes;
+    for (Words words(text); !words.ended();) {
+        const auto kind = words.word();
+        words.next();
+        if (kind == "robot") shapes.robot.push_back(polygon_of(words, "robot"));
+        else if (kind == "obstacle") shapes.obstacles.push_back(polygon_of(words, "obstacle " + std::to_string(shapes.obstacles.size())));
+        else if (kind == "workspace") shapes.workspace = polygon_of(words, "workspace");
+        else if (kind == "bounds") {
+            shapes.bounds.emplace();
+            for (Ratio& x : *shapes.bounds) x = words.number();
+            const auto& [x0, y0, x1, y1] = *shapes.bounds;
+            if (!(x0 < x1 && y0 < y1)) throw std::invalid_argument("bounds: give xmin < xmax and ymin < ymax");
+        } else throw std::invalid_argument("no part of a scene: " + std::string(kind.substr(0, 60)));
+    }
+    if (shapes.robot.empty()) throw std::invalid_argument("the robot is empty; give at least one polygon");
+    if (const auto fault = range_fault(shapes))
+        throw std::invalid_argument(fault->kind + (fault->index < 0 ? "" : " " + std::to_string(fault->index)) + ": " + fault->message);
+    return shapes;
+}
+
+RationalPose pose_of(std::string_view text) {
+    Words words(text);
+    RationalPose pose;
+    pose.x = words.number(), pose.y = words.number();
+    if (words.word() == "inf") {
+        pose.half = {0, 1};
+        return pose;
+    }
+    const Ratio tau = words.number();
+    pose.half = {tau.d, tau.n};
+    return pose;
+}
+
+std::string words_of(const RationalPose& pose) {
+    const auto& [q, p] = pose.half;
+    return text_of(pose.x) + " " + text_of(pose.y) + " " + (q.is_zero() ? "inf" : text_of(reduced(p, q)));
+}
+
+HalfAngle half_angle_of(double theta, bool fine) {
+    constexpr double right = 0.5 * std::numbers::pi, rest_of_right = 6.123233995736766e-17;
+    const double turns = std::nearbyint(theta / right);
+    const double rest = theta - turns * right - turns * rest_of_right;
+    Ratio tau{0, 1};
+    if (std::abs(rest) > std::abs(theta) * 0x1p-52) {
+        const double value = tangent(0.5 * rest), margin = fine ? std::abs(value) * 0x1p-53 : 0x1p-21;
+        tau = simplest_between(ratio_of(value - margin), ratio_of(value + margin));
+    }
+    Int q = tau.d, p = tau.n;
+    for (int k = static_cast<int>(std::fmod(turns, 4) + 4) % 4; k > 0; --k) {  // by a right angle: (1, 1) times it
+        const Int x = q - p, y = q + p;
+        q = x, p = y;
+    }
+    const Int common = gcd(q, p);
+    q /= common, p /= common;
+    if (q < 0 || (q.is_zero() && p < 0)) q = -q, p = -p;
+    return {q, p};
+}
+
+}  // namespace cfree

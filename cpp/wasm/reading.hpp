@@ -1,0 +1,20 @@
+// Scenes and poses from words: what a page has made of a file, every number as it is written there.
+//
+//   robot ring x y x y .. ring ..   obstacle ring ..   workspace ring ..   bounds x0 y0 x1 y1
+#pragma once
+#include <string_view>
+
+#include "cfree/planning/rational_pose.hpp"
+#include "cfree/scene/features.hpp"
+
+namespace cfree {
+
+// Throws std::invalid_argument, which says what is wrong where.
+SceneShapes shapes_of(std::string_view words);
+// "x y tau", tau a rational or "inf".
+RationalPose pose_of(std::string_view words);
+std::string words_of(const RationalPose& pose);
+// Half of an angle in radians, within 2^-20 or, if fine, about a double's rounding; right angles are exact.
+HalfAngle half_angle_of(double theta, bool fine);
+
+}  // namespace cfree

@@ -1,0 +1,28 @@
+// What a page draws: the scene, the boundary's mesh, slices, contacts.
+#pragma once
+#include "reply.hpp"
+#include "world.hpp"
+
+namespace cfree {
+
+void show_scene(const World& world, Reply& reply);
+void show_counts(const World& world, Reply& reply);
+// All columns of boundary and cells, as they are.
+void show_columns(const World& world, Reply& reply);
+// Of one error, or a larger one with about `most` triangles. Vertices are those of single patches, with normals of these.
+void show_mesh(const World& world, double error, double most, Reply& reply);
+void show_surface(const World& world, const CellComplex& cells, double error, Reply& reply);
+void show_slice(const World& world, double theta, Reply& reply);
+// The contact of a trapezoid at a place on it.
+void show_contact(const World& world, Index trapezoid, const Place& at, Reply& reply);
+
+// Names of features in the user's polygons: robot part and vertex, obstacle and vertex. -1: bounds, -2: workspace.
+struct Named {
+    std::vector<std::uint8_t> kind;
+    std::vector<Index> robot_part, robot_vertex, obstacle, obstacle_vertex;
+    std::vector<double> robot_xy, obstacle_xy;  // of each feature its first point and its last, the robot at rest
+    void add(const World& world, const Feature& contact);
+    void put(const std::string& prefix, Reply& reply) const;
+};
+
+}  // namespace cfree

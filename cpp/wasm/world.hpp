@@ -1,0 +1,36 @@
+// One scene and what has been computed of it.
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "cfree/forbidden/slice.hpp"
+#include "cfree/free/free_space.hpp"
+#include "cfree/planning/surroundings.hpp"
+#include "cfree/scene/features.hpp"
+
+namespace cfree {
+
+class World {
+public:
+    explicit World(SceneShapes given);
+    // Boundary, closed surfaces, cells.
+    void compute(const std::function<void(double)>& share);
+
+    const SceneShapes shapes;
+    const SceneFeatures features;
+    const std::shared_ptr<const Scene> scene;
+    const std::shared_ptr<const MotionChecker> checker;
+    const double radius;  // of the robot about its reference point
+    const std::optional<std::array<Ratio, 4>> limits;  // of the reference point: what is outside the scene does not know
+
+    SharedBoundary boundary;
+    std::shared_ptr<const CellComplex> cells;
+    std::shared_ptr<const FreeSpace> space;
+    std::unique_ptr<const Slicer> slicer;
+    std::shared_ptr<Surroundings> around;
+
+    void need_space() const;
+};
+
+}  // namespace cfree

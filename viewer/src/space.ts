@@ -1,0 +1,371 @@
+// The right view: the boundary of the forbidden space over x, y and theta.
+import {
+  BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, DoubleSide, DynamicDrawUsage, Float32BufferAttribute, Group, LineBasicMaterial,
+  LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Raycaster, Scene, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry,
+  TubeGeometry, Vector2, Vector3, WebGLRenderer, type Object3D, Path as ShapePath, PlaneGeometry,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { type Columns, bytes, doubles, integers } from "./engine";
+import { FRAGMENT, VERTEX } from "./shaders";
+
+export type ColourBy = "contact" | "cell" | "obstacle";
+const LOW = -Math.PI / 2, HIGH = 3 * Math.PI / 2;
+export const wrapped = (theta: number) => theta - 2 * Math.PI * Math.floor((theta - LOW) / (2 * Math.PI));
+const MANY = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7bd1", "#b2a13c"];
+const GLASS = 0.8;
+const STILL = 140; // ms after the last change: as fine as it gets
+
+export interface Palette { vertex_edge: string; edge_vertex: string; helix: string; segment: string; ink: string; faint: string; path: string; good: string; bad: string; accent: string; barrier: string }
+
+export class Space {
+  private readonly renderer: WebGLRenderer;
+  private readonly scene = new Scene();
+  private readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
+  private readonly controls: OrbitControls;
+  private readonly parts = { surface: new Group(), slice: new Group(), path: new Group(), barrier: new Group(), box: new Group() };
+  private readonly point: Mesh;
+  private readonly ends: Mesh[];
+  private readonly material: ShaderMaterial;
+  private mesh?: Columns;
+  private centres = new Float32Array();
+  private sorted?: { attribute: BufferAttribute; triangles: Uint32Array };
+  private colour_by: ColourBy = "contact";
+  private view = { x: 0, y: 0, size: 1 };  // of the scene; theta is as high as it is wide
+  private asked = false;
+  private still = 0;
+  private labels: { at: Vector3; element: HTMLElement }[] = [];
+  private slice?: Columns;
+  theta = 0;
+  on_pick: (face: number, x: number, y: number, theta: number) => void = () => {};
+
+  constructor(private readonly host: HTMLElement, private palette: Palette) {
+    this.renderer = new WebGLRenderer({ antialias: false, alpha: true, powerPreference: "high-performance" });
+    const canvas = this.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", "Configuration space: x, y and orientation. Arrow keys turn it, plus and minus zoom.");
+    host.append(canvas);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.enableDamping = false;
+    this.controls.addEventListener("change", () => this.ask());
+    this.material = new ShaderMaterial({
+      vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, side: DoubleSide, vertexColors: true,
+      uniforms: { rise: { value: 1 }, length: { value: 1 }, opacity: { value: GLASS }, cut: { value: 1e9 }, dim: { value: 0 } },
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
+    });
+    this.point = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial());
+    this.ends = [0, 1].map(() => new Mesh(new SphereGeometry(1, 20, 12), new MeshBasicMaterial()));
+    this.scene.add(...Object.values(this.parts), this.point, ...this.ends);
+    canvas.addEventListener("click", (event) => this.pick(event));
+    canvas.addEventListener("keydown", (event) => this.key(event));
+    canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
+    canvas.addEventListener("webglcontextrestored", () => this.ask());
+    new ResizeObserver(() => this.ask()).observe(host);
+  }
+
+  private get rise(): number { return 0.92 * this.view.size / (2 * Math.PI); }
+  private put(x: number, y: number, theta: number): Vector3 {
+    return new Vector3(x - this.view.x, y - this.view.y, (theta - Math.PI / 2) * this.rise);
+  }
+
+  private box: [number, number, number, number] = [0, 0, 1, 1];
+  show_scene(box: [number, number, number, number], radius: number): void {
+    this.box = box;
+    const [x0, y0, x1, y1] = box;
+    this.view = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, size: Math.max(x1 - x0, y1 - y0) };
+    for (const part of Object.values(this.parts)) this.clear(part);
+    this.material.uniforms.rise!.value = this.rise, this.material.uniforms.length!.value = radius;
+    this.mesh = undefined, this.sorted = undefined;
+    for (const ball of [this.point, ...this.ends]) ball.scale.setScalar(0.013 * this.view.size), (ball.visible = false);
+    this.frame(box);
+    this.home();
+  }
+
+  home(): void {
+    const size = this.view.size;
+    this.camera.position.set(-1.15 * size, -2.05 * size, 1.25 * size);
+    this.camera.near = 0.02 * size, this.camera.far = 12 * size;
+    this.controls.target.set(0, 0, -0.02 * size);
+    this.controls.update();
+    this.ask();
+  }
+
+  private frame([x0, y0, x1, y1]: [number, number, number, number]): void {
+    for (const { element } of this.labels) element.remove();
+    this.labels = [];
+    const corners = [[x0, y0], [x1, y0], [x1, y1], [x0, y1]] as const, points: number[] = [];
+    const line = (a: Vector3, b: Vector3) => points.push(...a.toArray(), ...b.toArray());
+    corners.forEach(([x, y], k) => {
+      const [u, v] = corners[(k + 1) % 4]!;
+      for (const z of [LOW, HIGH]) line(this.put(x, y, z), this.put(u, v, z));
+      line(this.put(x, y, LOW), this.put(x, y, HIGH));
+    });
+    this.parts.box.add(this.lines(points, this.palette.faint, 0.9));
+    const label = (at: Vector3, text: string, kind = "tick") => {
+      const element = document.createElement("span");
+      element.className = `label ${kind}`, (element.textContent = text);
+      this.host.append(element), this.labels.push({ at, element });
+    };
+    const off = 0.045 * this.view.size;
+    for (let k = -1; k <= 3; ++k) label(this.put(x0 - off, y1 + off * 0.3, k * Math.PI / 2), `${90 * k}°`);
+    label(this.put(x0 - 2.6 * off, y1 + off, Math.PI / 2), "θ", "axis");
+    const step = 10 ** Math.floor(Math.log10(this.view.size / 2)), every = this.view.size / step > 6 ? 2 * step : step;
+    const ticks = (from: number, to: number, at: (c: number) => Vector3) => {
+      for (let c = Math.ceil(from / every) * every; c <= to + 1e-9 * every; c += every) label(at(c), String(Number(c.toPrecision(6))));
+    };
+    ticks(x0, x1, (c) => this.put(c, y0 - off, LOW)), ticks(y0, y1, (c) => this.put(x1 + off, c, LOW));
+    label(this.put((x0 + x1) / 2, y0 - 2.8 * off, LOW), "x", "axis"), label(this.put(x1 + 2.8 * off, (y0 + y1) / 2, LOW), "y", "axis");
+  }
+
+  show_mesh(mesh: Columns): void {
+    this.clear(this.parts.surface);
+    this.mesh = mesh;
+    const { geometry, triangles } = this.geometry(mesh);
+    const attribute = new BufferAttribute(new Uint32Array(triangles), 1).setUsage(DynamicDrawUsage);
+    geometry.setIndex(attribute);
+    this.sorted = { attribute, triangles };
+    const surface = new Mesh(geometry, this.material);
+    surface.name = "surface", surface.renderOrder = 2;
+    this.parts.surface.add(surface, ...this.edges(mesh, 0.85));
+    this.paint();
+  }
+
+  // What separates start and goal.
+  show_barrier(mesh: Columns | undefined): void {
+    this.clear(this.parts.barrier);
+    this.material.uniforms.dim!.value = mesh ? 0.8 : 0;
+    if (mesh) {
+      const { geometry, triangles } = this.geometry(mesh);
+      geometry.setIndex(new BufferAttribute(triangles, 1));
+      const colour = new Color(this.palette.barrier), colours = new Float32Array(geometry.attributes.position!.count * 3);
+      for (let k = 0; k < colours.length; k += 3) colour.toArray(colours, k);
+      geometry.setAttribute("color", new BufferAttribute(colours, 3));
+      const material = this.material.clone();
+      material.uniforms.rise!.value = this.rise, material.uniforms.dim!.value = 0, material.uniforms.opacity!.value = 0.55;
+      const surface = new Mesh(geometry, material);
+      surface.renderOrder = 3;
+      this.parts.barrier.add(surface);
+    }
+    this.ask();
+  }
+
+  private geometry(mesh: Columns): { geometry: BufferGeometry; triangles: Uint32Array } {
+    const xyz = doubles(mesh, "xyz"), corners = integers(mesh, "corners"), owner = integers(mesh, "owner"), face = integers(mesh, "face");
+    const position = new Float32Array(xyz.length);
+    for (let k = 0; k < xyz.length; k += 3) position[k] = xyz[k]! - this.view.x, position[k + 1] = xyz[k + 1]! - this.view.y, position[k + 2] = xyz[k + 2]! - Math.PI / 2;
+    const kept: number[] = [], faces: number[] = [];
+    for (let k = 0; k < corners.length; k += 3) if (owner[corners[k]!] !== -1) kept.push(corners[k]!, corners[k + 1]!, corners[k + 2]!), faces.push(face[k / 3]!);
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new BufferAttribute(position, 3));
+    geometry.setAttribute("normal", new BufferAttribute(Float32Array.from(doubles(mesh, "normal")), 3));
+    geometry.userData.faces = faces;
+    const triangles = Uint32Array.from(kept);
+    if (mesh === this.mesh) {
+      this.centres = new Float32Array(triangles.length);
+      for (let t = 0; t < triangles.length; t += 3)
+        for (let c = 0; c < 3; ++c) {
+          const sum = position[3 * triangles[t]! + c]! + position[3 * triangles[t + 1]! + c]! + position[3 * triangles[t + 2]! + c]!;
+          this.centres[t + c] = sum / 3 * (c === 2 ? this.rise : 1);
+        }
+    }
+    return { geometry, triangles };
+  }
+
+  private edges(mesh: Columns, opacity: number): LineSegments[] {
+    const lines = doubles(mesh, "lines"), kind = bytes(mesh, "line_kind"), points: number[][] = [[], [], []];
+    for (let k = 0; k < kind.length; ++k)
+      for (const at of [6 * k, 6 * k + 3]) points[kind[k]!]!.push(...this.put(lines[at]!, lines[at + 1]!, lines[at + 2]!).toArray());
+    return [this.palette.ink, this.palette.helix, this.palette.segment].map((colour, k) => {
+      const made = this.lines(points[k]!, colour, k === 0 ? 0.55 * opacity : opacity);
+      made.renderOrder = 4;
+      return made;
+    });
+  }
+
+  private lines(points: number[], colour: string, opacity = 1): LineSegments {
+    const geometry = new BufferGeometry();
+    geometry.setAttribute("position", new Float32BufferAttribute(points, 3));
+    return new LineSegments(geometry, new LineBasicMaterial({ color: colour, transparent: opacity < 1, opacity, depthWrite: false }));
+  }
+
+  colour(by: ColourBy): void {
+    this.colour_by = by;
+    this.paint();
+  }
+
+  private paint(): void {
+    const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
+    if (!surface || !this.mesh) return;
+    const kind = bytes(this.mesh, "kind"), other = integers(this.mesh, this.colour_by === "cell" ? "cell" : "owner");
+    const [ve, ev] = [new Color(this.palette.vertex_edge), new Color(this.palette.edge_vertex)], many = MANY.map((of) => new Color(of));
+    const colours = new Float32Array(3 * kind.length);
+    for (let k = 0; k < kind.length; ++k) {
+      const colour = this.colour_by === "contact" ? (kind[k] ? ev : ve) : many[(other[k]! + 8 * MANY.length) % MANY.length]!;
+      colour.toArray(colours, 3 * k);
+    }
+    surface.geometry.setAttribute("color", new BufferAttribute(colours, 3));
+    this.ask();
+  }
+
+  solid(is: boolean): void {
+    this.material.uniforms.opacity!.value = is ? 1 : GLASS;
+    this.material.depthWrite = is, this.material.transparent = !is, this.material.needsUpdate = true;
+    this.ask();
+  }
+  cut(is: boolean): void {
+    this.is_cut = is;
+    this.set_theta(this.theta);
+  }
+  private is_cut = false;
+
+  set_theta(theta: number): void {
+    this.theta = wrapped(theta);
+    this.material.uniforms.cut!.value = this.is_cut ? (this.theta - Math.PI / 2) * this.rise : 1e9;
+    this.parts.slice.position.z = (this.theta - Math.PI / 2) * this.rise;
+    this.ask();
+  }
+
+  show_slice(slice: Columns | undefined): void {
+    this.clear(this.parts.slice);
+    this.slice = slice;
+    if (!slice) return this.ask();
+    const xy = doubles(slice, "xy"), start = integers(slice, "start"), shell = integers(slice, "shell");
+    const ring = (r: number) => {
+      const points: Vector2[] = [];
+      for (let k = start[r]!; k < start[r + 1]!; ++k) points.push(new Vector2(xy[2 * k]! - this.view.x, xy[2 * k + 1]! - this.view.y));
+      return points;
+    };
+    const shapes = new Map<number, Shape>();
+    for (let r = 0; r < shell.length; ++r) if (shell[r] === r) shapes.set(r, new Shape(ring(r)));
+    for (let r = 0; r < shell.length; ++r) if (shell[r]! >= 0 && shell[r] !== r) shapes.get(shell[r]!)?.holes.push(new ShapePath(ring(r)));
+    const fill = new Mesh(new ShapeGeometry([...shapes.values()]), new MeshBasicMaterial({ color: this.palette.accent, transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false }));
+    fill.renderOrder = 1;
+    const segments = doubles(slice, "segments"), kind = bytes(slice, "kind"), points: number[][] = [[], [], []];
+    for (let k = 0; k < kind.length; ++k) {
+      const of = points[kind[k]!]!;
+      of.push(segments[4 * k]! - this.view.x, segments[4 * k + 1]! - this.view.y, 0, segments[4 * k + 2]! - this.view.x, segments[4 * k + 3]! - this.view.y, 0);
+    }
+    const outlines = points.map((of, k) => this.lines(of, k < 2 ? this.palette.accent : this.palette.faint));
+    for (const each of outlines) each.renderOrder = 5;
+    const [x0, y0, x1, y1] = this.box, floor = new Mesh(new PlaneGeometry(x1 - x0, y1 - y0), new MeshBasicMaterial({ color: this.palette.accent, transparent: true, opacity: 0.13, side: DoubleSide, depthWrite: false }));
+    this.parts.slice.add(floor, fill, ...outlines);
+    this.set_theta(this.theta);
+  }
+
+  show_path(samples: Float64Array | undefined): void {
+    this.clear(this.parts.path);
+    const parts: Vector3[][] = [[]];
+    for (let k = 0; samples && k < samples.length; k += 3) {
+      const theta = wrapped(samples[k + 2]!), at = this.put(samples[k]!, samples[k + 1]!, theta), part = parts.at(-1)!;
+      if (part.length && Math.abs(part.at(-1)!.z - at.z) > Math.PI * this.rise) parts.push([at]);
+      else if (!part.length || part.at(-1)!.distanceTo(at) > 1e-6 * this.view.size) part.push(at);
+    }
+    for (const part of parts.filter((of) => of.length > 1)) {
+      const tube = new TubeGeometry(new CatmullRomCurve3(part, false, "centripetal"), Math.min(3 * part.length, 1500), 0.006 * this.view.size, 8);
+      const made = new Mesh(tube, new MeshBasicMaterial({ color: this.palette.path }));
+      this.parts.path.add(made);
+    }
+    this.ask();
+  }
+
+  place(at: { x: number; y: number; theta: number }, is_free: boolean): void {
+    this.point.visible = true;
+    this.point.position.copy(this.put(at.x, at.y, wrapped(at.theta)));
+    (this.point.material as MeshBasicMaterial).color.set(is_free ? this.palette.good : this.palette.bad);
+    this.ask();
+  }
+  place_end(k: 0 | 1, at: { x: number; y: number; theta: number } | undefined): void {
+    const ball = this.ends[k]!;
+    ball.visible = at !== undefined;
+    if (at) ball.position.copy(this.put(at.x, at.y, wrapped(at.theta)));
+    (ball.material as MeshBasicMaterial).color.set(this.palette.path);
+    this.ask();
+  }
+
+  repaint(palette: Palette): void {
+    this.palette = palette;
+    for (const child of this.parts.box.children) ((child as LineSegments).material as LineBasicMaterial).color.set(palette.faint);
+    const mesh = this.mesh;
+    if (mesh) this.show_mesh(mesh);
+    this.show_slice(this.slice);
+  }
+
+  private clear(group: Group): void {
+    for (const child of [...group.children] as (Object3D & { geometry?: BufferGeometry })[]) child.geometry?.dispose(), group.remove(child);
+  }
+
+  // Triangles from far to near: a counting sort by depth.
+  private sort(): void {
+    if (!this.sorted || this.material.depthWrite) return;
+    const { attribute, triangles } = this.sorted, count = triangles.length / 3, levels = 4096;
+    const towards = this.camera.getWorldDirection(new Vector3()), depth = new Float32Array(count), slot = new Uint16Array(count);
+    let low = Infinity, high = -Infinity;
+    for (let t = 0; t < count; ++t) {
+      const d = this.centres[3 * t]! * towards.x + this.centres[3 * t + 1]! * towards.y + this.centres[3 * t + 2]! * towards.z;
+      depth[t] = d, (low = Math.min(low, d)), (high = Math.max(high, d));
+    }
+    const first = new Uint32Array(levels + 1), scale = (levels - 1) / Math.max(high - low, 1e-30);
+    for (let t = 0; t < count; ++t) slot[t] = levels - 1 - Math.floor((depth[t]! - low) * scale), first[slot[t]! + 1]!++;
+    for (let k = 0; k < levels; ++k) first[k + 1]! += first[k]!;
+    const into = attribute.array as Uint32Array;
+    for (let t = 0; t < count; ++t) {
+      const at = 3 * first[slot[t]!]!++;
+      into[at] = triangles[3 * t]!, into[at + 1] = triangles[3 * t + 1]!, into[at + 2] = triangles[3 * t + 2]!;
+    }
+    attribute.needsUpdate = true;
+  }
+
+  ask(): void {
+    if (!this.asked) this.asked = true, requestAnimationFrame(() => this.draw(1));
+    clearTimeout(this.still);
+    this.still = window.setTimeout(() => requestAnimationFrame(() => this.draw(Math.max(2, devicePixelRatio))), STILL);
+  }
+
+  private draw(ratio: number): void {
+    this.asked = false;
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.fov = 2 * Math.atan(Math.tan(16 * Math.PI / 180) * Math.max(1, 1.02 * height / width)) * 180 / Math.PI;
+    this.camera.updateProjectionMatrix();
+    this.sort();
+    this.renderer.render(this.scene, this.camera);
+    for (const { at, element } of this.labels) {
+      const p = at.clone().project(this.camera);
+      element.style.transform = `translate(-50%,-50%) translate(${(p.x + 1) / 2 * width}px,${(1 - p.y) / 2 * height}px)`;
+    }
+  }
+
+  private pick(event: MouseEvent): void {
+    const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
+    if (!surface || !this.sorted) return;
+    const rect = this.renderer.domElement.getBoundingClientRect();
+    const ray = new Raycaster();
+    ray.setFromCamera(new Vector2((event.clientX - rect.left) / rect.width * 2 - 1, 1 - (event.clientY - rect.top) / rect.height * 2), this.camera);
+    // the mesh has theta for its height: the ray is brought there
+    const flat = new BufferGeometry();
+    flat.setAttribute("position", surface.geometry.attributes.position!);
+    flat.setIndex(new BufferAttribute(this.sorted.triangles, 1));
+    ray.ray.origin.z /= this.rise, (ray.ray.direction.z /= this.rise), ray.ray.direction.normalize();
+    const probe = new Mesh(flat, new MeshBasicMaterial({ side: DoubleSide }));
+    const hit = ray.intersectObject(probe).find((of) => !this.is_cut || of.point.z + Math.PI / 2 <= this.theta);
+    if (hit) this.on_pick(surface.geometry.userData.faces[hit.faceIndex!], hit.point.x + this.view.x, hit.point.y + this.view.y, hit.point.z + Math.PI / 2);
+  }
+
+  private key(event: KeyboardEvent): void {
+    const turn = 0.12, offset = this.camera.position.clone().sub(this.controls.target);
+    if (event.key === "ArrowLeft" || event.key === "ArrowRight") offset.applyAxisAngle(this.camera.up, event.key === "ArrowLeft" ? turn : -turn);
+    else if (event.key === "ArrowUp" || event.key === "ArrowDown") {
+      const side = new Vector3().crossVectors(this.camera.up, offset).normalize(), to = offset.clone().applyAxisAngle(side, event.key === "ArrowUp" ? -turn : turn);
+      if (Math.abs(to.clone().normalize().z) < 0.99) offset.copy(to);
+    } else if (event.key === "+" || event.key === "=") offset.multiplyScalar(0.9);
+    else if (event.key === "-") offset.multiplyScalar(1 / 0.9);
+    else return;
+    event.preventDefault();
+    this.camera.position.copy(this.controls.target).add(offset);
+    this.controls.update(), this.ask();
+  }
+}

@@ -1,0 +1,53 @@
+// What the core found, in words.
+import { type Columns, bytes, doubles, integers, string, value } from "./engine";
+
+export const degrees = (theta: number) => `${(theta * 180 / Math.PI).toFixed(1).replace(/\.0$/, "")}°`;
+export type Tone = "good" | "touch" | "bad" | "proof" | "plain";
+export interface Verdict { tone: Tone; text: string }
+
+export function obstacle_name(names: string[], k: number): string {
+  if (k === -1) return "the bounds";
+  if (k === -2) return "the workspace";
+  const name = names[k] ?? `obstacle ${k}`;
+  return name === `obstacle ${k}` ? name : `obstacle ${k} (${name})`;
+}
+
+// "robot vertex 2 on edge 4 of obstacle 3 (kite)"
+export function contact_words(columns: Columns, prefix: string, k: number, names: string[]): string {
+  const of = (name: string) => integers(columns, `${prefix}.${name}`)[k]!;
+  const owner = of("obstacle"), robot = of("robot_vertex"), corner = of("obstacle_vertex");
+  const where = obstacle_name(names, owner);
+  if (owner === -1) return "the reference point on the bounds";
+  return bytes(columns, `${prefix}.kind`)[k] === 0
+    ? `robot vertex ${robot} on edge ${corner} of ${where}` : `robot edge ${robot} on vertex ${corner} of ${where}`;
+}
+
+export function pose_verdict(columns: Columns, names: string[]): Verdict {
+  if (value(columns, "free") === 0) {
+    const [part, owner] = integers(columns, "pair");
+    if (part === -1) return { tone: "bad", text: `Forbidden: outside ${obstacle_name(names, owner!)}.` };
+    return { tone: "bad", text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.` };
+  }
+  const touching = bytes(columns, "touching.kind").length;
+  if (touching === 0) return { tone: "good", text: "Free." };
+  const said = Array.from({ length: Math.min(touching, 2) }, (_, k) => contact_words(columns, "touching", k, names));
+  const rest = touching > 2 ? ` and ${touching - 2} more` : "";
+  return { tone: "touch", text: `Touching: ${said.join("; ")}${rest}. Allowed.` };
+}
+
+export function way_verdict(columns: Columns, names: string[], units: string): Verdict {
+  const verdict = string(columns, "verdict");
+  if (verdict.endsWith("forbidden")) return { tone: "bad", text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot overlaps ${obstacle_name(names, integers(columns, "pair")[1]!)}.` };
+  if (verdict === "path") {
+    const pieces = value(columns, "motions");
+    const turning = doubles(columns, "turning")[0]! * 180 / Math.PI;
+    return { tone: "good", text: `A motion exists: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}, turning ${turning.toFixed(0)} degrees; proved free.` };
+  }
+  if (verdict === "apart") {
+    const owners = [...integers(columns, "obstacles")];
+    const some = owners.slice(0, 4).map((k) => obstacle_name(names, k));
+    const more = owners.length > 4 ? ` and ${owners.length - 4} more` : "";
+    return { tone: "proof", text: `No motion with clearance: parted by ${some.join(", ")}${more}. Ways by touch alone were not searched.` };
+  }
+  return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };
+}

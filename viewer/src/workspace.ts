@@ -1,0 +1,235 @@
+// The left view: robot, obstacles, start and goal as SVG; handles that are dragged, or moved by keys.
+import { type Columns, bytes, doubles, integers } from "./engine";
+
+export type Who = "robot" | "start" | "goal";
+export interface Seen { x: number; y: number; theta: number }
+export interface Drag { who: Who; x: number; y: number; theta?: number; step: number; done: boolean }
+
+const SVG = "http://www.w3.org/2000/svg";
+function made<K extends keyof SVGElementTagNameMap>(name: K, parent: Element, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
+  const element = document.createElementNS(SVG, name);
+  for (const [key, of] of Object.entries(attributes)) element.setAttribute(key, String(of));
+  parent.append(element);
+  return element;
+}
+
+// Rings as the data of a path.
+function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 0, last = ring.length - 1): string {
+  let d = "";
+  for (let r = first; r < last; ++r) {
+    for (let k = ring[r]!; k < ring[r + 1]!; ++k) d += `${k === ring[r] ? "M" : "L"}${xy[2 * k]} ${xy[2 * k + 1]}`;
+    d += "Z";
+  }
+  return d;
+}
+
+export class Workspace {
+  private readonly svg: SVGSVGElement;
+  private readonly world: SVGGElement;
+  private readonly layers: Record<"floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks", SVGGElement>;
+  private readonly bodies: Record<Who, SVGGElement>;
+  private readonly at: Partial<Record<Who, Seen>> = {};
+  private shape = "";
+  private radius = 1;
+  private box = { x: 0, y: 0, w: 1, h: 1 };  // shown, y upwards
+  private whole = this.box;
+  on_drag: (drag: Drag) => void = () => {};
+
+  constructor(host: HTMLElement) {
+    this.svg = made("svg", host, { role: "group", "aria-label": "Workspace: robot, obstacles, start and goal" });
+    const defs = made("defs", this.svg);
+    const hatch = made("pattern", defs, { id: "hatch", width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
+    made("rect", hatch, { width: 7, height: 7, class: "hatch-ground" });
+    made("line", hatch, { x1: 0, y1: 0, x2: 0, y2: 7, class: "hatch-line" });
+    this.world = made("g", this.svg);
+    const layer = (name: string) => made("g", this.world, { class: name });
+    this.layers = { floor: layer("floor"), slice: layer("slice"), obstacles: layer("obstacles"), sweep: layer("sweep"), trace: layer("trace"),
+      ghosts: layer("ghosts"), robot: layer("robot-layer"), marks: layer("marks") };
+    this.bodies = { start: this.body("start", this.layers.ghosts), goal: this.body("goal", this.layers.ghosts), robot: this.body("robot", this.layers.robot) };
+    this.svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    this.svg.addEventListener("pointerdown", (event) => this.pan(event));
+    new ResizeObserver(() => this.look()).observe(this.svg);
+  }
+
+  private body(who: Who, layer: SVGGElement): SVGGElement {
+    const group = made("g", layer, { class: `body ${who}`, tabindex: 0, role: "application", "aria-roledescription": "movable robot", "aria-label": who });
+    made("path", group, { class: "shape" });
+    made("line", group, { class: "arm" });
+    made("circle", group, { class: "point" });
+    made("circle", group, { class: "knob" });
+    if (who !== "robot") made("text", group, { class: "letter" }).textContent = who === "start" ? "S" : "G";
+    group.addEventListener("pointerdown", (event) => this.grab(event, who));
+    group.addEventListener("keydown", (event) => this.key(event, who));
+    return group;
+  }
+
+  get step(): number {  // of drags, below a pixel
+    return 10 ** Math.floor(Math.log10(this.box.w / Math.max(this.svg.clientWidth, 1)));
+  }
+  get pixel(): number { return this.box.w / Math.max(this.svg.clientWidth, 1); }
+
+  show_scene(scene: Columns, names: string[], poses: Seen[]): void {
+    const xy = doubles(scene, "obstacles.xy"), ring = integers(scene, "obstacles.ring"), polygon = integers(scene, "obstacles.polygon");
+    this.radius = doubles(scene, "radius")[0]!;
+    this.shape = outline(doubles(scene, "robot.xy"), integers(scene, "robot.ring"));
+    this.layers.obstacles.replaceChildren(), this.layers.floor.replaceChildren();
+    for (let k = 0; k + 1 < polygon.length; ++k) {
+      const path = made("path", this.layers.obstacles, { d: outline(xy, ring, polygon[k], polygon[k + 1]), class: "obstacle" });
+      made("title", path).textContent = names[k] ?? `obstacle ${k}`;
+    }
+    const bounds = doubles(scene, "bounds"), room = doubles(scene, "workspace.xy");
+    if (bounds.length) made("rect", this.layers.floor, { x: bounds[0]!, y: bounds[1]!, width: bounds[2]! - bounds[0]!, height: bounds[3]! - bounds[1]!, class: "bounds" });
+    if (room.length) made("path", this.layers.floor, { d: outline(room, integers(scene, "workspace.ring")), class: "room" });
+    const xs: number[] = [], ys: number[] = [];
+    for (const of of [xy, bounds, room]) for (let k = 0; k < of.length; k += 2) xs.push(of[k]!), ys.push(of[k + 1]!);
+    for (const { x, y } of poses) xs.push(x - this.radius, x + this.radius), ys.push(y - this.radius, y + this.radius);
+    const least = (of: number[]) => of.reduce((a, b) => Math.min(a, b)), most = (of: number[]) => of.reduce((a, b) => Math.max(a, b));
+    const [x0, x1, y0, y1] = [least(xs), most(xs), least(ys), most(ys)];
+    const margin = 0.06 * Math.max(x1 - x0, y1 - y0);
+    this.whole = { x: x0 - margin, y: y0 - margin, w: x1 - x0 + 2 * margin, h: y1 - y0 + 2 * margin };
+    for (const group of Object.values(this.bodies)) group.querySelector(".shape")!.setAttribute("d", this.shape);
+    this.layers.sweep.replaceChildren(), this.layers.trace.replaceChildren(), this.layers.marks.replaceChildren();
+    this.fit();
+  }
+
+  fit(): void {
+    this.box = { ...this.whole };
+    this.look();
+  }
+
+  private look(): void {
+    const { clientWidth: width, clientHeight: height } = this.svg;
+    if (!width || !height) return;
+    const { x, y, w, h } = this.box, more = Math.max(w / width, h / height);
+    this.box = { x: x + (w - more * width) / 2, y: y + (h - more * height) / 2, w: more * width, h: more * height };
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.world.setAttribute("transform", `matrix(${1 / more} 0 0 ${-1 / more} ${-this.box.x / more} ${height + this.box.y / more})`);
+    for (const who of Object.keys(this.bodies) as Who[]) this.place(who, this.at[who]);
+  }
+
+  place(who: Who, at: Seen | undefined, tone = ""): void {
+    const group = this.bodies[who];
+    group.style.display = at ? "" : "none";
+    if (!at) return void delete this.at[who];
+    this.at[who] = at;
+    const turn = at.theta * 180 / Math.PI, px = this.pixel;
+    group.setAttribute("transform", `translate(${at.x} ${at.y}) rotate(${turn})`);
+    if (tone) group.dataset.tone = tone;
+    group.setAttribute("aria-label", `${who}: x ${at.x.toPrecision(4)}, y ${at.y.toPrecision(4)}, turned by ${turn.toFixed(1)} degrees`);
+    const reach = this.radius + 16 * px;
+    const set = (selector: string, of: Record<string, number | string>) => {
+      const element = group.querySelector(selector);
+      for (const [key, item] of Object.entries(of)) element?.setAttribute(key, String(item));
+    };
+    set(".arm", { x1: 0, y1: 0, x2: reach, y2: 0 });
+    set(".knob", { cx: reach, cy: 0, r: 6 * px });
+    set(".point", { cx: 0, cy: 0, r: 3.5 * px });
+    set(".letter", { transform: `rotate(${-turn}) scale(${px} ${-px})`, x: 7, y: -7 });
+  }
+
+  // The forbidden region at the slider's orientation, its outline by contact type.
+  show_slice(slice: Columns | undefined): void {
+    const layer = this.layers.slice;
+    layer.replaceChildren();
+    if (!slice) return;
+    const xy = doubles(slice, "xy"), start = integers(slice, "start"), shell = integers(slice, "shell");
+    const { x, y, w, h } = this.whole, far = 50 * Math.max(w, h);
+    const outside = shell.includes(-1) ? `M${x - far} ${y - far}h${w + 2 * far}v${h + 2 * far}h${-w - 2 * far}Z` : "";
+    made("path", layer, { d: outside + outline(xy, start), class: "forbidden" });
+    const segments = doubles(slice, "segments"), kind = bytes(slice, "kind");
+    const d = ["", "", ""];
+    for (let k = 0; k < kind.length; ++k) d[kind[k]!] += `M${segments[4 * k]} ${segments[4 * k + 1]}L${segments[4 * k + 2]} ${segments[4 * k + 3]}`;
+    d.forEach((of, k) => made("path", layer, { d: of, class: ["vertex-edge", "edge-vertex", "at-bounds"][k]! }));
+  }
+
+  show_path(samples: Float64Array | undefined): void {
+    this.layers.sweep.replaceChildren(), this.layers.trace.replaceChildren();
+    if (!samples?.length) return;
+    let d = "", last = -1;
+    let way = 0;
+    const spacing = 0.32 * this.radius;
+    for (let k = 0; k < samples.length; k += 3) {
+      const [x, y, theta] = [samples[k]!, samples[k + 1]!, samples[k + 2]!];
+      d += `${k ? "L" : "M"}${x} ${y}`;
+      if (k) way += Math.hypot(x - samples[k - 3]!, y - samples[k - 2]!) + this.radius * 0.6 * Math.abs(theta - samples[k - 1]!);
+      if (last >= 0 && way - last < spacing) continue;
+      last = way;
+      made("path", this.layers.sweep, { d: this.shape, transform: `translate(${x} ${y}) rotate(${theta * 180 / Math.PI})` });
+    }
+    made("path", this.layers.trace, { d });
+  }
+
+  // Features of a contact: on the robot where it is, and on the obstacle.
+  show_contacts(columns: Columns | undefined, prefix: string, at: Seen): void {
+    this.layers.marks.replaceChildren();
+    if (!columns) return;
+    const robot = doubles(columns, `${prefix}.robot_xy`), obstacle = doubles(columns, `${prefix}.obstacle_xy`);
+    const mark = (parent: Element, of: ArrayLike<number>, k: number) => {
+      const [x0, y0, x1, y1] = [of[4 * k]!, of[4 * k + 1]!, of[4 * k + 2]!, of[4 * k + 3]!];
+      if (x0 === x1 && y0 === y1) made("circle", parent, { cx: x0, cy: y0, r: 5 * this.pixel });
+      else made("line", parent, { x1: x0, y1: y0, x2: x1, y2: y1 });
+    };
+    const moved = made("g", this.layers.marks, { transform: `translate(${at.x} ${at.y}) rotate(${at.theta * 180 / Math.PI})` });
+    for (let k = 0; 4 * k < robot.length; ++k) mark(this.layers.marks, obstacle, k), mark(moved, robot, k);
+  }
+
+  private point(event: { clientX: number; clientY: number }): { x: number; y: number } {
+    const rect = this.svg.getBoundingClientRect(), px = this.pixel;
+    return { x: this.box.x + (event.clientX - rect.left) * px, y: this.box.y + (rect.bottom - event.clientY) * px };
+  }
+
+  private grab(event: PointerEvent, who: Who): void {
+    const at = this.at[who];
+    if (!at || event.button !== 0) return;
+    event.preventDefault(), event.stopPropagation();
+    const group = this.bodies[who], begin = this.point(event), from = { ...at };
+    const turns = (event.target as Element).classList.contains("knob");
+    group.focus({ preventScroll: true });
+    group.setPointerCapture(event.pointerId);
+    const tell = (now: PointerEvent, done: boolean) => {
+      const p = this.point(now);
+      if (turns) this.on_drag({ who, x: from.x, y: from.y, theta: Math.atan2(p.y - from.y, p.x - from.x), step: this.step, done });
+      else this.on_drag({ who, x: from.x + p.x - begin.x, y: from.y + p.y - begin.y, step: this.step, done });
+    };
+    const move = (now: PointerEvent) => tell(now, false);
+    const end = (now: PointerEvent) => {
+      group.removeEventListener("pointermove", move), group.removeEventListener("pointerup", end), group.removeEventListener("pointercancel", end);
+      tell(now, true);
+    };
+    group.addEventListener("pointermove", move), group.addEventListener("pointerup", end), group.addEventListener("pointercancel", end);
+  }
+
+  private key(event: KeyboardEvent, who: Who): void {
+    const at = this.at[who];
+    if (!at || event.ctrlKey || event.metaKey) return;
+    const by = 8 * this.pixel * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), turn = Math.PI / 36 * (event.shiftKey ? 3 : event.altKey ? 0.1 : 1);
+    const moves: Record<string, [number, number, number]> = {
+      ArrowLeft: [-by, 0, 0], ArrowRight: [by, 0, 0], ArrowUp: [0, by, 0], ArrowDown: [0, -by, 0], "[": [0, 0, turn], "]": [0, 0, -turn], "{": [0, 0, turn], "}": [0, 0, -turn],
+    };
+    const move = moves[event.key];
+    if (!move) return;
+    event.preventDefault(), event.stopPropagation();
+    const [dx, dy, turned] = move;
+    this.on_drag({ who, x: at.x + dx, y: at.y + dy, ...(turned ? { theta: at.theta + turned } : {}), step: this.step, done: true });
+  }
+
+  private pan(event: PointerEvent): void {
+    if (event.button !== 0 || event.pointerType === "touch") return;
+    const from = { ...this.box }, begin = event, px = this.pixel;
+    const move = (now: PointerEvent) => {
+      this.box = { ...from, x: from.x - (now.clientX - begin.clientX) * px, y: from.y + (now.clientY - begin.clientY) * px };
+      this.look();
+    };
+    const end = () => { this.svg.removeEventListener("pointermove", move), this.svg.removeEventListener("pointerup", end); };
+    this.svg.addEventListener("pointermove", move), this.svg.addEventListener("pointerup", end);
+    this.svg.setPointerCapture(event.pointerId);
+  }
+
+  private wheel(event: WheelEvent): void {
+    event.preventDefault();
+    const p = this.point(event), by = Math.exp(0.0015 * event.deltaY);
+    const { x, y, w, h } = this.box;
+    this.box = { x: p.x + (x - p.x) * by, y: p.y + (y - p.y) * by, w: w * by, h: h * by };
+    this.look();
+  }
+}
