@@ -31,7 +31,8 @@ let history: History;
 let file: Omit<SceneText, "words">;
 let scene: Columns | undefined;
 let seen: { robot?: Seen; start?: Seen; goal?: Seen } = {};
-let is_built = false;
+let is_built = false, is_meshing = false;
+let last_way: Columns | undefined;
 let last_free: PoseText | undefined;
 let path: Float64Array | undefined;
 let playing: { frame: number; began: number } | undefined;
@@ -61,7 +62,7 @@ const seen_of = (pose: PoseText): Seen => ({ x: number(pose.x), y: number(pose.y
 // A scene's text: read, shown, its boundary computed while ways are looked for.
 async function open(source: string, of?: Partial<State>): Promise<void> {
   stop_playing();
-  is_built = false, path = undefined;
+  is_built = false, path = undefined, last_way = undefined;
   if (engine.busy) engine.cancel();
   planner.cancel();
   say("way", { tone: "plain", text: "" });
@@ -124,12 +125,17 @@ async function build(): Promise<void> {
     $("facts").textContent = `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${value(counts, "cells")} ${value(counts, "cells") === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s`;
     void ask_slice();
     void ask_robot(history.now.robot);
+    is_meshing = true;
     if (space) space.show_mesh(await engine.call("mesh", value(scene!, "radius") / 60, 60_000));
+    is_meshing = false;
+    if (last_way) show_way(last_way);
+    void ask_robot(history.now.robot);
     document.body.dataset.ready = history.now.gallery ?? file.name;
   } catch (error) {
     if (error instanceof Cancelled) { if (!is_built) $("facts").textContent = "stopped: no boundary"; }
     else fault("pose", error);
   } finally {
+    is_meshing = false;
     working(false);
   }
 }
@@ -150,7 +156,7 @@ async function ask_slice(): Promise<void> {
 
 // Where the robot is: verdict, touching pairs, cells.
 async function ask_robot(pose: PoseText): Promise<boolean | undefined> {
-  const asked = is_built || !engine.busy ? engine : planner;
+  const asked = (is_built || !engine.busy) && !is_meshing ? engine : planner;
   try {
     const answer = await asked.newest("pose", words(pose));
     const [x, y, theta] = doubles(answer, "place") as unknown as [number, number, number];
@@ -181,6 +187,7 @@ async function ask_way(): Promise<void> {
 }
 
 function show_way(answer: Columns | undefined): void {
+  last_way = answer;
   const verdict = answer && string(answer, "verdict");
   path = verdict === "path" ? doubles(answer!, "samples") : undefined;
   if (answer) say("way", way_verdict(answer, file.names, file.units));

@@ -26,6 +26,7 @@ export class Space {
   private readonly point: Mesh;
   private readonly ends: Mesh[];
   private readonly material: ShaderMaterial;
+  private readonly front: ShaderMaterial;
   private mesh?: Columns;
   private centres = new Float32Array();
   private sorted?: { attribute: BufferAttribute; triangles: Uint32Array };
@@ -54,8 +55,12 @@ export class Space {
       uniforms: { rise: { value: 1 }, length: { value: 1 }, opacity: { value: GLASS }, cut: { value: 1e9 }, dim: { value: 0 } },
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     });
-    this.point = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial());
-    this.ends = [0, 1].map(() => new Mesh(new SphereGeometry(1, 20, 12), new MeshBasicMaterial()));
+    this.front = this.material.clone();
+    this.front.uniforms = this.material.uniforms;
+    this.front.colorWrite = false, (this.front.depthWrite = true);
+    this.point = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.92 }));
+    this.ends = [0, 1].map(() => new Mesh(new SphereGeometry(1, 20, 12), new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.75 })));
+    for (const ball of [this.point, ...this.ends]) ball.renderOrder = 7;
     this.scene.add(...Object.values(this.parts), this.point, ...this.ends);
     canvas.addEventListener("click", (event) => this.pick(event));
     canvas.addEventListener("keydown", (event) => this.key(event));
@@ -127,14 +132,18 @@ export class Space {
     this.sorted = { attribute, triangles };
     const surface = new Mesh(geometry, this.material);
     surface.name = "surface", surface.renderOrder = 2;
-    this.parts.surface.add(surface, ...this.edges(mesh, 0.85));
+    // what is seen first hides the lines behind it
+    const front = new Mesh(geometry, this.front);
+    front.renderOrder = 3;
+    this.parts.surface.add(surface, front, ...this.edges(mesh, Math.min(0.9, Math.sqrt(4000 / (1 + bytes(mesh, "line_kind").length)))));
     this.paint();
   }
 
   // What separates start and goal.
   show_barrier(mesh: Columns | undefined): void {
     this.clear(this.parts.barrier);
-    this.material.uniforms.dim!.value = mesh ? 0.8 : 0;
+    this.material.uniforms.dim!.value = mesh ? 0.86 : 0;
+    this.parts.surface.children.forEach((child, k) => { child.visible = k === 0 || !mesh; });
     if (mesh) {
       const { geometry, triangles } = this.geometry(mesh);
       geometry.setIndex(new BufferAttribute(triangles, 1));
@@ -142,10 +151,11 @@ export class Space {
       for (let k = 0; k < colours.length; k += 3) colour.toArray(colours, k);
       geometry.setAttribute("color", new BufferAttribute(colours, 3));
       const material = this.material.clone();
-      material.uniforms.rise!.value = this.rise, material.uniforms.dim!.value = 0, material.uniforms.opacity!.value = 0.55;
+      material.uniforms.rise!.value = this.rise, material.uniforms.dim!.value = 0, (material.depthWrite = true);
       const surface = new Mesh(geometry, material);
+      material.uniforms.opacity!.value = 0.8;
       surface.renderOrder = 3;
-      this.parts.barrier.add(surface);
+      this.parts.barrier.add(surface, ...this.edges(mesh, 0.6));
     }
     this.ask();
   }
@@ -177,7 +187,7 @@ export class Space {
     for (let k = 0; k < kind.length; ++k)
       for (const at of [6 * k, 6 * k + 3]) points[kind[k]!]!.push(...this.put(lines[at]!, lines[at + 1]!, lines[at + 2]!).toArray());
     return [this.palette.ink, this.palette.helix, this.palette.segment].map((colour, k) => {
-      const made = this.lines(points[k]!, colour, k === 0 ? 0.55 * opacity : opacity);
+      const made = this.lines(points[k]!, colour, k === 0 ? 0.6 * opacity : opacity);
       made.renderOrder = 4;
       return made;
     });
@@ -215,7 +225,7 @@ export class Space {
   }
   cut(is: boolean): void {
     this.is_cut = is;
-    this.set_theta(this.theta);
+    this.show_slice(this.slice), this.set_theta(this.theta);
   }
   private is_cut = false;
 
@@ -239,7 +249,7 @@ export class Space {
     const shapes = new Map<number, Shape>();
     for (let r = 0; r < shell.length; ++r) if (shell[r] === r) shapes.set(r, new Shape(ring(r)));
     for (let r = 0; r < shell.length; ++r) if (shell[r]! >= 0 && shell[r] !== r) shapes.get(shell[r]!)?.holes.push(new ShapePath(ring(r)));
-    const fill = new Mesh(new ShapeGeometry([...shapes.values()]), new MeshBasicMaterial({ color: this.palette.accent, transparent: true, opacity: 0.35, side: DoubleSide, depthWrite: false }));
+    const fill = new Mesh(new ShapeGeometry([...shapes.values()]), new MeshBasicMaterial({ color: this.palette.accent, transparent: true, opacity: this.is_cut ? 0.85 : 0.35, side: DoubleSide, depthWrite: false }));
     fill.renderOrder = 1;
     const segments = doubles(slice, "segments"), kind = bytes(slice, "kind"), points: number[][] = [[], [], []];
     for (let k = 0; k < kind.length; ++k) {
@@ -263,8 +273,9 @@ export class Space {
     }
     for (const part of parts.filter((of) => of.length > 1)) {
       const tube = new TubeGeometry(new CatmullRomCurve3(part, false, "centripetal"), Math.min(3 * part.length, 1500), 0.006 * this.view.size, 8);
-      const made = new Mesh(tube, new MeshBasicMaterial({ color: this.palette.path }));
-      this.parts.path.add(made);
+      const through = new Mesh(tube, new MeshBasicMaterial({ color: this.palette.path, transparent: true, opacity: 0.4, depthTest: false }));
+      through.renderOrder = 6;
+      this.parts.path.add(new Mesh(tube, new MeshBasicMaterial({ color: this.palette.path })), through);
     }
     this.ask();
   }

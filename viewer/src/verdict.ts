@@ -35,6 +35,14 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
   return { tone: "touch", text: `Touching: ${said.join("; ")}${rest}. Allowed.` };
 }
 
+function parting(owners: number[], names: string[]): string {
+  const are_plain = owners.every((k) => k >= 0 && (names[k] ?? `obstacle ${k}`) === `obstacle ${k}`);
+  const some = owners.slice(0, 4).map((k) => are_plain ? String(k) : obstacle_name(names, k));
+  if (owners.length > 4) some.push(`${owners.length - 4} more`);
+  const joined = some.length > 1 ? `${some.slice(0, -1).join(", ")} and ${some.at(-1)}` : some[0]!;
+  return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined}` : joined;
+}
+
 export function way_verdict(columns: Columns, names: string[], units: string): Verdict {
   const verdict = string(columns, "verdict");
   if (verdict.endsWith("forbidden")) return { tone: "bad", text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot overlaps ${obstacle_name(names, integers(columns, "pair")[1]!)}.` };
@@ -45,9 +53,7 @@ export function way_verdict(columns: Columns, names: string[], units: string): V
   }
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
-    const some = owners.slice(0, 4).map((k) => obstacle_name(names, k));
-    const more = owners.length > 4 ? ` and ${owners.length - 4} more` : "";
-    return { tone: "proof", text: `No motion with clearance: parted by ${some.join(", ")}${more}. Ways by touch alone were not searched.` };
+    return { tone: "proof", text: `No motion with clearance: parted by ${parting(owners, names)}. Ways by touch alone were not searched.` };
   }
   return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };
 }

@@ -40,7 +40,7 @@ export class Workspace {
     const defs = made("defs", this.svg);
     const hatch = made("pattern", defs, { id: "hatch", width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
     made("rect", hatch, { width: 7, height: 7, class: "hatch-ground" });
-    made("line", hatch, { x1: 0, y1: 0, x2: 0, y2: 7, class: "hatch-line" });
+    made("rect", hatch, { width: 3, height: 7, class: "hatch-line" });
     this.world = made("g", this.svg);
     const layer = (name: string) => made("g", this.world, { class: name });
     this.layers = { floor: layer("floor"), slice: layer("slice"), obstacles: layer("obstacles"), sweep: layer("sweep"), trace: layer("trace"),
@@ -113,6 +113,7 @@ export class Workspace {
     if (!at) return void delete this.at[who];
     this.at[who] = at;
     const turn = at.theta * 180 / Math.PI, px = this.pixel;
+    if (who === "robot") this.svg.querySelector("#hatch")!.setAttribute("patternTransform", `rotate(${45 - turn}) scale(${px})`);
     group.setAttribute("transform", `translate(${at.x} ${at.y}) rotate(${turn})`);
     if (tone) group.dataset.tone = tone;
     group.setAttribute("aria-label", `${who}: x ${at.x.toPrecision(4)}, y ${at.y.toPrecision(4)}, turned by ${turn.toFixed(1)} degrees`);
