@@ -2,7 +2,7 @@
 import {
   BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, DoubleSide, DynamicDrawUsage, Float32BufferAttribute, Group, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Raycaster, Scene, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry,
-  TubeGeometry, Vector2, Vector3, WebGLRenderer, type Object3D, Path as ShapePath, PlaneGeometry,
+  TubeGeometry, Vector2, Vector3, WebGLRenderer, type Object3D, Path as ShapePath, Plane, PlaneGeometry,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { type Columns, bytes, doubles, integers } from "./engine";
@@ -41,6 +41,7 @@ export class Space {
 
   constructor(private readonly host: HTMLElement, private palette: Palette) {
     this.renderer = new WebGLRenderer({ antialias: false, alpha: true, powerPreference: "high-performance" });
+    this.renderer.localClippingEnabled = true;
     const canvas = this.renderer.domElement;
     canvas.tabIndex = 0;
     canvas.setAttribute("role", "img");
@@ -189,6 +190,7 @@ export class Space {
     return [this.palette.ink, this.palette.helix, this.palette.segment].map((colour, k) => {
       const made = this.lines(points[k]!, colour, k === 0 ? 0.6 * opacity : opacity);
       made.renderOrder = 4;
+      (made.material as LineBasicMaterial).clippingPlanes = [this.under];
       return made;
     });
   }
@@ -228,10 +230,12 @@ export class Space {
     this.show_slice(this.slice), this.set_theta(this.theta);
   }
   private is_cut = false;
+  private readonly under = new Plane(new Vector3(0, 0, -1), 1e9);
 
   set_theta(theta: number): void {
     this.theta = wrapped(theta);
     this.material.uniforms.cut!.value = this.is_cut ? (this.theta - Math.PI / 2) * this.rise : 1e9;
+    this.under.constant = this.is_cut ? (this.theta - Math.PI / 2) * this.rise : 1e9;
     this.parts.slice.position.z = (this.theta - Math.PI / 2) * this.rise;
     this.ask();
   }
@@ -250,7 +254,7 @@ export class Space {
     for (let r = 0; r < shell.length; ++r) if (shell[r] === r) shapes.set(r, new Shape(ring(r)));
     for (let r = 0; r < shell.length; ++r) if (shell[r]! >= 0 && shell[r] !== r) shapes.get(shell[r]!)?.holes.push(new ShapePath(ring(r)));
     const fill = new Mesh(new ShapeGeometry([...shapes.values()]), new MeshBasicMaterial({ color: this.palette.accent, transparent: true, opacity: this.is_cut ? 0.85 : 0.35, side: DoubleSide, depthWrite: false }));
-    fill.renderOrder = 1;
+    fill.renderOrder = this.is_cut ? 5 : 1;
     const segments = doubles(slice, "segments"), kind = bytes(slice, "kind"), points: number[][] = [[], [], []];
     for (let k = 0; k < kind.length; ++k) {
       const of = points[kind[k]!]!;

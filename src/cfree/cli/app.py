@@ -339,6 +339,32 @@ def film(scenes: tuple[Path, ...], output: Path, storyboard: str, seconds: float
         print_rows(", ".join(map(str, scenes)), rows, written)
 
 
+@app.command(epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser"))
+@options.scene
+@click.argument("answer", type=FILE, required=False)
+@file_option("--html", metavar="HTML", help="Write the page here; it needs no other file and no server.")
+@click.option("--browser/--no-browser", help="Open it in the browser.", default=True, show_default=True)
+def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> None:
+    """Show a scene in the browser, to be dragged and turned.
+
+    Beside it its configuration space, exact like all answers. ANSWER is a path or a proof written by cfree plan -o.
+    SCENE is JSON, GeoJSON or WKT.
+    """
+    with one_line_faults():
+        from cfree.formats.files import load
+        from cfree.formats.scene_file import load_scene
+        from cfree.paths.path import Path as Motions
+        from cfree.planning.separation import Separated
+        from cfree.viewer.page import view as show
+
+        if html:
+            check_outputs(scene, {"page": html})
+        given, found = load_scene(scene), load(answer) if answer else None
+        if not isinstance(found, Motions | Separated | None):
+            raise ValueError(f"{answer}: no path and no proof; give what cfree plan -o has written")
+        print(printable(str(show(given, found, html=html, browser=browser))))
+
+
 @app.command(epilog=examples("cfree verify scene.json scene.npz", "cfree verify scene.json answer.json"))
 @options.scene
 @click.argument("file", type=FILE)
