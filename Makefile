@@ -13,7 +13,7 @@ HERE := --no-build-isolation --config-settings=build-dir='build/{wheel_tag}' -e
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: demo test ctest ctest-sanitize sanitize fuzz fuzz-answers fuzz-files lint bench docs dev stub clean
+.PHONY: demo test ctest ctest-sanitize sanitize fuzz fuzz-answers fuzz-files lint bench docs viewer dev stub clean
 
 demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot get out, both verified, into demo/
 	mkdir -p demo
@@ -68,6 +68,10 @@ docs: .venv/documented  ## the documentation as pages, into docs/_build/html
 .venv/documented: $(INSTALLED)
 	$(INSTALL) $(HERE) '.[test,docs]'
 	touch $@
+
+viewer: $(INSTALLED)  ## the page, src/cfree/viewer/page.html: needs node, npm and Debian's emscripten and node-acorn
+	cd viewer && npm ci --silent --ignore-scripts --no-audit --no-fund && npx tsc --noEmit
+	node viewer/build.mjs --boost "$$($(BIN)/python -c 'import boost_headers; print(boost_headers.get_include())')"
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
 	$(INSTALL) $(TOOLS)

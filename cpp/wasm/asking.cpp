@@ -1,3 +1,4 @@
+// Answers to a page; everything is decided by the core.
 #include "asking.hpp"
 
 #include <numbers>
@@ -6,6 +7,7 @@
 #include "cfree/planning/connecting_way.hpp"
 #include "cfree/search/rrt_connect.hpp"
 #include "cfree/search/shortcut.hpp"
+#include "cfree/support/elementary.hpp"
 #include "shown.hpp"
 
 namespace cfree {
@@ -112,12 +114,13 @@ struct Found {
     Connection::Verdict verdict = Connection::Verdict::open;
     Poses way;
     std::shared_ptr<const CellComplex> surface;
+    std::vector<ContactSlide> slides = {};
 };
 
 Found find(World& world, const RationalPose& start, const RationalPose& goal) {
     using enum Connection::Verdict;
-    const Slides none = [](const auto&, const auto&, const auto&, auto) { return false; };
-    const FreeMotions motions(*world.scene, *world.checker, none);
+    const auto slides = std::make_shared<FoundSlides>();
+    const FreeMotions motions(*world.scene, *world.checker, *slides);
     const RationalPose turned{start.x, start.y, goal.half}, moved{goal.x, goal.y, start.half};
     if (auto way = motions.first_free({{start, turned, goal}, {start, moved, goal}, {start, goal}})) {
         way->erase(std::unique(way->begin(), way->end()), way->end());
@@ -134,11 +137,43 @@ Found find(World& world, const RationalPose& start, const RationalPose& goal) {
     }
     const Connection& found = connecting.found();
     if (found.verdict != joined) return {found.verdict, {}, found.surface};
-    return {joined, connecting_way(*world.around, found, world.radius, none), {}};
+    const Poses way = connecting_way(*world.around, found, world.radius, slides);
+    return {joined, way, {}, slides->along(way)};
+}
+
+// Where a slide is when it has turned by 2 atan(t).
+Place along(const ContactSlide& slide, double t, double theta) {
+    const auto at = [&](const std::array<Int, 5>& p) {
+        double value = 0;
+        for (std::size_t k = 5; k-- > 0;) value = value * t + ratio(p[k], slide.d[0]);
+        return value;
+    };
+    const Place from = slide.from.place();
+    const double d = at(slide.d);
+    return {from.x + at(slide.x) / d, from.y + at(slide.y) / d, theta + 2 * arc_tangent(t)};
+}
+
+// The slide from one pose to another, and whether it is taken backwards.
+std::pair<const ContactSlide*, bool> slide_between(const std::vector<ContactSlide>& slides, const RationalPose& a, const RationalPose& b) {
+    for (const auto& slide : slides) {
+        if (slide.from == a && slide.to == b) return {&slide, false};
+        if (slide.from == b && slide.to == a) return {&slide, true};
+    }
+    return {nullptr, false};
+}
+
+// Throws std::logic_error where a motion is not free.
+void check(const World& world, const Poses& way, const std::vector<ContactSlide>& slides) {
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        const auto [slide, _] = slide_between(slides, way[k - 1], way[k]);
+        const bool is_free = slide ? world.checker->is_free(slide->motion(*world.scene))
+                                   : world.checker->is_free(motion_between(way[k - 1].configuration(*world.scene), way[k].configuration(*world.scene)));
+        if (!is_free) throw std::logic_error("a path is not free");
+    }
 }
 
 // Poses along a path for the eye, their angles without jumps; and its measures.
-void show_path(const World& world, const Poses& way, Reply& reply) {
+void show_path(const World& world, const Poses& way, const std::vector<ContactSlide>& slides, Reply& reply) {
     std::vector<double> samples;
     std::vector<Index> motion;
     std::string words;
@@ -149,7 +184,19 @@ void show_path(const World& world, const Poses& way, Reply& reply) {
         Configuration q = way[k].configuration(*world.scene);
         q.px = at.x, q.py = at.y, q.theta = at.theta;
         words += words_of(way[k]) + "\n";
-        if (k > 0) {
+        if (const auto [slide, is_back] = k > 0 ? slide_between(slides, way[k - 1], way[k]) : std::pair{nullptr, false}; slide) {
+            const double end = nearest(slide->tau.n, slide->tau.d), first = before.theta - (is_back ? 2 * arc_tangent(end) : 0);
+            constexpr int steps = 24;
+            double x = before.px, y = before.py;
+            for (int s = 1; s <= steps; ++s) {
+                const double share = static_cast<double>(s) / steps;
+                const Place p = along(*slide, end * (is_back ? 1 - share : share), first);
+                samples.insert(samples.end(), {p.x, p.y, p.theta}), motion.push_back(static_cast<Index>(k) - 1);
+                length += norm(p.x - x, p.y - y), x = p.x, y = p.y;
+            }
+            turning += 2 * std::abs(arc_tangent(end));
+            q.theta = samples.back();
+        } else if (k > 0) {
             double turn = turn_between(before, q);
             const bool is_half = std::abs(std::abs(turn) - std::numbers::pi) < 1e-9;
             if (is_half) q.theta = before.theta + std::numbers::pi - 1e-9, turn = turn_between(before, q);  // counter-clockwise
@@ -201,7 +248,7 @@ void ask_pose(const World& world, const RationalPose& pose, Reply& reply) {
 }
 
 void ask_stop(const World& world, const RationalPose& from, const RationalPose& to, Reply& reply) {
-    const Slides none = [](const auto&, const auto&, const auto&, auto) { return false; };
+    FoundSlides none;
     const FreeMotions motions(*world.scene, *world.checker, none);
     const Ratio dx = to.x - from.x, dy = to.y - from.y;
     const auto share = motions.free_share(from, dx, dy);
@@ -217,10 +264,10 @@ void ask_walk(const World& world, std::string_view lines, Reply& reply) {
         if (end > at) way.push_back(pose_of(lines.substr(at, end - at)));
         at = end + 1;
     }
-    const Slides none = [](const auto&, const auto&, const auto&, auto) { return false; };
+    FoundSlides none;
     if (way.empty() || !FreeMotions(*world.scene, *world.checker, none).join(way)) throw std::invalid_argument("the path given is not free");
     reply.text("verdict", "path");
-    show_path(world, way, reply);
+    show_path(world, way, {}, reply);
 }
 
 void ask_way(World& world, const RationalPose& start, const RationalPose& goal, Reply& reply) {
@@ -232,10 +279,10 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
     auto found = find(world, start, goal);
     if (!found.way.empty()) {
         reply.text("verdict", "path");
-        const Slides none = [](const auto&, const auto&, const auto&, auto) { return false; };
-        Poses way = found.way.size() > 2 ? Searching(world, start, goal).shortened(found.way) : found.way;
-        if (!FreeMotions(*world.scene, *world.checker, none).join(way)) throw std::logic_error("a path is not free");
-        return show_path(world, way, reply);
+        const bool may_shorten = found.way.size() > 2 && found.slides.empty();
+        const Poses way = may_shorten ? Searching(world, start, goal).shortened(found.way) : found.way;
+        check(world, way, found.slides);
+        return show_path(world, way, found.slides, reply);
     }
     reply.text("verdict", found.surface ? "apart" : "unclear");
     if (found.surface) show_proof(world, found.surface, reply);

@@ -1,3 +1,4 @@
+// Words to numbers, without rounding.
 #include "reading.hpp"
 
 #include <cmath>

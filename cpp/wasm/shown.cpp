@@ -1,3 +1,4 @@
+// Columns for the eye: doubles of what was decided exactly.
 #include "shown.hpp"
 
 #include <numbers>

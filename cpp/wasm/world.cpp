@@ -1,3 +1,4 @@
+// A scene, and what is computed of it once.
 #include "world.hpp"
 
 #include "cfree/support/elementary.hpp"

@@ -65,7 +65,7 @@ if TYPE_CHECKING:
     from cfree.planning.separation import separation as separation
     from cfree.polygons.polygon import Polygon as Polygon
     from cfree.scene.scene import Scene as Scene
-    from cfree.viewer.page import view as view
+    from cfree.viewer.browser import view as view
 
 __version__ = "0.1.0"
 
@@ -100,7 +100,7 @@ _HOMES = {
     "analysis.margins": "Interval NearestMiss max_margin max_scale nearest_miss",
     "formats.files": "load save",
     "formats.scene_file": "load_polygons load_scene",
-    "viewer.page": "view",
+    "viewer.browser": "view",
 }
 _PACKAGES = "analysis collision contact exact figures film geometry ompl planning plot rational verify viewer"
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)

@@ -53,8 +53,8 @@ const decimal = (c: number, step: number) => c.toFixed(Math.min(20, Math.max(0, 
 async function tau_of(theta: number, fine = false): Promise<string> {
   return string(await engine.call("angle", theta, fine ? 1 : 0), "tau");
 }
-async function text_of(pose: FilePose): Promise<PoseText> {
-  return { x: pose.x, y: pose.y, tau: pose.tau ?? await tau_of(pose.theta!, true) };
+async function text_of(pose: FilePose, otherwise = "0"): Promise<PoseText> {
+  return { x: pose.x, y: pose.y, tau: pose.tau ?? (pose.theta === undefined ? otherwise : await tau_of(pose.theta, true)) };
 }
 const number = (text: string) => { const [p, q] = text.split("/"); return Number(p) / Number(q ?? 1); };
 const seen_of = (pose: PoseText): Seen => ({ x: number(pose.x), y: number(pose.y), theta: pose.tau === "inf" ? Math.PI : 2 * Math.atan(number(pose.tau)) });
@@ -70,7 +70,8 @@ async function open(source: string, of?: Partial<State>): Promise<void> {
     const read = await engine.open(source);
     void planner.open(source).catch(() => {});
     const found: SceneText = JSON.parse(string(read, "file"));
-    const [start, goal] = await Promise.all([of?.start ?? (found.start && text_of(found.start)), of?.goal ?? (found.goal && text_of(found.goal))]);
+    const start = of?.start ?? (found.start && await text_of(found.start));
+    const goal = of?.goal ?? (found.goal && await text_of(found.goal, start?.tau));  // a place: as the start is turned
     const box = box_of(read);
     const robot = of?.robot ?? start ?? { x: decimal((box[0] + box[2]) / 2, 0.01), y: decimal((box[1] + box[3]) / 2, 0.01), tau: "0" };
     file = found, scene = read;

@@ -3,7 +3,7 @@ import { LosslessNumber, parse } from "lossless-json";
 
 export const MOST_BYTES = 16 << 20, MOST_DEPTH = 64, MOST_VERTICES = 100_000;
 
-// x, y and an angle: radians or degrees as a number, or a half-angle tangent as text.
+// x, y and an angle, if one is asked for: radians or degrees as a number, or a half-angle tangent as text.
 export interface FilePose { x: string; y: string; tau?: string; theta?: number }
 export interface SceneText {
   name: string; note: string; units: string; names: string[]; words: string;
@@ -50,8 +50,9 @@ function polygon(value: Json, place: string): string {
 function pose(value: Json, place: string): FilePose | undefined {
   if (value === undefined || value === null) return undefined;
   const parts = list(value, place);
-  if (parts.length !== 3) fail(place, "x, y and an angle", value);
+  if (parts.length !== 3 && parts.length !== 2) fail(place, "x, y and an angle", value);
   const [x, y] = [number(parts[0], `${place}[0]`), number(parts[1], `${place}[1]`)];
+  if (parts.length === 2) return { x, y };  // a place: any angle will do
   const angle = parts[2];
   if (angle && typeof angle === "object" && !(angle instanceof LosslessNumber)) {
     const tau = fields(angle, `${place}[2]`).tau;
@@ -62,7 +63,7 @@ function pose(value: Json, place: string): FilePose | undefined {
   return Number.isFinite(theta) ? { x, y, theta } : fail(`${place}[2]`, "an angle", angle);
 }
 
-const KEYS = "version name note units source robot obstacles workspace bounds start goal check".split(" ");
+const KEYS = "version name note units source robot obstacles workspace bounds start goal goals check".split(" ");
 
 function refuse_deep(source: string): void {
   let depth = 0, quoted = false;
@@ -100,6 +101,6 @@ export function read_scene(source: string): SceneText {
   if (joined.split(" ").length > 2 * MOST_VERTICES) throw new Error(`more than ${MOST_VERTICES.toLocaleString("en")} vertices: simplify`);
   return {
     name: plain(text(of.name, "name")), note: plain(text(of.note, "note"), 300), units: plain(text(of.units, "units"), 30), names, words: joined,
-    start: pose(of.start, "start"), goal: pose(of.goal, "goal"),
+    start: pose(of.start, "start"), goal: of.goals === undefined ? pose(of.goal, "goal") : pose(list(of.goals, "goals")[0], "goals[0]"),
   };
 }

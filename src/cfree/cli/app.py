@@ -339,7 +339,9 @@ def film(scenes: tuple[Path, ...], output: Path, storyboard: str, seconds: float
         print_rows(", ".join(map(str, scenes)), rows, written)
 
 
-@app.command(epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser"))
+@app.command(
+    epilog=examples("cfree view scene.json", "cfree view scene.json answer.json --html page.html --no-browser")
+)
 @options.scene
 @click.argument("answer", type=FILE, required=False)
 @file_option("--html", metavar="HTML", help="Write the page here; it needs no other file and no server.")
@@ -355,7 +357,7 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
         from cfree.formats.scene_file import load_scene
         from cfree.paths.path import Path as Motions
         from cfree.planning.separation import Separated
-        from cfree.viewer.page import view as show
+        from cfree.viewer.browser import view as show
 
         if html:
             check_outputs(scene, {"page": html})

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from cfree.viewer.page import page as page
-    from cfree.viewer.page import view as view
+    from cfree.viewer.browser import page as page
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, {"page": "page view"})
+__getattr__, __dir__, __all__ = lazy_names(__name__, {"browser": "page"})

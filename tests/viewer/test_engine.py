@@ -1,0 +1,117 @@
+"""The core in the page and the core in Python give the same bytes, and the same verdicts."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import shutil
+import subprocess
+from fractions import Fraction
+from importlib.resources import files
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cfree
+from cfree.exact.pose import Pose
+from cfree.formats.scene_file import scene_text
+
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+LARGE = ("benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin", "benchmr_parking1")
+NODE = shutil.which("node")
+pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed: the page's core was not run")
+
+
+def asked(*calls: list[Any]) -> list[dict[str, Any]]:
+    """Answers of the page's core to calls, one after the other."""
+    page = files("cfree.viewer").joinpath("page.html")
+    command = [str(NODE), str(Path(__file__).with_name("engine.mjs")), str(page)]
+    lines = "".join(json.dumps(call) + "\n" for call in calls)
+    done = subprocess.run(command, input=lines, capture_output=True, text=True, check=True, timeout=300)
+    return [json.loads(line) for line in done.stdout.splitlines()]
+
+
+def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
+    """The same columns as in `show_columns`, from Python."""
+    boundary = cfree.boundary(scene, threads=1)
+    space = cfree.free_space(boundary)
+    core, cells, surfaces = boundary.core, boundary.core_complex, space.core.surfaces
+    tables = (
+        (core.trapezoids, "patch chart lower upper from_first from_second to_first to_second"),
+        (core.trapezoids, "from_lo from_hi to_lo to_hi from_place to_place"),
+        (cells, "face twin edge vertex side first component xy theta"),
+        (surfaces, "parent free_inside turns lift"),
+    )
+    return (
+        {f"patches.{name}": getattr(core.patches, name) for name in ("kind", "robot", "obstacle")}
+        | {name: getattr(table, name) for table, names in tables for name in names.split()}
+        | {"trimmed": core.trimmed, "cell_of": space.core.cell_of, "depth": space.core.depth}
+    )
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, marks=pytest.mark.slow if path.stem in LARGE else ())
+        for path in sorted(SCENES.glob("*.json"))
+        if path.stem != "benchmr_warehouse"
+    ],
+    ids=lambda path: path.stem,
+)
+def test_boundary_and_cells_have_the_same_bytes(path: Path) -> None:
+    _, _, found = asked(["open", path.read_text()], ["boundary"], ["columns"])
+    expected = columns_of(cfree.load_scene(path))
+    assert set(found) == set(expected)
+    for name, column in expected.items():
+        assert found[name]["sha256"] == hashlib.sha256(np.ascontiguousarray(column).tobytes()).hexdigest(), name
+
+
+@pytest.mark.parametrize("name", ["paper_fig9", "comb_hook", "sofa_corner", "degenerate_island"])
+def test_paths_of_the_page_are_free(name: str) -> None:
+    scene = cfree.load_scene(SCENES / f"{name}.json")
+    assert scene.start is not None and isinstance(scene.goal, Pose)
+    ends = [" ".join([str(q.x), str(q.y), "inf" if q.tau is None else str(q.tau)]) for q in (scene.start, scene.goal)]
+    _, answer = asked(["open", scene_text(scene)], ["plan", *ends])
+    expected = cfree.plan(scene)
+    assert (answer["verdict"] == "path") == isinstance(expected, cfree.Path)
+    if answer["verdict"] == "path":
+        poses = [Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, answer["poses"].splitlines())]
+        motions = [cfree.motion_between(a, b) for a, b in pairwise(poses)]
+        path = cfree.Path(poses[0], motions)
+        assert (path.start, path.goal) == (scene.start, scene.goal) and path.is_free(cfree.MotionChecker(scene))
+
+
+def test_contact_is_reached_exactly() -> None:
+    square = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    scene = cfree.Scene(square, [[(3, 0), (4, 0), (4, 1), (3, 1)]], bounds=(-9, -9, 9, 9))
+    calls = [
+        ["open", scene_text(scene)],
+        ["boundary"],
+        ["stop", "0 0.3 0", "2.5 0.3 0"],
+        ["pose", "2 0.3 0"],
+        ["pose", "2.1 0.3 0"],
+    ]
+    _, _, stop, touching, overlapping = asked(*calls)
+    assert Fraction(stop["pose"].split()[0]) == 2
+    assert touching["free"]["values"] == [1] and touching["touching.obstacle"]["values"] == [0, 0]
+    assert overlapping["free"]["values"] == [0] and overlapping["pair"]["values"] == [0, 0]
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("{}", "robot"),
+        ('{"robot": {"outer": [[0,0],[1,0],["x",1]]}}', 'robot.outer[2][0]: expected a number or "p/q", got "x"'),
+        ('{"robot": {"outer": [[0,0],[1,1],[1,0],[0,1]]}}', "robot: "),
+        ('{"robot": {"outer": [[0,0],[1,0],[NaN,1]]}}', ""),
+        ("[" * 100_000, "nested deeper"),
+        ('{"robot": {"outer": [[0,0],[1,0],[0,1]]}, "<img onerror=alert(1)>": 1}', "unknown key"),
+    ],
+)
+def test_what_is_no_scene_is_one_clear_message(text: str, message: str) -> None:
+    (answer,) = asked(["open", text])
+    assert message in answer["fault"]
+    assert "fault of cfree" not in answer["fault"]

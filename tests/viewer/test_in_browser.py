@@ -1,0 +1,175 @@
+"""The page in a real browser, Debian's chromium: what is seen and said while somebody drags."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import cfree
+from cfree import view
+
+CHROMIUM = Path("/usr/bin/chromium")
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: the page was not tried")
+if not CHROMIUM.exists():
+    pytest.skip("chromium is not installed: the page was not tried in a browser", allow_module_level=True)
+pytestmark = pytest.mark.slow
+
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+SWIFTSHADER = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    with playwright.sync_playwright() as running:
+        found = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
+        yield found
+        found.close()
+
+
+class Tried:
+    """A page of a scene; closing it sees that nothing was complained of and nothing asked for from outside."""
+
+    def __init__(self, browser: Any, path: Path, fragment: str = "") -> None:
+        self.context = browser.new_context(viewport={"width": 1280, "height": 800})
+        self.page = self.context.new_page()
+        self.faults: list[str] = []
+        self.page.on("console", lambda message: self.faults.append(message.text) if message.type == "error" else None)
+        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
+        self.page.on("request", lambda request: self._see(request.url))
+        self.page.goto(f"{path.as_uri()}{fragment}")
+
+    def _see(self, url: str) -> None:
+        if not url.startswith(("file:", "blob:", "data:")):
+            self.faults.append(url)
+
+    def ready(self, name: str) -> None:
+        self.page.locator(f"body[data-ready='{name}']").wait_for(timeout=120_000)
+
+    def say(self, which: str, text: str) -> None:
+        self.page.locator(which).filter(has_text=text).wait_for(timeout=30_000)
+
+    def drag(self, who: str, dx: float, dy: float) -> None:
+        """The point of the robot, or of a ghost, by pixels."""
+        box = self.page.locator(f".body.{who} .point").bounding_box()
+        assert box
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        for step in range(1, 9):
+            self.page.mouse.move(x + dx * step / 8, y + dy * step / 8)
+        self.page.mouse.up()
+
+    def slice(self) -> str:
+        return str(self.page.locator(".slice .forbidden").get_attribute("d"))
+
+    def close(self) -> None:
+        self.context.close()
+        assert not self.faults, self.faults
+
+
+@pytest.fixture
+def fig9(browser: Any, tmp_path: Path) -> Iterator[Tried]:
+    scene = cfree.load_scene(SCENES / "paper_fig9.json")
+    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
+    tried.ready("paper_fig9")
+    yield tried
+    tried.close()
+
+
+def test_path_is_found_and_drawn(fig9: Tried) -> None:
+    fig9.say("#way", "A motion exists")
+    assert fig9.page.locator(".trace path").count() == 1
+    assert len(set(fig9.page.locator("#space").screenshot()[-4000:])) > 50  # not one colour
+    fig9.say("#pose", "Free")
+
+
+def test_slider_cuts_anew(fig9: Tried) -> None:
+    fig9.page.locator(".slice .forbidden").wait_for(state="attached")
+    before = fig9.slice()
+    fig9.page.locator("#theta").focus()
+    for _ in range(8):
+        fig9.page.keyboard.press("PageUp")
+    fig9.page.wait_for_timeout(500)
+    assert fig9.slice() != before and fig9.page.locator("#degrees").inner_text() != "0°"
+
+
+def test_robot_dragged_into_an_obstacle_is_forbidden(fig9: Tried) -> None:
+    fig9.drag("robot", 180, -130)
+    fig9.say("#pose", "Forbidden: the robot overlaps obstacle 0 (triangle).")
+    assert fig9.page.locator(".body.robot").get_attribute("data-tone") == "bad"
+    fig9.page.locator("#undo").click()
+    fig9.say("#pose", "Free")
+
+
+def test_goal_in_an_obstacle_is_said(fig9: Tried) -> None:
+    fig9.say("#way", "A motion exists")
+    fig9.drag("goal", -190, 130)
+    fig9.say("#way", "Goal: the robot overlaps obstacle 0 (triangle).")
+
+
+def test_keys_move_the_robot(fig9: Tried) -> None:
+    robot = fig9.page.locator(".body.robot")
+    before = robot.get_attribute("transform")
+    robot.focus()
+    for key in ("ArrowRight", "ArrowUp", "[", "Shift+ArrowLeft"):
+        fig9.page.keyboard.press(key)
+    fig9.page.wait_for_timeout(500)
+    assert robot.get_attribute("transform") != before
+    assert "turned by" in str(robot.get_attribute("aria-label"))
+
+
+def test_link_brings_the_state_back(browser: Any, fig9: Tried, tmp_path: Path) -> None:
+    fig9.drag("start", 60, 40)
+    fig9.page.wait_for_timeout(900)
+    fragment = "#" + fig9.page.url.partition("#")[2]
+    place = fig9.page.locator(".body.start").get_attribute("transform")
+    other = Tried(browser, view(cfree.Scene([(0, 0), (1, 0), (0, 1)]), html=tmp_path / "other.html", browser=False))
+    other.close()
+    page = (tmp_path / "page.html").read_text().split('id="given">')
+    bare = tmp_path / "bare.html"
+    bare.write_text(page[0] + 'id="given">null' + page[1][page[1].index("</script>") :])
+    linked = Tried(browser, bare, fragment)
+    linked.ready("paper_fig9")
+    assert linked.page.locator(".body.start").get_attribute("transform") == place
+    linked.close()
+
+
+def test_apart_is_shown_with_what_parts(browser: Any, tmp_path: Path) -> None:
+    ring = {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]], "holes": [[[1, 1], [1, 8], [8, 8], [8, 1]]], "name": "ring"}
+    text = {"name": "caught", "robot": {"outer": [[0, 0], [2, 0], [0, 2]]}, "obstacles": [ring]}
+    (tmp_path / "scene.json").write_text(json.dumps(text | {"start": [3, 3, 0], "goal": [20, 3, 0]}))
+    scene = cfree.load_scene(tmp_path / "scene.json")
+    tried = Tried(browser, view(scene, cfree.plan(scene), html=tmp_path / "page.html", browser=False))
+    tried.ready("caught")
+    tried.say("#way", "No motion with clearance: parted by obstacle 0 (ring).")
+    tried.close()
+
+
+def test_hostile_names_stay_text(browser: Any, tmp_path: Path) -> None:
+    name = "</title><img src=x onerror=\"document.title='bad'\">"
+    triangle = [(0, 0), (1, 0), (0, 1)]
+    scene = cfree.Scene(
+        triangle, [[(3, 0), (4, 0), (4, 1)]], obstacle_names=[name], name="<b>hostile", start=(0, 0, 0), goal=(0, 3, 0)
+    )
+    tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
+    tried.ready("<b>hostile")
+    assert tried.page.locator("img").count() == 0 and tried.page.title() == "<b>hostile: cfree"
+    tried.close()
+
+
+def test_gallery_draws(browser: Any, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_text(files("cfree.viewer").joinpath("page.html").read_text())
+    tried = Tried(browser, page)
+    tried.ready("paper_fig9")
+    names = tried.page.locator("#scenes option").evaluate_all("options => options.map(o => o.value)")
+    for name in [name for name in names if name and name != "nest_swim"]:
+        tried.page.select_option("#scenes", name)
+        tried.ready(name)
+        assert tried.page.locator(".obstacle").count() > 0
+    tried.close()

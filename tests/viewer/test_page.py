@@ -1,0 +1,67 @@
+"""The page in the package is the one that its sources make; scenes are put into it whole."""
+
+from __future__ import annotations
+
+import hashlib
+import html.parser
+import json
+import re
+from importlib.resources import files
+from pathlib import Path
+
+import cfree
+from cfree.viewer import page
+
+ROOT = Path(__file__).parents[2]
+TEXT = files("cfree.viewer").joinpath("page.html").read_text(encoding="utf-8")
+SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
+
+
+def hash_of_inputs() -> str:
+    """As in viewer/build.mjs."""
+    names = []
+    for entry in (ROOT / "viewer" / "inputs.txt").read_text().split():
+        path = ROOT / entry
+        found = [file for file in path.rglob("*") if file.is_file()] if path.is_dir() else [path]
+        names += [file.relative_to(ROOT).as_posix() for file in found]
+    whole = hashlib.sha256()
+    for name in sorted(names):
+        whole.update(f"{name}\0{hashlib.sha256((ROOT / name).read_bytes()).hexdigest()}\n".encode())
+    return whole.hexdigest()
+
+
+def test_page_is_made_of_these_sources() -> None:
+    made_of = re.search(r"<!-- inputs (\w+) -->", TEXT)
+    assert made_of and made_of[1] == hash_of_inputs(), "the core or the viewer has changed: `make viewer`"
+
+
+def test_page_is_one_file_of_at_most_four_megabytes() -> None:
+    assert len(TEXT.encode()) <= 4 << 20
+    assert not re.search(r"""(?:src|href)\s*=\s*["'](?!#|data:)""", re.sub(r"(?s)<script.*?</script>", "", TEXT))
+
+
+class Scripts(html.parser.HTMLParser):
+    """The texts of scripts by their id."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.found: dict[str, str] = {}
+        self.name = ""
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.name = dict(attrs).get("id") or "" if tag == "script" else ""
+        assert tag != "img"
+
+    def handle_data(self, data: str) -> None:
+        self.found[self.name] = self.found.get(self.name, "") + data
+
+
+def test_names_do_not_end_the_script_that_they_are_in() -> None:
+    name = "</script><img src=x onerror=alert(1)><!--"
+    scene = cfree.Scene(
+        SQUARE, [[(3, 0), (4, 0), (4, 1)]], obstacle_names=[name], start=(0, 0, 0), goal=(0, 3, "180deg")
+    )
+    given = json.loads(Scripts(page(scene, cfree.plan(scene))).found["given"])
+    assert json.loads(given["scene"])["obstacles"][0]["name"] == name
+    assert given["poses"].splitlines()[-1] == "0 3 inf" and given["goal"] == {"x": "0", "y": "3", "tau": "inf"}
