@@ -43,8 +43,7 @@ cfree::World& given() {
 extern "C" {
 EMSCRIPTEN_KEEPALIVE int scene(const char* words) {
     return answer([&] {
-        world.reset();
-        world = std::make_unique<cfree::World>(cfree::shapes_of(words));
+        world = std::make_unique<cfree::World>(cfree::shapes_of(words));  // the one before stays if this is none
         cfree::show_scene(*world, reply);
     });
 }

@@ -381,6 +381,16 @@ def test_a_limit_of_time_or_memory_has_exit_code_3_and_a_marked_file(run: Run, t
 # figures
 
 
+def test_view_writes_a_page_with_the_scene_in_it(run: Run, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    result = run("view", FIG9, "--html", page, "--no-browser")
+    assert result.exit_code == 0 and result.stdout.strip() == str(page)
+    assert "coordinates of our own" in page.read_text().rpartition('id="given"')[2]
+    refused = run("view", FIG9, FIG9, "--html", tmp_path / "other.html", "--no-browser")
+    assert refused.exit_code == 2 and "no path and no proof" in refused.stderr
+    assert not (tmp_path / "other.html").exists()
+
+
 def test_figures_are_written_as_asked(run: Run, tmp_path: Path) -> None:
     result = run("figures", "-o", tmp_path / "new", "--only", "6,2", "--format", "svg,png", "--json")
     assert result.exit_code == 0

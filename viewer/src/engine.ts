@@ -68,8 +68,9 @@ export class Engine {
   }
 
   async open(text: string): Promise<Columns> {
+    const columns = await this.call("open", text);
     this.opened = text;
-    return this.call("open", text);
+    return columns;
   }
 
   // Ends what it does; what is asked next finds the scene open again.

@@ -62,12 +62,13 @@ const seen_of = (pose: PoseText): Seen => ({ x: number(pose.x), y: number(pose.y
 // A scene's text: read, shown, its boundary computed while ways are looked for.
 async function open(source: string, of?: Partial<State>): Promise<void> {
   stop_playing();
-  is_built = false, path = undefined, last_way = undefined;
-  if (engine.busy) engine.cancel();
-  planner.cancel();
-  say("way", { tone: "plain", text: "" });
+  const was_busy = engine.busy;
+  if (was_busy) engine.cancel();
   try {
     const read = await engine.open(source);
+    is_built = false, path = undefined, last_way = undefined, opened_source = source;
+    planner.cancel();
+    say("way", { tone: "plain", text: "" });
     void planner.open(source).catch(() => {});
     const found: SceneText = JSON.parse(string(read, "file"));
     const start = of?.start ?? (found.start && await text_of(found.start));
@@ -79,7 +80,8 @@ async function open(source: string, of?: Partial<State>): Promise<void> {
     if (history) history.push(state); else history = new History(state);
     show(state, box);
   } catch (error) {
-    return fault("pose", error);
+    fault("pose", error);
+    if (!was_busy || !scene) return;  // else what was stopped for it begins anew
   }
   await build();
 }
@@ -277,20 +279,21 @@ async function reopen(state: State, kept: History): Promise<void> {
   await build();
 }
 async function choose(source: string, of?: Partial<State>): Promise<void> {
-  opened_source = source;
   await open(source, of);
   if (history) remember();
 }
 
-$<HTMLInputElement>("theta").addEventListener("input", async () => {
+const turned = (done: boolean) => {
   stop_playing();
   const theta = Number($<HTMLInputElement>("theta").value) * Math.PI / 180;
   $("degrees").textContent = degrees(theta), space?.set_theta(theta);
   if (!seen.robot) return;
   seen.robot = { ...seen.robot, theta }, workspace.place("robot", seen.robot);
-  dragged = { who: "robot", x: seen.robot.x, y: seen.robot.y, theta, step: workspace.step, done: true };
+  dragged = { who: "robot", x: seen.robot.x, y: seen.robot.y, theta, step: workspace.step, done };
   if (!is_dragging) void follow();
-});
+};
+$("theta").addEventListener("input", () => turned(false));
+$("theta").addEventListener("change", () => turned(true));
 
 function stop_playing(): void {
   if (playing) cancelAnimationFrame(playing.frame), (playing = undefined), ($("play").textContent = "▶ Play");
@@ -392,7 +395,7 @@ document.addEventListener("keydown", (event) => {
   if (!focus?.closest(".view")) return;
   const toggle = (id: string) => { $<HTMLInputElement>(id).click(); };
   const colour = (k: number) => { const of = $<HTMLSelectElement>("colour"); of.selectedIndex = k, of.dispatchEvent(new Event("change")); };
-  const slide = (by: number) => { const of = $<HTMLInputElement>("theta"); of.value = String(Number(of.value) + by), of.dispatchEvent(new Event("input")); };
+  const slide = (by: number) => { const of = $<HTMLInputElement>("theta"); of.value = String(Number(of.value) + by), turned(true); };
   const keys: Record<string, () => void> = { " ": play, x: () => toggle("cut"), f: () => { workspace.fit(), space?.home(); }, "?": actions.help!, ",": () => slide(-1), ".": () => slide(1), 1: () => colour(0), 2: () => colour(1), 3: () => colour(2) };
   if (keys[key]) event.preventDefault(), keys[key]!();
 });

@@ -33,6 +33,8 @@ export class Space {
   private colour_by: ColourBy = "contact";
   private view = { x: 0, y: 0, size: 1 };  // of the scene; theta is as high as it is wide
   private asked = false;
+  private size = "";
+  frames = 0;  // drawn so far
   private still = 0;
   private labels: { at: Vector3; element: HTMLElement }[] = [];
   private slice?: Columns;
@@ -144,7 +146,6 @@ export class Space {
   show_barrier(mesh: Columns | undefined): void {
     this.clear(this.parts.barrier);
     this.material.uniforms.dim!.value = mesh ? 0.86 : 0;
-    this.parts.surface.children.forEach((child, k) => { child.visible = k === 0 || !mesh; });
     if (mesh) {
       const { geometry, triangles } = this.geometry(mesh);
       geometry.setIndex(new BufferAttribute(triangles, 1));
@@ -332,22 +333,35 @@ export class Space {
   }
 
   ask(): void {
-    if (!this.asked) this.asked = true, requestAnimationFrame(() => this.draw(1));
+    if (!this.asked) this.asked = true, requestAnimationFrame((now) => this.move(now));
     clearTimeout(this.still);
-    this.still = window.setTimeout(() => requestAnimationFrame(() => this.draw(Math.max(2, devicePixelRatio))), STILL);
+    this.still = window.setTimeout(() => requestAnimationFrame(() => this.draw(Math.max(2, devicePixelRatio), false)), STILL);
   }
 
-  private draw(ratio: number): void {
+  // While something moves: coarser, if frames are late.
+  private last = 0;
+  private late = 0;
+  private move(now: number): void {
+    const taken = now - this.last;
+    this.last = now;
+    if (taken < 1000) this.late = 0.7 * this.late + 0.3 * taken;
+    this.draw(this.late > 40 ? 0.6 : 1, this.late > 40);
+  }
+
+  private draw(ratio: number, is_coarse: boolean): void {
     this.asked = false;
+    this.frames += 1;
     const { clientWidth: width, clientHeight: height } = this.host;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, false);
+    if (this.size !== `${width} ${height} ${ratio}`) this.renderer.setPixelRatio(ratio), this.renderer.setSize(width, height, false);
+    this.size = `${width} ${height} ${ratio}`;
+    this.parts.surface.children.forEach((child, k) => { child.visible = k === 0 || !(is_coarse || this.parts.barrier.children.length); });
     this.camera.aspect = width / height;
     this.camera.fov = 2 * Math.atan(Math.tan(16 * Math.PI / 180) * Math.max(1, 1.02 * height / width)) * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
     this.sort();
     this.renderer.render(this.scene, this.camera);
+    this.host.dataset.frames = String(this.frames);
     for (const { at, element } of this.labels) {
       const p = at.clone().project(this.camera);
       element.style.transform = `translate(-50%,-50%) translate(${(p.x + 1) / 2 * width}px,${(1 - p.y) / 2 * height}px)`;
