@@ -255,7 +255,14 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
     const Turned line(*world.scene, contact, at.theta);
     const double t = line.t(at.x, at.y);
     reply.add("t", t), reply.add("phi", at.theta);
-    reply.add("point", std::vector{line.start.x + t * line.direction.x, line.start.y + t * line.direction.y});
+    // the same on a grid, exactly in contact
+    const HalfAngle half = half_angle_of(at.theta, false);
+    const auto r = half.rotation();
+    const ContactLine<Int> exact(*world.scene, contact, CoreUnits<Int>{});
+    const Vec<Int> start = exact.start(r), along = exact.direction(r);
+    const Int share(std::llround(std::clamp(t, 0.0, 1.0) * 0x1p20)), whole = Int(r.w * world.scene->scale) << 20;
+    const auto place = [&](const Int& from, const Int& by) { return reduced(Int((from << 20) + share * by), whole); };
+    reply.text("pose", words_of({place(start.x, along.x), place(start.y, along.y), half}));
     // all of the patch that is left: from and to in angles
     std::vector<double> range;
     std::vector<Index> same;

@@ -100,6 +100,18 @@ def test_contact_is_reached_exactly() -> None:
     assert overlapping["free"]["values"] == [0] and overlapping["pair"]["values"] == [0, 0]
 
 
+def test_picked_point_is_in_contact_exactly() -> None:
+    text = (SCENES / "paper_fig9.json").read_text()
+    slice_ = asked(["open", text], ["boundary"], ["slice", 0.6])[-1]
+    kinds, ends = slice_["kind"]["values"], slice_["segments"]["values"]
+    k = next(k for k, kind in enumerate(kinds) if kind < 2)  # of the triangle, not of the bounds
+    middle = [(ends[4 * k] + ends[4 * k + 2]) / 2, (ends[4 * k + 1] + ends[4 * k + 3]) / 2]
+    picked = ["picked", slice_["trapezoid"]["values"][k], *middle, 0.6]
+    pose = asked(["open", text], ["boundary"], picked)[-1]["pose"]
+    touching = asked(["open", text], ["boundary"], ["pose", pose])[-1]
+    assert touching["free"]["values"] == [1] and touching["touching.obstacle"]["values"] == [0]
+
+
 @pytest.mark.parametrize(
     ("text", "message"),
     [

@@ -128,8 +128,6 @@ def test_link_brings_the_state_back(browser: Any, fig9: Tried, tmp_path: Path) -
     fig9.page.wait_for_timeout(900)
     fragment = "#" + fig9.page.url.partition("#")[2]
     place = fig9.page.locator(".body.start").get_attribute("transform")
-    other = Tried(browser, view(cfree.Scene([(0, 0), (1, 0), (0, 1)]), html=tmp_path / "other.html", browser=False))
-    other.close()
     page = (tmp_path / "page.html").read_text().split('id="given">')
     bare = tmp_path / "bare.html"
     bare.write_text(page[0] + 'id="given">null' + page[1][page[1].index("</script>") :])
@@ -137,6 +135,14 @@ def test_link_brings_the_state_back(browser: Any, fig9: Tried, tmp_path: Path) -
     linked.ready("paper_fig9")
     assert linked.page.locator(".body.start").get_attribute("transform") == place
     linked.close()
+
+
+def test_patch_that_is_clicked_is_named_and_touched(fig9: Tried) -> None:
+    box = fig9.page.locator("#space canvas").bounding_box()
+    assert box
+    fig9.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+    fig9.say("#picked", "of obstacle 0 (triangle)")
+    fig9.say("#pose", "Touching: ")
 
 
 def test_apart_is_shown_with_what_parts(browser: Any, tmp_path: Path) -> None:

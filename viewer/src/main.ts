@@ -320,15 +320,13 @@ function play(): void {
 
 if (space) space.on_pick = async (face, x, y, theta) => {
   if (!is_built) return;
-  const found = await engine.call("picked", face, x, y, theta), range = doubles(found, "range");
-  const at = value(found, "point");
-  const point = doubles(found, "point"), low = range.reduce((a, b) => Math.min(a, b), Infinity), high = range.reduce((a, b) => Math.max(a, b), -Infinity);
-  $("picked").hidden = Number.isNaN(at);
-  $("picked").textContent = `${contact_words(found, "contact", 0, file.names)}\nS(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(theta)}: (${point[0]!.toFixed(3)}, ${point[1]!.toFixed(3)})\nleft of it: φ from ${degrees(low)} to ${degrees(high)}; bounds cell ${value(found, "cell")}`;
-  seen.robot = { x: point[0]!, y: point[1]!, theta };
-  workspace.place("robot", seen.robot, "touch"), space.place(seen.robot, true), set_slider(theta);
-  workspace.show_contacts(found, "contact", seen.robot);
-  say("pose", { tone: "touch", text: `In contact: ${contact_words(found, "contact", 0, file.names)}.` });
+  const found = await engine.call("picked", face, x, y, theta), range = doubles(found, "range"), pose = from_words(string(found, "pose"));
+  const low = range.reduce((a, b) => Math.min(a, b), Infinity), high = range.reduce((a, b) => Math.max(a, b), -Infinity), at = seen_of(pose);
+  $("picked").hidden = false;
+  $("picked").textContent = `${contact_words(found, "contact", 0, file.names)}\nS(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(theta)}: (${at.x.toFixed(3)}, ${at.y.toFixed(3)})\nleft of it: φ from ${degrees(low)} to ${degrees(high)}; bounds cell ${value(found, "cell")}`;
+  keep({ ...history.now, robot: pose }, true);
+  set_slider(at.theta);
+  await ask_robot(pose);
   void ask_slice();
 };
 

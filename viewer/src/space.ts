@@ -65,7 +65,9 @@ export class Space {
     this.ends = [0, 1].map(() => new Mesh(new SphereGeometry(1, 20, 12), new MeshBasicMaterial({ depthTest: false, transparent: true, opacity: 0.75 })));
     for (const ball of [this.point, ...this.ends]) ball.renderOrder = 7;
     this.scene.add(...Object.values(this.parts), this.point, ...this.ends);
-    canvas.addEventListener("click", (event) => this.pick(event));
+    let down = { x: 0, y: 0 };
+    canvas.addEventListener("pointerdown", ({ clientX: x, clientY: y }) => { down = { x, y }; });
+    canvas.addEventListener("click", (event) => { if (Math.hypot(event.clientX - down.x, event.clientY - down.y) < 4) this.pick(event); });
     canvas.addEventListener("keydown", (event) => this.key(event));
     canvas.addEventListener("webglcontextlost", (event) => event.preventDefault());
     canvas.addEventListener("webglcontextrestored", () => this.ask());
@@ -92,7 +94,7 @@ export class Space {
 
   home(): void {
     const size = this.view.size;
-    this.camera.position.set(-1.15 * size, -2.05 * size, 1.25 * size);
+    this.camera.position.set(-1.24 * size, -2.21 * size, 1.33 * size);
     this.camera.near = 0.02 * size, this.camera.far = 12 * size;
     this.controls.target.set(0, 0, -0.02 * size);
     this.controls.update();
