@@ -4,9 +4,6 @@
 #include <numbers>
 #include <set>
 
-#include "cfree/planning/connecting_way.hpp"
-#include "cfree/search/rrt_connect.hpp"
-#include "cfree/search/shortcut.hpp"
 #include "cfree/support/elementary.hpp"
 #include "shown.hpp"
 
@@ -14,7 +11,7 @@ namespace cfree {
 
 namespace {
 
-constexpr int quick = 1000, checks_per_trapezoid = 3, attempts = 400;
+constexpr int attempts = 400;  // to shorten a path
 
 Motion still(const World& world, const RationalPose& pose) {
     const auto at = pose.configuration(*world.scene);
@@ -43,102 +40,14 @@ std::optional<std::array<Index, 2>> overlap(const World& world, const RationalPo
                                 owner_of(world.scene->obstacles, world.features.obstacles, found->obstacle_piece)};
 }
 
-class Searching {
-public:
-    Searching(const World& of, const RationalPose& start, const RationalPose& goal) : world(of), unit(of.scene->unit()) {
-        for (double& c : area_of(start, goal)) area.push_back(c / unit);
-        const double side = std::max(area[2] - area[0], area[3] - area[1]);
-        std::frexp(side > 0 ? side : 1, &extent);
-    }
-    Configuration configuration(const RationalPose& pose) const {
-        Configuration q = pose.configuration(*world.scene);
-        const Place at = pose.place();
-        q.px = at.x / unit, q.py = at.y / unit, q.theta = wrapped(at.theta);
-        return q;
-    }
-    RationalPose pose(const Configuration& q) const {
-        const Int whole = q.unit * world.scene->scale, common = gcd(q.hx, q.hy);
-        HalfAngle half{q.hx / common, q.hy / common};
-        if (half.q < 0 || (half.q.is_zero() && half.p < 0)) half.q = -half.q, half.p = -half.p;
-        return {reduced(q.x, whole), reduced(q.y, whole), half};
-    }
-    RrtConnect search(const RationalPose& start, const RationalPose& goal) const {
-        const auto joins = [this](const Configuration& a, const Configuration& b) { return world.checker->is_free(motion_between(a, b)); };
-        return {joins, grid(24, 20), {area[0], area[1], area[2], area[3]}, weight(), configuration(start), configuration(goal), 0};
-    }
-    Poses shortened(const Poses& way) const {
-        Route route;
-        for (const auto& q : way) route.push_back(configuration(q));
-        const std::vector<double> marks(route.size());
-        Shortcut shortcut({*world.checker, nullptr, grid(40, 36), {}, {weight()}}, {std::move(route), marks}, 0);
-        shortcut.run(attempts);
-        return poses(shortcut.path());
-    }
-    Poses poses(const Route& route) const {
-        Poses found;
-        for (const auto& q : route) found.push_back(pose(q));
-        return found;
-    }
-
-private:
-    Grid grid(int place_bits, int angle_bits) const { return {world.scene->shift, place_bits - extent, angle_bits}; }
-    double weight() const { return world.radius / unit; }
-    // Of positions to try: bounds, else around the workspace, else with room around obstacles and poses.
-    std::array<double, 4> area_of(const RationalPose& start, const RationalPose& goal) const {
-        std::array<double, 4> box{};
-        if (world.shapes.bounds) {
-            for (std::size_t k = 0; k < 4; ++k) box[k] = nearest((*world.shapes.bounds)[k].n, (*world.shapes.bounds)[k].d);
-            return box;
-        }
-        const Place p = start.place(), q = goal.place();
-        box = {std::min(p.x, q.x), std::min(p.y, q.y), std::max(p.x, q.x), std::max(p.y, q.y)};
-        const auto take = [&](const Polygon& of) {
-            for (Index k = 0; k < of.vertices.size(); ++k) {
-                const double x = nearest(of.vertices.X[k], of.denominator), y = nearest(of.vertices.Y[k], of.denominator);
-                box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
-            }
-        };
-        if (world.shapes.workspace) take(*world.shapes.workspace);
-        else for (const auto& obstacle : world.shapes.obstacles) take(*obstacle);
-        const double margin = world.shapes.workspace ? 0 : 2 * world.radius;
-        return {box[0] - margin, box[1] - margin, box[2] + margin, box[3] + margin};
-    }
-
-    const World& world;
-    const double unit;
-    std::vector<double> area;
-    int extent = 0;
-};
-
-struct Found {
-    Connection::Verdict verdict = Connection::Verdict::open;
-    Poses way;
-    std::shared_ptr<const CellComplex> surface;
-    std::vector<ContactSlide> slides = {};
-};
-
-Found find(World& world, const RationalPose& start, const RationalPose& goal) {
-    using enum Connection::Verdict;
-    const auto slides = std::make_shared<FoundSlides>();
-    const FreeMotions motions(*world.scene, *world.checker, *slides);
-    const RationalPose turned{start.x, start.y, goal.half}, moved{goal.x, goal.y, start.half};
-    if (auto way = motions.first_free({{start, turned, goal}, {start, moved, goal}, {start, goal}})) {
-        way->erase(std::unique(way->begin(), way->end()), way->end());
-        return {joined, *way, {}};
-    }
-    const Searching searching(world, start, goal);
-    auto search = searching.search(start, goal);
-    if (const auto route = search.run(quick); !route.empty()) return {joined, searching.poses(route), {}};
-    Connecting connecting(world.around, start, goal);
-    for (Index most = 64;; most *= 2) {
-        connecting.run(most);
-        if (connecting.found().verdict != open) break;
-        if (const auto route = search.run(checks_per_trapezoid * most); !route.empty()) return {joined, searching.poses(route), {}};
-    }
-    const Connection& found = connecting.found();
-    if (found.verdict != joined) return {found.verdict, {}, found.surface};
-    const Poses way = connecting_way(*world.around, found, world.radius, slides);
-    return {joined, way, {}, slides->along(way)};
+Poses shortened(const World& world, const Poses& way) {
+    std::vector<End> ends;
+    std::vector<Place> places;
+    for (const auto& pose : way) ends.push_back({pose, pose.place()}), places.push_back(pose.place());
+    const Searcher searcher(world.planner->scene, places, {world.radius});
+    Shortcut shortcut = searcher.shortener(ends);
+    shortcut.run(attempts);
+    return searcher.poses(shortcut.path());
 }
 
 // Where a slide is when it has turned by 2 atan(t).
@@ -216,15 +125,17 @@ void show_path(const World& world, const Poses& way, const std::vector<ContactSl
     reply.add("length", length), reply.add("turning", turning), reply.add("motions", static_cast<double>(way.size()) - 1);
 }
 
-void show_proof(const World& world, const std::shared_ptr<const CellComplex>& surface, Reply& reply) {
+void show_proof(const World& world, const Separation& proof, Reply& reply) {
+    const SharedBoundary& boundary = proof.surface.boundary;
+    const auto glued = glue_part(boundary, std::vector<char>(boundary->trapezoids.size(), 1), proof.surface.faces);
+    if (!glued.complex) throw std::logic_error("a surface that separates is not closed");
+    const SceneFeatures& features = *proof.of->features;
     std::set<Index> obstacles;
-    const auto& owners = world.features.obstacles.polygon;
-    for (const Index patch : surface->boundary->trapezoids.patch) {
-        const Index j = surface->boundary->patches.contact(patch).obstacle;
-        obstacles.insert(owners[static_cast<std::size_t>(j)]);
-    }
+    for (const Index patch : glued.complex->boundary->trapezoids.patch)
+        obstacles.insert(features.obstacles.polygon[static_cast<std::size_t>(glued.complex->boundary->patches.contact(patch).obstacle)]);
     reply.add("obstacles", std::vector<Index>(obstacles.begin(), obstacles.end()));
-    show_surface(world, *surface, world.radius / 20, reply);
+    reply.add("closed", proof.is_closed ? 1.0 : 0.0);
+    show_surface(features, *glued.complex, world.radius, reply);
 }
 
 }  // namespace
@@ -276,16 +187,20 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
             reply.text("verdict", std::string(name) + " forbidden");
             return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
         }
-    auto found = find(world, start, goal);
-    if (!found.way.empty()) {
-        reply.text("verdict", "path");
-        const bool may_shorten = found.way.size() > 2 && found.slides.empty();
-        const Poses way = may_shorten ? Searching(world, start, goal).shortened(found.way) : found.way;
-        check(world, way, found.slides);
-        return show_path(world, way, found.slides, reply);
+    const End first{start, start.place()}, last{goal, goal.place()};
+    const Listener alone;
+    const auto answer = world.planner->plan(first, last, alone);
+    if (const auto* proof = std::get_if<Separation>(&answer)) {
+        reply.text("verdict", "apart");
+        return show_proof(world, *proof, reply);
     }
-    reply.text("verdict", found.surface ? "apart" : "unclear");
-    if (found.surface) show_proof(world, found.surface, reply);
+    if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", "unclear");
+    const Poses& found = std::get<Poses>(answer);
+    const auto slides = world.planner->slides->along(found);
+    reply.text("verdict", "path");
+    const Poses way = found.size() > 2 && slides.empty() ? shortened(world, found) : found;
+    check(world, way, slides);
+    show_path(world, way, slides, reply);
 }
 
 }  // namespace cfree

@@ -85,10 +85,10 @@ struct SurfaceColumns {
     std::vector<std::uint8_t> kind, line_kind;
 };
 
-SurfaceColumns surface_of(const World& world, const CellComplex& cells, const Mesh& mesh, const FreeSpace* space) {
+SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cells, const Mesh& mesh, double length,
+                          const FreeSpace* space) {
     const Boundary& boundary = *cells.boundary;
-    const double length = world.radius;
-    const auto& owners = world.features.obstacles.polygon;
+    const auto& owners = features.obstacles.polygon;
     SurfaceColumns out;
     std::unordered_map<std::uint64_t, Index> seen;              // a vertex of a patch
     std::unordered_map<std::uint64_t, std::pair<Index, Index>> edges;  // of the mesh, their triangle and its corner
@@ -109,7 +109,7 @@ SurfaceColumns surface_of(const World& world, const CellComplex& cells, const Me
             const auto [at, is_new] = seen.try_emplace(key(v[k], patch(static_cast<Index>(t))), static_cast<Index>(out.kind.size()));
             if (is_new) {
                 const double* p = &mesh.xyz[3 * static_cast<std::size_t>(v[k])];
-                auto n = Turned(*world.scene, contact, p[2] / length).normal(p[0], p[1], length);
+                auto n = Turned(*features.scene, contact, p[2] / length).normal(p[0], p[1], length);
                 const double side = n[0] * flat[0] + n[1] * flat[1] + n[2] * flat[2] < 0 ? -1 : 1;
                 out.xyz.insert(out.xyz.end(), {p[0], p[1], p[2] / length});
                 for (const double c : n) out.normal.push_back(side * c);
@@ -129,7 +129,7 @@ SurfaceColumns surface_of(const World& world, const CellComplex& cells, const Me
             if (patch(before) != patch(static_cast<Index>(t)) && !of_bounds) {
                 const double *a = &mesh.xyz[3 * static_cast<std::size_t>(p)], *b = &mesh.xyz[3 * static_cast<std::size_t>(q)];
                 for (const double* c : {a, b}) out.lines.insert(out.lines.end(), {c[0], c[1], c[2] / length});
-                out.line_kind.push_back(static_cast<std::uint8_t>(line_kind(*world.scene, contact, neighbour, a[2] == b[2])));
+                out.line_kind.push_back(static_cast<std::uint8_t>(line_kind(*features.scene, contact, neighbour, a[2] == b[2])));
             }
         }
         out.face.push_back(face);
@@ -221,12 +221,12 @@ void show_columns(const World& world, Reply& reply) {
 void show_mesh(const World& world, double error, double most, Reply& reply) {
     world.need_space();
     for (int k = 0; k < 60 && estimate_mesh(*world.cells, error, world.radius).triangles > most; ++k) error *= 1.4;
-    put(surface_of(world, *world.cells, mesh(*world.cells, error, world.radius), world.space.get()), reply);
+    put(surface_of(world.features, *world.cells, mesh(*world.cells, error, world.radius), world.radius, world.space.get()), reply);
     reply.add("error", error);
 }
 
-void show_surface(const World& world, const CellComplex& cells, double error, Reply& reply) {
-    put(surface_of(world, cells, mesh(cells, error, world.radius), nullptr), reply);
+void show_surface(const SceneFeatures& features, const CellComplex& cells, double length, Reply& reply) {
+    put(surface_of(features, cells, mesh(cells, length / 20, length), length, nullptr), reply);
 }
 
 void show_slice(const World& world, double theta, Reply& reply) {

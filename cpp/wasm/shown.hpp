@@ -11,7 +11,8 @@ void show_counts(const World& world, Reply& reply);
 void show_columns(const World& world, Reply& reply);
 // Of one error, or a larger one with about `most` triangles. Vertices are those of single patches, with normals of these.
 void show_mesh(const World& world, double error, double most, Reply& reply);
-void show_surface(const World& world, const CellComplex& cells, double error, Reply& reply);
+// A closed surface of a scene, angles as heights times a length.
+void show_surface(const SceneFeatures& features, const CellComplex& cells, double length, Reply& reply);
 void show_slice(const World& world, double theta, Reply& reply);
 // The contact of a trapezoid at a place on it.
 void show_contact(const World& world, Index trapezoid, const Place& at, Reply& reply);

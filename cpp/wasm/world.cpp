@@ -36,9 +36,8 @@ std::optional<std::array<Ratio, 4>> limits_of(const SceneShapes& shapes) {
 }  // namespace
 
 World::World(SceneShapes given)
-    : shapes(std::move(given)), features(scene_features(shapes)), scene(features.scene),
-      checker(std::make_shared<const MotionChecker>(scene)), radius(radius_of(shapes)), limits(limits_of(shapes)),
-      around(std::make_shared<Surroundings>(scene, checker, may_have_slits(*scene))) {}
+    : shapes(std::move(given)), known(KnownScene::of(shapes)), features(*known->features), scene(features.scene), checker(known->checker),
+      radius(radius_of(shapes)), limits(limits_of(shapes)), planner(std::make_unique<Planner>(known, radius)) {}
 
 void World::compute(const std::function<void(double)>& share) {
     boundary = compute_boundary(scene, {1, false, [&](double done) { return share(0.5 * done), Wish::go_on; }});

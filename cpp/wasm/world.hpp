@@ -6,7 +6,7 @@
 
 #include "cfree/forbidden/slice.hpp"
 #include "cfree/free/free_space.hpp"
-#include "cfree/planning/surroundings.hpp"
+#include "cfree/planning/planner.hpp"
 #include "cfree/scene/features.hpp"
 
 namespace cfree {
@@ -18,7 +18,8 @@ public:
     void compute(const std::function<void(double)>& share);
 
     const SceneShapes shapes;
-    const SceneFeatures features;
+    const std::shared_ptr<KnownScene> known;
+    const SceneFeatures& features;
     const std::shared_ptr<const Scene> scene;
     const std::shared_ptr<const MotionChecker> checker;
     const double radius;  // of the robot about its reference point
@@ -28,7 +29,7 @@ public:
     std::shared_ptr<const CellComplex> cells;
     std::shared_ptr<const FreeSpace> space;
     std::unique_ptr<const Slicer> slicer;
-    std::shared_ptr<Surroundings> around;
+    std::unique_ptr<Planner> planner;
 
     void need_space() const;
 };

@@ -152,7 +152,7 @@ def test_apart_is_shown_with_what_parts(browser: Any, tmp_path: Path) -> None:
     scene = cfree.load_scene(tmp_path / "scene.json")
     tried = Tried(browser, view(scene, cfree.plan(scene), html=tmp_path / "page.html", browser=False))
     tried.ready("caught")
-    tried.say("#way", "No motion with clearance: parted by obstacle 0 (ring).")
+    tried.say("#way", "No motion, not even touching: parted by obstacle 0 (ring).")
     tried.close()
 
 

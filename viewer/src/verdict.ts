@@ -53,7 +53,8 @@ export function way_verdict(columns: Columns, names: string[], units: string): V
   }
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
-    return { tone: "proof", text: `No motion with clearance: parted by ${parting(owners, names)}. Ways by touch alone were not searched.` };
+    return { tone: "proof", text: value(columns, "closed") === 1 ? `No motion, not even touching: parted by ${parting(owners, names)}.`
+      : `No motion with clearance: parted by ${parting(owners, names)}; no way by touch was found.` };
   }
   return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };
 }
