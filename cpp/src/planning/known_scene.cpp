@@ -108,11 +108,11 @@ const Area& KnownScene::box() const {
     if (around_all) return *around_all;
     constexpr double inf = std::numeric_limits<double>::infinity();
     around_all = {inf, inf, -inf, -inf};
-    auto& [x0, y0, x1, y1] = *around_all;
+    Area& all = *around_all;
     const auto add = [&](const Polygon& polygon) {
         for (Index k = 0; k < polygon.vertices.size(); ++k) {
             const double x = nearest(polygon.vertices.X[k], polygon.denominator), y = nearest(polygon.vertices.Y[k], polygon.denominator);
-            x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+            all.x0 = std::min(all.x0, x), all.y0 = std::min(all.y0, y), all.x1 = std::max(all.x1, x), all.y1 = std::max(all.y1, y);
         }
     };
     if (shapes().workspace) add(*shapes().workspace);
