@@ -8,7 +8,9 @@ TESTED := .venv/tested
 INSTALL := $(BIN)/pip install -q --disable-pip-version-check
 # With tools of .venv and objects that stay: what is installed again later compiles only what has changed.
 TOOLS := scikit-build-core nanobind boost-headers cmake ninja
-HERE := --no-build-isolation --config-settings=build-dir='build/{wheel_tag}' -e
+DEV := .venv/rebuilt-at-import
+HERE = --no-build-isolation --config-settings=build-dir=$(if $(wildcard $(DEV)),build/dev $(REBUILT),'build/{wheel_tag}') -e
+REBUILT := --config-settings=editable.rebuild=true --config-settings=editable.verbose=false
 
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
@@ -74,9 +76,9 @@ viewer: $(INSTALLED)  ## the page, src/cfree/viewer/page.html: needs node, npm a
 	node viewer/build.mjs --boost "$$($(BIN)/python -c 'import boost_headers; print(boost_headers.get_include())')"
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
-	$(INSTALL) $(TOOLS)
-	$(INSTALL) --no-build-isolation --config-settings=editable.rebuild=true --config-settings=editable.verbose=false --config-settings=build-dir=build/dev -e '.[test]'
-	touch $(INSTALLED) $(TESTED)
+	touch $(DEV)
+	rm -f $(INSTALLED) $(TESTED)
+	$(MAKE) $(TESTED)
 
 stub: $(TESTED)  ## after a change of the binding
 	$(BIN)/python -m nanobind.stubgen -q -m cfree._core -o src/cfree/_core.pyi

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "cfree/search/rrt_connect.hpp"
+#include "cfree/support/elementary.hpp"
 #include "cfree/support/stop.hpp"
 
 namespace cfree {
@@ -69,7 +70,7 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
         if (route.front().theta != route.back().theta) turned(k, route.back());
         if (!way.costs.prefer() || k == 0 || k + 1 == route.size()) continue;
         const Configuration &before = route[k - std::min(k, stride)], &beyond = route[std::min(k + stride, route.size() - 1)];
-        const double ahead = std::atan2(beyond.py - before.py, beyond.px - before.px);
+        const double ahead = arc_tangent(beyond.py - before.py, beyond.px - before.px);
         for (const double theta : {ahead, ahead + std::numbers::pi}) turned(k, way.turned(route[k], theta));
     }
     const std::size_t count = nodes.size();

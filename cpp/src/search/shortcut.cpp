@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -51,7 +53,7 @@ void Shortcut::steer() {
     if (route.size() < 3) return;
     const std::size_t k = 1 + static_cast<std::size_t>(random() * static_cast<double>(route.size() - 2));
     const Configuration &before = route[k - 1], &beyond = route[k + 1];
-    const double ahead = std::atan2(beyond.py - before.py, beyond.px - before.px);
+    const double ahead = arc_tangent(beyond.py - before.py, beyond.px - before.px);
     for (const double theta : {ahead, ahead + std::numbers::pi})
         if (replace(k - 1, k + 1, {before, way.turned(route[k], theta), beyond})) return;
 }

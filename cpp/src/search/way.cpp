@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 constexpr double radii_around = 2;  // of way, before and after
@@ -18,8 +20,9 @@ double cost_between(const Configuration& a, const Configuration& b, const Costs&
     const double turn = turn_between(a, b), turning = costs.weight * std::abs(turn), travel = travel_between(a, b);
     if (!costs.prefer()) return travel + turning;
     const double heading = a.theta + 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;  // all along, as of the chord
-    const double ahead = std::cos(heading) * dx + std::sin(heading) * dy, across = std::cos(heading) * dy - std::sin(heading) * dx;
-    const double factor = std::hypot(ahead < 0 ? costs.backward * ahead : ahead, costs.sideways * across) / std::max(std::hypot(dx, dy), 1e-300);
+    const auto [c, s] = cosine_sine(heading);
+    const double ahead = c * dx + s * dy, across = c * dy - s * dx;
+    const double factor = norm(ahead < 0 ? costs.backward * ahead : ahead, costs.sideways * across) / std::max(norm(dx, dy), 1e-300);
     return factor * travel + turning + (costs.turning - 1) * std::max(0.0, turning - travel);
 }
 
@@ -104,7 +107,7 @@ Marked Way::marked(Route route, double from, double to) const {
 }
 
 std::vector<Route> Way::driven(const Configuration& a, const Configuration& b) const {
-    const double dx = b.px - a.px, dy = b.py - a.py, direction = std::atan2(dy, dx);
+    const double dx = b.px - a.px, dy = b.py - a.py, direction = arc_tangent(dy, dx);
     std::vector<Route> ways;
     for (const double sign : {1.0, -1.0}) {
         const double heading = sign > 0 ? direction : direction + std::numbers::pi;
@@ -113,13 +116,14 @@ std::vector<Route> Way::driven(const Configuration& a, const Configuration& b) c
         ways.push_back({a, turned(a, 2 * heading - b.theta), b});  // an arc's chord is half way between its tangents
         ways.push_back({a, turned(b, 2 * heading - a.theta), b});
         // two arcs that meet on the line between the ends of tangents, all four parts as long
-        const double ux = sign * std::cos(a.theta), uy = sign * std::sin(a.theta), vx = sign * std::cos(b.theta), vy = sign * std::sin(b.theta);
+        const CosineSine p = cosine_sine(a.theta), q = cosine_sine(b.theta);
+        const double ux = sign * p.c, uy = sign * p.s, vx = sign * q.c, vy = sign * q.s;
         const double both = dx * (ux + vx) + dy * (uy + vy), bend = 2 * (1 - ux * vx - uy * vy), square = dx * dx + dy * dy;
         const double root = std::sqrt(both * both + bend * square);
         const double length = square / (both + root);  // the positive root of bend l^2 + 2 both l - square
         if (!(both + root > 1e-9 * std::sqrt(square))) continue;
         const double x = dx - length * (ux + vx), y = dy - length * (uy + vy);
-        const double theta = std::atan2(sign * y, sign * x);
+        const double theta = arc_tangent(sign * y, sign * x);
         ways.push_back({a, grid.exact(0.5 * (a.px + b.px + length * (ux - vx)), 0.5 * (a.py + b.py + length * (uy - vy)), theta), b});
     }
     return ways;
