@@ -191,6 +191,17 @@ def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
         assert isinstance(plan(scene, start, goal, improve=0), Path)
 
 
+@pytest.mark.parametrize("at", [0, 10**9])
+def test_the_reference_point_slides_on_bounds_where_a_vertex_of_the_robot_is(at: int) -> None:
+    """A curve that both are on has the name of the vertex, which the bounds do not keep."""
+    holed = cfree.Polygon([(2, -1), (2, 3), (-2, 3), (-2, -1)], [[(1, 0), (0, 1), (0, 0), (-1, 2), (1, 2)]])
+    stop = [(at - 5, 0), (at - 5, -5), (at - 2, -5), (at - 2, 0)]
+    scene = Scene([holed, [(2, 2), (-1, 1), (-1, -1)]], [stop], bounds=(at - 6, 0, at - 5, 2))
+    for start, goal in permutations([Pose(at - 6, "2/3", "90deg"), Pose(at - 6, 2, "270deg")]):
+        answer = plan(scene, start, goal, improve=0)
+        assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
+
+
 @pytest.mark.slow
 def test_slides_keep_no_vertex_of_the_robot_on_the_bounds() -> None:
     """Though one is at the reference point, which alone is kept in them, and an obstacle's edge is on their line."""

@@ -132,11 +132,16 @@ std::optional<ContactSlide> free_slide(const Scene& scene, const MotionChecker& 
     const bool on_edge = curve.kind == Kind::vertex_edge;
     const Shape& shape = on_edge ? scene.obstacles : scene.robot;
     const Index edge = on_edge ? curve.obstacle : curve.robot;
-    for (Index other = 0; other < shape.ring_vertices; ++other) {
-        if (shape.line[other] != shape.line[edge]) continue;
-        const Feature on = on_edge ? Feature{curve.kind, curve.robot, other} : Feature{curve.kind, other, curve.obstacle};
-        auto found = slide_along(scene, from, contact, on, tau);
-        if (found && found->to == to && checker.is_free(found->motion(scene))) return found;
+    const Shape& others = on_edge ? scene.robot : scene.obstacles;
+    const Index vertex = on_edge ? curve.robot : curve.obstacle;
+    // curves have one name for all that coincides: a vertex of the robot may stand for the reference point
+    for (Index e = 0; e < shape.ring_vertices; ++e) {
+        if (shape.line[e] != shape.line[edge]) continue;
+        for (Index v = 0; v < others.ring_vertices; ++v) {
+            if (others.point[v] != others.point[vertex] || others.layer[v] != shape.layer[e]) continue;
+            auto found = slide_along(scene, from, contact, on_edge ? Feature{curve.kind, v, e} : Feature{curve.kind, e, v}, tau);
+            if (found && found->to == to && checker.is_free(found->motion(scene))) return found;
+        }
     }
     return {};
 }
