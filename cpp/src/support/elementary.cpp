@@ -81,11 +81,9 @@ double tangent(double x) {
 }
 
 double arc_tangent(double x) {
+    if (std::isnan(x)) return x;
     const double size = std::abs(x);
-    if (!(size <= 1)) {
-        const double rest = std::numbers::pi / 2 - (arc_tangent(1 / size) - half_pi_rounding);
-        return x < 0 ? -rest : x > 0 ? rest : x;  // or it is no number
-    }
+    if (size > 1) return std::copysign(std::numbers::pi / 2 - (arc_tangent(1 / size) - half_pi_rounding), x);
     const double nearest = std::nearbyint(8 * size);
     const double r = (size - nearest / 8) / (1 + size * (nearest / 8)), z = r * r;
     const auto k = static_cast<std::size_t>(nearest);
