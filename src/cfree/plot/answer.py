@@ -114,7 +114,7 @@ def picture(
 
     Examples
     --------
-    >>> from cfree.planning.planner import plan
+    >>> from cfree.planning.plan import plan
     >>> from cfree.exact.pose import Pose
     >>> from cfree.scene.scene import Scene
     >>> hall, wall = [(0, 0), (9, 0), (9, 3), (0, 3)], [(4, -1), (5, -1), (5, 4)]
