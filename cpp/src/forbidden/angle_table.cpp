@@ -2,6 +2,7 @@
 #include "cfree/forbidden/angle_table.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include "support/parallel.hpp"
 
@@ -29,7 +30,9 @@ void AngleTable::sort_chart(int chart, int threads) {
         ends.push_back({t.from_lo[k], t.from_hi[k], static_cast<Index>(k), false});
         ends.push_back({t.to_lo[k], t.to_hi[k], static_cast<Index>(k), true});
     }
-    std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) { return x.lo < y.lo; });
+    std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) {
+        return std::tuple(x.lo, x.trapezoid, x.is_to) < std::tuple(y.lo, y.trapezoid, y.is_to);
+    });
     constexpr std::size_t block = 4096;  // or more: of whole clusters, runs of intervals that overlap
     std::vector<std::size_t> clusters, first;  // where they start, and the first clusters of blocks
     double reach = -2;
