@@ -166,8 +166,7 @@ static void bind_separations(nb::module_& m) {
         .def(nb::init<std::shared_ptr<KnownScene>, double>(), "scene"_a, "angle_scale"_a)
         .def("plan", &plan, "start"_a, "goal"_a, "caller"_a, "few"_a)
         .def("walk", &walk, "start"_a, "goal"_a, "caller"_a)
-        .def("quick", &quick, "start"_a, "goal"_a, "caller"_a)
-        .def_prop_ro("most_checks", &Planner::most_checks);
+        .def("quick", &quick, "start"_a, "goal"_a, "caller"_a);
 }
 
 void bind_planning(nb::module_& m) {

@@ -18,12 +18,6 @@ Motion still(const World& world, const RationalPose& pose) {
     return motion_between(at, at);
 }
 
-bool is_outside(const World& world, const RationalPose& pose) {
-    if (!world.limits) return false;
-    const auto& [x0, y0, x1, y1] = *world.limits;
-    return pose.x < x0 || pose.x > x1 || pose.y < y0 || pose.y > y1;
-}
-
 // Whose a convex piece is: a polygon's number, or bounds or workspace.
 Index owner_of(const Shape& shape, const Owners& owners, Index piece) {
     const auto first = static_cast<std::size_t>(shape.piece_vertex[static_cast<std::size_t>(shape.piece[static_cast<std::size_t>(piece)])]);
@@ -33,7 +27,7 @@ Index owner_of(const Shape& shape, const Owners& owners, Index piece) {
 
 // What a pose overlaps: a part of the robot and an obstacle, bounds or workspace.
 std::optional<std::array<Index, 2>> overlap(const World& world, const RationalPose& pose) {
-    if (is_outside(world, pose)) return std::array<Index, 2>{-1, world.shapes.bounds ? bounds_owner : workspace_owner};
+    if (!world.known->is_within_limits(pose)) return std::array<Index, 2>{-1, world.shapes.bounds ? bounds_owner : workspace_owner};
     const auto found = world.checker->first_collision(still(world, pose));
     if (!found) return {};
     return std::array<Index, 2>{owner_of(world.scene->robot, world.features.robot, found->robot_piece),

@@ -63,11 +63,12 @@ Feature contact_of(const Boundary& boundary, Index trapezoid) {
 
 // Vertices of robot and obstacles that meet at the ends of a contact.
 std::vector<std::pair<Index, Index>> ends_of(const Scene& scene, const Feature& contact) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const auto names = [&](Index a, Index b) { return std::pair{A.point[a], O.point[b]}; };
-    if (contact.kind == Kind::vertex_edge)
-        return {names(contact.robot, O.v[contact.obstacle]), names(contact.robot, O.w[contact.obstacle])};
-    return {names(A.v[contact.robot], contact.obstacle), names(A.w[contact.robot], contact.obstacle)};
+    std::vector<std::pair<Index, Index>> names;
+    for (const int end : {0, 1}) {
+        const Feature helix = end_helix(scene, contact, end);
+        names.emplace_back(scene.robot.point[helix.robot], scene.obstacles.point[helix.obstacle]);
+    }
+    return names;
 }
 
 enum class Line : std::uint8_t { crossing, helix, segment };
@@ -270,8 +271,8 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
         if (table.patch[k] != table.patch[static_cast<std::size_t>(trapezoid)]) continue;
         const Index which = static_cast<Index>(k);
         same.push_back(which);
-        range.push_back(table.chart[k] * pi + 2 * arc_tangent(table.tau_from(which)));
-        range.push_back(table.chart[k] * pi + 2 * arc_tangent(table.tau_to(which)));
+        range.push_back(theta_of(table.chart[k], table.tau_from(which)));
+        range.push_back(theta_of(table.chart[k], table.tau_to(which)));
     }
     reply.add("same", same), reply.add("range", range);
     const Index component = world.cells->component[static_cast<std::size_t>(trapezoid)];

@@ -23,7 +23,6 @@ public:
     const std::shared_ptr<const Scene> scene;
     const std::shared_ptr<const MotionChecker> checker;
     const double radius;  // of the robot about its reference point
-    const std::optional<std::array<Ratio, 4>> limits;  // of the reference point: what is outside the scene does not know
 
     SharedBoundary boundary;
     std::shared_ptr<const CellComplex> cells;

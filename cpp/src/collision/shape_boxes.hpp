@@ -32,6 +32,13 @@ inline std::vector<Box> piece_boxes(const Shape& s) {
     return boxes;
 }
 
+// How far it reaches about its reference point.
+inline double reach_of(const Shape& s) {
+    double most = 0;
+    for (std::size_t v = 0; v < s.x.size(); ++v) most = std::max(most, norm(s.x[v], s.y[v]));
+    return most;
+}
+
 // No two of its points are farther apart.
 inline double diagonal(const Shape& s) {
     Box box;

@@ -156,7 +156,7 @@ void Assembly::place_vertex(Index vertex, Index h) {
     };
     const auto p = placed(end_helix(scene, contact, 0)), q = placed(end_helix(scene, contact, 1));
     result.xy[2 * vertex] = p.x + t * (q.x - p.x), result.xy[2 * vertex + 1] = p.y + t * (q.y - p.y);
-    result.theta[vertex] = 2 * arc_tangent(tau) + chart * std::numbers::pi;
+    result.theta[vertex] = theta_of(chart, tau);
 }
 
 void Assembly::find_components() {

@@ -60,14 +60,16 @@ Surface surface_of(const Patches& patches, const Trapezoids& t, Index k) {
     return {patches.contact(t.patch[k]), t.chart[k]};
 }
 
-CriticalAngle angle_from(const Patches& patches, const Trapezoids& t, Index k) {
-    return {surface_of(patches, t, k), {unpacked(t.from_first[k]), unpacked(t.from_second[k]), t.from_lo[k], t.from_hi[k]},
-            t.from_place[k]};
+CriticalAngle angle_from(const Surface& on, const Trapezoids& t, Index k) {
+    return {on, {unpacked(t.from_first[k]), unpacked(t.from_second[k]), t.from_lo[k], t.from_hi[k]}, t.from_place[k]};
 }
 
-CriticalAngle angle_to(const Patches& patches, const Trapezoids& t, Index k) {
-    return {surface_of(patches, t, k), {unpacked(t.to_first[k]), unpacked(t.to_second[k]), t.to_lo[k], t.to_hi[k]},
-            t.to_place[k]};
+CriticalAngle angle_from(const Patches& patches, const Trapezoids& t, Index k) { return angle_from(surface_of(patches, t, k), t, k); }
+
+CriticalAngle angle_to(const Surface& on, const Trapezoids& t, Index k) {
+    return {on, {unpacked(t.to_first[k]), unpacked(t.to_second[k]), t.to_lo[k], t.to_hi[k]}, t.to_place[k]};
 }
+
+CriticalAngle angle_to(const Patches& patches, const Trapezoids& t, Index k) { return angle_to(surface_of(patches, t, k), t, k); }
 
 }  // namespace cfree

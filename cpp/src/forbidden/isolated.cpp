@@ -80,10 +80,7 @@ private:
     // Live trapezoids of patches whose obstacle feature is within twice the robot's reach of this one's.
     template <class F>
     void for_each_near(Index patch, F&& report) const {
-        const Shape& A = scene.robot;
-        double reach = 0;
-        for (std::size_t v = 0; v < A.x.size(); ++v) reach = std::max(reach, norm(A.x[v], A.y[v]));
-        tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach), [&](Index near) {
+        tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach_of(scene.robot)), [&](Index near) {
             for (Index p = first_patch[near]; p < first_patch[near + 1]; ++p)
                 for (Index k = first_live[p]; k < first_live[p + 1]; ++k) report(p, k);
         });

@@ -73,7 +73,7 @@ void LevelGluer::glue(Index rank, std::span<const Index> sides) {
     for (const Index s : sides) {
         const Index k = s / 2;
         const bool is_above = s % 2 == 0;
-        know(at, scene, (is_above ? angle_from : angle_to)(patches, trapezoids, k));
+        know(at, scene, is_above ? angle_from(patches, trapezoids, k) : angle_to(patches, trapezoids, k));
         levels.push_back({k, is_above, code(scene, unpacked(trapezoids.lower[k])), code(scene, unpacked(trapezoids.upper[k])),
                           0, 0, 1, 0, 0});
     }

@@ -24,7 +24,7 @@ TouchingPatches::TouchingPatches(const Scene& g, const PatchTrimming& patches)
         if (A.convex[i]) layers[A.layer[i]].vertices.push_back(i);
         if (A.has_extent(i)) layers[A.layer[i]].edges.push_back(i);
     }
-    for (std::size_t v = 0; v < A.x.size(); ++v) size = std::max(size, norm(A.x[v], A.y[v]));
+    size = reach_of(A);
 }
 
 struct TouchingPatches::Turned {

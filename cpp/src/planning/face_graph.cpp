@@ -47,8 +47,8 @@ FaceGraph::FaceGraph(std::shared_ptr<const CellComplex> of, double scale)
 
 void FaceGraph::middles(Index face, std::vector<Place>& found) const {
     const Trapezoids& table = cells->boundary->trapezoids;
-    const double turn = table.chart[face] * pi;
-    const double low = 2 * arc_tangent(table.tau_from(face)) + turn, high = 2 * arc_tangent(table.tau_to(face)) + turn;
+    const int chart = table.chart[face];
+    const double low = theta_of(chart, table.tau_from(face)), high = theta_of(chart, table.tau_to(face));
     const Feature contact = cells->boundary->patches.contact(table.patch[face]);
     const Index first = cells->first[face], end = cells->first[face + 1];
     for (Index h = first; h < end; ++h) {
@@ -68,7 +68,7 @@ void FaceGraph::middles(Index face, std::vector<Place>& found) const {
             const double turned = theta + 2 * pi * std::nearbyint(((low + high) / 2 - theta) / (2 * pi));
             result.theta += std::min(std::max(turned, low), high) / 2;
         }
-        const auto t = limits.of(face, tangent((result.theta - turn) / 2));
+        const auto t = limits.of(face, tangent((result.theta - chart * pi) / 2));
         result = position_on(scene, contact, t[side == Side::upper], result.theta);
     }
 }

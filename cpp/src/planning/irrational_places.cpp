@@ -57,7 +57,7 @@ std::vector<Tail> tails(const MeetingPlaces& places, const Encounter& encounter)
         for (const bool is_last : {false, true})
             for (const std::size_t side : {0u, 1u}) {
                 const Ratio& end = is_last ? sheet.high : sheet.low;
-                const double theta = 2 * arc_tangent(nearest(end.n, end.d)) + sheet.chart * std::numbers::pi;
+                const double theta = theta_of(sheet.chart, nearest(end.n, end.d));
                 if (!are_near(theta, encounter.theta) || (holder.of == Holder::Of::part && side)) continue;
                 auto name = sheet.trace(side);
                 name.push_back(sheet.chart);

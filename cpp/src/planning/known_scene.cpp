@@ -2,6 +2,7 @@
 #include "cfree/planning/known_scene.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 namespace cfree {
@@ -66,7 +67,7 @@ std::shared_ptr<KnownScene> KnownScene::of(const SceneShapes& shapes) {
     return std::make_shared<KnownScene>(std::move(features), std::move(checker));
 }
 
-// Within the bounds, and not beyond the frame around the workspace: what is around these is not all of the plane.
+// Within the bounds, and not beyond the frame around the workspace.
 bool KnownScene::is_within_limits(const RationalPose& pose) const {
     if (shapes().bounds) {
         const auto& [x0, y0, x1, y1] = *shapes().bounds;
@@ -139,7 +140,7 @@ std::optional<Barrier> KnownScene::barrier(const RationalPose& start, const Rati
         if (verdict == Connection::Verdict::apart) {
             const CellComplex& surface = *found.found().surface;
             std::vector<Index> all(surface.component.size());
-            for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<Index>(k);
+            std::iota(all.begin(), all.end(), 0);
             return Barrier{surface.boundary, std::move(all)};
         }
     }

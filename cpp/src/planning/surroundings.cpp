@@ -16,24 +16,6 @@ namespace {
 constexpr Index first_step = 64, last_step = 1 << 29;  // trapezoids around each of two poses
 constexpr int most_attempts = 48;  // places near a pose from which a ray is tried, nearer and nearer
 
-Configuration configuration(const ExactPose& q) {
-    Configuration c;
-    c.hx = q.chart ? Int(-q.p) : q.r, c.hy = q.chart ? q.r : q.p;
-    c.x = q.X, c.y = q.Y, c.unit = q.W;
-    return c;
-}
-
-// The same orientation with tau in [-1, 1].
-void put_in_chart(ExactPose& q) {
-    if (q.r < 0) q.p = -q.p, q.r = -q.r;
-    if (abs(q.p) > q.r) {
-        const Int p = q.p;
-        q.chart = 1 - q.chart, q.p = p < 0 ? q.r : Int(-q.r), q.r = abs(p);
-    }
-    const Int g = gcd(q.p, q.r);
-    if (g > 1) q.p /= g, q.r /= g;
-}
-
 Int largest(const std::vector<Int>& X, const std::vector<Int>& Y) {
     Int result = 0;
     for (const auto* numbers : {&X, &Y})
@@ -61,16 +43,14 @@ Surroundings::Search Surroundings::search(const ExactPose& pose) const {
 bool Surroundings::start_again(Search& s) const {
     constexpr std::array<std::array<int, 3>, 8> ways{
         {{3, 1, 1}, {-1, 3, -1}, {-3, -1, 1}, {1, -3, -1}, {-2, 3, 1}, {2, -3, 1}, {3, 2, -1}, {-3, -2, -1}}};
+    const auto pose = RationalPose::of(s.pose, *scene);
     while (++s.attempt < most_attempts) {
         const auto [dx, dy, turn] = ways[s.attempt % 8];
         const unsigned bits = 6 + static_cast<unsigned>(s.attempt);
-        const ExactPose& q = s.pose;
-        const Int down = radius << bits, across = turn * size;  // tan(a + b) = (tan a + tan b) / (1 - tan a tan b)
-        ExactPose near{(q.X << bits) + dx * size * q.W, (q.Y << bits) + dy * size * q.W, q.W << bits, q.chart,
-                       q.p * down + across * q.r, q.r * down - across * q.p};
-        put_in_chart(near);
-        if (!checker->is_free(motion_between(configuration(q), configuration(near)))) continue;
-        s.from = s.at = near;
+        const Ratio step = reduced(size, Int(scene->scale << bits));
+        const RationalPose near{pose.x + Ratio{dx} * step, pose.y + Ratio{dy} * step, pose.half.turned(Int(radius << bits), Int(turn * size))};
+        if (!checker->is_free(motion_between(pose.configuration(*scene), near.configuration(*scene)))) continue;
+        s.from = s.at = near.exact(*scene);
         s.passed.clear(), s.seed = -1;
         return true;
     }

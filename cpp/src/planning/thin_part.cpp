@@ -2,7 +2,7 @@
 #include "cfree/planning/thin_part.hpp"
 
 #include <algorithm>
-#include <numbers>
+#include <tuple>
 
 #include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/support/elementary.hpp"
@@ -16,24 +16,22 @@ namespace {
 constexpr int samples = 8;             // of a curve
 constexpr std::size_t most_parts = 64; // of a curve: one slide does unless its formula cannot be seen to be defined on all of it
 
-struct RowAngle {
-    std::uint64_t first, second;
-    double lo, hi;
-    int place;
-    friend bool operator==(const RowAngle&, const RowAngle&) = default;
-};
-RowAngle angle_of(const Trapezoids& t, Index k, bool last) {
-    if (last) return {t.to_first[k], t.to_second[k], t.to_lo[k], t.to_hi[k], t.to_place[k]};
-    return {t.from_first[k], t.from_second[k], t.from_lo[k], t.from_hi[k], t.from_place[k]};
+std::optional<Ratio> rational_angle(const Scene& scene, const CriticalAngle& x) {
+    return x.lo == x.hi ? ratio_of(x.lo) : rational_value(x.exact(scene.near()));
 }
 
-std::optional<Ratio> rational_angle(const Boundary& boundary, const Feature& contact, int chart, const RowAngle& x) {
-    const CriticalAngle angle({contact, chart}, {unpacked(x.first), unpacked(x.second), x.lo, x.hi}, x.place);
-    return x.lo == x.hi ? ratio_of(x.lo) : rational_value(angle.exact(boundary.scene->near()));
+// A part's first or last angle.
+CriticalAngle angle_of(const Boundary& boundary, Index k, bool last) {
+    const IsolatedParts& all = boundary.isolated;
+    const Surface on{boundary.patches.contact((last ? all.to_patch : all.from_patch)[k]), all.parts.chart[k]};
+    return last ? angle_to(on, all.parts, k) : angle_from(on, all.parts, k);
 }
 
-bool turns(const IsolatedParts& parts, Index k) {
-    return angle_of(parts.parts, k, false) != angle_of(parts.parts, k, true) || parts.from_patch[k] != parts.to_patch[k];
+// Whether it has more than one orientation.
+bool turns(const Boundary& boundary, Index k) {
+    const auto from = angle_of(boundary, k, false), to = angle_of(boundary, k, true);
+    const auto said = [](const CriticalAngle& x) { return std::tuple(packed(x.on().contact), packed(x.first), packed(x.second), x.lo, x.hi, x.place); };
+    return said(from) != said(to);
 }
 
 Vec<Ratio> to(const RationalPose& from, const RationalPose& pose) { return {pose.x - from.x, pose.y - from.y}; }
@@ -41,21 +39,20 @@ Vec<Ratio> to(const RationalPose& from, const RationalPose& pose) { return {pose
 }  // namespace
 
 std::optional<Ratio> rational_angle(const Boundary& boundary, Index k, bool last) {
-    const Trapezoids& table = boundary.trapezoids;
-    return rational_angle(boundary, boundary.patches.contact(table.patch[k]), table.chart[k], angle_of(table, k, last));
+    const auto& [patches, table] = std::tie(boundary.patches, boundary.trapezoids);
+    return rational_angle(*boundary.scene, last ? angle_to(patches, table, k) : angle_from(patches, table, k));
 }
 
 ThinPart::ThinPart(const Boundary& boundary, Index k)
-    : number(k), is_curve(turns(boundary.isolated, k)), sheet(Sheet::isolated(boundary, k)) {
+    : number(k), is_curve(turns(boundary, k)), sheet(Sheet::isolated(boundary, k)) {
     const IsolatedParts& all = boundary.isolated;
     const Trapezoids& table = all.parts;
     for (const bool last : {false, true}) {
-        const Feature angle_on = boundary.patches.contact((last ? all.to_patch : all.from_patch)[k]);
         const Feature curve_on = boundary.patches.contact((last ? all.upper_patch : all.lower_patch)[k]);
         const double middle = last ? table.tau_to(k) : table.tau_from(k);
-        const double theta = 2 * arc_tangent(middle) + sheet.chart * std::numbers::pi;
+        const double theta = theta_of(sheet.chart, middle);
         rounded[last] = position_on(*boundary.scene, curve_on, (last ? all.last_t : all.first_t)[k], theta);
-        tau[last] = rational_angle(boundary, angle_on, sheet.chart, angle_of(table, k, last));
+        tau[last] = rational_angle(*boundary.scene, angle_of(boundary, k, last));
         if (!tau[last]) continue;
         if (is_curve) {
             ends[last] = at(*tau[last]);

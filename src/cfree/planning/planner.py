@@ -157,12 +157,12 @@ class Planner(Value):
             if objective == "clear":
                 shorter = (self._improver(part).shortened(part, None) for part in parts)
                 return self.path([q for part in shorter for q in self._cleared(part, seconds)])
-            better = [
-                improver.balanced(part, seconds) if objective == "balanced" else improver.shortened(part, seconds)
-                for part in parts
-                for improver in [self._improver(part)]
-            ]
-            return self.path([q for part in better for q in part])
+
+            def better(part: Sequence[Pose]) -> Sequence[Pose]:
+                improver = self._improver(part)
+                return improver.balanced(part, seconds) if objective == "balanced" else improver.shortened(part, seconds)
+
+            return self.path([q for part in parts for q in better(part)])
 
     @checked
     def way(self, start: Pose, goal: Pose, *, few: bool = False) -> list[Pose] | Separated | None:

@@ -3,9 +3,11 @@
 //   v-e:  P = b_v - R a_i,  U = E_j = b_w - b_v          (robot vertex i on the obstacle edge j = (v, w))
 //   e-v:  P = b_j - R a_v,  U = -R E_i = -R (a_w - a_v)  (robot edge i = (v, w) on the obstacle vertex j)
 #pragma once
+#include <numbers>
 #include <type_traits>
 
 #include "cfree/predicates/predicates.hpp"
+#include "cfree/support/elementary.hpp"
 
 namespace cfree {
 
@@ -16,6 +18,7 @@ struct Rotation {
     Vec<T> operator()(const Vec<T>& v) const { return {c * v.x - s * v.y, s * v.x + c * v.y}; }
     Vec<T> back(const Vec<T>& v) const { return {c * v.x + s * v.y, c * v.y - s * v.x}; }  // R^-1 v
 };
+inline double theta_of(int chart, double tau) { return 2 * arc_tangent(tau) + chart * std::numbers::pi; }
 inline Rotation<double> rotation_by(int chart, double tau) {
     const double m = (chart ? -1 : 1) / (1 + tau * tau);
     return {(1 - tau * tau) * m, 2 * tau * m, 1};

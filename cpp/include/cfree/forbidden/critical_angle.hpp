@@ -39,9 +39,11 @@ void know(Junction& at, const Scene& scene, const CriticalAngle& angle);
 // Sign of x - y, of one chart.
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y);
 
-// The angles of trapezoid k.
+// The angles of trapezoid k: of a patch, or of what its owner says.
 CriticalAngle angle_from(const Patches& patches, const Trapezoids& t, Index k);
 CriticalAngle angle_to(const Patches& patches, const Trapezoids& t, Index k);
+CriticalAngle angle_from(const Surface& on, const Trapezoids& t, Index k);
+CriticalAngle angle_to(const Surface& on, const Trapezoids& t, Index k);
 Surface surface_of(const Patches& patches, const Trapezoids& t, Index k);
 
 }  // namespace cfree

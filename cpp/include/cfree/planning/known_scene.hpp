@@ -36,6 +36,8 @@ public:
     const Scene& scene() const { return *features->scene; }
     const SceneShapes& shapes() const { return features->shapes; }
 
+    // What is around bounds and workspace is not all of the plane: the scene does not know it.
+    bool is_within_limits(const RationalPose& pose) const;
     bool is_free(const RationalPose& pose) const;
     // Patches before trimming.
     std::int64_t patches() const;
@@ -56,8 +58,6 @@ public:
     void keep(std::shared_ptr<const Built> found);
 
 private:
-    bool is_within_limits(const RationalPose& pose) const;
-
     std::optional<std::array<Int, 4>> frame;  // around a workspace: xmin, ymin, xmax, ymax
     mutable std::mutex lock;  // of what is kept
     std::shared_ptr<Surroundings> around;

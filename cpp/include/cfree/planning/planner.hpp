@@ -26,8 +26,6 @@ public:
     std::optional<Poses> walk(const End& start, const End& goal, const Listener& listener);
     // Poses of a path between free poses, if simple ways or a search find one.
     std::optional<Poses> quick(const End& start, const End& goal) const;
-    // Motions that a search may check: these take about as long as the free space does.
-    int most_checks() const;
 
     const std::shared_ptr<KnownScene> scene;
     const double angle_scale;  // length per radian: the robot's radius about its reference point
@@ -35,6 +33,8 @@ public:
 
 private:
     using Found = std::variant<Poses, Separation>;
+    // Motions that a search may check: these take about as long as the free space does.
+    int most_checks() const;
     std::optional<Found> by_few(const End& start, const End& goal, const Listener& listener);
     std::optional<Poses> in_a_cell(const End& start, const End& goal, const Listener& listener);
     Found by_all(const End& start, const End& goal, const Listener& listener);
