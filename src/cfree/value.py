@@ -1,8 +1,9 @@
-"""What values have in common: they are equal if what they are made of is, and are copied and pickled as that."""
+"""What values have in common: they are equal if what they are made of is, and are copied and pickled as that; shown."""
 
 from __future__ import annotations
 
 from dataclasses import fields
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,17 @@ class Value:
 
     def __reduce__(self) -> tuple[Any, ...]:
         return type(self), self._content
+
+
+class Shown:
+    """Base of values that a notebook shows as a picture."""
+
+    __slots__ = ()
+
+    def _repr_svg_(self) -> str | None:
+        # by name: what draws all kinds of values imports all of them
+        found: str | None = import_module("cfree.viewer.pictures").picture(self)
+        return found
 
 
 def _shown(part: Any) -> str:

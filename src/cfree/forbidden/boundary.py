@@ -27,6 +27,7 @@ from cfree.forbidden.record import BoundaryRecord, Stats
 from cfree.forbidden.slice import Slice
 from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
+from cfree.value import Shown
 
 PHASES = ("trim", "collect", "isolated", "intervals", "exact")
 DECIDED = ("decided_by_identity", "decided_by_filter", "decided_by_intervals", "decided_exactly")
@@ -150,7 +151,7 @@ def memory_used() -> int:
     return used if sys.platform == "darwin" else 1024 * used
 
 
-class Boundary(BoundaryRecord):
+class Boundary(BoundaryRecord, Shown):
     """Boundary of the forbidden space of a scene; see `boundary` and `load`.
 
     Attributes

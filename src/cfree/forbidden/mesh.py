@@ -21,7 +21,7 @@ from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.scene.scene import robot_radius
-from cfree.value import Value
+from cfree.value import Shown, Value
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -36,7 +36,7 @@ FINEST = 1e-15
 
 
 @dataclass(frozen=True, eq=False)
-class Mesh(Value):
+class Mesh(Value, Shown):
     """Closed surfaces of triangles, counter-clockwise as seen from the free side; see `Boundary.mesh`.
 
     Attributes

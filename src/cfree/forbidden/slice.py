@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from cfree.exact.half_angle import Angle, place_of
 from cfree.forbidden.record import BoundaryRecord
-from cfree.value import Value
+from cfree.value import Shown, Value
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -19,7 +19,7 @@ else:
     BaseGeometry = Any  # shapely is imported where it is used
 
 
-class Slice(Value):
+class Slice(Value, Shown):
     """Contact segments at one orientation.
 
     Attributes

@@ -30,14 +30,14 @@ from cfree.forbidden.record import glue_by
 from cfree.geometry.quadrature import trapezoid_integrals
 from cfree.scene.features import BOUNDS, WORKSPACE, SceneFeatures
 from cfree.scene.scene import Scene
-from cfree.value import Value
+from cfree.value import Shown, Value
 
 FORBIDDEN, NO_CELL = -1, -2
 BLOCK = 1 << 16  # poses between two looks at Ctrl-C
 
 
 @dataclass(frozen=True, eq=False)
-class Cell(Value):
+class Cell(Value, Shown):
     """A component of the interior of C_free.
 
     Attributes
@@ -100,7 +100,7 @@ class Nearby:
     generic: bool
 
 
-class FreeSpace(Value):
+class FreeSpace(Value, Shown):
     """Cells of the free space of a boundary; see `free_space`.
 
     Attributes

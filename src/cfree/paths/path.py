@@ -22,6 +22,7 @@ from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
 from cfree.scene.scene import Scene
+from cfree.value import Shown
 
 Objective = Literal["balanced", "short", "clear"]
 Floats = NDArray[np.float64]
@@ -29,7 +30,7 @@ Floats = NDArray[np.float64]
 
 @checked
 @dataclass(frozen=True, repr=False)
-class Path:
+class Path(Shown):
     """A start and motions.
 
     Parameters

@@ -22,6 +22,7 @@ from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
+from cfree.value import Shown
 
 if TYPE_CHECKING:
     from cfree.exact.angle_interval import AngleInterval
@@ -33,7 +34,7 @@ INWARD = math.radians(10)  # from the end of an interval, or a quarter of it
 
 @checked
 @dataclass(frozen=True, repr=False)
-class AllSeparated:
+class AllSeparated(Shown):
     """A proof that no motion leads to any of several goals.
 
     Parameters

@@ -160,7 +160,9 @@ class Planner(Value):
 
             def better(part: Sequence[Pose]) -> Sequence[Pose]:
                 improver = self._improver(part)
-                return improver.balanced(part, seconds) if objective == "balanced" else improver.shortened(part, seconds)
+                return (
+                    improver.balanced(part, seconds) if objective == "balanced" else improver.shortened(part, seconds)
+                )
 
             return self.path([q for part in parts for q in better(part)])
 

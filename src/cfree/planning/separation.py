@@ -30,7 +30,7 @@ from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.digest import Stamp
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.scene import Bounds, Scene
-from cfree.value import Value
+from cfree.value import Shown, Value
 
 
 @dataclass(frozen=True)
@@ -113,7 +113,7 @@ def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary
 
 
 @dataclass(frozen=True, repr=False)
-class Separated:
+class Separated(Shown):
     """A proof that no motion joins two poses.
 
     Attributes

@@ -24,6 +24,7 @@ from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, IntPoint, angle
 from cfree.polygons.rings import Points, Removed, read_rings, restored
+from cfree.value import Shown
 
 if TYPE_CHECKING:
     from shapely import Geometry as ShapelyGeometry
@@ -37,7 +38,7 @@ T = TypeVar("T", bound=np.generic)
 
 
 @dataclass(frozen=True, init=False, eq=False, repr=False)
-class Polygon:
+class Polygon(Shown):
     """A simple polygon, with or without holes.
 
     Parameters

@@ -23,13 +23,14 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.polygons.polygon import Polygon
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
+from cfree.value import Shown
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 
 
 @checked
 @dataclass(frozen=True, slots=True, init=False, repr=False)
-class Scene:
+class Scene(Shown):
     """A robot among obstacles.
 
     Parameters

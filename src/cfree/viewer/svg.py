@@ -1,0 +1,143 @@
+"""Shapes of the plane as SVG: small, without scripts, ids or anything from outside; no text in it becomes markup."""
+
+from __future__ import annotations
+
+import unicodedata
+from base64 import b64encode
+from collections.abc import Iterable
+from html import escape
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Window = tuple[float, float, float, float]
+
+UNIT = 10  # coordinates in the file are whole tenths of a pixel
+MANY = 20_000  # points of one drawing, above which they are whole pixels
+MOST = 60_000  # above which not all points of a ring are drawn
+FAR = 20_000  # pixels from the middle: what is farther is drawn there
+FONT = "system-ui,-apple-system,'Segoe UI',Roboto,Arial,sans-serif"
+
+
+class Panel:
+    """A part of a drawing that shows a window of the plane, y upwards.
+
+    Parameters
+    ----------
+    window : four floats
+        x0, y0, x1, y1, all of which is seen.
+    width, height : float
+        In pixels.
+    left, top : float, optional
+        Where its corner is in the drawing.
+    """
+
+    def __init__(self, window: Window, width: float, height: float, left: float = 0.0, top: float = 0.0) -> None:
+        x0, y0, x1, y1 = window
+        self.scale = min(width / (x1 - x0), height / (y1 - y0))
+        self.middle = np.array([x0 + (x1 - x0) / 2, y0 + (y1 - y0) / 2])
+        self.size, self.corner = np.array([width, height]), np.array([left, top])
+        self.parts: list[str] = []
+
+    def pixels(self, points: Floats) -> Floats:
+        """Where points (n, 2) are seen."""
+        placed = (points - self.middle) * self.scale * (1.0, -1.0)
+        shown: Floats = np.clip(placed, -FAR, FAR) + self.size / 2 + self.corner
+        return shown
+
+    def shapes(self, rings: Iterable[Floats], style: str, frame: bool = False) -> None:
+        """Rings as one shape, winding numbers other than 0 inside; even-odd within a frame around all that is seen."""
+        whole = list(rings)
+        count = sum(map(len, whole))
+        step = max(1, count // MOST)
+        grain = UNIT if count > MANY else 1
+        kept = [ring[::step] if len(ring) > 3 * step else ring[:3] for ring in whole]
+        placed = np.rint(self.pixels(np.concatenate([*kept, np.empty((0, 2))])) * UNIT / grain).astype(np.int64) * grain
+        ends = np.cumsum([0, *map(len, kept)]).tolist()
+        points = placed.tolist()
+        texts = dict.fromkeys(f"M{_run(points[i:j])}z" for i, j in pairwise(ends))
+        if frame:
+            (x, y), (w, h) = (self.corner * UNIT).astype(int), (self.size * UNIT).astype(int)
+            self.parts.append(f'<path d="M{x} {y}h{w}v{h}h{-w}z{"".join(texts)}" fill-rule="evenodd" {style}/>')
+        elif texts:
+            self.parts.append(f'<path d="{"".join(texts)}" {style}/>')
+
+    def line(self, points: Floats, style: str) -> None:
+        """A line through points (n, 2)."""
+        placed = np.rint(self.pixels(points) * UNIT).astype(np.int64)
+        if len(placed):
+            self.parts.append(f'<path d="M{_run(placed.tolist())}" fill="none" {style}/>')
+
+    def segments(self, ends: Floats, style: str) -> None:
+        """Segments (n, 2, 2); of many the shortest are left out."""
+        placed = np.rint(self.pixels(ends.reshape(-1, 2)) * UNIT).astype(np.int64).reshape(-1, 4)
+        length = np.abs(placed[:, :2] - placed[:, 2:]).max(axis=1, initial=0)
+        if len(placed) > MANY // 10:
+            placed = placed[length > 2 * UNIT]
+        texts = dict.fromkeys(f"M{a} {b}l{c - a} {d - b}" for a, b, c, d in placed.tolist())
+        if texts:
+            self.parts.append(f'<path d="{"".join(texts)}" fill="none" {style}/>')
+
+    def dot(self, point: Floats, radius: float, style: str) -> None:
+        """A disc of a radius in pixels."""
+        ((x, y),) = np.rint(self.pixels(point.reshape(1, 2)) * UNIT).astype(int).tolist()
+        self.parts.append(f'<circle cx="{x}" cy="{y}" r="{round(radius * UNIT)}" {style}/>')
+
+    def image(self, png: bytes) -> None:
+        """An image that fills the panel."""
+        (x, y), (w, h) = (self.corner * UNIT).astype(int), (self.size * UNIT).astype(int)
+        data = b64encode(png).decode()
+        self.parts.append(f'<image x="{x}" y="{y}" width="{w}" height="{h}" href="data:image/png;base64,{data}"/>')
+
+    def label(self, words: str, point: Floats, style: str) -> None:
+        """Words above a point."""
+        ((x, y),) = self.pixels(point.reshape(1, 2)).tolist()
+        self.parts.append(text(words, x, y - 4, f'text-anchor="middle" {style}'))
+
+
+def drawing(panels: Iterable[Panel], width: float, height: float, caption: str) -> str:
+    """Panels, and a caption below them, as one SVG."""
+    line = text(caption, 10, height + 17, 'fill="#1b2028"')
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height + 26:.0f}" '
+        f'viewBox="0 0 {width * UNIT:.0f} {(height + 26) * UNIT:.0f}" role="img" aria-label="{plain(caption, 400)}" '
+        'stroke-linejoin="round" stroke-linecap="round">',
+        '<rect width="100%" height="100%" rx="60" fill="#fff"/>',
+    ]
+    for panel in panels:
+        (x, y), (w, h) = (panel.corner * UNIT).astype(int), (panel.size * UNIT).astype(int)
+        parts += [f'<svg x="{x}" y="{y}" width="{w}" height="{h}" viewBox="{x} {y} {w} {h}">', *panel.parts, "</svg>"]
+    return "".join([*parts, line, "</svg>"])
+
+
+def text(words: str, x: float, y: float, style: str) -> str:
+    """Words at a place in pixels."""
+    return (
+        f'<text x="{x * UNIT:.0f}" y="{y * UNIT:.0f}" font-family="{FONT}" font-size="{12.5 * UNIT:.0f}" {style}>'
+        f"{plain(words, 100)}</text>"
+    )
+
+
+def plain(words: str, most: int) -> str:
+    """Words as they stand in markup: no characters that XML forbids or that turn the direction of what follows.
+
+    Examples
+    --------
+    >>> plain("<b>\\u202e\\x00 & co", 80), plain("long", 3)
+    ('&lt;b&gt; &amp; co', 'lo…')
+    """
+    kept = "".join(c for c in words if unicodedata.category(c) not in ("Cc", "Cf", "Cs", "Co", "Cn"))
+    return escape(kept if len(kept) <= most else f"{kept[: most - 1]}…")
+
+
+def _run(points: list[list[int]]) -> str:
+    """Points from one to the next; a point that is the one before it is left out."""
+    (x, y), *rest = points
+    parts = [f"{x} {y}"]
+    for u, v in rest:
+        if (u, v) != (x, y):
+            parts.append(f"l{u - x} {v - y}")
+            x, y = u, v
+    return "".join(parts)
