@@ -12,64 +12,11 @@ import pytest
 
 import cfree
 from cfree import view
+from pages import Tried
 
-CHROMIUM = Path("/usr/bin/chromium")
-playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed: the page was not tried")
-if not CHROMIUM.exists():
-    pytest.skip("chromium is not installed: the page was not tried in a browser", allow_module_level=True)
 pytestmark = pytest.mark.slow
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
-SWIFTSHADER = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    with playwright.sync_playwright() as running:
-        found = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
-        yield found
-        found.close()
-
-
-class Tried:
-    """A page of a scene; closing it sees that nothing was complained of and nothing asked for from outside."""
-
-    def __init__(self, browser: Any, path: Path, fragment: str = "") -> None:
-        self.context = browser.new_context(viewport={"width": 1280, "height": 800})
-        self.page = self.context.new_page()
-        self.faults: list[str] = []
-        self.page.on("console", lambda message: self.faults.append(message.text) if message.type == "error" else None)
-        self.page.on("pageerror", lambda error: self.faults.append(str(error)))
-        self.page.on("request", lambda request: self._see(request.url))
-        self.page.goto(f"{path.as_uri()}{fragment}")
-
-    def _see(self, url: str) -> None:
-        if not url.startswith(("file:", "blob:", "data:")):
-            self.faults.append(url)
-
-    def ready(self, name: str) -> None:
-        self.page.locator(f"body[data-ready='{name}']").wait_for(timeout=120_000)
-
-    def say(self, which: str, text: str) -> None:
-        self.page.locator(which).filter(has_text=text).wait_for(timeout=30_000)
-
-    def drag(self, who: str, dx: float, dy: float) -> None:
-        """The point of the robot, or of a ghost, by pixels."""
-        box = self.page.locator(f".body.{who} .point").bounding_box()
-        assert box
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-        self.page.mouse.move(x, y)
-        self.page.mouse.down()
-        for step in range(1, 9):
-            self.page.mouse.move(x + dx * step / 8, y + dy * step / 8)
-        self.page.mouse.up()
-
-    def slice(self) -> str:
-        return str(self.page.locator(".slice .forbidden").get_attribute("d"))
-
-    def close(self) -> None:
-        self.context.close()
-        assert not self.faults, self.faults
 
 
 @pytest.fixture

@@ -1,0 +1,23 @@
+"""Debian's chromium; where it is not installed, what needs it says so and is skipped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import pytest
+
+from pages import CHROMIUM, SWIFTSHADER
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    playwright = pytest.importorskip(
+        "playwright.sync_api", reason="playwright is not installed: the page was not tried"
+    )
+    if not CHROMIUM.exists():
+        pytest.skip("chromium is not installed: the page was not tried in a browser")
+    with playwright.sync_playwright() as running:
+        found = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
+        yield found
+        found.close()
