@@ -51,6 +51,8 @@ async function compile_core(boost) {
   };
   const work = sources.map((source) => ({ source, object: join(objects, source.replace(/cpp$/, "o")) }));
   const queue = work.filter(({ object }) => is_old(object, object.replace(/o$/, "d")));
+  const output = join(objects, "core.js"), listed = join(objects, "sources.txt"), list = sources.join("\n");
+  if (!queue.length && existsSync(output) && existsSync(listed) && readFileSync(listed, "utf8") === list) return readFileSync(join(objects, "core.wasm"));
   const one = async () => {
     for (let item; (item = queue.shift()); ) {
       mkdirSync(dirname(item.object), { recursive: true });
@@ -59,8 +61,8 @@ async function compile_core(boost) {
     }
   };
   await Promise.all(Array.from({ length: Math.min(availableParallelism(), 4) }, one));
-  const output = join(objects, "core.js");
   execFileSync("em++", [...flags, ...link, ...work.map(({ object }) => object), "-o", output], { cwd: root, env, stdio: "inherit" });
+  writeFileSync(listed, list);
   return readFileSync(join(objects, "core.wasm"));
 }
 

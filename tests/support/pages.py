@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
+
+import cfree
 
 CHROMIUM = Path("/usr/bin/chromium")
 SWIFTSHADER = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
@@ -33,14 +36,37 @@ class Tried:
 
     def drag(self, who: str, dx: float, dy: float) -> None:
         """The point of the robot, or of a ghost, by pixels."""
-        box = self.page.locator(f".body.{who} .point").bounding_box()
-        assert box
+        self.pull(self.page.locator(f".body.{who} .point"), dx, dy)
+
+    def pull(self, handle: Any, dx: float, dy: float) -> None:
+        """Whatever is dragged, by pixels from its middle."""
+        box = handle.bounding_box()
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         self.page.mouse.move(x, y)
         self.page.mouse.down()
         for step in range(1, 9):
             self.page.mouse.move(x + dx * step / 8, y + dy * step / 8)
         self.page.mouse.up()
+
+    def built(self, act: Callable[[], object]) -> None:
+        """Does something and waits until another boundary is there."""
+        before = int(self.page.evaluate("document.body.dataset.built"))
+        act()
+        self.page.wait_for_timeout(300)
+        for _ in range(100):
+            if int(self.page.evaluate("document.body.dataset.built")) > before:
+                return
+            self.page.wait_for_timeout(100)
+        raise AssertionError("no other boundary was built")
+
+    def outlines(self) -> list[str]:
+        return [str(d) for d in self.page.locator(".obstacle").evaluate_all("all => all.map(p => p.getAttribute('d'))")]
+
+    def saved(self, tmp_path: Path) -> cfree.Scene:
+        with self.page.expect_download() as download:
+            self.page.locator("#save").click()
+        download.value.save_as(tmp_path / "saved.json")
+        return cfree.load_scene(tmp_path / "saved.json")
 
     def slice(self) -> str:
         return str(self.page.locator(".slice .forbidden").get_attribute("d"))

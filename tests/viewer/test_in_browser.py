@@ -92,6 +92,65 @@ def test_patch_that_is_clicked_is_named_and_touched(fig9: Tried) -> None:
     fig9.say("#pose", "Touching: ")
 
 
+def test_shapes_are_changed_by_dragging_and_undone(fig9: Tried, tmp_path: Path) -> None:
+    page, before = fig9.page, fig9.outlines()
+    page.locator("#edit-shapes").click()
+    fig9.built(lambda: fig9.pull(page.locator(".obstacle"), -30, 20))
+    moved = fig9.saved(tmp_path)
+    assert fig9.outlines() != before
+    assert all(c == round(c, 2) for c in moved.obstacles[0].vertices.ravel())  # of a grid
+    vertex = page.locator(".vertex")
+    fig9.built(lambda: fig9.pull(vertex.nth(2), 20, -40))
+    a, b = vertex.nth(0).bounding_box(), vertex.nth(1).bounding_box()
+    middle = [(a[c] + b[c] + a[size]) / 2 for c, size in (("x", "width"), ("y", "height"))]
+    fig9.built(lambda: page.mouse.dblclick(*middle))
+    assert vertex.count() == 4 and fig9.slice()
+    for _ in range(3):
+        fig9.built(lambda: page.locator("#undo").click())
+    assert fig9.outlines() == before
+    fig9.built(lambda: page.locator("#redo").click())
+    assert fig9.saved(tmp_path).obstacles == moved.obstacles
+    robot = page.locator(".body.robot .shape").get_attribute("d")
+    page.locator(".body.robot").focus()
+    fig9.built(lambda: fig9.pull(vertex.nth(1), 30, 10))
+    assert page.locator(".body.robot .shape").get_attribute("d") != robot
+
+
+def test_outline_that_crosses_itself_is_refused_with_its_place(fig9: Tried) -> None:
+    page = fig9.page
+    page.locator("#edit-shapes").click()
+    page.locator(".obstacle").focus()
+    page.locator(".vertex").first.focus()
+    fig9.built(lambda: page.keyboard.press("Insert"))
+    fig9.pull(page.locator(".vertex").nth(1), 200, -220)
+    fig9.say("#edit", "obstacle 0: outer ring: edges 0 and 2 cross at (")
+    fig9.built(lambda: page.keyboard.press("ArrowDown"))  # on with the last one that was well
+    assert page.locator("#edit").inner_text() == ""
+
+
+def test_obstacles_are_drawn_and_changed_by_keys(fig9: Tried) -> None:
+    page = fig9.page
+    page.locator("#space canvas").focus()
+    page.keyboard.press("n")
+    fig9.built(lambda: page.keyboard.press("Enter"))
+    assert len(fig9.outlines()) == 2
+    page.locator(".obstacle").nth(1).focus()
+    for key in ("ArrowRight", "[", "Enter", "ArrowUp", "Insert"):
+        before = fig9.outlines()
+        fig9.built(lambda key=key: page.keyboard.press(key)) if key != "Enter" else page.keyboard.press(key)
+        assert (fig9.outlines() == before) == (key == "Enter")
+    assert page.locator(".vertex").count() == 4
+    page.locator(".obstacle").nth(1).focus()
+    fig9.built(lambda: page.keyboard.press("Delete"))
+    box = page.locator("#workspace").bounding_box()
+    page.locator("#draw").click()
+    for x, y in ((0.6, 0.6), (0.75, 0.6), (0.7, 0.7)):
+        page.mouse.click(box["x"] + x * box["width"], box["y"] + y * box["height"])
+    fig9.built(lambda: page.keyboard.press("Enter"))
+    assert len(fig9.outlines()) == 2
+    fig9.say("#way", "A motion exists")
+
+
 def test_apart_is_shown_with_what_parts(browser: Any, tmp_path: Path) -> None:
     ring = {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]], "holes": [[[1, 1], [1, 8], [8, 8], [8, 1]]], "name": "ring"}
     text = {"name": "caught", "robot": {"outer": [[0, 0], [2, 0], [0, 2]]}, "obstacles": [ring]}

@@ -67,20 +67,33 @@ export class Engine {
     }
   }
 
+  // The scene that calls are about; what is being done for another one ends.
   async open(text: string): Promise<Columns> {
-    const columns = await this.call("open", text);
+    const before = this.opened;
+    for (let k = 0; k < 6 && this.busy; ++k) await new Promise((done) => setTimeout(done, 10));
+    if (this.busy) this.end();
     this.opened = text;
-    return columns;
+    try {
+      return await this.call("open", text);
+    } catch (error) {
+      this.opened = before;
+      throw error;
+    }
   }
 
-  // Ends what it does; what is asked next finds the scene open again.
-  cancel(): void {
+  // Asked of a scene, which is opened first if it is not.
+  async of(text: string): Promise<this> {
+    if (this.opened !== text) await this.open(text);
+    return this;
+  }
+
+  // Ends what it does; no scene is open afterwards.
+  end(): void {
     this.worker?.terminate();
-    this.worker = undefined;
+    this.worker = undefined, this.opened = undefined;
     const left = [...this.waiting.values(), ...this.queued.values()];
     this.waiting.clear(), this.queued.clear(), this.busy_with.clear();
     for (const { fail } of left) fail(new Cancelled());
-    if (this.opened !== undefined) void this.call("open", this.opened).catch(() => {});
   }
 
   private made(): Worker {

@@ -12,7 +12,7 @@ void main() {
   gl_Position = projectionMatrix * seen;
 }`;
 export const FRAGMENT = `
-uniform float opacity, cut, dim;
+uniform float opacity, cut, dim, faded;
 varying vec3 at_normal, to_eye, paint;
 varying float height;
 void main() {
@@ -27,6 +27,6 @@ void main() {
   vec3 base = is_free_side ? paint : mix(paint * 0.62, vec3(0.25), 0.18);
   vec3 lit = base * (0.42 + 0.62 * key + 0.16 * fill) + vec3(0.10 * shine);
   float alpha = opacity >= 1.0 ? 1.0 : mix(is_free_side ? opacity : 0.6 * opacity, 0.97, pow(rim, 2.2));
-  gl_FragColor = vec4(lit, alpha * (1.0 - dim));
+  gl_FragColor = vec4(mix(lit, vec3(dot(lit, vec3(0.3, 0.6, 0.1))), faded), alpha * (1.0 - dim) * (1.0 - faded));
   #include <colorspace_fragment>
 }`;

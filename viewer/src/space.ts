@@ -55,7 +55,7 @@ export class Space {
     this.controls.addEventListener("change", () => this.ask());
     this.material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, side: DoubleSide, vertexColors: true,
-      uniforms: { rise: { value: 1 }, length: { value: 1 }, opacity: { value: GLASS }, cut: { value: 1e9 }, dim: { value: 0 } },
+      uniforms: { rise: { value: 1 }, length: { value: 1 }, opacity: { value: GLASS }, cut: { value: 1e9 }, dim: { value: 0 }, faded: { value: 0 } },
       polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1,
     });
     this.front = this.material.clone();
@@ -80,7 +80,8 @@ export class Space {
   }
 
   private box: [number, number, number, number] = [0, 0, 1, 1];
-  show_scene(box: [number, number, number, number], radius: number): void {
+  // Seen from its usual place if it is another one.
+  show_scene(box: [number, number, number, number], radius: number, is_other: boolean): void {
     this.box = box;
     const [x0, y0, x1, y1] = box;
     this.view = { x: (x0 + x1) / 2, y: (y0 + y1) / 2, size: Math.max(x1 - x0, y1 - y0) };
@@ -89,7 +90,13 @@ export class Space {
     this.mesh = undefined, this.sorted = undefined;
     for (const ball of [this.point, ...this.ends]) ball.scale.setScalar(0.013 * this.view.size), (ball.visible = false);
     this.frame(box);
-    this.home();
+    if (is_other) this.fade(false), this.home();
+    else this.ask();
+  }
+  // What is shown is of the scene before its last edit.
+  fade(is: boolean): void {
+    this.material.uniforms.faded!.value = is ? 0.62 : 0;
+    this.ask();
   }
 
   home(): void {

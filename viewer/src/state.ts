@@ -1,6 +1,7 @@
 // What a page shows, as texts that the core reads exactly: undone, redone, and put into a link.
 export interface PoseText { x: string; y: string; tau: string }
-export interface State { source: string; gallery?: string; robot: PoseText; start?: PoseText; goal?: PoseText }
+// `opened` counts scenes opened, not edits of them.
+export interface State { source: string; gallery?: string; opened?: number; robot: PoseText; start?: PoseText; goal?: PoseText }
 
 export const words = (pose: PoseText) => `${pose.x} ${pose.y} ${pose.tau}`;
 export function from_words(text: string): PoseText {
@@ -37,7 +38,7 @@ async function through(bytes: Uint8Array, stream: GenericTransformStream): Promi
 
 // The fragment of a link; undefined if it would be too long.
 export async function fragment(state: State): Promise<string | undefined> {
-  const { source, ...rest } = state;
+  const { source, opened: _, ...rest } = state;
   const text = JSON.stringify(state.gallery ? rest : { ...rest, source });
   const packed = await through(new TextEncoder().encode(text), new CompressionStream("deflate-raw"));
   const code = btoa(String.fromCharCode(...packed)).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "");

@@ -5,8 +5,8 @@ export type Who = "robot" | "start" | "goal";
 export interface Seen { x: number; y: number; theta: number }
 export interface Drag { who: Who; x: number; y: number; theta?: number; step: number; done: boolean }
 
-const SVG = "http://www.w3.org/2000/svg";
-function made<K extends keyof SVGElementTagNameMap>(name: K, parent: Element, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
+export const SVG = "http://www.w3.org/2000/svg";
+export function made<K extends keyof SVGElementTagNameMap>(name: K, parent: Element, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
   const element = document.createElementNS(SVG, name);
   for (const [key, of] of Object.entries(attributes)) element.setAttribute(key, String(of));
   parent.append(element);
@@ -14,7 +14,7 @@ function made<K extends keyof SVGElementTagNameMap>(name: K, parent: Element, at
 }
 
 // Rings as the data of a path.
-function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 0, last = ring.length - 1): string {
+export function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 0, last = ring.length - 1): string {
   let d = "";
   for (let r = first; r < last; ++r) {
     for (let k = ring[r]!; k < ring[r + 1]!; ++k) d += `${k === ring[r] ? "M" : "L"}${xy[2 * k]} ${xy[2 * k + 1]}`;
@@ -24,9 +24,9 @@ function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 0, last
 }
 
 export class Workspace {
-  private readonly svg: SVGSVGElement;
+  readonly svg: SVGSVGElement;
   private readonly world: SVGGElement;
-  private readonly layers: Record<"floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks", SVGGElement>;
+  readonly layers: Record<"floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks" | "edit", SVGGElement>;
   private readonly bodies: Record<Who, SVGGElement>;
   private readonly at: Partial<Record<Who, Seen>> = {};
   private shape = "";
@@ -34,6 +34,7 @@ export class Workspace {
   private box = { x: 0, y: 0, w: 1, h: 1 };  // shown, y upwards
   private whole = this.box;
   on_drag: (drag: Drag) => void = () => {};
+  on_look = () => {};
 
   constructor(host: HTMLElement) {
     this.svg = made("svg", host, { role: "group", "aria-label": "Workspace: robot, obstacles, start and goal" });
@@ -44,7 +45,7 @@ export class Workspace {
     this.world = made("g", this.svg);
     const layer = (name: string) => made("g", this.world, { class: name });
     this.layers = { floor: layer("floor"), slice: layer("slice"), obstacles: layer("obstacles"), sweep: layer("sweep"), trace: layer("trace"),
-      ghosts: layer("ghosts"), robot: layer("robot-layer"), marks: layer("marks") };
+      ghosts: layer("ghosts"), robot: layer("robot-layer"), marks: layer("marks"), edit: layer("edit") };
     this.bodies = { start: this.body("start", this.layers.ghosts), goal: this.body("goal", this.layers.ghosts), robot: this.body("robot", this.layers.robot) };
     this.svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     this.svg.addEventListener("pointerdown", (event) => this.pan(event));
@@ -68,18 +69,25 @@ export class Workspace {
   }
   get pixel(): number { return this.box.w / Math.max(this.svg.clientWidth, 1); }
 
-  show_scene(scene: Columns, names: string[], poses: Seen[]): void {
+  // With poses seen anew, else from where it was seen.
+  show_scene(scene: Columns, names: string[], poses: Seen[] | undefined): void {
     const xy = doubles(scene, "obstacles.xy"), ring = integers(scene, "obstacles.ring"), polygon = integers(scene, "obstacles.polygon");
     this.radius = doubles(scene, "radius")[0]!;
     this.shape = outline(doubles(scene, "robot.xy"), integers(scene, "robot.ring"));
-    this.layers.obstacles.replaceChildren(), this.layers.floor.replaceChildren();
+    this.layers.floor.replaceChildren();
+    const kept = this.layers.obstacles.children;  // which may have the focus
+    while (kept.length + 1 > Math.max(polygon.length, 1)) kept[kept.length - 1]!.remove();
     for (let k = 0; k + 1 < polygon.length; ++k) {
-      const path = made("path", this.layers.obstacles, { d: outline(xy, ring, polygon[k], polygon[k + 1]), class: "obstacle" });
-      made("title", path).textContent = names[k] ?? `obstacle ${k}`;
+      const path = kept[k] ?? made("path", this.layers.obstacles, { class: "obstacle" });
+      path.setAttribute("d", outline(xy, ring, polygon[k], polygon[k + 1]));
+      (path.firstChild ?? made("title", path)).textContent = names[k] ?? `obstacle ${k}`;
     }
     const bounds = doubles(scene, "bounds"), room = doubles(scene, "workspace.xy");
     if (bounds.length) made("rect", this.layers.floor, { x: bounds[0]!, y: bounds[1]!, width: bounds[2]! - bounds[0]!, height: bounds[3]! - bounds[1]!, class: "bounds" });
     if (room.length) made("path", this.layers.floor, { d: outline(room, integers(scene, "workspace.ring")), class: "room" });
+    this.shaped(this.shape);
+    this.layers.marks.replaceChildren();
+    if (!poses) return this.look();
     const xs: number[] = [], ys: number[] = [];
     for (const of of [xy, bounds, room]) for (let k = 0; k < of.length; k += 2) xs.push(of[k]!), ys.push(of[k + 1]!);
     for (const { x, y } of poses) xs.push(x - this.radius, x + this.radius), ys.push(y - this.radius, y + this.radius);
@@ -87,10 +95,16 @@ export class Workspace {
     const [x0, x1, y0, y1] = [least(xs), most(xs), least(ys), most(ys)];
     const margin = 0.06 * Math.max(x1 - x0, y1 - y0);
     this.whole = { x: x0 - margin, y: y0 - margin, w: x1 - x0 + 2 * margin, h: y1 - y0 + 2 * margin };
-    for (const group of Object.values(this.bodies)) group.querySelector(".shape")!.setAttribute("d", this.shape);
-    this.layers.sweep.replaceChildren(), this.layers.trace.replaceChildren(), this.layers.marks.replaceChildren();
     this.fit();
   }
+
+  // The robot's outline, which may be on its way to another.
+  shaped(d: string): void {
+    for (const group of Object.values(this.bodies)) group.querySelector(".shape")!.setAttribute("d", d);
+  }
+  fade(is: boolean): void { this.svg.classList.toggle("stale", is); }
+  get shown(): { x: number; y: number; w: number; h: number } { return this.box; }
+  get robot(): Seen | undefined { return this.at.robot; }
 
   fit(): void {
     this.box = { ...this.whole };
@@ -105,6 +119,7 @@ export class Workspace {
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.world.setAttribute("transform", `matrix(${1 / more} 0 0 ${-1 / more} ${-this.box.x / more} ${height + this.box.y / more})`);
     for (const who of Object.keys(this.bodies) as Who[]) this.place(who, this.at[who]);
+    this.on_look();
   }
 
   place(who: Who, at: Seen | undefined, tone = ""): void {
@@ -174,7 +189,7 @@ export class Workspace {
     for (let k = 0; 4 * k < robot.length; ++k) mark(this.layers.marks, obstacle, k), mark(moved, robot, k);
   }
 
-  private point(event: { clientX: number; clientY: number }): { x: number; y: number } {
+  point(event: { clientX: number; clientY: number }): { x: number; y: number } {
     const rect = this.svg.getBoundingClientRect(), px = this.pixel;
     return { x: this.box.x + (event.clientX - rect.left) * px, y: this.box.y + (rect.bottom - event.clientY) * px };
   }

@@ -1,0 +1,37 @@
+// The robot on its path.
+import { $, say } from "./page";
+import type { Session } from "./session";
+
+export class Player {
+  private frame = 0;
+  constructor(private readonly session: Session) { session.stop_playing = () => this.stop(); }
+
+  stop(): void {
+    if (!this.frame) return;
+    cancelAnimationFrame(this.frame), (this.frame = 0), ($("play").textContent = "▶ Play");
+  }
+
+  toggle(): void {
+    if (this.frame) return this.stop();
+    const { session } = this, { path: samples } = session;
+    if (!samples) return;
+    const count = samples.length / 3, duration = Math.max(2500, Math.min(14_000, 22 * count));
+    $("play").textContent = "❚❚ Pause";
+    let began = performance.now(), share = 0;
+    const step = (now: number) => {
+      share += (now - began) / duration * Number($<HTMLSelectElement>("speed").value), (began = now);
+
+      if (share >= 1 && $<HTMLInputElement>("loop").checked) share %= 1;
+      const at = Math.min(share, 1) * (count - 1), k = Math.min(Math.floor(at), count - 2), u = at - k;
+      const c = (i: number) => samples[3 * k + i]! * (1 - u) + samples[3 * k + 3 + i]! * u;
+      session.seen.robot = { x: c(0), y: c(1), theta: c(2) };
+      session.workspace.place("robot", session.seen.robot, "good"), session.space?.place(session.seen.robot, true), session.set_slider(c(2));
+      void session.ask_slice();
+      if (share < 1) this.frame = requestAnimationFrame(step);
+      else this.stop(), session.keep({ ...session.now, robot: session.now.goal! }, true), void session.ask_robot(session.now.robot);
+    };
+    session.workspace.show_contacts(undefined, "", { x: 0, y: 0, theta: 0 });
+    say("pose", { tone: "good", text: "On the path: free all the way." });
+    this.frame = requestAnimationFrame(step);
+  }
+}

@@ -1,0 +1,332 @@
+// What is asked of the core when something moves, and where its answers go.
+import { Cancelled, Engine, type Columns, doubles, integers, string, value } from "./engine";
+import type { Editor } from "./editor";
+import { $, fault, say, working } from "./page";
+import { digits, number } from "./shapes";
+import { wrapped, type Space } from "./space";
+import { History, fragment, from_words, words, type PoseText, type State } from "./state";
+import { degrees, pose_verdict, way_verdict } from "./verdict";
+import type { FilePose, SceneText } from "./words";
+import type { Drag, Seen, Who, Workspace } from "./workspace";
+
+const PATIENCE = 300;  // ms that a boundary may take before the next edit ends it
+const COARSE = 9000, FINE = 60_000;  // triangles
+
+export const seen_of = (pose: PoseText): Seen =>
+  ({ x: number(pose.x), y: number(pose.y), theta: pose.tau === "inf" ? Math.PI : 2 * Math.atan(number(pose.tau)) });
+
+type Box = [number, number, number, number];
+function box_of(read: Columns): Box {
+  const bounds = doubles(read, "bounds");
+  if (bounds.length) return [...bounds] as Box;
+  const radius = value(read, "radius"), xy = doubles(read, doubles(read, "workspace.xy").length ? "workspace.xy" : "obstacles.xy");
+  const box: Box = xy.length ? [Infinity, Infinity, -Infinity, -Infinity] : [-2 * radius, -2 * radius, 2 * radius, 2 * radius];
+  for (let k = 0; k < xy.length; k += 2)
+    box[0] = Math.min(box[0], xy[k]! - radius), box[1] = Math.min(box[1], xy[k + 1]! - radius), box[2] = Math.max(box[2], xy[k]! + radius), box[3] = Math.max(box[3], xy[k + 1]! + radius);
+  return box;
+}
+
+export class Session {
+  readonly quick = new Engine();  // scenes read, poses: always at once
+  readonly builder = new Engine((share) => { $<HTMLProgressElement>("share-done").value = share; });  // boundary, mesh, slices
+  readonly planner = new Engine();  // ways
+  history!: History;
+  file!: Omit<SceneText, "words">;
+  scene?: Columns;
+  seen: { robot?: Seen; start?: Seen; goal?: Seen } = {};
+  is_built = false;  // of the scene as it is now
+  private opened = 0;
+  path: Float64Array | undefined;
+  last_way: Columns | undefined;
+  editor?: Editor;
+  stop_playing = () => {};
+  on_opened = () => {};
+
+  constructor(readonly workspace: Workspace, readonly space: Space | undefined) {
+    workspace.on_drag = (drag) => this.drag(drag);
+  }
+
+  get now(): State { return this.history.now; }
+
+  // A file's text: read, shown, its boundary computed while ways are looked for.
+  async open(source: string, of?: Partial<State>): Promise<void> {
+    this.stop_playing();
+    try {
+      const read = await this.quick.open(source);
+      const file: SceneText = JSON.parse(string(read, "file"));
+      const start = of?.start ?? (file.start && await this.text_of(file.start));
+      const goal = of?.goal ?? (file.goal && await this.text_of(file.goal, start?.tau));  // a place: as the start is turned
+      const box = box_of(read), middle = (k: 0 | 1) => ((box[k] + box[k + 2]!) / 2).toFixed(2);
+      const robot = of?.robot ?? start ?? { x: middle(0), y: middle(1), tau: "0" };
+      const state: State = { source, opened: ++this.opened, robot, ...(start && { start }), ...(goal && { goal }), ...(of?.gallery && { gallery: of.gallery }) };
+      if (this.history) this.history.push(state); else this.history = new History(state);
+      this.take(read, true);
+    } catch (error) {
+      return fault("edit", error);
+    }
+    this.remember();
+    await this.build(true);
+  }
+
+  // What the state says, with the scene that was read; seen anew or from where it was seen.
+  private take(read: Columns, is_other: boolean): void {
+    const { now } = this;
+    this.scene = read, (this.file = JSON.parse(string(read, "file")));
+    this.is_built = false, (this.last_free = undefined);
+    this.seen = { robot: seen_of(now.robot), ...(now.start && { start: seen_of(now.start) }), ...(now.goal && { goal: seen_of(now.goal) }) };
+    document.title = `${this.file.name || "scene"}: cfree`;
+    this.workspace.show_scene(read, this.file.names, is_other ? Object.values(this.seen) as Seen[] : undefined);
+    $<HTMLSelectElement>("scenes").value = now.gallery ?? "";
+    $("picked").hidden = true;
+    say("edit", { tone: "plain", text: "" });
+    if (is_other) {
+      this.workspace.show_slice(undefined), this.workspace.show_path(undefined);
+      this.space?.show_scene(box_of(read), value(read, "radius"), true);
+      $("facts").textContent = "";
+      this.path = undefined, (this.last_way = undefined), say("way", { tone: "plain", text: "" });
+    } else this.space?.fade(true), this.workspace.fade(true);
+    for (const who of ["start", "goal"] as const) this.place(who);
+    this.set_slider(this.seen.robot!.theta);
+    this.editor?.show(now.source);
+    this.on_opened();
+    void this.ask_robot(now.robot);
+    void this.ask_way();
+  }
+
+  place(who: Who, tone = ""): void {
+    this.workspace.place(who, this.seen[who], tone);
+    if (who === "start") this.space?.place_end(0, this.seen.start);
+    if (who === "goal") this.space?.place_end(1, this.seen.goal);
+  }
+
+  // The boundary of the scene as it is; of several wishes the newest.
+  private wanted?: { is_fine: boolean };
+  private building_since = 0;
+  async build(is_fine: boolean): Promise<void> {
+    this.wanted = { is_fine };
+    if (this.building_since) {
+      if (is_fine || performance.now() - this.building_since > PATIENCE) this.builder.end();
+      return;
+    }
+    const slow = setTimeout(() => working(true), 250);
+    for (let wish; (wish = this.wanted); ) {
+      this.wanted = undefined, (this.building_since = performance.now());
+      try { await this.build_once(wish.is_fine); } catch (error) {
+        if (!(error instanceof Cancelled)) fault("pose", error);
+        else if (!this.wanted) $("facts").textContent = "stopped: no boundary";
+      }
+    }
+    this.building_since = 0;
+    clearTimeout(slow), working(this.planner.busy && this.is_waiting);
+  }
+
+  private async build_once(is_fine: boolean): Promise<void> {
+    const { source } = this.now, read = this.scene!, box = box_of(read), radius = value(read, "radius"), began = performance.now();
+    const builder = await this.builder.of(source);
+    const counts = await builder.call("boundary"), seconds = (performance.now() - began) / 1000;
+    const mesh = this.space && await builder.call("mesh", radius / (is_fine ? 60 : 20), is_fine ? FINE : COARSE);
+    const is_now = source === this.now.source;
+    const cells = value(counts, "cells");
+    $("facts").textContent = `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s`;
+    if (this.space) {
+      this.space.show_scene(box, radius, false), this.space.show_mesh(mesh!);
+      for (const who of ["start", "goal"] as const) this.place(who);
+    }
+    if (!is_now) return;
+    this.is_built = true;
+    this.space?.fade(false), this.workspace.fade(false);
+    this.show_way(this.last_way);
+    await Promise.all([this.ask_slice(), this.ask_robot(this.now.robot)]);
+    if (is_fine) document.body.dataset.ready = this.now.gallery ?? this.file.name;
+    document.body.dataset.built = String(Number(document.body.dataset.built ?? 0) + 1);
+  }
+
+  set_slider(theta: number): void {
+    const at = wrapped(theta);
+    $<HTMLInputElement>("theta").value = String(at * 180 / Math.PI), ($("degrees").textContent = degrees(at));
+    this.space?.set_theta(theta);
+  }
+
+  async ask_slice(): Promise<void> {
+    if (!this.is_built || !this.seen.robot) return;
+    try {
+      const slice = await this.builder.newest("slice", this.seen.robot.theta);
+      this.workspace.show_slice(slice), this.space?.show_slice(slice);
+    } catch (error) { fault("pose", error); }
+  }
+
+  // Where the robot is: verdict, touching pairs, cells.
+  async ask_robot(pose: PoseText): Promise<boolean | undefined> {
+    try {
+      const asked = this.is_built ? this.builder : await this.quick.of(this.now.source);
+      const answer = await asked.newest("pose", words(pose));
+      const [x, y, theta] = doubles(answer, "place") as unknown as [number, number, number];
+      const at = { x, y, theta };
+      this.seen.robot = at;
+      const is_free = value(answer, "free") === 1, verdict = pose_verdict(answer, this.file.names);
+      this.workspace.place("robot", at, verdict.tone), this.space?.place(at, is_free);
+      this.workspace.show_contacts(is_free ? answer : undefined, "touching", at);
+      this.editor?.look();
+      const cells = integers(answer, "cells");
+      if (verdict.tone === "good" && cells.length) verdict.text = `Free, in cell ${cells[0]}.`;
+      say("pose", verdict);
+      return is_free;
+    } catch (error) { fault("pose", error); return undefined; }
+  }
+
+  private is_waiting = false;  // for a way
+  async ask_way(): Promise<void> {
+    const { start, goal, source } = this.now;
+    if (!start || !goal) return say("way", { tone: "plain", text: start || goal ? "" : "No start and goal in this scene." });
+    $("way").classList.add("old");
+    const slow = setTimeout(() => { this.is_waiting = true, working(true), say("way", { tone: "plain", text: "Looking for a motion …" }); }, 400);
+    try {
+      const planner = await this.planner.of(source);
+      this.show_way(await planner.newest("plan", words(start), words(goal)));
+    } catch (error) {
+      if (!(error instanceof Cancelled)) this.show_way(undefined), fault("way", error);
+    } finally {
+      clearTimeout(slow);
+      this.is_waiting = false;
+      if (!this.building_since) working(false);
+    }
+  }
+
+  show_way(answer: Columns | undefined): void {
+    this.last_way = answer;
+    const verdict = answer && string(answer, "verdict");
+    this.path = verdict === "path" ? doubles(answer!, "samples") : undefined;
+    if (answer) say("way", way_verdict(answer, this.file.names, this.file.units));
+    this.show_path();
+    this.space?.show_barrier(verdict === "apart" ? answer : undefined);
+    $<HTMLButtonElement>("play").disabled = !this.path;
+  }
+  show_path(): void {
+    const shown = $<HTMLInputElement>("sweep").checked ? this.path : undefined;
+    this.workspace.show_path(shown), this.space?.show_path(shown);
+  }
+
+  private dragged?: Drag;
+  private is_following = false;
+  private last_free?: PoseText;
+  drag(drag: Drag): void {
+    this.dragged = drag;
+    if (!this.is_following) void this.follow();
+  }
+  private async follow(): Promise<void> {
+    this.is_following = true;
+    for (let drag; (drag = this.dragged); ) {
+      this.dragged = undefined;
+      try { await this.moved(drag); } catch (error) { fault("pose", error); }
+    }
+    this.is_following = false;
+  }
+
+  private async moved(drag: Drag): Promise<void> {
+    this.stop_playing();
+    const now = this.now[drag.who]!, decimal = (c: number) => c.toFixed(digits(drag.step));
+    const wanted: PoseText = drag.theta === undefined ? { x: decimal(drag.x), y: decimal(drag.y), tau: now.tau } : { ...now, tau: await this.tau_of(drag.theta) };
+    if (drag.who !== "robot") {
+      this.seen[drag.who] = seen_of(wanted);
+      this.place(drag.who);
+      this.keep({ ...this.now, [drag.who]: wanted }, drag.done);
+      return this.ask_way();
+    }
+    const is_free = await this.ask_robot(wanted);
+    let reached = wanted;
+    if (is_free) this.last_free = wanted;
+    else if (is_free === false && this.last_free && this.last_free.tau === wanted.tau && drag.theta === undefined) {
+      const quick = await this.quick.of(this.now.source);
+      const stop = from_words(string(await quick.call("stop", words(this.last_free), words(wanted)), "pose")), at = seen_of(stop);
+      if (Math.hypot(at.x - drag.x, at.y - drag.y) < 11 * this.workspace.pixel) reached = stop, await this.ask_robot(stop);  // in contact, exactly
+    }
+    if (drag.theta !== undefined) this.set_slider(this.seen.robot!.theta), void this.ask_slice();
+    this.keep({ ...this.now, robot: reached }, drag.done);
+  }
+
+  // A scene's text, edited; what is no scene is refused, and the last one that was stays.
+  private edit?: { source: string; done: boolean };
+  private is_editing = false;
+  async edited(source: string, done: boolean): Promise<void> {
+    this.edit = { source, done };
+    if (this.is_editing) return;
+    this.is_editing = true;
+    for (let edit; (edit = this.edit); ) {
+      this.edit = undefined;
+      await this.edit_once(edit.source, edit.done);
+    }
+    this.is_editing = false;
+  }
+  private async edit_once(source: string, done: boolean): Promise<void> {
+    this.stop_playing();
+    try {
+      const read = source === this.now.source ? undefined : await this.quick.open(source);
+      const { gallery: _, ...now } = this.now;
+      this.keep(read ? { ...now, source } : this.now, done);
+      if (read) this.take(read, false);
+      else say("edit", { tone: "plain", text: "" });
+      if (read || done) await Promise.race([this.build(done), new Promise((next) => setTimeout(next, 30))]);
+    } catch (error) {
+      if (error instanceof Cancelled) return;
+      fault("edit", error);
+      this.editor?.refused(error instanceof Error ? error.message : "");
+      if (!done) return;
+      this.keep(this.now, true);
+      this.editor?.show(this.now.source);
+      void this.build(true);
+    }
+  }
+
+  private before?: State;
+  // A state on the way of a drag; with its end it can be undone.
+  keep(state: State, done: boolean): void {
+    this.before ??= this.now;
+    this.history.now = state;
+    if (!done) return;
+    this.history.now = this.before, (this.before = undefined);
+    this.history.push(state);
+    this.remember();
+  }
+
+  private due = 0;
+  remember(): void {
+    $<HTMLButtonElement>("undo").disabled = !this.history.can_undo, ($<HTMLButtonElement>("redo").disabled = !this.history.can_redo);
+    clearTimeout(this.due);
+    this.due = window.setTimeout(async () => {
+      const hash = await fragment(this.now);
+      try { window.history.replaceState(null, "", hash ?? "#"); } catch { /* a frame without an address */ }
+    }, 300);
+  }
+
+  async undo(): Promise<void> { return this.restore(() => this.history.undo()); }
+  async redo(): Promise<void> { return this.restore(() => this.history.redo()); }
+  private async restore(step: () => State | undefined): Promise<void> {
+    const { source, opened } = this.now, state = step();
+    if (!state) return;
+    this.stop_playing();
+    if (state.source !== source) {
+      this.take(await this.quick.open(state.source), state.opened !== opened);
+      void this.build(true);
+    } else {
+      this.seen = { robot: seen_of(state.robot), ...(state.start && { start: seen_of(state.start) }), ...(state.goal && { goal: seen_of(state.goal) }) };
+      for (const who of ["start", "goal"] as const) this.place(who);
+      this.set_slider(this.seen.robot!.theta);
+      void this.ask_robot(state.robot), void this.ask_slice(), void this.ask_way();
+    }
+    this.remember();
+  }
+
+  stop(): void {
+    this.stop_playing();
+    if (this.building_since) this.builder.end();
+    if (this.planner.busy) this.planner.end(), say("way", { tone: "plain", text: "Stopped." });
+    working(false);
+  }
+
+  async tau_of(theta: number, fine = false): Promise<string> {
+    return string(await this.quick.call("angle", theta, fine ? 1 : 0), "tau");
+  }
+  private async text_of(pose: FilePose, otherwise = "0"): Promise<PoseText> {
+    return { x: pose.x, y: pose.y, tau: pose.tau ?? (pose.theta === undefined ? otherwise : await this.tau_of(pose.theta, true)) };
+  }
+}
