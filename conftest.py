@@ -2,4 +2,5 @@
 
 from importlib.util import find_spec
 
-collect_ignore = [] if find_spec("ompl") else ["src/cfree/ompl.py"]
+NEEDED = {"ompl": "src/cfree/ompl.py", "anywidget": "src/cfree/viewer/widget.py"}
+collect_ignore = [path for name, path in NEEDED.items() if find_spec(name) is None]

@@ -66,6 +66,7 @@ if TYPE_CHECKING:
     from cfree.polygons.polygon import Polygon as Polygon
     from cfree.scene.scene import Scene as Scene
     from cfree.viewer.browser import view as view
+    from cfree.viewer.notebook import widget as widget
 
 __version__ = "0.1.0"
 
@@ -101,6 +102,7 @@ _HOMES = {
     "formats.files": "load save",
     "formats.scene_file": "load_polygons load_scene",
     "viewer.browser": "view",
+    "viewer.notebook": "widget",
 }
 _PACKAGES = "analysis collision contact exact figures film geometry ompl planning plot rational verify viewer"
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)

@@ -1,12 +1,13 @@
 // The page: buttons, keys, files and links.
 import { doubles, string, value } from "./engine";
 import { Editor } from "./editor";
+import { be_hosted, show_given, type Given } from "./host";
 import { $, json, palette, say } from "./page";
 import { Player } from "./playing";
 import { save_scene } from "./saving";
 import { Session, seen_of } from "./session";
 import { Space, type ColourBy } from "./space";
-import { fragment, from_fragment, from_words, type PoseText } from "./state";
+import { fragment, from_fragment, from_words } from "./state";
 import { contact_words, degrees } from "./verdict";
 import { Workspace } from "./workspace";
 
@@ -110,13 +111,8 @@ option({ value: "", text: "Own scene" });
 scenes.addEventListener("change", () => { if (scenes.value) void session.open(in_gallery(scenes.value)!, { gallery: scenes.value }); });
 
 async function begin(): Promise<void> {
-  const given: { scene: string; start?: PoseText; goal?: PoseText; poses?: string } | null = json("given");
-  if (given) {
-    const { scene: source, poses, ...ends } = given;
-    await session.open(source, ends);
-    if (poses) session.show_way(await (await session.planner.of(source)).call("walk", poses));
-    return;
-  }
+  const given: Given | "host" | null = json("given");
+  if (given) return given === "host" ? be_hosted(session) : show_given(session, given);
   const linked = await from_fragment(location.hash, in_gallery).catch(() => undefined);
   await (linked ? session.open(linked.source, linked) : session.open(gallery[0]!.text, { gallery: gallery[0]!.name }));
 }

@@ -41,6 +41,7 @@ export class Session {
   editor?: Editor;
   stop_playing = () => {};
   on_opened = () => {};
+  on_seen = () => {};
 
   constructor(readonly workspace: Workspace, readonly space: Space | undefined) {
     workspace.on_drag = (drag) => this.drag(drag);
@@ -200,6 +201,7 @@ export class Session {
     this.show_path();
     this.space?.show_barrier(verdict === "apart" ? answer : undefined);
     $<HTMLButtonElement>("play").disabled = !this.path;
+    this.on_seen();
   }
   show_path(): void {
     const shown = $<HTMLInputElement>("sweep").checked ? this.path : undefined;
@@ -290,6 +292,7 @@ export class Session {
 
   private due = 0;
   remember(): void {
+    this.on_seen();
     $<HTMLButtonElement>("undo").disabled = !this.history.can_undo, ($<HTMLButtonElement>("redo").disabled = !this.history.can_redo);
     clearTimeout(this.due);
     this.due = window.setTimeout(async () => {
@@ -300,6 +303,9 @@ export class Session {
 
   async undo(): Promise<void> { return this.restore(() => this.history.undo()); }
   async redo(): Promise<void> { return this.restore(() => this.history.redo()); }
+  async change(of: Partial<State>): Promise<void> {
+    return this.restore(() => { this.history.push({ ...this.now, ...of }); return this.now; });
+  }
   private async restore(step: () => State | undefined): Promise<void> {
     const { source, opened } = this.now, state = step();
     if (!state) return;

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import reprlib
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
@@ -172,6 +173,24 @@ def robot_radius(scene: Scene) -> float:
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
     """A scene with another robot, in other bounds."""
     return Scene(robot, scene.obstacles, bounds=bounds, workspace=scene.workspace)
+
+
+def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
+    """A scene with another start and goal; where None is given, with its own.
+
+    Examples
+    --------
+    >>> scene = Scene([(0, 0), (1, 0), (0, 1)], start=(0, 0, 0), goals=[(1, 1), (2, 2)])
+    >>> with_ends(scene, None, Pose(5, 5)).goal == Pose(5, 5), with_ends(scene, None, None) == scene
+    (True, True)
+    """
+    other = copy(scene)
+    if start is not None:
+        object.__setattr__(other, "start", start)
+    if goal is not None:
+        object.__setattr__(other, "goal", goal)
+        object.__setattr__(other, "goals", ())
+    return other
 
 
 def default_name(index: int) -> str:

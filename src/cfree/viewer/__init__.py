@@ -8,6 +8,6 @@ from typing import TYPE_CHECKING
 from cfree.lazy import lazy_names
 
 if TYPE_CHECKING:
-    from cfree.viewer.browser import page as page
+    from cfree.viewer.page_text import page as page
 
-__getattr__, __dir__, __all__ = lazy_names(__name__, {"browser": "page"})
+__getattr__, __dir__, __all__ = lazy_names(__name__, {"page_text": "page"})

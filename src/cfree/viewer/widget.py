@@ -1,0 +1,113 @@
+"""The page in a notebook's cell, and what has been dragged in it, back in Python. Needs the extra ``notebook``."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from itertools import pairwise
+from typing import Any
+
+try:
+    from anywidget import AnyWidget
+    from traitlets import Instance, Int, Unicode, default
+except ImportError as error:
+    message = "cfree.widget needs anywidget; install it: pip install 'cfree[notebook]'"
+    raise ImportError(message, name="anywidget") from error
+
+from cfree.collision.motion import motion_between
+from cfree.collision.motion_checker import MotionChecker
+from cfree.exact.pose import Pose
+from cfree.formats.scene_file import scene_from_text, scene_text
+from cfree.paths.path import Path
+from cfree.planning.plan import plan
+from cfree.planning.separation import Separated
+from cfree.scene.scene import Scene, with_ends
+from cfree.viewer.page_text import hosted_page, poses_text, words
+from cfree.viewer.pictures import picture
+
+
+def _pose() -> Any:
+    """A trait that is a pose, exactly, on both sides."""
+    return Instance(Pose, allow_none=True).tag(
+        sync=True,
+        to_json=lambda pose, widget: pose and words(pose),
+        from_json=lambda given, widget: given and Pose(given["x"], given["y"], {"tau": given["tau"]}),
+    )
+
+
+class Widget(AnyWidget):
+    """The page in a cell; `cfree.widget` makes it.
+
+    Attributes
+    ----------
+    source : str
+        The scene as JSON; see `scene`.
+    robot, start, goal : Pose, optional
+        Where they have been dragged to, exactly; given new ones, the page follows. `observe` tells of changes.
+    poses : str
+        Of the path that is shown, one a line.
+    height : int
+        Of the cell, in pixels.
+    """
+
+    _esm = files("cfree.viewer").joinpath("widget.mjs").read_text(encoding="utf-8")
+    page = Unicode().tag(sync=True)
+    source = Unicode().tag(sync=True)
+    robot, start, goal = _pose(), _pose(), _pose()
+    poses = Unicode(allow_none=True).tag(sync=True)
+    height = Int(600).tag(sync=True)
+
+    def __init__(self, scene: Scene, answer: Path | Separated | None = None) -> None:
+        ends = (scene.start, scene.goal) if answer is None else (answer.start, answer.goal)
+        super().__init__(source=scene_text(scene), start=ends[0], goal=ends[1], poses=poses_text(answer))
+        self._answer: tuple[object, Path | Separated | None] = (answer and self._question, answer)
+
+    @default("page")
+    def _default_page(self) -> str:
+        return hosted_page()
+
+    @property
+    def _question(self) -> tuple[object, ...]:
+        return self.source, self.start, self.goal
+
+    @property
+    def scene(self) -> Scene:
+        """What is shown, with the start and goal that it is shown with; given another one, the page follows."""
+        return with_ends(scene_from_text("the scene of the widget", self.source), self.start, self.goal)
+
+    @scene.setter
+    def scene(self, scene: Scene) -> None:
+        with self.hold_sync():
+            self.source, self.robot, self.start, self.goal = scene_text(scene), None, scene.start, scene.goal
+
+    @property
+    def answer(self) -> Path | Separated | None:
+        """Of `scene`: the path that is shown, proved free once more, or what `cfree.plan` says; None without a goal.
+
+        Raises
+        ------
+        ForbiddenPoseError
+            If start or goal has been dragged into something.
+        """
+        if self.start is None or self.goal is None:
+            return None
+        asked, found = self._answer
+        if asked != self._question:
+            scene = self.scene
+            asked, found = self._answer = self._question, self._shown(scene) or plan(scene, self.start, self.goal)
+        return found
+
+    def _shown(self, scene: Scene) -> Path | None:
+        """The path of the page, if it is one of rotations and translations."""
+        poses = [Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, (self.poses or "").splitlines())]
+        if not poses or (poses[0], poses[-1]) != (self.start, self.goal):
+            return None
+        path = Path(poses[0], [motion_between(a, b) for a, b in pairwise(poses)], scene.units, scene=scene)
+        return path if path.is_free(MotionChecker(scene)) else None
+
+    def _repr_mimebundle_(self, **options: Any) -> Any:
+        """With a picture for where no kernel runs."""
+        bundle = super()._repr_mimebundle_(**options)
+        if bundle is None:
+            return None
+        data, metadata = bundle
+        return data | {"image/svg+xml": picture(self.scene)}, metadata

@@ -1,0 +1,112 @@
+"""Goals dragged in the page at random, and whether it says of them what Python says.
+
+`python tests/support/drags.py --count 1000 SCENE.json ...` tries more than the tests do.
+"""
+
+from __future__ import annotations
+
+import argparse
+import random
+import sys
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import cfree
+from cfree.formats.scene_file import scene_from_text
+from cfree.viewer.page_text import hosted_page
+from pages import CHROMIUM, SWIFTSHADER
+
+FRAME = """([page, given]) => {
+  const frame = document.createElement("iframe");
+  frame.style.cssText = "position:fixed;inset:0;width:100%;height:100%;border:0";
+  window.addEventListener("message", ({ data }) => {
+    if (data.cfree === "ready") frame.contentWindow.postMessage({ cfree: "show", given }, "*");
+    if (data.cfree === "seen") window.seen = data.seen;
+  });
+  frame.srcdoc = page;
+  document.body.append(frame);
+}"""
+SAID = {  # how what is said begins, and what Python's answer then is
+    "A motion exists": "path",
+    "No motion, not even touching": "closed",
+    "No motion with clearance": "interior",
+    "Goal: ": "forbidden",
+}
+
+
+class Dragged:
+    """A scene in the page of a frame, whose goal is dragged."""
+
+    def __init__(self, browser: Any, scene_text: str, seed: int) -> None:
+        self.page = browser.new_page(viewport={"width": 1000, "height": 700})
+        self.planner = cfree.Planner(scene_from_text("scene", scene_text))
+        self.random = random.Random(seed)
+        self.page.evaluate(FRAME, [hosted_page(), {"scene": scene_text}])
+        self.frame = self.page.frame_locator("iframe")
+        self.way = self.frame.locator("#way:not(.old):not(:empty)")
+        self.frame.locator("body[data-ready]").wait_for(timeout=120_000)
+        self.way.wait_for()
+        # of the view, so that it need not be asked for each time
+        self.view = self.frame.locator("#workspace svg").bounding_box()
+        self.at = self._point()
+
+    def _point(self) -> tuple[float, float]:
+        box = self.frame.locator(".body.goal .point").bounding_box()
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def drag(self) -> tuple[str, str, dict[str, Any]]:
+        """Somewhere else: what the page says, what Python answers, and what is seen."""
+        x, y, w, h = (self.view[name] for name in ("x", "y", "width", "height"))
+        self.page.evaluate("window.before = JSON.stringify(seen.goal)")
+        target = x + w * self.random.uniform(0.1, 0.9), y + h * self.random.uniform(0.15, 0.9)
+        self.page.mouse.move(*self.at)
+        self.page.mouse.down()
+        self.page.mouse.move(*target)
+        self.page.mouse.up()
+        self.page.wait_for_function("JSON.stringify(seen.goal) !== before")
+        self.way.filter(has_not_text="Looking for").wait_for(timeout=60_000)
+        seen, said = self.page.evaluate("seen"), self.way.inner_text()
+        self.at = self._point()
+        return next((kind for words, kind in SAID.items() if said.startswith(words)), said), self.expected(seen), seen
+
+    def expected(self, seen: dict[str, Any]) -> str:
+        """In words of `SAID`, by Python."""
+        ends = [cfree.Pose(of["x"], of["y"], {"tau": of["tau"]}) for of in (seen["start"], seen["goal"])]
+        try:
+            answer = self.planner.plan(*ends)
+        except cfree.ForbiddenPoseError:
+            return "forbidden"
+        return answer.of if isinstance(answer, cfree.Separated) else "path"
+
+
+def main() -> int:
+    from playwright.sync_api import sync_playwright
+
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("scenes", nargs="+", type=Path)
+    parser.add_argument("--count", type=int, default=1000, help="of drags in all")
+    parser.add_argument("--seed", type=int, default=0)
+    given = parser.parse_args()
+    differ, each = 0, -(-given.count // len(given.scenes))
+    with sync_playwright() as running:
+        browser = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
+        for path in given.scenes:
+            dragged, found, began = Dragged(browser, path.read_text(), given.seed), Counter[str](), time.perf_counter()
+            for _ in range(each):
+                said, expected, seen = dragged.drag()
+                found[expected] += 1
+                if said != expected:
+                    differ += 1
+                    print(f"{path.stem}, goal {seen['goal']}: the page says {said}, Python {expected}", flush=True)
+            seconds = (time.perf_counter() - began) / each
+            memory = dragged.page.evaluate("performance.memory.usedJSHeapSize / 1e6")
+            print(f"{path.stem}: {dict(found)}, {1000 * seconds:.0f} ms a drag, {memory:.0f} MB", flush=True)
+            dragged.page.close()
+    print(f"{differ} of {each * len(given.scenes)} differ")
+    return differ > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,25 @@
+// What the page is given to show: written into it, or told by the page in whose frame it is, which hears what becomes of it.
+import { string } from "./engine";
+import { $ } from "./page";
+import type { Session } from "./session";
+import type { PoseText } from "./state";
+
+export interface Given { scene: string; robot?: PoseText; start?: PoseText; goal?: PoseText; poses?: string }
+
+export async function show_given(session: Session, { scene, poses, ...ends }: Given): Promise<void> {
+  if (session.scene && scene === session.now.source) await session.change(ends);
+  else await session.open(scene, ends);
+  if (poses) session.show_way(await (await session.planner.of(scene)).call("walk", poses));
+}
+
+export function be_hosted(session: Session): void {
+  $("share").hidden = true;  // a frame has no address of its own
+  window.addEventListener("message", ({ source, data }) => {
+    if (source === window.parent && data?.cfree === "show") void show_given(session, data.given);
+  });
+  session.on_seen = () => {
+    const { source: scene, robot, start, goal } = session.now, poses = session.path ? string(session.last_way!, "poses") : "";
+    window.parent.postMessage({ cfree: "seen", seen: { scene, robot, start, goal, poses } }, "*");
+  };
+  window.parent.postMessage({ cfree: "ready" }, "*");
+}
