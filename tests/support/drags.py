@@ -48,7 +48,8 @@ class Dragged:
         self.way = self.frame.locator("#way:not(.old):not(:empty)")
         self.frame.locator("body[data-ready]").wait_for(timeout=120_000)
         self.way.wait_for()
-        # of the view, so that it need not be asked for each time
+        for other in ("robot", "start"):  # which may be in front of the goal
+            self.frame.locator(f".body.{other}").evaluate("body => { body.style.pointerEvents = 'none'; }")
         self.view = self.frame.locator("#workspace svg").bounding_box()
         self.at = self._point()
 

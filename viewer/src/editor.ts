@@ -29,10 +29,13 @@ export class Editor {
     const { svg, layers } = workspace;
     workspace.on_look = () => this.look();
     layers.obstacles.addEventListener("pointerdown", (event) => this.grab(event));
-    layers.obstacles.addEventListener("focusin", (event) => this.choose_at(event.target as Element));
     layers.obstacles.addEventListener("keydown", (event) => this.key(event));
     layers.floor.addEventListener("pointerdown", (event) => { if (this.is_on && !this.drawn && (event.target as Element).classList.contains("room")) this.choose({ kind: "workspace", k: 0 }); });
-    svg.addEventListener("focusin", (event) => { if (this.is_on && (event.target as Element).closest(".body.robot")) this.choose({ kind: "robot", k: 0 }); });
+    svg.parentElement!.addEventListener("focusin", (event) => {  // an SVG element that listens to it would take part in Tab
+      const target = event.target as Element;
+      if (layers.obstacles.contains(target)) this.choose_at(target);
+      else if (this.is_on && target.closest(".body.robot")) this.choose({ kind: "robot", k: 0 });
+    });
     svg.addEventListener("pointerdown", (event) => this.put(event), true);
     svg.addEventListener("pointermove", (event) => { if (this.drawn) this.pointer = workspace.point(event), this.look(); });
     svg.addEventListener("dblclick", (event) => this.double(event));

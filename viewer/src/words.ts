@@ -76,10 +76,19 @@ function refuse_deep(source: string): void {
   }
 }
 
+function parsed(source: string): Json {
+  try { return parse(source); } catch (error) {
+    const said = (error as Error).message, at = / at position (\d+)$/.exec(said);
+    if (!at) throw error;
+    const before = source.slice(0, Number(at[1])).split("\n");
+    throw new Error(`line ${before.length}, column ${before.at(-1)!.length + 1}: ${plain(said.slice(0, at.index))}`);
+  }
+}
+
 export function read_scene(source: string): SceneText {
   if (source.length > MOST_BYTES) throw new Error(`the file has ${(source.length / 1e6).toFixed(0)} MB; this page reads 16`);
   refuse_deep(source);
-  const of = fields(parse(source), "scene");
+  const of = fields(parsed(source), "scene");
   if ("type" in of) throw new Error("GeoJSON: save it as a scene first, `cfree.save(cfree.load_scene(...), \"scene.json\")`");
   const unknown = Object.keys(of).find((key) => !KEYS.includes(key));
   if (unknown !== undefined) throw new Error(`unknown key "${plain(unknown)}"; those of scenes are ${KEYS.join(", ")}`);
