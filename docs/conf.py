@@ -1,6 +1,8 @@
 """How the documentation is built: `make docs`."""
 
 from importlib.metadata import version as version_of
+from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 from sphinx_gallery.scrapers import figure_rst
@@ -29,6 +31,39 @@ autodoc_member_order = "bysource"
 autosummary_generate = True
 napoleon_google_docstring = False
 
+PAGES = Path(__file__).with_name("gallery") / "pages"
+FRAME = """
+.. raw:: html
+
+   <div class="cfree-page">
+   <iframe src="../_static/{name}" title="Robot, obstacles and configuration space" loading="lazy"></iframe>
+   </div>
+
+"""
+
+
+def scrape_page(block: Any, block_vars: Any, gallery_conf: Any) -> str:
+    """The page of a block of a tutorial: what it calls `page`, to be dragged in."""
+    page = block_vars["example_globals"].pop("page", None)
+    if page is None:
+        return ""
+    PAGES.mkdir(exist_ok=True)
+    name = f"{Path(block_vars['src_file']).stem}_{block[2]}.html"
+    (PAGES / name).write_text(page, encoding="utf-8")
+    return FRAME.format(name=name)
+
+
+def write_pages(app: Any, fault: Exception | None) -> None:
+    """What frames show, where they look for it."""
+    static = Path(app.outdir) / "_static"
+    (static / "cfree.html").write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    for page in PAGES.glob("*.html"):
+        (static / page.name).write_bytes(page.read_bytes())
+
+
+def setup(app: Any) -> None:
+    """As Sphinx calls it."""
+    app.connect("build-finished", write_pages)
 
 
 def scrape_figure(block: Any, block_vars: Any, gallery_conf: Any) -> str:
@@ -42,7 +77,7 @@ def scrape_figure(block: Any, block_vars: Any, gallery_conf: Any) -> str:
 
 
 sphinx_gallery_conf = {
-    "image_scrapers": [scrape_figure],
+    "image_scrapers": [scrape_figure, scrape_page],
     "examples_dirs": ["../examples/gallery"],
     "gallery_dirs": ["gallery"],
     "filename_pattern": r"\.py$",
@@ -55,3 +90,5 @@ sphinx_gallery_conf = {
 
 html_theme = "furo"
 html_title = "cfree"
+html_static_path = ["page.css"]
+html_css_files = ["page.css"]

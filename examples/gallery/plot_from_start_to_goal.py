@@ -51,6 +51,11 @@ space = cfree.free_space(cfree.boundary(scene))
 figure = cfree.plot.picture(clear, scene, space.boundary)
 
 # %%
+# Drag the table's goal, the table itself, or make the door narrower: the same core runs in the page.
+
+page = cfree.viewer.page(scene, clear)
+
+# %%
 # How much room is left? The table may be so many times as large, and so far from everything all along:
 
 print("scale", cfree.max_scale(scene, start, goal, tolerance=0.05))

@@ -146,6 +146,11 @@ print(boundary, {rung: getattr(boundary.stats, f"decided_{rung}") for rung in ("
 figure = cfree.plot.plot_overview(boundary)
 
 # %%
+# The same to drag things in: the robot stops where it touches, and says what.
+
+page = cfree.viewer.page(scene)
+
+# %%
 # A slice at any orientation is a look-up.
 
 cut = boundary.slice("30deg")

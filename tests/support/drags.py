@@ -50,7 +50,7 @@ class Dragged:
         self.way.wait_for()
         for other in ("robot", "start"):  # which may be in front of the goal
             self.frame.locator(f".body.{other}").evaluate("body => { body.style.pointerEvents = 'none'; }")
-        self.view = self.frame.locator("#workspace svg").bounding_box()
+        self.floor = self.frame.locator(".bounds, .room, #workspace > svg").last.bounding_box()  # the first is the svg
         self.at = self._point()
 
     def _point(self) -> tuple[float, float]:
@@ -59,9 +59,9 @@ class Dragged:
 
     def drag(self) -> tuple[str, str, dict[str, Any]]:
         """Somewhere else: what the page says, what Python answers, and what is seen."""
-        x, y, w, h = (self.view[name] for name in ("x", "y", "width", "height"))
+        x, y, w, h = (self.floor[name] for name in ("x", "y", "width", "height"))
         self.page.evaluate("window.before = JSON.stringify(seen.goal)")
-        target = x + w * self.random.uniform(0.1, 0.9), y + h * self.random.uniform(0.15, 0.9)
+        target = x + w * self.random.uniform(0.05, 0.95), y + h * self.random.uniform(0.05, 0.95)
         self.page.mouse.move(*self.at)
         self.page.mouse.down()
         self.page.mouse.move(*target)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -171,17 +170,4 @@ def test_hostile_names_stay_text(browser: Any, tmp_path: Path) -> None:
     tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
     tried.ready("<b>hostile")
     assert tried.page.locator("img").count() == 0 and tried.page.title() == "<b>hostile: cfree"
-    tried.close()
-
-
-def test_gallery_draws(browser: Any, tmp_path: Path) -> None:
-    page = tmp_path / "page.html"
-    page.write_text(files("cfree.viewer").joinpath("page.html").read_text())
-    tried = Tried(browser, page)
-    tried.ready("paper_fig9")
-    names = tried.page.locator("#scenes option").evaluate_all("options => options.map(o => o.value)")
-    for name in [name for name in names if name and name != "nest_swim"]:
-        tried.page.select_option("#scenes", name)
-        tried.ready(name)
-        assert tried.page.locator(".obstacle").count() > 0
     tried.close()

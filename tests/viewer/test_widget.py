@@ -163,6 +163,23 @@ def test_goal_is_dragged_in_a_cell_and_read_in_python(cell: Cell) -> None:
 
 
 @pytest.mark.slow
+def test_wheel_is_left_to_the_notebook_until_the_cell_is_clicked_in(cell: Cell) -> None:
+    box = cell.frame.locator("#workspace svg").bounding_box()
+    world = cell.frame.locator("#workspace svg > g").first
+
+    def after_wheel() -> str:
+        cell.page.mouse.move(box["x"] + 200, box["y"] + 100)
+        cell.page.mouse.wheel(0, 40)
+        cell.page.wait_for_timeout(300)
+        return str(world.get_attribute("transform"))
+
+    before = str(world.get_attribute("transform"))
+    assert after_wheel() == before
+    cell.frame.locator("#workspace h2").click(position={"x": 2, "y": 2}, force=True)
+    assert after_wheel() != before
+
+
+@pytest.mark.slow
 def test_page_follows_python(cell: Cell) -> None:
     show = "([name, value]) => model.set(name, value)"
     cell.frame.locator("#way").filter(has_text="A motion exists").wait_for()

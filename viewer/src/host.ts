@@ -12,6 +12,12 @@ export async function show_given(session: Session, { scene, poses, ...ends }: Gi
   if (poses) session.show_way(await (await session.planner.of(scene)).call("walk", poses));
 }
 
+// Who scrolls past a frame does not want to zoom: the wheel is for one that has been clicked in.
+export function spare_the_wheel(): void {
+  const spare = (event: WheelEvent) => { if (!event.ctrlKey && !document.hasFocus()) event.stopImmediatePropagation(); };
+  if (window.parent !== window) window.addEventListener("wheel", spare, { capture: true });
+}
+
 export function be_hosted(session: Session): void {
   $("share").hidden = true;  // a frame has no address of its own
   window.addEventListener("message", ({ source, data }) => {

@@ -1,7 +1,7 @@
 // The page: buttons, keys, files and links.
 import { doubles, string, value } from "./engine";
 import { Editor } from "./editor";
-import { be_hosted, show_given, type Given } from "./host";
+import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
 import { $, json, palette, say } from "./page";
 import { Player } from "./playing";
 import { save_scene } from "./saving";
@@ -117,4 +117,5 @@ async function begin(): Promise<void> {
   await (linked ? session.open(linked.source, linked) : session.open(gallery[0]!.text, { gallery: gallery[0]!.name }));
 }
 window.addEventListener("hashchange", async () => { const state = await from_fragment(location.hash, in_gallery).catch(() => undefined); if (state) await session.open(state.source, state); });
+spare_the_wheel();
 void begin();

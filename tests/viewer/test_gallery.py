@@ -1,0 +1,40 @@
+"""The page as it is in the package, from a disk: every scene of its gallery is drawn in both views."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from io import BytesIO
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from pages import Tried
+
+pytestmark = pytest.mark.slow
+
+
+def drawn(view: Any) -> float:
+    """The share of a view, without its rim and headings, that is not of its commonest colour."""
+    pixels = np.asarray(Image.open(BytesIO(view.screenshot())).convert("RGB"))[60:-60, 20:-20]
+    colours = pixels.reshape(-1, 3) @ (1 << 16, 1 << 8, 1)
+    return 1.0 - np.unique(colours, return_counts=True)[1].max() / len(colours)
+
+
+def test_every_scene_of_the_gallery_is_drawn(browser: Any, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    tried = Tried(browser, page)
+    tried.ready("paper_fig9")
+    names = tried.page.locator("#scenes option").evaluate_all("options => options.map(of => of.value)")
+    assert len(names) == len(set(names)) > 8 and names[-1] == ""
+    views = [tried.page.locator(view) for view in ("#workspace", "#space")]
+    for name in names[:-1]:
+        tried.page.select_option("#scenes", name)
+        tried.ready(name)
+        tried.page.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for").wait_for(timeout=60_000)
+        assert tried.page.locator(".obstacle, .bounds, .room").count() > 0
+        assert min(map(drawn, views)) > 0.03, name
+    tried.close()
