@@ -83,7 +83,10 @@ async function main() {
   const boost = given > 0 ? process.argv[given + 1] : "/usr/include";
   const wasm = await compile_core(boost);
   const [main_script, worker] = await Promise.all([bundle("main.ts"), bundle("worker.ts")]);
-  const scenes = JSON.parse(text("viewer/gallery.json")).map((entry) => ({ ...entry, text: text(`examples/scenes/${entry.name}.json`) }));
+  const scenes = JSON.parse(text("viewer/gallery.json")).map((entry) => {
+    const file = [`examples/scenes/${entry.name}.json`, `viewer/gallery/${entry.name}.json`].find((of) => existsSync(join(root, of)));
+    return { ...entry, text: text(file) };
+  });
   const script = in_script(main_script);
   const parts = {
     CSP: `default-src 'none'; script-src 'sha256-${createHash("sha256").update(script).digest("base64")}' 'wasm-unsafe-eval'; ` +

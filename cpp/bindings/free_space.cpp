@@ -1,5 +1,5 @@
 // Cells, and where poses are among them. A pose is (X, Y, W, p, r), integers: the position over W, tau = p / r.
-#include "cfree/free/free_space.hpp"
+#include "cfree/free/cell_facts.hpp"
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/shared_ptr.h>
@@ -61,6 +61,8 @@ void bind_free_space(nb::module_& m) {
         .def_ro("surfaces", &FreeSpace::surfaces)
         .def_prop_ro("cell_of", [ints](const FreeSpace& space) { return ints(space.cell_of); })
         .def_prop_ro("depth", [ints](const FreeSpace& space) { return ints(space.depth); })
+        .def("volumes", [](const FreeSpace& space) { return array_of(cfree::volumes(space)); })
+        .def("caged", [](const FreeSpace& space, const Column<int>& owner) { return array_of(cfree::caged(space, vector_of(owner))); }, "owner"_a)
         .def("angle", &angle, "trapezoid"_a, "last"_a, "bits"_a)
         .def("nearby", &nearby, "pose"_a, "chart"_a)
         .def("cells_at", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {

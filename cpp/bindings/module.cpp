@@ -6,6 +6,7 @@ namespace nb = nanobind;
 void bind_scene(nb::module_& m);
 void bind_polygons(nb::module_& m);
 void bind_surface(nb::module_& m);
+void bind_geometry(nb::module_& m);
 void bind_predicates(nb::module_& m);
 void bind_polynomials(nb::module_& m);
 void bind_checkers(nb::module_& m);
@@ -21,6 +22,7 @@ NB_MODULE(_core, m) {
     bind_scene(m);
     bind_polygons(m);
     bind_surface(m);
+    bind_geometry(m);
     bind_predicates(m);
     bind_polynomials(m);
     bind_checkers(m);

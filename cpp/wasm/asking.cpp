@@ -114,6 +114,9 @@ void show_path(const World& world, const Poses& way, const std::vector<ContactSl
         } else samples.insert(samples.end(), {at.x, at.y, at.theta}), motion.push_back(0);
         before = q;
     }
+    std::vector<double> clearance;
+    for (std::size_t k = 0; k < samples.size(); k += 3) clearance.push_back(world.clearance({samples[k], samples[k + 1], samples[k + 2]}));
+    reply.add("clearance", clearance);
     reply.text("poses", words);
     reply.add("samples", samples), reply.add("motion", motion);
     reply.add("length", length), reply.add("turning", turning), reply.add("motions", static_cast<double>(way.size()) - 1);
@@ -140,6 +143,7 @@ void ask_pose(const World& world, const RationalPose& pose, Reply& reply) {
     const Place at = pose.place();
     reply.add("place", std::vector{at.x, at.y, at.theta});
     if (pair) return reply.add("pair", std::vector<Index>(pair->begin(), pair->end()));
+    reply.add("clearance", world.clearance(at));
     if (!world.space) return;
     const ExactPose exact = pose.exact(*world.scene);
     reply.add("cells", world.space->cells_at(exact));

@@ -77,6 +77,9 @@ EMSCRIPTEN_KEEPALIVE int stop(const char* from, const char* to) {
 EMSCRIPTEN_KEEPALIVE int picked(int trapezoid, double x, double y, double theta) {
     return answer([&] { cfree::show_contact(given(), trapezoid, {x, y, theta}, reply); });
 }
+EMSCRIPTEN_KEEPALIVE int cell(int which) {
+    return answer([&] { cfree::show_cell(given(), which, reply); });
+}
 EMSCRIPTEN_KEEPALIVE int angle(double theta, int fine) {
     return answer([&] {
         const cfree::HalfAngle half = cfree::half_angle_of(theta, fine);

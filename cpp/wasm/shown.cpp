@@ -2,8 +2,12 @@
 #include "shown.hpp"
 
 #include <numbers>
+#include <numeric>
+#include <set>
 #include <unordered_map>
 
+#include "cfree/free/cell_facts.hpp"
+#include "cfree/geometry/local_geometry.hpp"
 #include "cfree/mesh/mesh.hpp"
 #include "cfree/support/elementary.hpp"
 #include "reading.hpp"
@@ -29,33 +33,19 @@ void show_polygons(const std::string& prefix, const std::vector<std::shared_ptr<
 
 Vec<double> point(const Shape& shape, Index v) { return UserUnits{}.vertex(shape, v); }
 
-// The line of a contact at an orientation in the user's units, and by what it turns.
-struct Turned {
-    Rotation<double> by;
-    Vec<double> start, direction, touch;  // touch: the vertex that touches, of the robot as it is turned, or of the obstacles
-    bool on_edge;
+// Where along the line of a contact a pose is.
+double t_at(const Scene& scene, const Feature& contact, double x, double y, double theta) {
+    const auto [c, s] = cosine_sine(theta);
+    const ContactLine<double> line(scene, contact, UserUnits{});
+    const Vec<double> p = line.start({c, s, 1}), u = line.direction({c, s, 1});
+    return ((x - p.x) * u.x + (y - p.y) * u.y) / (u.x * u.x + u.y * u.y);
+}
 
-    Turned(const Scene& scene, const Feature& contact, double theta) {
-        const auto [c, s] = cosine_sine(theta);
-        by = {c, s, 1};
-        const ContactLine<double> line(scene, contact, UserUnits{});
-        on_edge = line.on_edge;
-        start = line.start(by), direction = line.direction(by);
-        touch = on_edge ? by(line.a) : line.b;
-    }
-    // Of the surface in (x, y, length * theta), at a pose of it: the pose turns about the point of contact.
-    std::array<double, 3> normal(double x, double y, double length) const {
-        const Vec<double> arm = on_edge ? -touch : Vec<double>{x - touch.x, y - touch.y};  // from the point of contact
-        const double vx = -arm.y, vy = arm.x, ux = direction.x, uy = direction.y;
-        const double n[3] = {uy * length, -ux * length, ux * vy - uy * vx};
-        const double size = norm(norm(n[0], n[1]), n[2]);
-        return {n[0] / size, n[1] / size, n[2] / size};
-    }
-    double t(double x, double y) const {
-        const Vec<double>& u = direction;
-        return ((x - start.x) * u.x + (y - start.y) * u.y) / (u.x * u.x + u.y * u.y);
-    }
-};
+LocalGeometry geometry_at(const Scene& scene, const Feature& contact, double t, double theta, double length) {
+    const ContactLine<double> of(scene, contact, UserUnits{});
+    const Vec<double> still = of.on_edge ? of.E : Vec<double>{0, 0}, turning = of.on_edge ? Vec<double>{0, 0} : of.E;
+    return local_geometry({of.b.x, of.b.y, still.x, still.y, of.a.x, of.a.y, turning.x, turning.y}, t, theta, length);
+}
 
 Feature contact_of(const Boundary& boundary, Index trapezoid) {
     return boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(trapezoid)]);
@@ -81,7 +71,7 @@ Line line_kind(const Scene& scene, const Feature& first, const Feature& second, 
 }
 
 struct SurfaceColumns {
-    std::vector<double> xyz, normal, lines;
+    std::vector<double> xyz, normal, lines, gaussian, mean;  // curvatures without units
     std::vector<Index> corners, face, cell, owner;  // owner: the obstacle, or bounds or workspace
     std::vector<std::uint8_t> kind, line_kind;
 };
@@ -99,21 +89,15 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
         const Index face = mesh.face[t];
         const Feature contact = contact_of(boundary, face);
         const Index* v = &mesh.corners[3 * t];
-        std::array<double, 3> flat{};
-        {
-            const double *a = &mesh.xyz[3 * static_cast<std::size_t>(v[0])], *b = &mesh.xyz[3 * static_cast<std::size_t>(v[1])],
-                         *c = &mesh.xyz[3 * static_cast<std::size_t>(v[2])];
-            const double p[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, q[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-            flat = {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-        }
         for (int k = 0; k < 3; ++k) {
             const auto [at, is_new] = seen.try_emplace(key(v[k], patch(static_cast<Index>(t))), static_cast<Index>(out.kind.size()));
             if (is_new) {
                 const double* p = &mesh.xyz[3 * static_cast<std::size_t>(v[k])];
-                auto n = Turned(*features.scene, contact, p[2] / length).normal(p[0], p[1], length);
-                const double side = n[0] * flat[0] + n[1] * flat[1] + n[2] * flat[2] < 0 ? -1 : 1;
+                const double theta = p[2] / length, t_there = t_at(*features.scene, contact, p[0], p[1], theta);
+                const LocalGeometry local = geometry_at(*features.scene, contact, t_there, theta, length);
                 out.xyz.insert(out.xyz.end(), {p[0], p[1], p[2] / length});
-                for (const double c : n) out.normal.push_back(side * c);
+                out.normal.insert(out.normal.end(), local.frame.begin() + 6, local.frame.end());
+                out.gaussian.push_back(local.K * length * length), out.mean.push_back(local.H * length);
                 out.kind.push_back(contact.kind == Kind::vertex_edge ? 0 : 1);
                 out.owner.push_back(owners[static_cast<std::size_t>(contact.obstacle)]);
                 out.cell.push_back(space ? space->cell_of[static_cast<std::size_t>(cells.component[static_cast<std::size_t>(face)])] : -1);
@@ -141,6 +125,7 @@ SurfaceColumns surface_of(const SceneFeatures& features, const CellComplex& cell
 void put(const SurfaceColumns& columns, Reply& reply) {
     reply.add("xyz", columns.xyz), reply.add("normal", columns.normal), reply.add("corners", columns.corners);
     reply.add("face", columns.face), reply.add("kind", columns.kind), reply.add("cell", columns.cell), reply.add("owner", columns.owner);
+    reply.add("gaussian", columns.gaussian), reply.add("mean", columns.mean);
     reply.add("lines", columns.lines), reply.add("line_kind", columns.line_kind);
 }
 
@@ -221,7 +206,7 @@ void show_columns(const World& world, Reply& reply) {
 
 void show_mesh(const World& world, double error, double most, Reply& reply) {
     world.need_space();
-    for (int k = 0; k < 60 && estimate_mesh(*world.cells, error, world.radius).triangles > most; ++k) error *= 1.4;
+    while (error < world.radius && estimate_mesh(*world.cells, error, world.radius).triangles > most) error *= 2;
     put(surface_of(world.features, *world.cells, mesh(*world.cells, error, world.radius), world.radius, world.space.get()), reply);
     reply.add("error", error);
 }
@@ -253,9 +238,9 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
     Named named;
     named.add(world, contact);
     named.put("contact", reply);
-    const Turned line(*world.scene, contact, at.theta);
-    const double t = line.t(at.x, at.y);
-    reply.add("t", t), reply.add("phi", at.theta);
+    const double t = t_at(*world.scene, contact, at.x, at.y, at.theta);
+    const LocalGeometry local = geometry_at(*world.scene, contact, t, at.theta, 1);
+    reply.add("t", t), reply.add("phi", at.theta), reply.add("K", local.K), reply.add("H", local.H);
     // the same on a grid, exactly in contact
     const HalfAngle half = half_angle_of(at.theta, false);
     const auto r = half.rotation();
@@ -275,8 +260,35 @@ void show_contact(const World& world, Index trapezoid, const Place& at, Reply& r
         range.push_back(theta_of(table.chart[k], table.tau_to(which)));
     }
     reply.add("same", same), reply.add("range", range);
+    // what its sides have in common with other patches
+    const CellComplex& c = *world.cells;
+    const Index patch = table.patch[static_cast<std::size_t>(trapezoid)];
+    std::set<Index> others;
+    for (std::size_t side = 0; side < c.face.size(); ++side) {
+        const Index twin = c.twin[side];
+        if (twin >= 0 && table.patch[static_cast<std::size_t>(c.face[side])] == patch)
+            others.insert(table.patch[static_cast<std::size_t>(c.face[static_cast<std::size_t>(twin)])]);
+    }
+    others.erase(patch);
+    Named trims;
+    for (const Index other : others) trims.add(world, world.boundary->patches.contact(other));
+    trims.put("trims", reply);
     const Index component = world.cells->component[static_cast<std::size_t>(trapezoid)];
     reply.add("cell", static_cast<double>(world.space->cell_of[static_cast<std::size_t>(component)]));
+}
+
+void show_cell(World& world, Index cell, Reply& reply) {
+    world.need_space();
+    if (cell < 0 || cell >= world.space->cells()) throw std::invalid_argument("no such cell");
+    const auto k = static_cast<std::size_t>(cell);
+    if (world.volumes.empty()) world.volumes = volumes(*world.space);
+    reply.add("volume", world.volumes[k]);
+    reply.add("caged", caged(*world.space, world.features.obstacles.polygon)[k] ? 1.0 : 0.0);
+    reply.add("bounded", cell == world.space->outside ? 0.0 : 1.0);
+    Index turns = 0;
+    for (std::size_t of = 0; of < world.space->cell_of.size(); ++of)
+        if (world.space->cell_of[of] == cell) turns = std::gcd(turns, world.space->surfaces.turns[of]);
+    reply.add("turns", cell == world.space->outside ? 1.0 : static_cast<double>(turns));
 }
 
 }  // namespace cfree

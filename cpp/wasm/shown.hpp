@@ -16,6 +16,8 @@ void show_surface(const SceneFeatures& features, const CellComplex& cells, doubl
 void show_slice(const World& world, double theta, Reply& reply);
 // The contact of a trapezoid at a place on it.
 void show_contact(const World& world, Index trapezoid, const Place& at, Reply& reply);
+// How large a cell is, whether it is bounded, by obstacles alone, and whether the robot can turn round in it.
+void show_cell(World& world, Index cell, Reply& reply);
 
 // Names of features in the user's polygons: robot part and vertex, obstacle and vertex. -1: bounds, -2: workspace.
 struct Named {

@@ -1,6 +1,8 @@
 // A scene, and what is computed of it once.
 #include "world.hpp"
 
+#include <cmath>
+
 #include "cfree/support/elementary.hpp"
 
 namespace cfree {
@@ -28,6 +30,11 @@ void World::compute(const std::function<void(double)>& share) {
     share(0.9);
     space = FreeSpace::of(*cells);
     slicer = std::make_unique<const Slicer>(boundary);
+}
+
+double World::clearance(const Place& at) const {
+    const double unit = scene->unit();
+    return std::max(0.0, known->nearness().distance({at.x / unit, at.y / unit, at.theta}, HUGE_VAL)) * unit;
 }
 
 void World::need_space() const {

@@ -29,8 +29,11 @@ public:
     std::shared_ptr<const FreeSpace> space;
     std::unique_ptr<const Slicer> slicer;
     std::unique_ptr<Planner> planner;
+    std::vector<double> volumes;  // of cells, once somebody has asked
 
     void need_space() const;
+    // How far the robot is from obstacles, about: 0 where it touches them; infinite without any.
+    double clearance(const Place& at) const;
 };
 
 }  // namespace cfree

@@ -16,8 +16,10 @@ import numpy as np
 import pytest
 
 import cfree
+from cfree.collision.distance import EdgeDistances
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
+from cfree.geometry.local import local_geometry
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 LARGE = ("benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin", "benchmr_parking1")
@@ -110,6 +112,34 @@ def test_picked_point_is_in_contact_exactly() -> None:
     pose = asked(["open", text], ["boundary"], picked)[-1]["pose"]
     touching = asked(["open", text], ["boundary"], ["pose", pose])[-1]
     assert touching["free"]["values"] == [1] and touching["touching.obstacle"]["values"] == [0]
+
+
+def test_what_is_told_of_patches_cells_and_poses_is_what_python_says() -> None:
+    path = SCENES / "comb_hook.json"
+    scene = cfree.load_scene(path)
+    boundary = cfree.boundary(scene)
+    space, k = cfree.free_space(boundary), len(boundary.trapezoids) // 2
+    table = boundary.trapezoids
+    phi = (table.theta_from[k] + table.theta_to[k]) / 2
+    patch = table.patch[k]
+    x, y = boundary.evaluate([patch], [0.5], [phi])[0]
+    _, _, picked, cell, pose = asked(
+        ["open", path.read_text()],
+        ["boundary"],
+        ["picked", k, x, y, phi],
+        ["cell", 0],
+        ["pose", f"{scene.start.x} {scene.start.y} {scene.start.tau}"],
+    )
+    edges = EdgeDistances(scene)
+    rows = np.array([[float(scene.start.x), float(scene.start.y), scene.start.theta]])
+    nearest = edges.nearest(edges.placed(rows))[0][0]
+    at = local_geometry(boundary.ruled[patch], picked["t"]["values"][0], phi)
+    assert picked["K"]["values"][0] == pytest.approx(float(at.gaussian_curvature), abs=1e-12)
+    assert picked["H"]["values"][0] == pytest.approx(float(at.mean_curvature), abs=1e-12)
+    assert picked["trims.kind"]["length"] > 0
+    assert cell["volume"]["values"][0] == pytest.approx(space.volumes[0], rel=1e-12)
+    assert bool(cell["caged"]["values"][0]) == space.cells[0].caged
+    assert pose["clearance"]["values"][0] == pytest.approx(float(nearest), rel=1e-9)
 
 
 @pytest.mark.parametrize(

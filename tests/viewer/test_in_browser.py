@@ -87,7 +87,8 @@ def test_patch_that_is_clicked_is_named_and_touched(fig9: Tried) -> None:
     box = fig9.page.locator("#space canvas").bounding_box()
     assert box
     fig9.page.mouse.click(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    fig9.say("#picked", "of obstacle 0 (triangle)")
+    for text in ("of obstacle 0 (triangle)", "K = ", "trimmed by: robot ", "Cell 0: volume 418.7 rad; bounded, not by"):
+        fig9.say("#picked", text)
     fig9.say("#pose", "Touching: ")
 
 
@@ -150,6 +151,19 @@ def test_obstacles_are_drawn_and_changed_by_keys(fig9: Tried) -> None:
     fig9.say("#way", "A motion exists")
 
 
+def test_colours_tell_contacts_curvatures_and_clearance(fig9: Tried) -> None:
+    fig9.say("#way", "A motion exists")
+    pictures = set()
+    for colour in ("contact", "cell", "gaussian", "mean", "clearance"):
+        fig9.page.select_option("#colour", colour)
+        fig9.page.wait_for_timeout(400)
+        pictures.add(fig9.page.locator("#space canvas").screenshot())
+    fig9.page.select_option("#palette", "paper")
+    fig9.page.wait_for_timeout(400)
+    pictures.add(fig9.page.locator("#space canvas").screenshot())
+    assert len(pictures) == 6
+
+
 def test_apart_is_shown_with_what_parts(browser: Any, tmp_path: Path) -> None:
     ring = {"outer": [[0, 0], [9, 0], [9, 9], [0, 9]], "holes": [[[1, 1], [1, 8], [8, 8], [8, 1]]], "name": "ring"}
     text = {"name": "caught", "robot": {"outer": [[0, 0], [2, 0], [0, 2]]}, "obstacles": [ring]}
@@ -170,4 +184,20 @@ def test_hostile_names_stay_text(browser: Any, tmp_path: Path) -> None:
     tried = Tried(browser, view(scene, html=tmp_path / "page.html", browser=False))
     tried.ready("<b>hostile")
     assert tried.page.locator("img").count() == 0 and tried.page.title() == "<b>hostile: cfree"
+    tried.close()
+
+
+def test_ten_scenes_are_inside_and_all_draw(browser: Any, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_text(files("cfree.viewer").joinpath("page.html").read_text())
+    tried = Tried(browser, page)
+    tried.ready("paper_fig9")
+    names = tried.page.locator("#scenes option").evaluate_all("options => options.map(o => o.value)")
+    assert len(names) == 11 and names[0] == "paper_fig9"
+    for name in names[1:-1]:
+        tried.page.select_option("#scenes", name)
+        tried.ready(name)
+        parted = name in ("caged_part", "nest_swim")
+        tried.say("#way", "No motion, not even touching" if parted else "A motion exists")
+        assert tried.page.locator(".obstacle").count() > 0
     tried.close()

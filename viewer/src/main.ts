@@ -1,14 +1,17 @@
 // The page: buttons, keys, files and links.
-import { doubles, string, value } from "./engine";
+import type { ColourBy } from "./colours";
+import { LEGENDS } from "./colours";
+import { integers, string, value } from "./engine";
 import { Editor } from "./editor";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
 import { $, json, palette, say } from "./page";
 import { Player } from "./playing";
 import { save_scene } from "./saving";
 import { Session, seen_of } from "./session";
-import { Space, type ColourBy } from "./space";
-import { fragment, from_fragment, from_words } from "./state";
-import { contact_words, degrees } from "./verdict";
+import { snapped } from "./shapes";
+import { Space } from "./space";
+import { fragment, from_fragment, from_words, words } from "./state";
+import { cell_words, degrees, patch_words } from "./verdict";
 import { Workspace } from "./workspace";
 
 const gallery: { name: string; title: string; text: string }[] = json("gallery");
@@ -46,15 +49,24 @@ $("theta").addEventListener("change", () => turned(true));
 
 if (space) space.on_pick = async (face, x, y, theta) => {
   if (!session.is_built) return;
-  const found = await session.builder.call("picked", face, x, y, theta), range = doubles(found, "range"), pose = from_words(string(found, "pose"));
-  const low = range.reduce((a, b) => Math.min(a, b), Infinity), high = range.reduce((a, b) => Math.max(a, b), -Infinity), at = seen_of(pose);
-  $("picked").hidden = false;
-  $("picked").textContent = `${contact_words(found, "contact", 0, session.file.names)}\nS(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(theta)}: (${at.x.toFixed(3)}, ${at.y.toFixed(3)})\nleft of it: φ from ${degrees(low)} to ${degrees(high)}; bounds cell ${value(found, "cell")}`;
+  const found = await session.builder.call("picked", face, x, y, theta), pose = from_words(string(found, "pose"));
+  space?.highlight(integers(found, "same"));
+  const cell = await cell_of(value(found, "cell"));
+  show_picked(`${patch_words(found, session.file.names)}\n${cell}`);
   session.keep({ ...session.now, robot: pose }, true);
-  session.set_slider(at.theta);
+  session.set_slider(seen_of(pose).theta);
   await session.ask_robot(pose);
   void session.ask_slice();
 };
+const cell_of = async (k: number) => cell_words(k, await session.builder.call("cell", k), session.file.units);
+function show_picked(text: string): void { $("picked").hidden = false, ($("picked").textContent = text); }
+async function show_cell(pose: string): Promise<void> {
+  if (!session.is_built) return;
+  space?.highlight(undefined);
+  const found = integers(await session.builder.call("pose", pose), "cells");
+  if (found.length) show_picked(await cell_of(found[0]!));
+}
+workspace.on_click = ({ x, y }) => void show_cell(`${snapped(x, workspace.step)} ${snapped(y, workspace.step)} ${session.now.robot.tau}`);
 
 async function open_file(of: File | undefined): Promise<void> {
   if (!of) return;
@@ -76,7 +88,16 @@ const actions: Record<string, () => void> = {
 };
 for (const [id, action] of Object.entries(actions)) $(id).addEventListener("click", action);
 $<HTMLInputElement>("file").addEventListener("change", (event) => void open_file((event.target as HTMLInputElement).files?.[0]));
-$("colour").addEventListener("change", () => space?.colour($<HTMLSelectElement>("colour").value as ColourBy));
+$("colour").addEventListener("change", () => {
+  const by = $<HTMLSelectElement>("colour").value;
+  const patches = by === "clearance" ? "contact" : by as ColourBy;
+  space?.colour(patches), session.show_path();
+  $("scale").textContent = by === "clearance" ? "path: near obstacles (dark) to far from them (bright)" : LEGENDS[patches];
+});
+$("palette").addEventListener("change", () => {
+  document.documentElement.dataset.palette = $<HTMLSelectElement>("palette").value;
+  space?.repaint(palette());
+});
 $("solid").addEventListener("change", () => space?.solid($<HTMLInputElement>("solid").checked));
 $("cut").addEventListener("change", () => space?.cut($<HTMLInputElement>("cut").checked));
 $("sweep").addEventListener("change", () => session.show_path());
@@ -100,7 +121,7 @@ document.addEventListener("keydown", (event) => {
   const colour = (k: number) => { const of = $<HTMLSelectElement>("colour"); of.selectedIndex = k, of.dispatchEvent(new Event("change")); };
   const slide = (by: number) => { const of = $<HTMLInputElement>("theta"); of.value = String(Number(of.value) + by), turned(true); };
   const keys: Record<string, () => void> = { " ": actions.play!, x: () => toggle("cut"), f: () => { workspace.fit(), space?.home(); }, "?": actions.help!, ",": () => slide(-1), ".": () => slide(1),
-    e: actions["edit-shapes"]!, n: actions.draw!, 1: () => colour(0), 2: () => colour(1), 3: () => colour(2), 4: () => colour(3) };
+    c: () => void show_cell(words(session.now.robot)), p: () => space?.pick_middle(), e: actions["edit-shapes"]!, n: actions.draw!, 1: () => colour(0), 2: () => colour(1), 3: () => colour(2), 4: () => colour(3) };
   if (keys[key]) event.preventDefault(), keys[key]!();
 });
 

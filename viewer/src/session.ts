@@ -169,7 +169,9 @@ export class Session {
       this.workspace.show_contacts(is_free ? answer : undefined, "touching", at);
       this.editor?.look();
       const cells = integers(answer, "cells");
-      if (verdict.tone === "good" && cells.length) verdict.text = `Free, in cell ${cells[0]}.`;
+      const clearance = value(answer, "clearance"), units = this.file.units ? ` ${this.file.units}` : "";
+      if (verdict.tone === "good" && Number.isFinite(clearance))
+        verdict.text = `Free${cells.length ? `, in cell ${cells[0]}` : ""}; ${clearance.toPrecision(3)}${units} from obstacles.`;
       say("pose", verdict);
       return is_free;
     } catch (error) { fault("pose", error); return undefined; }
@@ -205,7 +207,8 @@ export class Session {
   }
   show_path(): void {
     const shown = $<HTMLInputElement>("sweep").checked ? this.path : undefined;
-    this.workspace.show_path(shown), this.space?.show_path(shown);
+    const by_clearance = $<HTMLSelectElement>("colour").value === "clearance" ? this.last_way && doubles(this.last_way, "clearance") : undefined;
+    this.workspace.show_path(shown), this.space?.show_path(shown, by_clearance);
   }
 
   private dragged?: Drag;

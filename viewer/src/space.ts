@@ -5,13 +5,12 @@ import {
   TubeGeometry, Vector2, Vector3, WebGLRenderer, type Object3D, Path as ShapePath, Plane, PlaneGeometry,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { type ColourBy, on_scale, vertex_colours } from "./colours";
 import { type Columns, bytes, doubles, integers } from "./engine";
 import { FRAGMENT, VERTEX } from "./shaders";
 
-export type ColourBy = "contact" | "cell" | "obstacle";
 const LOW = -Math.PI / 2, HIGH = 3 * Math.PI / 2;
 export const wrapped = (theta: number) => theta - 2 * Math.PI * Math.floor((theta - LOW) / (2 * Math.PI));
-const MANY = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7bd1", "#b2a13c"];
 const GLASS = 0.8;
 const STILL = 140; // ms after the last change: as fine as it gets
 
@@ -22,7 +21,7 @@ export class Space {
   private readonly scene = new Scene();
   private readonly camera = new PerspectiveCamera(32, 1, 0.01, 100);
   private readonly controls: OrbitControls;
-  private readonly parts = { surface: new Group(), slice: new Group(), path: new Group(), barrier: new Group(), box: new Group() };
+  private readonly parts = { surface: new Group(), picked: new Group(), slice: new Group(), path: new Group(), barrier: new Group(), box: new Group() };
   private readonly point: Mesh;
   private readonly ends: Mesh[];
   private readonly material: ShaderMaterial;
@@ -151,6 +150,28 @@ export class Space {
     this.paint();
   }
 
+  // The faces of a patch that is picked.
+  highlight(faces: Int32Array | undefined): void {
+    this.clear(this.parts.picked);
+    const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
+    if (surface && this.sorted && faces?.length) {
+      const those = new Set(faces), of: number[] = surface.geometry.userData.faces, { triangles } = this.sorted, kept: number[] = [];
+      of.forEach((face, t) => { if (those.has(face)) kept.push(triangles[3 * t]!, triangles[3 * t + 1]!, triangles[3 * t + 2]!); });
+      const geometry = new BufferGeometry();
+      geometry.setAttribute("position", surface.geometry.attributes.position!), geometry.setAttribute("normal", surface.geometry.attributes.normal!);
+      geometry.setIndex(kept);
+      const colour = new Color(this.palette.good), colours = new Float32Array(surface.geometry.attributes.position!.count * 3);
+      for (let k = 0; k < colours.length; k += 3) colour.toArray(colours, k);
+      geometry.setAttribute("color", new BufferAttribute(colours, 3));
+      const material = this.material.clone();
+      Object.assign(material.uniforms, this.material.uniforms, { opacity: { value: 0.9 }, faded: { value: 0 } });
+      const mesh = new Mesh(geometry, material);
+      mesh.renderOrder = 4;
+      this.parts.picked.add(mesh);
+    }
+    this.ask();
+  }
+
   // What separates start and goal.
   show_barrier(mesh: Columns | undefined): void {
     this.clear(this.parts.barrier);
@@ -219,13 +240,7 @@ export class Space {
   private paint(): void {
     const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
     if (!surface || !this.mesh) return;
-    const kind = bytes(this.mesh, "kind"), other = integers(this.mesh, this.colour_by === "cell" ? "cell" : "owner");
-    const [ve, ev] = [new Color(this.palette.vertex_edge), new Color(this.palette.edge_vertex)], many = MANY.map((of) => new Color(of));
-    const colours = new Float32Array(3 * kind.length);
-    for (let k = 0; k < kind.length; ++k) {
-      const colour = this.colour_by === "contact" ? (kind[k] ? ev : ve) : many[(other[k]! + 8 * MANY.length) % MANY.length]!;
-      colour.toArray(colours, 3 * k);
-    }
+    const colours = vertex_colours(this.mesh, this.colour_by, this.palette);
     surface.geometry.setAttribute("color", new BufferAttribute(colours, 3));
     this.ask();
   }
@@ -277,20 +292,31 @@ export class Space {
     this.set_theta(this.theta);
   }
 
-  show_path(samples: Float64Array | undefined): void {
+  // Its colour is its clearance, if that is given, as a share of the most.
+  show_path(samples: Float64Array | undefined, clearance?: Float64Array): void {
     this.clear(this.parts.path);
-    const parts: Vector3[][] = [[]];
+    const parts: Vector3[][] = [[]], shares: number[][] = [[]], most = clearance?.reduce((a, b) => Math.max(a, b), 0) || 1;
     for (let k = 0; samples && k < samples.length; k += 3) {
       const theta = wrapped(samples[k + 2]!), at = this.put(samples[k]!, samples[k + 1]!, theta), part = parts.at(-1)!;
-      if (part.length && Math.abs(part.at(-1)!.z - at.z) > Math.PI * this.rise) parts.push([at]);
-      else if (!part.length || part.at(-1)!.distanceTo(at) > 1e-6 * this.view.size) part.push(at);
+      const share = (clearance?.[k / 3] ?? 0) / most;
+      if (part.length && Math.abs(part.at(-1)!.z - at.z) > Math.PI * this.rise) parts.push([at]), shares.push([share]);
+      else if (!part.length || part.at(-1)!.distanceTo(at) > 1e-6 * this.view.size) part.push(at), shares.at(-1)!.push(share);
     }
-    for (const part of parts.filter((of) => of.length > 1)) {
-      const tube = new TubeGeometry(new CatmullRomCurve3(part, false, "centripetal"), Math.min(3 * part.length, 1500), 0.006 * this.view.size, 8);
-      const through = new Mesh(tube, new MeshBasicMaterial({ color: this.palette.path, transparent: true, opacity: 0.4, depthTest: false }));
+    parts.forEach((part, k) => {
+      if (part.length < 2) return;
+      const along = Math.min(3 * part.length, 1500), around = 8, of = shares[k]!;
+      const tube = new TubeGeometry(new CatmullRomCurve3(part, false, "centripetal"), along, 0.006 * this.view.size, around);
+      const look = { color: clearance ? "#ffffff" : this.palette.path, vertexColors: !!clearance };
+      if (clearance) {
+        const colours = new Float32Array(3 * (along + 1) * (around + 1));
+        for (let i = 0; i <= along; ++i)
+          for (let j = 0; j <= around; ++j) on_scale(of[Math.round(i / along * (of.length - 1))]!).toArray(colours, 3 * (i * (around + 1) + j));
+        tube.setAttribute("color", new BufferAttribute(colours, 3));
+      }
+      const through = new Mesh(tube, new MeshBasicMaterial({ ...look, transparent: true, opacity: 0.4, depthTest: false }));
       through.renderOrder = 6;
-      this.parts.path.add(new Mesh(tube, new MeshBasicMaterial({ color: this.palette.path })), through);
-    }
+      this.parts.path.add(new Mesh(tube, new MeshBasicMaterial(look)), through);
+    });
     this.ask();
   }
 
@@ -377,7 +403,11 @@ export class Space {
     }
   }
 
-  private pick(event: MouseEvent): void {
+  pick_middle(): void {
+    const { left, top, width, height } = this.renderer.domElement.getBoundingClientRect();
+    this.pick({ clientX: left + width / 2, clientY: top + height / 2 });
+  }
+  private pick(event: { clientX: number; clientY: number }): void {
     const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
     if (!surface || !this.sorted) return;
     const rect = this.renderer.domElement.getBoundingClientRect();

@@ -58,3 +58,20 @@ export function way_verdict(columns: Columns, names: string[], units: string): V
   }
   return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };
 }
+
+// "Cell 5: volume 1.24, caged: obstacles alone enclose it; the robot cannot turn round in it."
+export function cell_words(k: number, cell: Columns, units: string): string {
+  const volume = value(cell, "volume"), turns = value(cell, "turns");
+  const size = Number.isFinite(volume) ? `volume ${volume.toPrecision(4)}${units ? ` ${units}²` : ""} rad` : "unbounded";
+  const caged = value(cell, "caged") === 1 ? "caged: obstacles alone enclose it" : value(cell, "bounded") === 1 ? "bounded, not by obstacles alone" : "not caged";
+  return `Cell ${k}: ${size}; ${caged}; the robot ${turns === 1 ? "can" : "cannot"} turn round in it.`;
+}
+
+// What a picked patch is: its contact, the point, curvatures, range, and the contacts whose surfaces trim it.
+export function patch_words(found: Columns, names: string[]): string {
+  const range = doubles(found, "range"), low = range.reduce((a, b) => Math.min(a, b), Infinity), high = range.reduce((a, b) => Math.max(a, b), -Infinity);
+  const trims = Array.from({ length: bytes(found, "trims.kind").length }, (_, k) => contact_words(found, "trims", k, names));
+  const more = trims.length > 4 ? ` and ${trims.length - 4} more` : "", digits = (name: string) => value(found, name).toPrecision(4);
+  return [contact_words(found, "contact", 0, names), `S(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(value(found, "phi"))}`, `K = ${digits("K")}, H = ${digits("H")}`,
+    `left of it: φ from ${degrees(low)} to ${degrees(high)}`, trims.length ? `trimmed by: ${trims.slice(0, 4).join("; ")}${more}` : "trimmed by nothing"].join("\n");
+}

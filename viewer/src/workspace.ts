@@ -35,6 +35,7 @@ export class Workspace {
   private whole = this.box;
   on_drag: (drag: Drag) => void = () => {};
   on_look = () => {};
+  on_click: (at: { x: number; y: number }) => void = () => {};
 
   constructor(host: HTMLElement) {
     this.svg = made("svg", host, { role: "group", "aria-label": "Workspace: robot, obstacles, start and goal" });
@@ -236,7 +237,10 @@ export class Workspace {
       this.box = { ...from, x: from.x - (now.clientX - begin.clientX) * px, y: from.y + (now.clientY - begin.clientY) * px };
       this.look();
     };
-    const end = () => { this.svg.removeEventListener("pointermove", move), this.svg.removeEventListener("pointerup", end); };
+    const end = (now: PointerEvent) => {
+      this.svg.removeEventListener("pointermove", move), this.svg.removeEventListener("pointerup", end);
+      if (Math.hypot(now.clientX - begin.clientX, now.clientY - begin.clientY) < 3) this.on_click(this.point(now));
+    };
     this.svg.addEventListener("pointermove", move), this.svg.addEventListener("pointerup", end);
     this.svg.setPointerCapture(event.pointerId);
   }

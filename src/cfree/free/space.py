@@ -27,8 +27,7 @@ from cfree.forbidden.boundary import Boundary, boundary_of, regularize_by
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.columns import Floats, Ints
 from cfree.forbidden.record import glue_by
-from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.scene.features import BOUNDS, WORKSPACE, SceneFeatures
+from cfree.scene.features import SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Shown, Value
 
@@ -168,24 +167,15 @@ class FreeSpace(Value, Shown):
         members: list[list[int]] = [[] for _ in range(count)]
         for k in np.lexsort((np.arange(len(self.parent)), ~self.free_inside)).tolist():
             members[self.cell_of[k]].append(k)
-        on_limits = np.zeros(len(self.parent), bool)
-        on_limits[self.component[self._on_limits]] = True
+        caged = self.core.caged(self.surfaces.features.obstacles.owner_polygon).view(np.bool_)
         ranges = self._theta_ranges()
         cells = []
         for k, of in enumerate(members):
             bounded = k != self.outside
             turns = int(np.gcd.reduce(self.turns[of])) if bounded else 1
             theta = ranges[of[0]] if bounded and turns == 0 else (0.0, math.tau)
-            cells.append(Cell(k, tuple(of), bounded, bounded and not on_limits[of].any(), turns, theta, self))
+            cells.append(Cell(k, tuple(of), bounded, bool(caged[k]), turns, theta, self))
         return tuple(cells)
-
-    @property
-    def _on_limits(self) -> NDArray[np.bool_]:
-        """(F,) whether a face belongs to bounds or workspace."""
-        b = self.surfaces
-        owner = b.features.obstacles.owner_polygon[b.contact_obstacle[b.trapezoids.patch]]
-        on_limits: NDArray[np.bool_] = (owner == BOUNDS) | (owner == WORKSPACE)
-        return on_limits
 
     def _theta_ranges(self) -> list[tuple[float, float]]:
         """Of each closed surface that does not go round in theta."""
@@ -210,26 +200,7 @@ class FreeSpace(Value, Shown):
         By the divergence theorem, exact along t. Over theta by quadrature until halving changes less than 1e-12: a
         measured error, no proved one. Relative to the volume of the closed surfaces, not of what they leave over.
         """
-        inside = np.bincount(self.component, self._signed_volumes, len(self.parent))
-        volumes: Floats = -np.bincount(self.cell_of, inside, len(self.cells)).astype(float)
-        if self.outside == 0:
-            volumes[0] = np.inf
-        return volumes
-
-    @property
-    def _signed_volumes(self) -> Floats:
-        """(F,) parts of the volume inside each closed surface, negative where that is free."""
-        surfaces, table = self.surfaces, self.surfaces.trapezoids
-        middle = surfaces.evaluate_near(table.patch, np.full(len(table), 0.5), (table.theta_from + table.theta_to) / 2)
-        sums = [np.bincount(self.component, values, len(self.parent)) for values in (*middle.T, np.ones(len(table)))]
-        o = np.column_stack(sums[:2])[self.component] / sums[2][self.component, None]  # near by: little cancels
-
-        def along_t(which: Ints, lower: Floats, upper: Floats, theta: Floats) -> Floats:
-            P, Q = (surfaces.evaluate_near(table.patch[which], t, theta) - o[which] for t in (lower, upper))
-            area: Floats = (P[:, 0] * Q[:, 1] - P[:, 1] * Q[:, 0]) / 2
-            return area
-
-        return trapezoid_integrals(surfaces, along_t)
+        return self.core.volumes()
 
     @overload
     def locate(self, poses: OnePose, *, threads: int | None = None) -> int: ...

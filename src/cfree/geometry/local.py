@@ -25,6 +25,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.exact.number import finite
 from cfree.geometry.ruled import Floats, check_scale, read_ruled
@@ -48,6 +49,10 @@ class LocalGeometry(Value):
     frame : (..., 3, 3) float64
         Rows: the unit vector along the ruling, the unit tangent across it with increasing phi, the unit normal; in
         the coordinates x, y, angle_scale * theta.
+    gaussian_curvature : (...) float64
+        K of Lemma 2, in 1 / length^2: negative on e-v surfaces, 0 on v-e surfaces.
+    mean_curvature : (...) float64
+        H of Lemma 2, in 1 / length, for the normal towards the free side.
     """
 
     E: Floats
@@ -58,6 +63,8 @@ class LocalGeometry(Value):
     g: Floats
     v: Floats
     frame: Floats
+    gaussian_curvature: Floats
+    mean_curvature: Floats
 
     @property
     def normal(self) -> Floats:
@@ -66,18 +73,6 @@ class LocalGeometry(Value):
         Its two first coordinates are the normal n of the contact line, its third says how turning helps.
         """
         return self.frame[..., 2, :]
-
-    @property
-    def gaussian_curvature(self) -> Floats:
-        """K of Lemma 2, in 1 / length^2: negative on e-v surfaces, 0 on v-e surfaces."""
-        return 0.0 - (self.f / self.v) ** 2
-
-    @property
-    def mean_curvature(self) -> Floats:
-        """H of Lemma 2, in 1 / length, for the normal towards the free side."""
-        v = self.v
-        H: Floats = ((self.g / v) * (self.E / v) - 2 * (self.f / v) * (self.F / v)) / 2
-        return H
 
     @checked
     def normal_curvature(self, xi: ArrayLike) -> Floats:
@@ -170,11 +165,11 @@ def local_geometry(ruled: ArrayLike, t: ArrayLike, phi: ArrayLike, *, angle_scal
     array([0.1767767, 0.5      , 0.1767767])
     """
     w = check_scale(angle_scale)
-    rows, t, phi = read_ruled(ruled), finite("t", t), finite("phi", phi)
-    u, g = rows.ruling(phi), np.hypot(rows.g[..., 0], rows.g[..., 1])
-    s, k, L, ux, uy, g = np.broadcast_arrays(*rows.across_and_along(t, phi), rows.L, u[..., 0], u[..., 1], g)
-    r, zero = np.hypot(w, s), np.zeros(s.shape)
-    v = L * r
-    axes = (ux, uy, zero), (-s / r * uy, s / r * ux, w / r), (w / r * uy, -w / r * ux, s / r)
-    frame = np.stack([np.stack(axis, axis=-1) for axis in axes], axis=-2)
-    return LocalGeometry(L**2, L * k, r**2 + k**2, zero, -w * g * (g / v), -w * k / r, v, frame)
+    rows, t, phi = np.concatenate(read_ruled(ruled), axis=-1), finite("t", t), finite("phi", phi)
+    shape = np.broadcast_shapes(rows.shape[:-1], t.shape, phi.shape)
+    flat = np.ascontiguousarray(np.broadcast_to(rows, (*shape, 8)).reshape(-1, 8))
+    t, phi = (np.ascontiguousarray(np.broadcast_to(of, shape).reshape(-1)) for of in (t, phi))
+    table = _core.local_geometry(flat, t, phi, w).reshape(*shape, 18)
+    forms, frame, curvatures = np.split(table, [7, 16], axis=-1)
+    E, F, G, e, f, g, v = np.moveaxis(forms, -1, 0)
+    return LocalGeometry(E, F, G, e, f, g, v, frame.reshape(*shape, 3, 3), curvatures[..., 0], curvatures[..., 1])

@@ -1,0 +1,13 @@
+// What is told of cells: how large they are, and whether obstacles alone enclose them.
+#pragma once
+#include "cfree/free/free_space.hpp"
+
+namespace cfree {
+
+// In length^2 radians, by the divergence theorem; infinite if unbounded.
+std::vector<double> volumes(const FreeSpace& space);
+
+// Whether each cell is bounded and no face of its boundary belongs to bounds or workspace, whose owners are negative.
+std::vector<std::uint8_t> caged(const FreeSpace& space, const std::vector<Index>& owner);
+
+}  // namespace cfree
