@@ -267,10 +267,12 @@ def _painted(corners: Floats, colours: Sequence[str]) -> bytes:
     """Triangles one over the other, as PNG."""
     from PIL import Image, ImageDraw
 
-    image = Image.new("RGB", (round(SHARP * WIDTH), round(SHARP * HEIGHT)), "#fff")
+    palette = {colour: k for k, colour in enumerate(["#ffffff", *dict.fromkeys(colours)])}
+    image = Image.new("P", (round(SHARP * WIDTH), round(SHARP * HEIGHT)))
+    image.putpalette(bytes.fromhex("".join(palette).replace("#", "")))
     brush = ImageDraw.Draw(image)
     for triangle, colour in zip(corners.reshape(-1, 6).tolist(), colours, strict=True):
-        brush.polygon(triangle, fill=colour)
+        brush.polygon(triangle, fill=palette[colour])
     file = BytesIO()
-    image.quantize(64).save(file, "PNG", optimize=True)
+    image.save(file, "PNG")
     return file.getvalue()

@@ -5,7 +5,7 @@ function render({ model, el }) {
   const frame = document.createElement("iframe");
   frame.title = "Robot, obstacles and configuration space";
   frame.setAttribute("sandbox", "allow-scripts allow-downloads");
-  frame.style.cssText = "width:100%;border:1px solid #8884;border-radius:10px;display:block";
+  frame.style.cssText = "width:100%;box-sizing:border-box;border:1px solid #8884;border-radius:10px;display:block";
   let is_heard = false, due = 0;
 
   const show = () => {
