@@ -166,7 +166,7 @@ void ask_stop(const World& world, const RationalPose& from, const RationalPose& 
     reply.add("share", nearest(u.n, u.d));
 }
 
-void ask_walk(const World& world, std::string_view lines, Reply& reply) {
+void ask_walk(World& world, std::string_view lines, Reply& reply) {
     Poses way;
     for (std::size_t at = 0; at < lines.size();) {
         const auto end = std::min(lines.find('\n', at), lines.size());
@@ -177,9 +177,11 @@ void ask_walk(const World& world, std::string_view lines, Reply& reply) {
     if (way.empty() || !FreeMotions(*world.scene, *world.checker, none).join(way)) throw std::invalid_argument("the path given is not free");
     reply.text("verdict", "path");
     show_path(world, way, {}, reply);
+    world.answer = {way.front(), way.back(), way, {}};
 }
 
 void ask_way(World& world, const RationalPose& start, const RationalPose& goal, Reply& reply) {
+    world.answer.reset();
     for (const auto& [pose, name] : {std::pair{&start, "start"}, {&goal, "goal"}})
         if (const auto pair = overlap(world, *pose)) {
             reply.text("verdict", std::string(name) + " forbidden");
@@ -190,6 +192,7 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
     const auto answer = world.planner->plan(first, last, alone);
     if (const auto* proof = std::get_if<Separation>(&answer)) {
         reply.text("verdict", "apart");
+        world.answer = {start, goal, *proof, {}};
         return show_proof(world, *proof, reply);
     }
     if (!std::holds_alternative<Poses>(answer)) return reply.text("verdict", "unclear");
@@ -199,6 +202,7 @@ void ask_way(World& world, const RationalPose& start, const RationalPose& goal, 
     const Poses way = found.size() > 2 && slides.empty() ? shortened(world, found) : found;
     check(world, way, slides);
     show_path(world, way, slides, reply);
+    world.answer = {start, goal, way, slides};
 }
 
 }  // namespace cfree

@@ -11,7 +11,7 @@ void ask_pose(const World& world, const RationalPose& pose, Reply& reply);
 // A path, or the closed surface that parts the two.
 void ask_way(World& world, const RationalPose& start, const RationalPose& goal, Reply& reply);
 // A path given by its poses, a line each; every motion is checked.
-void ask_walk(const World& world, std::string_view lines, Reply& reply);
+void ask_walk(World& world, std::string_view lines, Reply& reply);
 // How far a translation is free.
 void ask_stop(const World& world, const RationalPose& from, const RationalPose& to, Reply& reply);
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <numbers>
 
+#include "answers.hpp"
 #include "asking.hpp"
 #include "shown.hpp"
 
@@ -70,6 +71,9 @@ EMSCRIPTEN_KEEPALIVE int plan(const char* start, const char* goal) {
 }
 EMSCRIPTEN_KEEPALIVE int walk(const char* poses) {
     return answer([&] { cfree::ask_walk(given(), poses, reply); });
+}
+EMSCRIPTEN_KEEPALIVE int written() {
+    return answer([] { cfree::write_answer(given(), reply); });
 }
 EMSCRIPTEN_KEEPALIVE int stop(const char* from, const char* to) {
     return answer([&] { cfree::ask_stop(given(), cfree::pose_of(from), cfree::pose_of(to), reply); });

@@ -3,9 +3,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <variant>
 
 #include "cfree/forbidden/slice.hpp"
 #include "cfree/free/free_space.hpp"
+#include "cfree/planning/double_contact.hpp"
 #include "cfree/planning/planner.hpp"
 #include "cfree/scene/features.hpp"
 
@@ -29,6 +31,12 @@ public:
     std::shared_ptr<const FreeSpace> space;
     std::unique_ptr<const Slicer> slicer;
     std::unique_ptr<Planner> planner;
+    struct Answer {
+        RationalPose start, goal;
+        std::variant<Poses, Separation> found;
+        std::vector<ContactSlide> slides;
+    };
+    std::optional<Answer> answer;  // the last one
     std::vector<double> volumes;  // of cells, once somebody has asked
 
     void need_space() const;

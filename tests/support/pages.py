@@ -62,11 +62,11 @@ class Tried:
     def outlines(self) -> list[str]:
         return [str(d) for d in self.page.locator(".obstacle").evaluate_all("all => all.map(p => p.getAttribute('d'))")]
 
-    def saved(self, tmp_path: Path) -> cfree.Scene:
+    def saved(self, what: str, file: Path) -> Path:
         with self.page.expect_download() as download:
-            self.page.locator("#save").click()
-        download.value.save_as(tmp_path / "saved.json")
-        return cfree.load_scene(tmp_path / "saved.json")
+            self.page.select_option("#save", what)
+        download.value.save_as(file)
+        return file
 
     def slice(self) -> str:
         return str(self.page.locator(".slice .forbidden").get_attribute("d"))

@@ -6,7 +6,7 @@ import { Editor } from "./editor";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
 import { $, json, palette, say } from "./page";
 import { Player } from "./playing";
-import { save_scene } from "./saving";
+import { save, save_scene } from "./saving";
 import { Session, seen_of } from "./session";
 import { snapped } from "./shapes";
 import { Space } from "./space";
@@ -86,7 +86,12 @@ const actions: Record<string, () => void> = {
   help: () => $<HTMLDialogElement>("keys").showModal(), play: () => player.toggle(), stop: () => session.stop(),
   "edit-shapes": () => editor.mode(!editor.is_on), draw: () => editor.draw(), remove: () => editor.remove(),
 };
-for (const [id, action] of Object.entries(actions)) $(id).addEventListener("click", action);
+for (const [id, action] of Object.entries(actions)) if (id !== "save") $(id).addEventListener("click", action);
+$("save").addEventListener("change", () => {
+  const what = $<HTMLSelectElement>("save").value;
+  $<HTMLSelectElement>("save").value = "";
+  void save(session, what);
+});
 $<HTMLInputElement>("file").addEventListener("change", (event) => void open_file((event.target as HTMLInputElement).files?.[0]));
 $("colour").addEventListener("change", () => {
   const by = $<HTMLSelectElement>("colour").value;

@@ -7,6 +7,7 @@ import {
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { type ColourBy, on_scale, vertex_colours } from "./colours";
 import { type Columns, bytes, doubles, integers } from "./engine";
+import type { Shown } from "./model";
 import { FRAGMENT, VERTEX } from "./shaders";
 
 const LOW = -Math.PI / 2, HIGH = 3 * Math.PI / 2;
@@ -148,6 +149,27 @@ export class Space {
     front.renderOrder = 3;
     this.parts.surface.add(surface, front, ...this.edges(mesh, Math.min(0.9, Math.sqrt(4000 / (1 + bytes(mesh, "line_kind").length)))));
     this.paint();
+  }
+
+  // For files: the mesh, and the view as it is now.
+  get shown(): Shown | undefined {
+    const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
+    return surface && this.sorted && { geometry: surface.geometry, triangles: this.sorted.triangles, x: this.view.x, y: this.view.y, radius: this.material.uniforms.length!.value };
+  }
+  picture(): HTMLCanvasElement {
+    this.draw(Math.max(2, devicePixelRatio), false);
+    const { domElement: view } = this.renderer, copy = document.createElement("canvas");  // before the browser clears it
+    copy.width = view.width, copy.height = view.height;
+    const to = copy.getContext("2d")!, ratio = view.width / this.host.clientWidth;
+    to.drawImage(view, 0, 0);
+    to.scale(ratio, ratio);
+    to.textAlign = "center", (to.textBaseline = "middle"), (to.fillStyle = this.palette.ink);
+    for (const { at, element } of this.labels) {
+      const p = at.clone().project(this.camera);
+      to.font = getComputedStyle(element).font;
+      to.fillText(element.textContent!, (p.x + 1) / 2 * this.host.clientWidth, (1 - p.y) / 2 * this.host.clientHeight);
+    }
+    return copy;
   }
 
   // The faces of a patch that is picked.

@@ -1,0 +1,183 @@
+// JSON of answers: exact numbers, and beside them doubles, which are as near as the format asks for.
+#include "answers.hpp"
+
+#include <numbers>
+#include <set>
+#include <tuple>
+
+namespace cfree {
+
+namespace {
+
+using Rational = std::array<Ratio, 2>;
+
+std::string quoted(const std::string& text) { return '"' + text + '"'; }
+std::string quoted(const Ratio& x) { return quoted(text_of(x)); }
+std::string decimal(double x) { return text_of(x); }
+template <class List, class Text>
+std::string listed(const List& items, const Text& text, const char* between = ", ") {
+    std::string all;
+    for (const auto& item : items) all += (all.empty() ? "" : between) + text(item);
+    return '[' + all + ']';
+}
+std::string exact(const Ratio& x, const Ratio& y) { return listed(std::array{x, y}, [](const Ratio& c) { return quoted(c); }); }
+std::string decimals(double x, double y) { return listed(std::array{x, y}, decimal); }
+std::string decimals(const Place& p) { return listed(std::array{p.x, p.y, p.theta}, decimal); }
+std::string tau_of(const HalfAngle& half) { return quoted(half.q.is_zero() ? "inf" : text_of(reduced(half.p, half.q))); }
+std::string exact(const RationalPose& q) {
+    return '[' + quoted(q.x) + ", " + quoted(q.y) + ", {\"tau\": " + tau_of(q.half) + "}]";
+}
+
+std::vector<Rational> ring(const Polygon& polygon, std::size_t r) {
+    std::vector<Rational> points;
+    for (Index k = polygon.offsets[r]; k < polygon.offsets[r + 1]; ++k)
+        points.push_back({reduced(polygon.vertices.X[k], polygon.denominator), reduced(polygon.vertices.Y[k], polygon.denominator)});
+    return points;
+}
+
+// What decides whether poses are free.
+std::string scene_text(const SceneShapes& shapes) {
+    std::string text = "cfree scene 1\n";
+    const auto add = [&](const char* word, const Polygon& polygon) {
+        text += std::string(word) + '\n';
+        for (std::size_t r = 0; r + 1 < polygon.offsets.size(); ++r) {
+            text += r ? "hole" : "outer";
+            for (const auto& [x, y] : ring(polygon, r)) text += ' ' + text_of(x) + ' ' + text_of(y);
+            text += '\n';
+        }
+    };
+    for (const auto& part : shapes.robot) add("robot", *part);
+    for (const auto& obstacle : shapes.obstacles) add("obstacle", *obstacle);
+    if (shapes.workspace) add("workspace", *shapes.workspace);
+    if (shapes.bounds) {
+        text += "bounds";
+        for (const Ratio& x : *shapes.bounds) text += ' ' + text_of(x);
+        text += '\n';
+    }
+    return text;
+}
+
+std::array<Ratio, 4> box_of(const SceneShapes& shapes) {
+    std::optional<std::array<Ratio, 4>> box;
+    for (const auto& part : shapes.robot)
+        for (const auto& [x, y] : ring(*part, 0)) {
+            if (!box) box = {x, y, x, y};
+            auto& [x0, y0, x1, y1] = *box;
+            x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+        }
+    return *box;
+}
+
+std::string head(const World& world, const char* kind, const RationalPose& start, const RationalPose& goal) {
+    return std::string("{\"version\": 1,\n \"answer\": ") + quoted(kind) + ",\n \"scene\": {\"sha256\": \"{sha256}\", \"robot\": " +
+           listed(box_of(world.shapes), [](const Ratio& x) { return quoted(x); }) + "},\n \"start\": " + decimals(start.place()) + ",\n \"goal\": " +
+           decimals(goal.place()) + ",\n \"exact\": {\"start\": " + exact(start) + ", \"goal\": " + exact(goal) + "}";
+}
+
+// From one pose to the next; theta is counted on.
+std::string motion(const RationalPose& a, const RationalPose& b, double& theta) {
+    const Ratio dx = b.x - a.x, dy = b.y - a.y;
+    const auto to = [&] { return "\"to\": " + decimals({nearest(b.x.n, b.x.d), nearest(b.y.n, b.y.d), theta}); };
+    if (a.half == b.half)
+        return "{\"type\": \"translation\", \"vector\": " + decimals(nearest(dx.n, dx.d), nearest(dy.n, dy.d)) + ", " + to() +
+               ", \"exact\": {\"vector\": " + exact(dx, dy) + "}}";
+    // with t the tangent of half the turn the pole is (a + b + (-dy, dx) / t) / 2
+    const HalfAngle turn = HalfAngle::along(a.half.q * b.half.q + a.half.p * b.half.p, a.half.q * b.half.p - a.half.p * b.half.q);
+    const Ratio cot = reduced(turn.q, turn.p), half{1, 2};
+    const Ratio x = half * (a.x + b.x - cot * dy), y = half * (a.y + b.y + cot * dx);
+    const double wide = turn.theta(), angle = wide > std::numbers::pi ? wide - 2 * std::numbers::pi : wide;
+    theta += angle;
+    return "{\"type\": \"rotation\", \"pole\": " + decimals(nearest(x.n, x.d), nearest(y.n, y.d)) + ", \"angle\": " + decimal(angle) + ", " + to() +
+           ", \"exact\": {\"pole\": " + exact(x, y) + ", \"tau\": " + tau_of(turn) + "}}";
+}
+
+std::string polygon_text(const Polygon& polygon) {
+    const auto points = [](const std::vector<Rational>& of) { return listed(of, [](const Rational& p) { return exact(p[0], p[1]); }); };
+    std::string holes;
+    for (std::size_t r = 1; r + 1 < polygon.offsets.size(); ++r) holes += (r > 1 ? ", " : "") + points(ring(polygon, r));
+    return "{\"outer\": " + points(ring(polygon, 0)) + (holes.empty() ? "" : ", \"holes\": [" + holes + "]") + "}";
+}
+
+std::string name(std::uint64_t code) {
+    const Feature f = unpacked(code);
+    return listed(std::array{static_cast<int>(f.kind), f.robot, f.obstacle}, [](int k) { return std::to_string(k); });
+}
+std::string pair_text(Index a, Index b) { return '[' + std::to_string(a) + ", " + std::to_string(b) + ']'; }
+
+std::string piece(const SceneFeatures& features, const Boundary& boundary, Index face) {
+    const Trapezoids& t = boundary.trapezoids;
+    const auto k = static_cast<std::size_t>(face);
+    const Feature f = boundary.patches.contact(t.patch[k]);
+    const auto i = static_cast<std::size_t>(f.robot), j = static_cast<std::size_t>(f.obstacle);
+    const auto end = [&](std::uint64_t first, std::uint64_t second, double lo, double hi, int place) {
+        std::string names = first ? name(first) : "";
+        if (second) names += (names.empty() ? "" : ", ") + name(second);
+        return "{\"names\": [" + names + "], \"tau\": " + decimals(lo, hi) + (place ? ", \"place\": " + std::to_string(place) : "") + "}";
+    };
+    return std::string("  {\"contact\": {\"kind\": ") + quoted(f.kind == Kind::vertex_edge ? "vertex-edge" : "edge-vertex") + ", \"robot\": " +
+           pair_text(features.robot.polygon[i], features.robot.vertex[i]) + ", \"obstacle\": " +
+           pair_text(features.obstacles.polygon[j], features.obstacles.vertex[j]) + "}, \"chart\": " + std::to_string(t.chart[k]) + ", \"from\": " +
+           end(t.from_first[k], t.from_second[k], t.from_lo[k], t.from_hi[k], t.from_place[k]) + ", \"to\": " +
+           end(t.to_first[k], t.to_second[k], t.to_lo[k], t.to_hi[k], t.to_place[k]) + ", \"lower\": " + name(t.lower[k]) + ", \"upper\": " +
+           name(t.upper[k]) + "}";
+}
+
+// Points and lines that names use and no polygon has: diagonals of convex pieces, corners beyond the bounds.
+std::vector<std::string> auxiliary(const SceneFeatures& features, const Boundary& boundary, const std::vector<Index>& faces) {
+    std::set<std::tuple<bool, bool, Index>> used;  // of obstacles, an edge, number
+    const Trapezoids& t = boundary.trapezoids;
+    const auto is_owned = [](const Owners& of, Index k) { return static_cast<std::size_t>(k) < of.vertex.size() && of.vertex[static_cast<std::size_t>(k)] >= 0; };
+    for (const Index face : faces) {
+        const auto k = static_cast<std::size_t>(face);
+        for (const std::uint64_t code : {t.lower[k], t.upper[k], t.from_first[k], t.from_second[k], t.to_first[k], t.to_second[k]}) {
+            if (!code) continue;
+            const Feature f = unpacked(code);
+            if (!is_owned(features.robot, f.robot)) used.insert({false, f.kind != Kind::vertex_edge && f.kind != Kind::vertex_vertex, f.robot});
+            if (!is_owned(features.obstacles, f.obstacle)) used.insert({true, f.kind != Kind::edge_vertex && f.kind != Kind::vertex_vertex, f.obstacle});
+        }
+    }
+    std::vector<std::string> found;
+    for (const auto& [of_obstacles, is_edge, number] : used) {
+        const Shape& shape = of_obstacles ? features.scene->obstacles : features.scene->robot;
+        const auto point = [&](Index v) { return exact(reduced(shape.X[v], features.scene->scale), reduced(shape.Y[v], features.scene->scale)); };
+        const std::string points = is_edge ? point(shape.v[number]) + ", " + point(shape.w[number]) : point(number);
+        found.push_back(std::string("{\"of\": ") + quoted(of_obstacles ? "obstacles" : "robot") + ", \"kind\": " + quoted(is_edge ? "edge" : "vertex") +
+                        ", \"number\": " + std::to_string(number) + ", \"points\": [" + points + "]}");
+    }
+    return found;
+}
+
+std::string separation_text(const World& world, const World::Answer& answer, const Separation& proof) {
+    const SceneFeatures& features = *proof.of->features;
+    const Boundary& boundary = *proof.surface.boundary;
+    std::set<Index> obstacles;
+    for (const Index face : proof.surface.faces)
+        obstacles.insert(features.obstacles.polygon[static_cast<std::size_t>(boundary.patches.contact(boundary.trapezoids.patch[static_cast<std::size_t>(face)]).obstacle)]);
+    const auto same = [](const std::string& text) { return text; };
+    std::string text = head(world, "separated", answer.start, answer.goal) + ",\n \"of\": " + quoted(proof.is_closed ? "closed" : "interior") +
+                       ",\n \"obstacles\": " + listed(obstacles, [](Index k) { return std::to_string(k); });
+    if (proof.is_closed) {
+        text += ",\n \"smaller_robot\": " + listed(proof.of->shapes().robot, [](const auto& part) { return polygon_text(*part); });
+        if (const auto& bounds = proof.of->shapes().bounds) text += ",\n \"larger_bounds\": " + listed(*bounds, [](const Ratio& x) { return quoted(x); });
+    }
+    if (const auto more = auxiliary(features, boundary, proof.surface.faces); !more.empty()) text += ",\n \"auxiliary\": " + listed(more, same);
+    return text + ",\n \"surface\": " + listed(proof.surface.faces, [&](Index face) { return piece(features, boundary, face); }, ",\n") + "}\n";
+}
+
+}  // namespace
+
+void write_answer(const World& world, Reply& reply) {
+    if (!world.answer) throw std::invalid_argument("there is no answer yet");
+    const World::Answer& answer = *world.answer;
+    reply.text("scene", scene_text(world.shapes));
+    if (const auto* proof = std::get_if<Separation>(&answer.found)) return reply.text("answer", separation_text(world, answer, *proof));
+    if (!answer.slides.empty()) throw std::invalid_argument("this path slides along two contacts; `cfree plan` writes such paths");
+    const Poses& way = std::get<Poses>(answer.found);
+    std::vector<std::string> motions;
+    double theta = way.front().place().theta;
+    for (std::size_t k = 1; k < way.size(); ++k) motions.push_back(motion(way[k - 1], way[k], theta));
+    reply.text("answer", head(world, "path", way.front(), way.back()) + ",\n \"decimals\": \"approximate\",\n \"motions\": " +
+                             listed(motions, [](const std::string& text) { return "\n  " + text; }, ",") + "}\n");
+}
+
+}  // namespace cfree
