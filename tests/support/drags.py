@@ -10,6 +10,7 @@ import random
 import sys
 import time
 from collections import Counter
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -18,16 +19,17 @@ from cfree.formats.scene_file import scene_from_text
 from cfree.viewer.page_text import hosted_page
 from pages import CHROMIUM, SWIFTSHADER
 
-FRAME = """([page, given]) => {
+FRAME = """(page) => new Promise((ready) => {
   const frame = document.createElement("iframe");
   frame.style.cssText = "position:fixed;inset:0;width:100%;height:100%;border:0";
   window.addEventListener("message", ({ data }) => {
-    if (data.cfree === "ready") frame.contentWindow.postMessage({ cfree: "show", given }, "*");
+    if (data.cfree === "ready") ready();
     if (data.cfree === "seen") window.seen = data.seen;
   });
   frame.srcdoc = page;
   document.body.append(frame);
-}"""
+})"""
+SHOW = "given => frames[0].postMessage({ cfree: 'show', given }, '*')"
 SAID = {  # how what is said begins, and what Python's answer then is
     "A motion exists": "path",
     "No motion, not even touching": "closed",
@@ -37,20 +39,26 @@ SAID = {  # how what is said begins, and what Python's answer then is
 
 
 class Dragged:
-    """A scene in the page of a frame, whose goal is dragged."""
+    """The page in a frame, with a scene whose goal is dragged."""
 
-    def __init__(self, browser: Any, scene_text: str, seed: int) -> None:
+    def __init__(self, browser: Any, seed: int) -> None:
         self.page = browser.new_page(viewport={"width": 1000, "height": 700})
-        self.planner = cfree.Planner(scene_from_text("scene", scene_text))
         self.random = random.Random(seed)
-        self.page.evaluate(FRAME, [hosted_page(), {"scene": scene_text}])
+        self.page.evaluate(FRAME, hosted_page())
         self.frame = self.page.frame_locator("iframe")
-        self.way = self.frame.locator("#way:not(.old):not(:empty)")
-        self.frame.locator("body[data-ready]").wait_for(timeout=120_000)
+        self.way = self.frame.locator("#way:not(.old):not(:empty)").filter(has_not_text="Looking for")
+
+    def open(self, path: Path) -> None:
+        """Another scene, which has a name and bounds."""
+        text = path.read_text()
+        scene = scene_from_text(path.name, text)
+        self.planner, self.checker = cfree.Planner(scene), cfree.MotionChecker(scene)
+        self.page.evaluate(SHOW, {"scene": text})
+        self.frame.locator(f"body[data-ready='{scene.name}']").wait_for(timeout=120_000)
         self.way.wait_for()
         for other in ("robot", "start"):  # which may be in front of the goal
             self.frame.locator(f".body.{other}").evaluate("body => { body.style.pointerEvents = 'none'; }")
-        self.floor = self.frame.locator(".bounds, .room, #workspace > svg").last.bounding_box()  # the first is the svg
+        self.floor = self.frame.locator(".bounds").bounding_box()
         self.at = self._point()
 
     def _point(self) -> tuple[float, float]:
@@ -67,14 +75,18 @@ class Dragged:
         self.page.mouse.move(*target)
         self.page.mouse.up()
         self.page.wait_for_function("JSON.stringify(seen.goal) !== before")
-        self.way.filter(has_not_text="Looking for").wait_for(timeout=60_000)
+        self.way.wait_for(timeout=60_000)
         seen, said = self.page.evaluate("seen"), self.way.inner_text()
         self.at = self._point()
         return next((kind for words, kind in SAID.items() if said.startswith(words)), said), self.expected(seen), seen
 
     def expected(self, seen: dict[str, Any]) -> str:
-        """In words of `SAID`, by Python."""
+        """In words of `SAID`, by Python; a path that the page has found is checked."""
         ends = [cfree.Pose(of["x"], of["y"], {"tau": of["tau"]}) for of in (seen["start"], seen["goal"])]
+        if seen["poses"]:
+            poses = [cfree.Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, seen["poses"].splitlines())]
+            path = cfree.Path(poses[0], [cfree.motion_between(a, b) for a, b in pairwise(poses)])
+            assert [path.start, path.goal] == ends and path.is_free(self.checker), seen
         try:
             answer = self.planner.plan(*ends)
         except cfree.ForbiddenPoseError:
@@ -93,8 +105,10 @@ def main() -> int:
     differ, each = 0, -(-given.count // len(given.scenes))
     with sync_playwright() as running:
         browser = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
+        dragged = Dragged(browser, given.seed)
         for path in given.scenes:
-            dragged, found, began = Dragged(browser, path.read_text(), given.seed), Counter[str](), time.perf_counter()
+            dragged.open(path)
+            found, began = Counter[str](), time.perf_counter()
             for _ in range(each):
                 said, expected, seen = dragged.drag()
                 found[expected] += 1
@@ -104,7 +118,6 @@ def main() -> int:
             seconds = (time.perf_counter() - began) / each
             memory = dragged.page.evaluate("performance.memory.usedJSHeapSize / 1e6")
             print(f"{path.stem}: {dict(found)}, {1000 * seconds:.0f} ms a drag, {memory:.0f} MB", flush=True)
-            dragged.page.close()
     print(f"{differ} of {each * len(given.scenes)} differ")
     return differ > 0
 

@@ -112,6 +112,29 @@ def test_path_is_played_and_stopped(tried: Tried) -> None:
     tried.say("#play", "Play")
 
 
+def test_patches_and_cells_are_told_of(tried: Tried) -> None:
+    press(tried, "#space canvas", "f", "p")
+    tried.say("#picked", "of obstacle 0")
+    tried.say("#pose", "Touching: ")
+    press(tried, "#space canvas", "Control+z", "c")
+    tried.page.locator("#picked").filter(has_not_text="of obstacle 0").filter(has_text="ell 0").wait_for()
+
+
+def test_shapes_are_changed_and_drawn(tried: Tried) -> None:
+    outline = tried.page.locator(".obstacle").first
+    before = str(outline.get_attribute("d"))
+    press(tried, "#space canvas", "e")
+    tried.built(lambda: press(tried, ".obstacle", "ArrowRight"))
+    assert outline.get_attribute("d") != before
+    tried.page.keyboard.press("Control+z")
+    tried.page.locator(f".obstacle[d='{before}']").wait_for(timeout=10_000)
+    tried.built(lambda: press(tried, "#space canvas", "n", "Enter"))
+    tried.page.locator(".obstacle").nth(1).wait_for(timeout=10_000)
+    press(tried, "#space canvas", "Control+z", "Escape", "e")
+    tried.page.locator(".obstacle").nth(1).wait_for(state="detached", timeout=10_000)
+    tried.say("#way", "A motion exists")
+
+
 def test_keys_are_listed_and_the_list_is_left(tried: Tried) -> None:
     press(tried, "#space canvas", "?")
     tried.page.locator("#keys[open]").wait_for()
@@ -121,8 +144,8 @@ def test_keys_are_listed_and_the_list_is_left(tried: Tried) -> None:
 
 
 def test_another_scene_is_chosen(tried: Tried) -> None:
-    press(tried, "#scenes", "s")  # Sofa
-    tried.ready("sofa_corner")
+    press(tried, "#scenes", "ArrowUp")
+    tried.ready("degenerate_exact_fit")
     press(tried, ".body.robot", "Control+z")
     tried.page.locator("body[data-ready='paper_fig9']").wait_for(timeout=30_000)
 
