@@ -39,9 +39,9 @@ struct Shortener {
 void bind_search(nb::module_& m) {
     using Way = std::vector<EndNumbers>;
     using Places = std::vector<std::array<double, 3>>;
-    nb::class_<Search>(m, "Search").def("run", [](Search& search, int checks) {
-        return list_of(search.by->poses(watched([&] { return search.trees.run(checks); })));
-    }, "checks"_a);
+    nb::class_<Search>(m, "Search").def("run", [](Search& search, int guesses) {
+        return list_of(search.by->poses(watched([&] { return search.trees.run(guesses); })));
+    }, "guesses"_a);
     nb::class_<Shortener>(m, "Shortener")
         .def("run", [](Shortener& of, int checks) { of.path.run(checks); }, "checks"_a, nb::call_guard<nb::gil_scoped_release>())
         .def("length", [](const Shortener& of) { return of.path.length() / of.by->unit; })

@@ -389,6 +389,21 @@ void PoseChecker::check(const double* poses, std::size_t count, int threads, Ver
     });
 }
 
+PoseChecker::Looks::Looks(std::shared_ptr<const PoseChecker> of) : checker(std::move(of)), placed(std::make_unique<Placed>(checker->robot)) {}
+PoseChecker::Looks::~Looks() = default;
+
+bool PoseChecker::Looks::is_forbidden(double x, double y, double theta) {
+    const auto& limits = checker->limits;
+    if (!(limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3])) return true;
+    if (left-- == 0) grid = &checker->near(chunk), left = chunk - 1;
+    const std::size_t slot = grid->slot(x, y, theta);
+    if (slot == outside) return false;
+    const State state = grid->known[slot].load(std::memory_order_relaxed);
+    if (state == State::forbidden || state == State::free) return state == State::forbidden;
+    const double pose[3] = {x, y, theta};
+    return checker->verdict(*grid, slot, pose, *placed) == Verdict::forbidden;
+}
+
 // Halved until all poses of a part, which are around its middle, have one verdict. The middle's roundings, and those of
 // distances from where the robot is farther away than `margin` allows for, are within the slack.
 bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {

@@ -104,6 +104,16 @@ const Nearness& KnownScene::nearness() const {
     return *near;
 }
 
+std::shared_ptr<const PoseChecker> KnownScene::poses() const {
+    const std::lock_guard guard(lock);
+    if (pose_checker) return pose_checker;
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    std::array limits{-inf, -inf, inf, inf};
+    if (shapes().bounds)
+        for (std::size_t k = 0; k < 4; ++k) limits[k] = nearest((*shapes().bounds)[k].n, (*shapes().bounds)[k].d);
+    return pose_checker = std::make_shared<const PoseChecker>(features->scene, limits);
+}
+
 const Area& KnownScene::box() const {
     const std::lock_guard guard(lock);
     if (around_all) return *around_all;

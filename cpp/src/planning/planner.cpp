@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "cfree/planning/connecting_way.hpp"
 
@@ -10,10 +11,9 @@ namespace cfree {
 
 namespace {
 
-constexpr int search_checks = 10000;  // motions checked at most before all of the free space is built
-constexpr int quick_checks = 1000;    // before anything exact is
-constexpr int checks_each = 1;        // that take about as long as a trapezoid of a surface
-constexpr int block = 200;            // motions checked between two looks at a search
+constexpr int search_guesses = 40000;  // of motions, at most, before all of the free space is built
+constexpr int quick_guesses = 2000;    // before anything exact is
+constexpr int guesses_each = 40;       // that take no longer than a patch of a surface
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
     if (a.x != b.x) return a.x < b.x;
@@ -54,7 +54,7 @@ Planner::Answer Planner::plan(const End& start, const End& goal, const Listener&
         if (start.pose == goal.pose) return Poses{start.pose};
         way = simple_way(first.pose, last.pose);
         const auto built = scene->built();
-        if (!way && built && built->common_cell(first.pose, last.pose) >= 0) way = searched(first, last, quick_checks);
+        if (!way && built && built->common_cell(first.pose, last.pose) >= 0) way = searched(first, last, quick_guesses);
     }
     if (!way) {
         const std::lock_guard guard(working);
@@ -80,20 +80,19 @@ std::optional<Poses> Planner::simple_way(const RationalPose& start, const Ration
 
 std::optional<Poses> Planner::quick(const End& start, const End& goal) const {
     if (auto way = simple_way(start.pose, goal.pose)) return way;
-    return searched(start, goal, search_checks);
+    return searched(start, goal, most_guesses());
 }
 
 std::optional<Poses> Planner::searched(const End& start, const End& goal, int most) const {
     const std::array ends{start.place, goal.place};
     const Searcher searcher(scene, ends, {angle_scale});
-    RrtConnect search = searcher.search(start, goal);
-    for (int done = 0, limit = std::min(most, most_checks()); done < limit; done += block)
-        if (const Route route = search.run(block); !route.empty()) return searcher.poses(route);
-    return {};
+    const Route route = searcher.search(start, goal).run(most);
+    if (route.empty()) return {};
+    return searcher.poses(route);
 }
 
-int Planner::most_checks() const {
-    return static_cast<int>(std::min<std::int64_t>(search_checks, 500 + 3 * scene->patches() / 2));
+int Planner::most_guesses() const {
+    return static_cast<int>(std::min<std::int64_t>(search_guesses, quick_guesses + 8 * scene->patches()));
 }
 
 std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal, const Listener& listener) {
@@ -103,14 +102,15 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
     RrtConnect search = searcher.search(start, goal);
     {
         const Phase phase(listener, "search");
-        if (const Route route = search.run(quick_checks); !route.empty()) return searcher.poses(route);
+        if (const Route route = search.run_on(quick_guesses); !route.empty()) return searcher.poses(route);
     }
     const Phase phase(listener, "surfaces around the two poses");
     Connecting joined = scene->connecting(start.pose, goal.pose);
     std::optional<Poses> way;
-    const auto verdict = joined.decide([&, limit = most_checks()](Index most) {
-        if (2 * checks_each * static_cast<std::int64_t>(most) <= limit)
-            if (const Route route = search.run(checks_each * most); !route.empty()) way = searcher.poses(route);
+    std::size_t trimmed = joined.around->trimmed_patches();
+    const auto verdict = joined.decide([&](Index) {
+        const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
+        if (const Route route = search.run_on(guesses_each * static_cast<int>(trimmed - before)); !route.empty()) way = searcher.poses(route);
         if (!way) deadline.heed();
         return !way;
     });

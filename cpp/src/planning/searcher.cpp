@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "cfree/search/balance.hpp"
+#include "cfree/search/motion_guess.hpp"
 #include "cfree/support/stop.hpp"
 
 namespace cfree {
@@ -63,11 +64,12 @@ Route Searcher::route(std::span<const End> way) const {
 }
 
 RrtConnect Searcher::search(const End& start, const End& goal, std::uint64_t seed) const {
-    auto joins = [checker = scene->checker](const Configuration& a, const Configuration& b) {
+    auto certainly = [checker = scene->checker](const Configuration& a, const Configuration& b) {
         heed_stop();
         return checker->is_free(motion_between(a, b));
     };
-    return {std::move(joins), grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed};
+    const MotionGuess seems(scene->poses(), costs.weight, unit);
+    return {{seems, std::move(certainly)}, grid(place_bits, angle_bits), area, costs.weight, configuration(start), configuration(goal), seed};
 }
 
 Shortcut Searcher::shortener(std::span<const End> way, std::uint64_t seed) const {

@@ -144,7 +144,8 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks,
     }
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
-    RrtConnect search(joins, way.grid, area, way.costs.weight, route[i], route[j], 0);
+    const auto exact = [&](const Place& q) { return way.grid.exact(q.x, q.y, q.theta); };
+    RrtConnect search({[&](const Place& a, const Place& b) { return joins(exact(a), exact(b)); }, joins}, way.grid, area, way.costs.weight, route[i], route[j], 0);
     Route found;
     for (int k = 0; k < runs && checks > 0 && found.empty(); ++k, checks -= checks_at_once) found = search.run(checks_at_once);
     if (found.empty()) return true;

@@ -66,14 +66,14 @@ double travel_between(const Configuration& a, const Configuration& b) {
     return half > 1e-6 ? chord * half / sine(half) : chord;
 }
 
-Place along(const Configuration& a, const Configuration& b, double share) {
-    const double turn = turn_between(a, b), half = 0.5 * turn, dx = b.px - a.px, dy = b.py - a.py;
-    if (std::abs(half) < 1e-9) return {a.px + share * dx, a.py + share * dy, a.theta + share * turn};
+Place along(const Place& a, const Place& b, double share) {
+    const double turn = wrapped(b.theta - a.theta), half = 0.5 * turn, dx = b.x - a.x, dy = b.y - a.y;
+    if (std::abs(half) < 1e-9) return {a.x + share * dx, a.y + share * dy, a.theta + share * turn};
     // from a: the chord of share * turn, which leaves the whole chord's direction by the rest's half
     const double scale = sine(share * half) / sine(half), off = (share - 1) * half;
     const CosineSine to = cosine_sine(off);
     const double c = to.c * scale, s = to.s * scale;
-    return {a.px + c * dx - s * dy, a.py + s * dx + c * dy, a.theta + share * turn};
+    return {a.x + c * dx - s * dy, a.y + s * dx + c * dy, a.theta + share * turn};
 }
 
 }  // namespace cfree

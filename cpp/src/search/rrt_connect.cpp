@@ -6,95 +6,165 @@
 #include <numbers>
 
 #include "cfree/support/elementary.hpp"
+#include "cfree/support/stop.hpp"
 
 namespace cfree {
 
 namespace {
 
-constexpr double longest_step = 0.2;  // of the extent of the configuration space
+using std::numbers::pi;
 
-bool are_one(const Configuration& a, const Configuration& b) {
-    return a.px == b.px && a.py == b.py && a.theta == b.theta;
-}
+constexpr double longest_step = 0.2;  // of the extent of the configuration space
+constexpr int certainty = 16;         // guesses that take as long
+constexpr Index scanned = 2048;       // nodes that a guess takes as long as looking for the nearest of
+constexpr double kept = 0.5;           // share of tries that do not turn: for less needless turning
+constexpr int some = 2000;            // guesses, for at least so many
+constexpr std::size_t new_parts = 3;
+constexpr int parts = 8;              // of each side of the configuration space, to see where trees have been
+
+bool are_one(const Place& a, const Place& b) { return a.x == b.x && a.y == b.y && a.theta == b.theta; }
 
 }  // namespace
+
+void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
+    tree.x.push_back(q.x), tree.y.push_back(q.y), tree.theta.push_back(q.theta);
+    tree.parent.push_back(from), tree.is_certain.push_back(false);
+    const auto part = [](double share) { return share < 1 ? static_cast<int>(parts * std::max(share, 0.0)) : parts - 1; };
+    const int column = part((q.x - area.x0) / (area.x1 - area.x0)), row = part((q.y - area.y0) / (area.y1 - area.y0));
+    tree.parts.insert((column * parts + row) * parts + part(0.5 + q.theta / (2 * pi)));
+}
+
+void RrtConnect::Tree::cut(Index first) {
+    std::vector<Index> number(x.size(), -1);
+    Index kept = 0;
+    for (Index k = 0; k < size(); ++k) {
+        if (k == first || (parent[k] >= 0 && number[parent[k]] < 0)) continue;
+        x[kept] = x[k], y[kept] = y[k], theta[kept] = theta[k], is_certain[kept] = is_certain[k];
+        parent[kept] = parent[k] < 0 ? -1 : number[parent[k]];
+        number[k] = kept++;
+    }
+    x.resize(kept), y.resize(kept), theta.resize(kept), parent.resize(kept), is_certain.resize(kept);
+}
 
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed)
     : joins(std::move(j)), grid(g), area(a), weight(w),
-      range(longest_step * (norm(a.x1 - a.x0, a.y1 - a.y0) + w * std::numbers::pi)), random(seed) {
-    trees[0] = {{std::move(start)}, {-1}};
-    trees[1] = {{std::move(goal)}, {-1}};
+      range(longest_step * (norm(a.x1 - a.x0, a.y1 - a.y0) + w * pi)), random(seed) {
+    trees[0].root = std::move(start), trees[1].root = std::move(goal);
+    for (Tree& tree : trees) add(tree, tree.root.place(), -1);
 }
 
-double RrtConnect::distance(const Configuration& a, const Configuration& b) const {
-    return norm(b.px - a.px, b.py - a.py) + weight * std::abs(turn_between(a, b));
+double RrtConnect::distance(const Place& a, const Place& b) const {
+    return norm(norm(b.x - a.x, b.y - a.y), weight * wrapped(b.theta - a.theta));
 }
 
-Index RrtConnect::nearest(const Tree& tree, const Configuration& q) const {
-    Index best = 0;
-    double least = HUGE_VAL;
-    for (Index k = 0; k < static_cast<Index>(tree.nodes.size()); ++k)
-        if (const double d = distance(tree.nodes[k], q); d < least) least = d, best = k;
-    return best;
+Index RrtConnect::nearest(const Tree& tree, const Place& q) {
+    const auto count = static_cast<std::size_t>(tree.size());
+    left -= tree.size() / scanned;
+    squares.resize(std::max(squares.size(), count));
+    for (std::size_t k = 0; k < count; ++k) {
+        const double dx = tree.x[k] - q.x, dy = tree.y[k] - q.y, turn = std::abs(tree.theta[k] - q.theta);
+        const double by = weight * std::min(turn, 2 * pi - turn);
+        squares[k] = dx * dx + dy * dy + by * by;
+    }
+    return static_cast<Index>(std::min_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(count)) - squares.begin());
 }
 
 // From a node of a tree on; the second tree's motions are run the other way, which matters for half turns.
-bool RrtConnect::are_joined(bool of_goal, const Configuration& a, const Configuration& b) {
+bool RrtConnect::are_joined(bool of_goal, const Place& a, const Place& b) {
     --left;
-    return of_goal ? joins(b, a) : joins(a, b);
+    return of_goal ? joins.seems(b, a) : joins.seems(a, b);
 }
 
-Configuration RrtConnect::towards(const Configuration& a, const Configuration& b) const {
+bool RrtConnect::are_certainly_joined(bool of_goal, const Configuration& a, const Configuration& b) {
+    left -= certainty;
+    return of_goal ? joins.certainly(b, a) : joins.certainly(a, b);
+}
+
+Place RrtConnect::towards(const Place& a, const Place& b) const {
     const double share = range / distance(a, b);
     if (share >= 1) return b;
-    const auto [x, y, theta] = along(a, b, share);
-    return grid.exact(x, y, theta);
+    Place q = along(a, b, share);
+    q.theta = wrapped(q.theta);
+    return q;
 }
 
 // A new node on the way from the nearest one, or -1.
-Index RrtConnect::extend(const Configuration& q) {
+Index RrtConnect::extend(const Place& q) {
     Tree& tree = trees[turn];
     const Index from = nearest(tree, q);
-    Configuration next = towards(tree.nodes[from], q);
-    if (!are_joined(turn, tree.nodes[from], next)) return -1;
-    tree.nodes.push_back(std::move(next));
-    tree.parent.push_back(from);
-    return static_cast<Index>(tree.nodes.size()) - 1;
+    const bool keeps = random() < kept;
+    const Place next = towards(tree.at(from), {q.x, q.y, keeps ? tree.theta[from] : q.theta});
+    if (!are_joined(turn, tree.at(from), next)) return -1;
+    add(tree, next, from);
+    return tree.size() - 1;
 }
 
-Route RrtConnect::joined(Index of_first, Index of_second) const {
+Configuration RrtConnect::exact(bool of_goal, Index k) const {
+    const Tree& tree = trees[of_goal];
+    return k == 0 ? tree.root : grid.exact(tree.x[k], tree.y[k], tree.theta[k]);
+}
+
+// From the root; nothing if that is not free all along.
+Route RrtConnect::branch(bool of_goal, Index last) {
+    Tree& tree = trees[of_goal];
+    std::vector<Index> chain;
+    for (Index k = last; k >= 0; k = tree.parent[k]) chain.push_back(k);
     Route route;
-    for (Index k = of_first; k >= 0; k = trees[0].parent[k]) route.push_back(trees[0].nodes[k]);
-    std::reverse(route.begin(), route.end());
-    for (Index k = of_second; k >= 0; k = trees[1].parent[k]) route.push_back(trees[1].nodes[k]);
+    for (auto k = chain.rbegin(); k != chain.rend(); ++k) {
+        route.push_back(exact(of_goal, *k));
+        if (*k == 0 || tree.is_certain[*k]) continue;
+        if (!are_certainly_joined(of_goal, route[route.size() - 2], route.back())) {
+            tree.cut(*k);
+            return {};
+        }
+        tree.is_certain[*k] = true;
+    }
     return route;
 }
 
-Route RrtConnect::run(int checks) {
-    left = checks;
+// Over two nodes that seem to be joined.
+Route RrtConnect::joined(Index of_first, Index of_second) {
+    Route route = branch(false, of_first);
+    const Route rest = branch(true, of_second);
+    if (route.empty() || rest.empty() || !are_certainly_joined(false, route.back(), rest.back())) return {};
+    route.insert(route.end(), rest.rbegin(), rest.rend());
+    return route;
+}
+
+Route RrtConnect::run(int guesses) {
+    left = guesses;
     while (left > 0) {
+        heed_stop();
         Tree& other = trees[!turn];
         const double x = area.x0 + random() * (area.x1 - area.x0), y = area.y0 + random() * (area.y1 - area.y0);
-        const Index k = extend(grid.exact(x, y, random() * 2 * std::numbers::pi));
+        const Index k = extend({x, y, (2 * random() - 1) * pi});
         if (k >= 0) {
-            const Configuration aim = trees[turn].nodes[k];
+            const Place aim = trees[turn].at(k);
             Index from = nearest(other, aim);
             while (left > 0) {
-                Configuration next = towards(other.nodes[from], aim);
-                const bool arrives = are_one(next, aim);
-                if (arrives) next = aim;
-                else if (are_one(next, other.nodes[from])) break;  // the grid is too coarse
-                if (!are_joined(!turn, other.nodes[from], next)) break;
-                if (arrives) return turn ? joined(from, k) : joined(k, from);
-                other.nodes.push_back(std::move(next));
-                other.parent.push_back(from);
-                from = static_cast<Index>(other.nodes.size()) - 1;
+                const Place next = towards(other.at(from), aim);
+                if (!are_joined(!turn, other.at(from), next)) break;
+                if (are_one(next, aim)) {
+                    if (Route route = turn ? joined(from, k) : joined(k, from); !route.empty()) return route;
+                    break;
+                }
+                add(other, next, from);
+                from = other.size() - 1;
             }
         }
         turn = !turn;
     }
     return {};
+}
+
+Route RrtConnect::run_on(int guesses) {
+    const auto count = [&] { return std::min(trees[0].parts.size(), trees[1].parts.size()); };
+    for (;; guesses = some) {
+        const std::size_t before = count();
+        if (Route route = run(guesses); !route.empty()) return route;
+        if (count() < before + new_parts) return {};
+    }
 }
 
 }  // namespace cfree

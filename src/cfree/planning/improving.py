@@ -29,8 +29,8 @@ REFINE = 400  # motions checked to improve a path if no time is given
 BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance
 DEAR = 3  # times as many where something is preferred: there is more to try
 OTHERS = 30  # other ways looked for by each core
-SEARCH = 10_000  # motions checked for one of them
-BLOCK = 200  # motions checked between two looks at the clock and at Ctrl-C
+SEARCH = 50_000  # motions guessed about for one of them
+BLOCK = 200  # motions checked, or guessed about, between two looks at the clock and at Ctrl-C
 LESS = 0.9  # of a distance kept: more is not given for a shorter way
 
 Better = Any  # the core's, of one path: run(checks), length(), path()

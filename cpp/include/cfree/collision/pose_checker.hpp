@@ -40,6 +40,9 @@ public:
     // they come too close to tell.
     bool sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const;
 
+    // Of one pose after another, by one thread.
+    class Looks;
+
 private:
     // Convex pieces, edge k from vertex k, with its outward unit normal n and n . vertex.
     struct Pieces {
@@ -91,6 +94,20 @@ private:
     };
     mutable std::array<Level, 3> levels;
     mutable std::atomic<std::size_t> asked{0};
+};
+
+class PoseChecker::Looks {
+public:
+    explicit Looks(std::shared_ptr<const PoseChecker> of);
+    ~Looks();
+    // Certainly forbidden? Theta in [0, 2 pi].
+    bool is_forbidden(double x, double y, double theta);
+    const std::shared_ptr<const PoseChecker> checker;
+
+private:
+    const std::unique_ptr<Placed> placed;
+    Grid* grid = nullptr;
+    std::size_t left = 0;  // poses until the grid is chosen anew
 };
 
 }  // namespace cfree

@@ -2,6 +2,7 @@
 #pragma once
 #include <mutex>
 
+#include "cfree/collision/pose_checker.hpp"
 #include "cfree/free/free_space.hpp"
 #include "cfree/planning/surroundings.hpp"
 #include "cfree/scene/features.hpp"
@@ -42,6 +43,7 @@ public:
     // Patches before trimming.
     std::int64_t patches() const;
     const Nearness& nearness() const;
+    std::shared_ptr<const PoseChecker> poses() const;
     // A box around the workspace, or else around the obstacles, in the user's units; empty if there are none.
     const Area& box() const;
 
@@ -63,6 +65,7 @@ private:
     std::shared_ptr<Surroundings> around;
     std::shared_ptr<const Built> space;
     mutable std::unique_ptr<const Nearness> near;
+    mutable std::shared_ptr<const PoseChecker> pose_checker;
     mutable std::optional<Area> around_all;
 };
 

@@ -33,8 +33,8 @@ public:
 
 private:
     using Found = std::variant<Poses, Separation>;
-    // Motions that a search may check: these take about as long as the free space does.
-    int most_checks() const;
+    // Motions that a search may guess about: these take about as long as the free space does.
+    int most_guesses() const;
     std::optional<Found> by_few(const End& start, const End& goal, const Listener& listener);
     std::optional<Poses> in_a_cell(const End& start, const End& goal, const Listener& listener);
     Found by_all(const End& start, const End& goal, const Listener& listener);

@@ -4,10 +4,15 @@
 
 namespace cfree {
 
+struct Place {
+    double x, y, theta;
+};
+
 struct Configuration {
     Int hx, hy;             // along the direction of half the orientation
     Int x, y, unit;         // the position is (x, y) / unit in the scene's integers
     double px, py, theta;   // the same in doubles, scaled as those of shapes; theta in (-pi, pi]
+    Place place() const { return {px, py, theta}; }
 };
 
 // Where a search works: doubles become exact on a grid, in the units of shapes scaled by 2^-shift.
@@ -29,9 +34,7 @@ double turn_between(const Configuration& a, const Configuration& b);
 double travel_between(const Configuration& a, const Configuration& b);
 
 // Some way along the motion, in doubles.
-struct Place {
-    double x, y, theta;
-};
-Place along(const Configuration& a, const Configuration& b, double share);
+Place along(const Place& a, const Place& b, double share);
+inline Place along(const Configuration& a, const Configuration& b, double share) { return along(a.place(), b.place(), share); }
 
 }  // namespace cfree

@@ -1,9 +1,11 @@
-// A quick search for a path. Nothing here decides what is free: every motion is checked exactly.
+// A quick search for a path. Nothing here decides what is free: every motion of what is found is checked exactly.
 //
-// Two trees grow from start and goal towards random poses and towards each other (RRT-Connect: Kuffner and LaValle, 2000).
-// Finding nothing means nothing.
+// Two trees grow from start and goal towards random poses and towards each other (RRT-Connect: Kuffner and LaValle, 2000), in
+// doubles, over motions that seem to be free. Where trees meet, those on the way are checked, and what hangs on one that is not
+// free falls off (as in Bohlin and Kavraki's lazy roadmaps, 2000). Finding nothing means nothing.
 #pragma once
 #include <functional>
+#include <set>
 #include <vector>
 
 #include "cfree/search/random.hpp"
@@ -11,28 +13,42 @@
 
 namespace cfree {
 
-// Whether the motion from one to the other will do.
-using Joins = std::function<bool(const Configuration&, const Configuration&)>;
+struct Joins {
+    std::function<bool(const Place&, const Place&)> seems;  // whether the motion from one to the other may do: a guess
+    std::function<bool(const Configuration&, const Configuration&)> certainly;  // whether it does
+};
 
 class RrtConnect {
 public:
     // weight: length per radian
     RrtConnect(Joins joins, Grid grid, Area area, double weight, Configuration start, Configuration goal,
            std::uint64_t seed);
-    // Check about so many motions; a route, or nothing yet.
-    Route run(int checks);
+    // Guess about so many motions; a route, or nothing yet.
+    Route run(int guesses);
+    // The same, and on as long as both trees come to parts of the space where they have not been.
+    Route run_on(int guesses);
 
 private:
     struct Tree {
-        Route nodes;
+        Configuration root;
+        std::vector<double> x, y, theta;
         std::vector<Index> parent;
+        std::vector<char> is_certain;  // the motion from the parent
+        std::set<int> parts;           // of the configuration space, in which it has a node
+        Index size() const { return static_cast<Index>(x.size()); }
+        Place at(Index k) const { return {x[k], y[k], theta[k]}; }
+        void cut(Index k);  // and all that hangs on it
     };
-    double distance(const Configuration& a, const Configuration& b) const;
-    Index nearest(const Tree& tree, const Configuration& q) const;
-    bool are_joined(bool of_goal, const Configuration& a, const Configuration& b);
-    Configuration towards(const Configuration& a, const Configuration& b) const;
-    Index extend(const Configuration& q);
-    Route joined(Index of_first, Index of_second) const;
+    void add(Tree& tree, const Place& q, Index from) const;
+    Index nearest(const Tree& tree, const Place& q);
+    double distance(const Place& a, const Place& b) const;
+    bool are_joined(bool of_goal, const Place& a, const Place& b);
+    bool are_certainly_joined(bool of_goal, const Configuration& a, const Configuration& b);
+    Place towards(const Place& a, const Place& b) const;
+    Index extend(const Place& q);
+    Route branch(bool of_goal, Index k);
+    Route joined(Index of_first, Index of_second);
+    Configuration exact(bool of_goal, Index k) const;
 
     const Joins joins;
     const Grid grid;
@@ -42,6 +58,7 @@ private:
     bool turn = false;  // which tree grows
     Random random;
     int left = 0;
+    std::vector<double> squares;
 };
 
 }  // namespace cfree

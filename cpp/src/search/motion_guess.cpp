@@ -1,0 +1,36 @@
+// The end of a motion, its middle, the middles of its halves, and so on: most that are forbidden are so at one of the first.
+#include "cfree/search/motion_guess.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "cfree/support/elementary.hpp"
+
+namespace cfree {
+
+constexpr double looks_in_radius = 16, most_looks = 4096;
+
+MotionGuess::MotionGuess(std::shared_ptr<const PoseChecker> checker, double r, double u)
+    : looks(std::make_shared<PoseChecker::Looks>(std::move(checker))), radius(r), unit(u) {}
+
+bool MotionGuess::operator()(const Place& a, const Place& b) const {
+    if (is_forbidden(b)) return false;
+    const double turn = std::abs(wrapped(b.theta - a.theta));
+    const double length = norm(b.x - a.x, b.y - a.y) * (1 + turn * turn / 16) + radius * turn;  // of an arc, about
+    const double parts = length / radius * looks_in_radius;
+    const int count = parts < most_looks ? static_cast<int>(parts) + 1 : static_cast<int>(most_looks);
+    int by = 1;
+    while (by < count) by *= 2;
+    for (; by > 1; by /= 2)
+        for (int k = by / 2; k < count; k += by)
+            if (is_forbidden(along(a, b, static_cast<double>(k) / count))) return false;
+    return true;
+}
+
+bool MotionGuess::is_forbidden(const Place& q) const {
+    const double theta = wrapped(q.theta);
+    return looks->is_forbidden(q.x / unit, q.y / unit, theta < 0 ? theta + 2 * std::numbers::pi : theta);
+}
+
+}  // namespace cfree
