@@ -56,6 +56,7 @@ class Dragged:
         self.page.evaluate(SHOW, {"scene": text})
         self.frame.locator(f"body[data-ready='{scene.name}']").wait_for(timeout=120_000)
         self.way.wait_for()
+        self.frame.locator("#space").evaluate("view => { view.style.display = 'none'; }")  # so that nothing is painted
         for other in ("robot", "start"):  # which may be in front of the goal
             self.frame.locator(f".body.{other}").evaluate("body => { body.style.pointerEvents = 'none'; }")
         self.floor = self.frame.locator(".bounds").bounding_box()

@@ -56,6 +56,7 @@ def tried(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tr
     )
     tried = Tried(browser, path)
     tried.ready("first")
+    tried.page.locator("#space").evaluate("view => { view.style.display = 'none'; }")  # so that nothing is painted
     yield tried
     tried.close()
 

@@ -6,7 +6,7 @@ function render({ model, el }) {
   frame.title = "Robot, obstacles and configuration space";
   frame.setAttribute("sandbox", "allow-scripts allow-downloads");
   frame.style.cssText = "width:100%;box-sizing:border-box;border:1px solid #8884;border-radius:10px;display:block";
-  let is_heard = false, due = 0;
+  let is_heard = false, due = 0, saving = 0;
 
   const show = () => {
     const values = Object.entries(TRAITS).map(([name, trait]) => [name, model.get(trait)]);
@@ -22,8 +22,9 @@ function render({ model, el }) {
     is_heard = true;
     for (const [name, trait] of Object.entries(TRAITS)) model.set(trait, data.seen[name] ?? null);
     is_heard = false;
-    model.save_changes();
+    saving ||= setTimeout(save, 100); // ten times a second while something is dragged
   };
+  const save = () => { saving = 0, model.save_changes(); };
   const changed = () => {  // by Python; several traits at once are shown at once
     if (is_heard) return;
     clearTimeout(due);
@@ -39,6 +40,7 @@ function render({ model, el }) {
   el.append(frame);
   return () => {
     clearTimeout(due);
+    if (saving) clearTimeout(saving), save();
     window.removeEventListener("message", hear);
     for (const [event, call] of events) model.off(event, call);
     frame.remove();
