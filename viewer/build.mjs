@@ -8,6 +8,7 @@ import { fileURLToPath } from "node:url";
 import { promisify } from "node:util";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
+import temml from "temml";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "..");
 const objects = join(root, "build", "wasm");
@@ -76,6 +77,9 @@ async function bundle(entry, format = "iife") {
 
 const text = (file) => readFileSync(join(root, file), "utf8");
 const in_script = (data) => data.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
+// Formulas between dollars as MathML.
+const with_formulas = (html) => html.replace(/\$\$(.+?)\$\$|\$(.+?)\$/gs, (_, block, inline) =>
+  temml.renderToString(block ?? inline, { displayMode: block !== undefined, throwOnError: true }));
 const in_json = (data) => JSON.stringify(data).replace(/</g, "\\u003c");
 
 async function main() {
@@ -87,6 +91,7 @@ async function main() {
     const file = [`examples/scenes/${entry.name}.json`, `viewer/gallery/${entry.name}.json`].find((of) => existsSync(join(root, of)));
     return { ...entry, text: text(file) };
   });
+  for (const file of files("viewer/lessons")) scenes.push({ name: file.split("/").at(-1).replace(/\.json$/, ""), text: text(file) });
   const script = in_script(main_script);
   const parts = {
     CSP: `default-src 'none'; script-src 'sha256-${createHash("sha256").update(script).digest("base64")}' 'wasm-unsafe-eval'; ` +
@@ -97,6 +102,7 @@ async function main() {
     CORE: gzipSync(wasm, { level: 9 }).toString("base64"),
     WORKER: in_script(worker),
     GALLERY: in_json(scenes),
+    LESSONS: with_formulas(text("viewer/src/lessons.html")),
     SCRIPT: script,
   };
   const html = text("viewer/src/index.html").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);

@@ -4,6 +4,7 @@ import { LEGENDS } from "./colours";
 import { integers, string, value } from "./engine";
 import { Editor } from "./editor";
 import { be_hosted, show_given, spare_the_wheel, type Given } from "./host";
+import { Lessons } from "./lessons";
 import { $, json, palette, say } from "./page";
 import { Player } from "./playing";
 import { save, save_scene } from "./saving";
@@ -14,7 +15,7 @@ import { fragment, from_fragment, from_words, words } from "./state";
 import { cell_words, degrees, patch_words } from "./verdict";
 import { Workspace } from "./workspace";
 
-const gallery: { name: string; title: string; text: string }[] = json("gallery");
+const gallery: { name: string; title?: string; text: string }[] = json("gallery");
 const in_gallery = (name: string) => gallery.find((of) => of.name === name)?.text;
 
 const workspace = new Workspace($("workspace"));
@@ -26,6 +27,7 @@ try {
 }
 const session = new Session(workspace, space), player = new Player(session), editor = new Editor(workspace);
 session.editor = editor;
+const lessons = new Lessons(session, editor, in_gallery);
 editor.on_change = (source, done) => void session.edited(source, done);
 editor.on_mode = () => {
   $("edit-shapes").setAttribute("aria-pressed", String(editor.is_on));
@@ -84,7 +86,7 @@ async function share(): Promise<void> {
 const actions: Record<string, () => void> = {
   open: () => $("file").click(), save: () => save_scene(session), share: () => void share(), undo: () => void session.undo(), redo: () => void session.redo(),
   help: () => $<HTMLDialogElement>("keys").showModal(), play: () => player.toggle(), stop: () => session.stop(),
-  "edit-shapes": () => editor.mode(!editor.is_on), draw: () => editor.draw(), remove: () => editor.remove(),
+  learn: () => lessons.toggle(), "edit-shapes": () => editor.mode(!editor.is_on), draw: () => editor.draw(), remove: () => editor.remove(),
 };
 for (const [id, action] of Object.entries(actions)) if (id !== "save") $(id).addEventListener("click", action);
 $("save").addEventListener("change", () => {
@@ -132,8 +134,8 @@ document.addEventListener("keydown", (event) => {
 
 const scenes = $<HTMLSelectElement>("scenes");
 const option = (of: { value: string; text: string }) => scenes.append(Object.assign(document.createElement("option"), of));
-for (const { name, title } of gallery) option({ value: name, text: title });
-option({ value: "", text: "Own scene" });
+for (const { name, title } of gallery) if (title) option({ value: name, text: title });
+option({ value: "", text: "Another scene" });
 scenes.addEventListener("change", () => { if (scenes.value) void session.open(in_gallery(scenes.value)!, { gallery: scenes.value }); });
 
 async function begin(): Promise<void> {

@@ -77,7 +77,9 @@ export class Session {
     this.seen = { robot: seen_of(now.robot), ...(now.start && { start: seen_of(now.start) }), ...(now.goal && { goal: seen_of(now.goal) }) };
     document.title = `${this.file.name || "scene"}: cfree`;
     this.workspace.show_scene(read, this.file.names, is_other ? Object.values(this.seen) as Seen[] : undefined);
-    $<HTMLSelectElement>("scenes").value = now.gallery ?? "";
+    const scenes = $<HTMLSelectElement>("scenes");
+    scenes.value = now.gallery ?? "";
+    if (!scenes.value) scenes.value = "";  // a lesson's
     $("picked").hidden = true;
     say("edit", { tone: "plain", text: "" });
     if (is_other) {

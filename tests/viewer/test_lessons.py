@@ -1,0 +1,53 @@
+"""Six steps through the paper: each has a scene that can be computed, a text with formulas, and something to do."""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pages import Tried
+
+STEPS = ["contacts", "helix", "vertex_edge", "edge_vertex", "trimming", "start_to_goal"]
+
+
+@pytest.mark.slow
+def test_every_step_has_scene_text_and_formulas(browser: Any, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    tried = Tried(browser, page)
+    tried.ready("paper_fig9")
+    tried.page.locator("#learn").click()
+    formulas = 0
+    for name in STEPS:
+        tried.ready(name)
+        shown = tried.page.locator("#lessons article:visible")
+        assert shown.count() == 1 and shown.locator(".try").inner_text()
+        formulas += shown.locator("math").count()
+        assert "$" not in shown.inner_text()
+        tried.page.locator("#lesson-next").click()
+    assert formulas > 15 and tried.page.locator("#lessons").is_hidden()
+    tried.close()
+
+
+@pytest.mark.slow
+def test_door_that_is_closed_takes_the_path_away(browser: Any, tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    tried = Tried(browser, page)
+    tried.ready("paper_fig9")
+    tried.page.locator("#learn").click()
+    for name in STEPS:
+        tried.ready(name)
+        if name != STEPS[-1]:
+            tried.page.locator("#lesson-next").click()
+    tried.say("#way", "A motion exists")
+    tried.page.locator("#edit-shapes").click()
+    tried.page.locator(".obstacle").first.focus()
+    for _ in range(3):
+        tried.built(lambda: tried.page.keyboard.press("ArrowDown"))
+    tried.page.keyboard.press("Shift+ArrowDown")
+    tried.say("#way", "No motion, not even touching")
+    tried.close()
