@@ -56,7 +56,7 @@ def scrape_page(block: Any, block_vars: Any, gallery_conf: Any) -> str:
 def write_pages(app: Any, fault: Exception | None) -> None:
     """What frames show, where they look for it."""
     static = Path(app.outdir) / "_static"
-    (static / "cfree.html").write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    (static / "page.html").write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
     for page in PAGES.glob("*.html"):
         (static / page.name).write_bytes(page.read_bytes())
 
