@@ -1,6 +1,6 @@
 // The right view: the boundary of the forbidden space over x, y and theta.
 import {
-  BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, DoubleSide, DynamicDrawUsage, Float32BufferAttribute, Group, LineBasicMaterial,
+  BufferAttribute, BufferGeometry, CatmullRomCurve3, Color, DoubleSide, Float32BufferAttribute, Group, LineBasicMaterial,
   LineSegments, Mesh, MeshBasicMaterial, PerspectiveCamera, Raycaster, Scene, ShaderMaterial, Shape, ShapeGeometry, SphereGeometry,
   TubeGeometry, Vector2, Vector3, WebGLRenderer, type Object3D, Path as ShapePath, Plane, PlaneGeometry,
 } from "three";
@@ -8,6 +8,7 @@ import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { type ColourBy, on_scale, vertex_colours } from "./colours";
 import { type Columns, bytes, doubles, integers } from "./engine";
 import type { Shown } from "./model";
+import { DepthOrder } from "./depth";
 import { FRAGMENT, VERTEX } from "./shaders";
 
 const LOW = -Math.PI / 2, HIGH = 3 * Math.PI / 2;
@@ -28,8 +29,7 @@ export class Space {
   private readonly material: ShaderMaterial;
   private readonly front: ShaderMaterial;
   private mesh?: Columns;
-  private centres = new Float32Array();
-  private sorted?: { attribute: BufferAttribute; triangles: Uint32Array };
+  private sorted?: DepthOrder;
   private colour_by: ColourBy = "contact";
   private view = { x: 0, y: 0, size: 1 };  // of the scene; theta is as high as it is wide
   private asked = false;
@@ -139,9 +139,9 @@ export class Space {
     this.clear(this.parts.surface);
     this.mesh = mesh;
     const { geometry, triangles } = this.geometry(mesh);
-    const attribute = new BufferAttribute(new Uint32Array(triangles), 1).setUsage(DynamicDrawUsage);
-    geometry.setIndex(attribute);
-    this.sorted = { attribute, triangles };
+    this.sorted = new DepthOrder(triangles, geometry.attributes.position!.array as Float32Array, this.rise);
+    geometry.setIndex(this.sorted.attribute);
+    this.host.dataset.triangles = String(triangles.length / 3);
     const surface = new Mesh(geometry, this.material);
     surface.name = "surface", surface.renderOrder = 2;
     // what is seen first hides the lines behind it
@@ -225,14 +225,6 @@ export class Space {
     geometry.setAttribute("normal", new BufferAttribute(Float32Array.from(doubles(mesh, "normal")), 3));
     geometry.userData.faces = faces;
     const triangles = Uint32Array.from(kept);
-    if (mesh === this.mesh) {
-      this.centres = new Float32Array(triangles.length);
-      for (let t = 0; t < triangles.length; t += 3)
-        for (let c = 0; c < 3; ++c) {
-          const sum = position[3 * triangles[t]! + c]! + position[3 * triangles[t + 1]! + c]! + position[3 * triangles[t + 2]! + c]!;
-          this.centres[t + c] = sum / 3 * (c === 2 ? this.rise : 1);
-        }
-    }
     return { geometry, triangles };
   }
 
@@ -368,25 +360,10 @@ export class Space {
     for (const child of [...group.children] as (Object3D & { geometry?: BufferGeometry })[]) child.geometry?.dispose(), group.remove(child);
   }
 
-  // Triangles from far to near: a counting sort by depth.
-  private sort(): void {
-    if (!this.sorted || this.material.depthWrite) return;
-    const { attribute, triangles } = this.sorted, count = triangles.length / 3, levels = 4096;
-    const towards = this.camera.getWorldDirection(new Vector3()), depth = new Float32Array(count), slot = new Uint16Array(count);
-    let low = Infinity, high = -Infinity;
-    for (let t = 0; t < count; ++t) {
-      const d = this.centres[3 * t]! * towards.x + this.centres[3 * t + 1]! * towards.y + this.centres[3 * t + 2]! * towards.z;
-      depth[t] = d, (low = Math.min(low, d)), (high = Math.max(high, d));
-    }
-    const first = new Uint32Array(levels + 1), scale = (levels - 1) / Math.max(high - low, 1e-30);
-    for (let t = 0; t < count; ++t) slot[t] = levels - 1 - Math.floor((depth[t]! - low) * scale), first[slot[t]! + 1]!++;
-    for (let k = 0; k < levels; ++k) first[k + 1]! += first[k]!;
-    const into = attribute.array as Uint32Array;
-    for (let t = 0; t < count; ++t) {
-      const at = 3 * first[slot[t]!]!++;
-      into[at] = triangles[3 * t]!, into[at + 1] = triangles[3 * t + 1]!, into[at + 2] = triangles[3 * t + 2]!;
-    }
-    attribute.needsUpdate = true;
+  private sort(is_coarse: boolean): void {
+    const surface = this.parts.surface.getObjectByName("surface") as Mesh | undefined;
+    if (!this.sorted || !surface) return;
+    surface.geometry.setDrawRange(0, 3 * this.sorted.sort(this.camera.getWorldDirection(new Vector3()), is_coarse));
   }
 
   ask(): void {
@@ -416,7 +393,7 @@ export class Space {
     this.camera.aspect = width / height;
     this.camera.fov = 2 * Math.atan(Math.tan(16 * Math.PI / 180) * Math.max(1, 1.02 * height / width)) * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
-    this.sort();
+    this.sort(is_coarse);
     this.renderer.render(this.scene, this.camera);
     this.host.dataset.frames = String(this.frames);
     for (const { at, element } of this.labels) {
