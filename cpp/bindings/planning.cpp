@@ -117,9 +117,9 @@ static void bind_known_scene(nb::module_& m) {
         .value("APART", Connection::Verdict::apart)
         .value("JOINED", Connection::Verdict::joined);
     nb::class_<Connecting>(m, "Connecting")
-        .def("decide", [](Connecting& of, std::optional<int> likely) {
-            return watched([&] { return of.decide({}, likely); });
-        }, "likely"_a = nb::none())
+        .def("decide", [](Connecting& of) {
+            return watched([&] { return of.decide(); });
+        })
         .def_prop_ro("inside", [](const Connecting& of) { return of.found().inside; })
         .def_prop_ro("surface", [](const Connecting& of) { return of.found().surface; })
         .def_prop_ro("trimmed_patches", [](const Connecting& of) { return of.around->trimmed_patches(); })

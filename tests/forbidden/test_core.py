@@ -31,7 +31,17 @@ NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?"
 # computed from the exact structure, in doubles
 COMPUTED = ("contact_curve", "limits", "mesh", "mesh_face", "slice", "surface", "triangulation")
 # guesses: motions are then decided, trapezoids that seem to be neighbours glued
-GUESSED = ("balance", "configuration", "nearness", "ridge", "rrt_connect", "shortcut", "surface_explorer", "way")
+GUESSED = (
+    "balance",
+    "configuration",
+    "motion_guess",
+    "nearness",
+    "ridge",
+    "rrt_connect",
+    "shortcut",
+    "surface_explorer",
+    "way",
+)
 # limits and notation of numbers as they come in and go out
 WRITTEN = ("coordinate_range", "ratio")
 # constants of mathematics

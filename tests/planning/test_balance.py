@@ -39,7 +39,7 @@ def throat(width: float) -> Scene:
     return Scene(robot, walls, workspace=room, start=Pose(1.5, 1, 0.3), goal=Pose(8, -1, 2.0))
 
 
-@pytest.mark.parametrize("width", [1e-1, 1e-2])
+@pytest.mark.parametrize("width", [1e-1, 2e-2])
 def test_a_throat_is_passed_in_its_middle(width: float) -> None:
     scene = throat(width)
     path = found(scene)

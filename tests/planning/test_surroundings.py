@@ -42,7 +42,7 @@ def agrees(space: FreeSpace, start: Pose, goal: Pose) -> Verdict:
     if verdict == Verdict.APART:
         surface = rows_of(found)
         again = known_scene(MotionChecker(scene)).connecting(numbers_of(start), numbers_of(goal))
-        assert again.decide(found.inside) == Verdict.APART and again.inside == found.inside
+        assert again.decide() == Verdict.APART and again.inside == found.inside
         assert rows_of(again) == surface
         assert any(
             surface == rows(space.surfaces.trapezoids, np.flatnonzero(space.component == k))

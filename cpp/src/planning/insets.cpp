@@ -73,12 +73,16 @@ int Insets::first() {
     return found == powers.end() ? powers.front() : *found;
 }
 
-std::optional<Separation> Insets::closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener,
-                                         std::optional<int> likely) {
+std::shared_ptr<KnownScene> Insets::scene(int power) {
+    const std::lock_guard guard(lock);
+    return at(power).scene;
+}
+
+std::optional<Separation> Insets::closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener) {
     const std::lock_guard guard(lock);
     const auto& inner = at(power).scene;
     if (!inner) return {};
-    auto found = inner->barrier(start, goal, listener, likely);
+    auto found = inner->barrier(start, goal, listener);
     if (!found) return {};
     return Separation{std::move(*found), inner, true};
 }

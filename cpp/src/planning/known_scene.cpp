@@ -40,6 +40,12 @@ SharedBoundary computed(const std::shared_ptr<const Scene>& scene, bool regulari
 
 }  // namespace
 
+Barrier barrier_of(const CellComplex& surface) {
+    std::vector<Index> all(surface.component.size());
+    std::iota(all.begin(), all.end(), 0);
+    return {surface.boundary, std::move(all)};
+}
+
 Index Built::common_cell(const RationalPose& start, const RationalPose& goal) const {
     const auto first = space->cells_at(start.exact(*boundary->scene)), second = space->cells_at(goal.exact(*boundary->scene));
     Index found = -1;
@@ -137,22 +143,16 @@ Connecting KnownScene::connecting(const RationalPose& start, const RationalPose&
     return {around, start, goal};
 }
 
-std::optional<Barrier> KnownScene::barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener,
-                                           std::optional<int> likely) {
+std::optional<Barrier> KnownScene::barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener) {
     if (!built()) {
         const Deadline deadline(listener);
         Connecting found = connecting(start, goal);
         const auto verdict = found.decide([&](Index) {
             deadline.heed();
             return true;
-        }, likely);
+        });
         if (verdict == Connection::Verdict::joined) return {};
-        if (verdict == Connection::Verdict::apart) {
-            const CellComplex& surface = *found.found().surface;
-            std::vector<Index> all(surface.component.size());
-            std::iota(all.begin(), all.end(), 0);
-            return Barrier{surface.boundary, std::move(all)};
-        }
+        if (verdict == Connection::Verdict::apart) return barrier_of(*found.found().surface);
     }
     const auto all = build(listener);
     if (all->common_cell(start, goal) >= 0) return {};

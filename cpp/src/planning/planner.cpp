@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cfree/planning/connecting_way.hpp"
+#include "cfree/planning/off_contacts.hpp"
 
 namespace cfree {
 
@@ -105,25 +106,38 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
         if (const Route route = search.run_on(quick_guesses); !route.empty()) return searcher.poses(route);
     }
     const Phase phase(listener, "surfaces around the two poses");
-    Connecting joined = scene->connecting(start.pose, goal.pose);
     std::optional<Poses> way;
-    std::size_t trimmed = joined.around->trimmed_patches();
-    const auto verdict = joined.decide([&](Index) {
-        const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
-        if (const Route route = search.run_on(guesses_each * static_cast<int>(trimmed - before)); !route.empty()) way = searcher.poses(route);
-        if (!way) deadline.heed();
-        return !way;
-    });
-    if (way) return std::move(*way);
-    if (verdict == Connection::Verdict::joined) {
+    const auto in_turns = [&](Connecting& joined) {
+        std::size_t trimmed = joined.around->trimmed_patches();
+        return joined.decide([&](Index) {
+            const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
+            if (const Route route = search.run_on(guesses_each * static_cast<int>(trimmed - before)); !route.empty()) way = searcher.poses(route);
+            if (!way) deadline.heed();
+            return !way;
+        });
+    };
+    const auto along = [&](const Connecting& joined, const std::shared_ptr<FoundSlides>& found) -> std::optional<Poses> {
         try {
-            return connecting_way(*joined.around, joined.found(), angle_scale, slides);
+            return connecting_way(*joined.around, joined.found(), angle_scale, found);
         } catch (const std::logic_error&) {  // there is none along these surfaces
             return {};
         }
+    };
+    // a smaller robot first: its surfaces prove that there is no path, and a way along them mostly is a path a little off them
+    if (const auto inner = insets().scene(insets().first())) {
+        Connecting joined = inner->connecting(start.pose, goal.pose);
+        const auto verdict = in_turns(joined);
+        if (way) return std::move(*way);
+        if (verdict == Connection::Verdict::apart) return Separation{barrier_of(*joined.found().surface), inner, true};
+        if (verdict == Connection::Verdict::joined)
+            if (const auto hugging = along(joined, std::make_shared<FoundSlides>()))
+                if (auto found = off_contacts(*hugging, FreeMotions(scene->scene(), *scene->checker, *slides))) return std::move(*found);
     }
-    const auto inside = verdict == Connection::Verdict::apart ? std::optional(joined.found().inside) : std::nullopt;
-    if (auto proof = insets().closed(start.pose, goal.pose, insets().first(), listener, inside)) return std::move(*proof);
+    Connecting joined = scene->connecting(start.pose, goal.pose);
+    const auto verdict = in_turns(joined);
+    if (way) return std::move(*way);
+    if (verdict == Connection::Verdict::joined)
+        if (auto found = along(joined, slides)) return std::move(*found);
     return {};
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
@@ -170,12 +169,7 @@ void Connecting::run(Index most) {
     if (is_over && result.verdict == Connection::Verdict::open) result.verdict = Connection::Verdict::unclear;
 }
 
-void Connecting::run_around(int k) {
-    if (result.verdict == Connection::Verdict::open && !ends[k].ended) look(k, std::numeric_limits<Index>::max());
-}
-
-Connection::Verdict Connecting::decide(const std::function<bool(Index most)>& go_on, std::optional<int> likely) {
-    if (likely) run_around(*likely);
+Connection::Verdict Connecting::decide(const std::function<bool(Index most)>& go_on) {
     for (Index most = first_step;; most = std::min(2 * most, last_step)) {
         run(most);
         if (result.verdict != Connection::Verdict::open || (go_on && !go_on(most))) return result.verdict;

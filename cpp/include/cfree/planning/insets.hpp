@@ -25,13 +25,13 @@ public:
     const std::vector<int> powers;
     // The first of them that leaves something of each of the robot's polygons.
     int first();
+    // With the robot smaller by 2^power of its size; none if nothing is left of it, or coordinates are beyond what is allowed.
+    std::shared_ptr<KnownScene> scene(int power);
     // Of the power of two that is about as large as the robot.
     const int size;
 
-    // By an inset of 2^power of the robot's size, if that separates, likely around start, 0, or goal, 1. Calls from several threads
-    // are made one after the other.
-    std::optional<Separation> closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener,
-                                     std::optional<int> likely = {});
+    // By an inset of 2^power of the robot's size, if that separates. Calls from several threads are made one after the other.
+    std::optional<Separation> closed(const RationalPose& start, const RationalPose& goal, int power, const Listener& listener);
     std::size_t known() const { return scenes.size(); }
 
 private:

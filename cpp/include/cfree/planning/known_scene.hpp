@@ -26,6 +26,8 @@ struct Barrier {
     std::vector<Index> faces;
 };
 
+Barrier barrier_of(const CellComplex& surface);
+
 // Calls from several threads are fine where nothing else is said.
 class KnownScene {
 public:
@@ -49,10 +51,9 @@ public:
 
     // What finds out whether two free poses are joined: used by one thread at a time, as all others of this scene.
     Connecting connecting(const RationalPose& start, const RationalPose& goal);
-    // A closed surface around one of two poses that touch nothing and not around the other, if one is, likely around start, 0, or
-    // goal, 1; by one thread at a time.
-    std::optional<Barrier> barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener,
-                                   std::optional<int> likely = {});
+    // A closed surface around one of two poses that touch nothing and not around the other, if one is; by one thread
+    // at a time.
+    std::optional<Barrier> barrier(const RationalPose& start, const RationalPose& goal, const Listener& listener);
 
     // Null as long as it has not been built.
     std::shared_ptr<const Built> built() const;

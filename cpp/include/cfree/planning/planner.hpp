@@ -1,7 +1,8 @@
 // Can the robot get from start to goal? Poses of a path, the motions between them free, or a proof that there is none.
 //
 // Cheap things come first: one motion, a turn and a straight way; then a search with random poses and the closed surfaces around
-// the two poses in turns, by counted work: the same answer everywhere, in about twice the time of the better of both. What
+// the two poses in turns, by counted work: the same answer everywhere, in about twice the time of the better of both. These
+// surfaces are those of a slightly smaller robot first: they prove that there is no path, or lead to one near by. What
 // they do not settle, the cells of the free space do: they name the answer, and a walk along a cell's boundary is a path.
 #pragma once
 #include <variant>

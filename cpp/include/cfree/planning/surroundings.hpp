@@ -89,11 +89,8 @@ public:
     Connecting(std::shared_ptr<Surroundings> around, const RationalPose& start, const RationalPose& goal);
     // Go on by about so many trapezoids around each.
     void run(Index most);
-    // Around one of them, to the end.
-    void run_around(int k);
-    // Go on to the end, by twice as many each time, as long as whoever is asked then, with the number, wants to. First around one
-    // of them, 0 or 1, if that is likely to be enough.
-    Connection::Verdict decide(const std::function<bool(Index most)>& go_on = {}, std::optional<int> likely = {});
+    // Go on to the end, by twice as many each time, as long as whoever is asked then, with the number, wants to.
+    Connection::Verdict decide(const std::function<bool(Index most)>& go_on = {});
     const Connection& found() const { return result; }
     const std::shared_ptr<Surroundings> around;
 
