@@ -1,6 +1,7 @@
 #include "cfree/planning/exact_fits.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include "cfree/planning/clusters.hpp"
 #include "check.hpp"
@@ -69,7 +70,7 @@ static void slides_keep_two_contacts() {
 
 static void points_that_are_not_told_apart_are_one_cluster() {
     const auto found = clusters({{0, 1, 0, 0}, {5, 1, 0, 0}, {1e-12, 1, 0, 0}, {0, 2, 0, 0}, {1e-12, 1, 0, 1}}, 1e-9);
-    CHECK(found == std::vector<std::vector<Index>>({{0, 2}}));
+    CHECK(std::set(found.begin(), found.end()) == std::set<std::vector<Index>>({{0, 2}, {1}, {3}, {4}}));
 }
 
 int main() {

@@ -202,6 +202,17 @@ def test_the_reference_point_slides_on_bounds_where_a_vertex_of_the_robot_is(at:
         assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
 
 
+@pytest.mark.parametrize("tau", TURNS)
+def test_a_vertex_of_one_cell_is_on_an_edge_of_another(tau: Fraction) -> None:
+    """The second has no vertex there."""
+    turned = Pose(0, 0, {"tau": tau})
+    obstacles = [[(-3, 0), (-2, 2), (-3, 5), (-6, 2), (-7, 0)], [(4, 2), (-1, 2), (-1, -2), (4, -2)]]
+    scene = Scene(turned.apply_exact([(2, -1), (0, -1), (0, -2)]), obstacles, bounds=(-4, 0, -2, 4))
+    for start, goal in permutations([Pose("-8/3", 4, "90deg"), Pose(-4, 4, "225deg")]):
+        answer = plan(scene, start @ turned.inverse(), goal @ turned.inverse(), improve=0)
+        assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
+
+
 @pytest.mark.slow
 def test_slides_keep_no_vertex_of_the_robot_on_the_bounds() -> None:
     """Though one is at the reference point, which alone is kept in them, and an obstacle's edge is on their line."""

@@ -412,6 +412,14 @@ PointLocation::Nearby PointLocation::nearby(const ExactPose& pose) const {
     return seen;
 }
 
+std::vector<Index> PointLocation::at_height_of(const ExactPose& pose) const {
+    const View q(pose, scene.shift);
+    const Index part = index.part_of(pose.chart, q.tau_lo);
+    std::vector<Index> found;
+    stab(index.begin(part), index.begin(part + 1), q, [&](Index k) { found.push_back(k); });
+    return found;
+}
+
 Index PointLocation::locate(const ExactPose& pose, const Cells& cells) const { return cells_at(pose, cells).front(); }
 
 std::vector<Index> PointLocation::cells_at(const ExactPose& pose, const Cells& cells) const {

@@ -28,7 +28,7 @@ std::vector<std::vector<Index>> clusters(const std::vector<std::array<double, 4>
     std::vector<std::vector<Index>> groups;
     for (std::size_t k = 0, end; k < order.size(); k = end) {
         for (end = k + 1; end < order.size() && label[order[end]] == label[order[k]];) ++end;
-        if (end - k > 1) groups.emplace_back(order.begin() + static_cast<std::ptrdiff_t>(k), order.begin() + static_cast<std::ptrdiff_t>(end));
+        groups.emplace_back(order.begin() + static_cast<std::ptrdiff_t>(k), order.begin() + static_cast<std::ptrdiff_t>(end));
     }
     return groups;
 }

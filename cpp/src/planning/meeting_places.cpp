@@ -152,6 +152,7 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
     }
     for (const ThinPart& part : parts)
         for (const Place& end : part.rounded) add(end.x, end.y, end.theta);
+    const bool has_several = walker->space->cells() > 1;
     std::vector<Encounter> found;
     for (const auto& group : clusters(points, not_told_apart)) {
         std::set<Index> of_cells, of_parts, faces;
@@ -163,7 +164,37 @@ std::vector<Encounter> MeetingPlaces::find_encounters() const {
             of_cells.insert(walker->cell_at(face_at[first_at[k]]));
             faces.insert(face_at.begin() + first_at[k], face_at.begin() + first_at[k + 1]);
         }
+        if (has_several && group.front() < cells.vertices)
+            for (const Index face : faces_beside(group.front(), of_cells)) of_cells.insert(walker->cell_at(face)), faces.insert(face);
         if (of_cells.size() + of_parts.size() > 1) found.push_back({sorted(faces), sorted(of_parts), thetas[group.front()]});
+    }
+    return found;
+}
+
+// Of cells other than these, that a vertex is on.
+std::vector<Index> MeetingPlaces::faces_beside(Index vertex, const std::set<Index>& of_cells) const {
+    const Boundary& boundary = *walker->space->boundary;
+    const Scene& scene = *boundary.scene;
+    const Trapezoids& table = boundary.trapezoids;
+    const auto [x, y] = position(*walker->cells, vertex);
+    const double theta = walker->cells->theta[vertex];
+    const Limits limits(boundary);
+    std::vector<Index> found;
+    for (const int chart : {0, 1}) {
+        const double tau = tangent(std::remainder(theta - chart * std::numbers::pi, turn) / 2);
+        if (std::abs(tau) > 1 + not_told_apart) continue;
+        const auto pose = ExactPose::from(x, y, chart, std::clamp(tau, -1.0, 1.0), scene.scale);
+        for (const Index face : walker->space->points().at_height_of(pose)) {
+            const double from = table.tau_from(face), to = table.tau_to(face);
+            if (tau < from - not_told_apart || tau > to + not_told_apart || of_cells.contains(walker->cell_at(face))) continue;
+            const Feature contact = boundary.patches.contact(table.patch[face]);
+            const auto [low, high] = limits.of(face, tau);
+            const Place first = position_on(scene, contact, low, theta), last = position_on(scene, contact, high, theta);
+            const Vec<double> along{last.x - first.x, last.y - first.y}, to_it{x - first.x, y - first.y};
+            const double share = dot(along, to_it) / std::max(dot(along, along), 0x1p-1000);
+            const double near = std::clamp(share, 0.0, 1.0);
+            if (norm(to_it.x - near * along.x, to_it.y - near * along.y) <= not_told_apart * size) found.push_back(face);
+        }
     }
     return found;
 }

@@ -51,6 +51,8 @@ public:
         bool generic = true;
     };
     Nearby nearby(const ExactPose& q) const;
+    // Trapezoids that may hold a pose, as far as heights in doubles tell.
+    std::vector<Index> at_height_of(const ExactPose& q) const;
 
     // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
     const std::vector<Index>& components() const { return component; }

@@ -3,6 +3,7 @@
 // Doubles say where to look; what is there, and what holds it, is computed.
 #pragma once
 #include <compare>
+#include <set>
 
 #include "cfree/planning/boundary_walk.hpp"
 #include "cfree/planning/thin_part.hpp"
@@ -41,7 +42,7 @@ public:
     // Poses that may be where two of them or more meet.
     Poses candidates() const;
 
-    // Of vertices that bound several cells, or are near to isolated parts.
+    // At vertices that bound several cells, or are on faces of another, or near to ends of isolated parts.
     const std::vector<Encounter>& encounters() const { return met; }
 
     const std::shared_ptr<const BoundaryWalker> walker;
@@ -50,6 +51,7 @@ public:
 
 private:
     std::vector<Encounter> find_encounters() const;
+    std::vector<Index> faces_beside(Index vertex, const std::set<Index>& cells) const;
     static Poses corners(const BoundaryWalker& walker, Index face);
     void at_edges(const BoundaryWalker& walker, Poses& found) const;
     void at_part(const ThinPart& part, Poses& found) const;
