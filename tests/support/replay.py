@@ -57,7 +57,7 @@ def _along(read: dict[str, Any]) -> Iterator[Placed]:
     x, y, theta = (_arb(v) for v in read["start"])
     yield x, y, theta
     for motion in read["motions"]:
-        for share in (Fraction(1, 3), Fraction(7, 8), Fraction(1)):
+        for share in (Fraction(3, 8), Fraction(7, 8), Fraction(1)):  # in binary: some paths touch all along
             here = _after(motion, _arb(share), x, y, theta)
             yield here
         x, y, theta = here

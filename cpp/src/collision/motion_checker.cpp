@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "collision/rounding.hpp"
 #include "collision/shape_boxes.hpp"
 
 namespace cfree {
@@ -54,9 +55,6 @@ Approx x_of(const Shape& s, Index v) { return {s.x[v], std::abs(s.x[v])}; }
 template <>
 Approx y_of(const Shape& s, Index v) { return {s.y[v], std::abs(s.y[v])}; }
 
-// At most 30 roundings lead to a side: a coefficient of a frame has 20, a moved point 4 more, its product with an edge 5
-// more. Coordinates stay below 2^100 and the largest of C, S, W is about 1, so underflow loses less than 2^-850.
-double error_of(const Approx& f) { return f.m * 0x1p-47 + 0x1p-850; }
 bool is_negative(const Approx& f) { return f.v < -error_of(f); }
 bool is_positive(const Approx& f) { return f.v > error_of(f); }
 

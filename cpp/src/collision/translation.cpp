@@ -9,13 +9,11 @@
 #include "cfree/collision/motion_checker.hpp"
 #include "cfree/contact/contact_line.hpp"
 #include "collision/box_tree.hpp"
+#include "collision/rounding.hpp"
 
 namespace cfree {
 
 namespace {
-
-// At most 20 roundings lead to the side of a vertex, as in motion_checker.cpp.
-double error_of(const Approx& f) { return f.m * 0x1p-47 + 0x1p-850; }
 
 // Turned and moved: points of the robot times W, and how far all of them move in the end.
 template <class T>

@@ -198,7 +198,7 @@ int sign_on(const Poly& p, const Dyadic& lo, const Dyadic& hi) {
     const unsigned bits = largest.is_zero() ? 0 : static_cast<unsigned>(msb(largest)) + 1, m = bits > k ? bits - k : 0;
     Int slope = 0;
     for (int i = 1; i < p.size(); ++i) slope += abs(p[i]) * i << (m * static_cast<unsigned>(i - 1));
-    const Int value = value_at(p, {from, k});  // over 2^(k d), and so is the most that it changes by
+    const Int value = value_at(p, Dyadic{from, k});  // over 2^(k d), and so is the most that it changes by
     const Int change = p.size() < 2 ? Int(0) : Int(((to - from) * slope) << (k * static_cast<unsigned>(p.size() - 2)));
     return abs(value) > change ? value.sign() : 0;
 }

@@ -247,10 +247,10 @@ bool PointLocation::is_on(Index k, const View& q, bool is_end) const {
 namespace {
 
 // Of p and p - q, and a bound of their errors.
-struct Range {
+struct Spread {
     double low, high, err;
 };
-Range range(Approx p, Approx q) {
+Spread spread(Approx p, Approx q) {
     const Approx other = p - q;
     return {std::min(p.v, other.v), std::max(p.v, other.v), sign_error * other.m + tiny};
 }
@@ -265,8 +265,8 @@ PointLocation::Nearby PointLocation::look(const View& q, When when, Index own) c
         if (trapezoids.from_lo[k] > q.tau_hi || trapezoids.to_hi[k] < q.tau_lo) return;
         const Feature contact = surface_of(patches, trapezoids, k).contact;
         const auto here = q.line<Approx>(scene, contact);
-        const auto [low, high, err] = range(q.turn(here.height()), q.turn(here.down()));
-        const auto [left, right, error] = range(q.turn(here.distance()), q.turn(here.back()));
+        const auto [low, high, err] = spread(q.turn(here.height()), q.turn(here.down()));
+        const auto [left, right, error] = spread(q.turn(here.distance()), q.turn(here.back()));
         if (low > err || high < -err || left > error) return;  // above, below or right of the pose
         const int from = order(false, k, q), to = order(true, k, q);
         if (from > 0 || to < 0) return;

@@ -10,8 +10,7 @@
 namespace cfree {
 
 namespace {
-constexpr Complex i_unit{0, 1};
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double rounding = 1e-14;  // what is left of numbers that cancel
 
 // The point y with p.y = r and q.y = s.

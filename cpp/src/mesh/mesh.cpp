@@ -17,7 +17,7 @@ namespace cfree {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double on_curves = 0.7;     // share of the error that sampled curves may take: strips need it below sqrt(1/2)
 constexpr double most_turn = pi / 4;    // between two samples of a curve
 constexpr double rim_step = 4;        // greatest step along the rim of a wide e-v face, in units of the lattice

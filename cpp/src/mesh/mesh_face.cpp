@@ -11,8 +11,8 @@
 namespace cfree {
 
 namespace {
-constexpr Complex i_unit{0, 1};
-constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
+using std::numbers::pi;
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double square(double x) { return x * x; }
 double cube(double x) { return x * x * x; }

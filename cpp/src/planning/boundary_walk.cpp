@@ -10,10 +10,8 @@ namespace cfree {
 
 namespace {
 
-constexpr int most_halvings = 4096;  // more than any scene needs
 constexpr int slid = 48;             // halvings after which slides along a trapezoid's curves are tried as well
 constexpr int steps_as_known = 8;    // towards a critical angle before it is known better
-constexpr unsigned finest = 32;      // bits of tau that doubles are trusted with
 
 // The middle of a sheet at an orientation, and the pose beside it.
 struct Station {
@@ -92,7 +90,7 @@ private:
         for (int k = 0; k < attempts; ++k) {
             heed_stop();
             if (k % steps_as_known == steps_as_known - 1) {
-                const unsigned bits = finest + 4 * static_cast<unsigned>(k);
+                const unsigned bits = trusted_bits + 4 * static_cast<unsigned>(k);
                 f.refine(bits), g.refine(bits);
             }
             sigma = nearer(sigma, f_last ? f.high : f.low, 1 + k / steps_as_known);

@@ -11,7 +11,7 @@ namespace cfree {
 
 namespace {
 
-constexpr int least = 20, enough = 160;  // insets are 2^-20 of the robot's size and smaller
+constexpr int coarsest = 20, enough = 160;  // insets are 2^-20 of the robot's size and smaller
 
 int size_of(const SceneShapes& shapes) {
     double size = 0;
@@ -41,7 +41,7 @@ std::vector<int> powers_of(const SceneShapes& shapes) {
         for (const Ratio& bound : *shapes.bounds) include(bound.d);
     const int deepest = enough + 4 * (static_cast<int>(msb(scale)) + 1);
     std::vector<int> result;
-    for (int digits = least; digits <= deepest; digits *= 2) result.push_back(-digits);
+    for (int digits = coarsest; digits <= deepest; digits *= 2) result.push_back(-digits);
     return result;
 }
 

@@ -12,7 +12,6 @@ namespace cfree {
 namespace {
 
 constexpr std::array<std::array<int, 2>, 8> directions{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}}};
-constexpr int most_halvings = 4096;  // of the way to the other end of a trapezoid: more than any scene needs
 
 Ratio times(const Ratio& x, int k) { return reduced(x.n * k, x.d); }
 

@@ -9,10 +9,6 @@ namespace cfree {
 
 namespace {
 
-constexpr unsigned finest = 32;  // bits of tau that doubles are trusted with
-
-Ratio ratio_of(const Dyadic& x) { return reduced(x.n, Int(1) << x.k); }
-
 // Without the factor r tau - n.
 Poly divided(const Poly& f, const Ratio& root) {
     Poly result;
@@ -38,19 +34,19 @@ Sheet::Sheet(const Scene& of_scene, const Feature& on, int in_chart, std::array<
 
 Sheet::Sheet(const Boundary& b, const PointLocation& ends, Index k)
     : contact(b.patches.contact(b.trapezoids.patch[k])), chart(b.trapezoids.chart[k]),
-      curves{b.trapezoids.lower[k], b.trapezoids.upper[k]}, face(k), low(cfree::ratio_of(b.trapezoids.from_hi[k])),
-      high(cfree::ratio_of(b.trapezoids.to_lo[k])), scene(*b.scene), points(&ends), line(scene, contact, CoreUnits<Int>{}) {}
+      curves{b.trapezoids.lower[k], b.trapezoids.upper[k]}, face(k), low(ratio_of(b.trapezoids.from_hi[k])),
+      high(ratio_of(b.trapezoids.to_lo[k])), scene(*b.scene), points(&ends), line(scene, contact, CoreUnits<Int>{}) {}
 
 Sheet Sheet::of(const Boundary& boundary, const PointLocation& points, Index face) {
     Sheet sheet(boundary, points, face);
-    for (unsigned digits = 2 * finest; sheet.low >= sheet.high; digits *= 2) sheet.refine(digits);
+    for (unsigned digits = 2 * trusted_bits; sheet.low >= sheet.high; digits *= 2) sheet.refine(digits);
     return sheet;
 }
 
 Sheet Sheet::isolated(const Boundary& boundary, Index part) {
     const Trapezoids& table = boundary.isolated.parts;
     return {*boundary.scene, boundary.patches.contact(table.patch[part]), table.chart[part], {table.lower[part], table.upper[part]},
-            cfree::ratio_of(table.from_hi[part]), cfree::ratio_of(table.to_lo[part])};
+            ratio_of(table.from_hi[part]), ratio_of(table.to_lo[part])};
 }
 
 void Sheet::refine(unsigned digits) {
@@ -155,7 +151,7 @@ RationalPose middle_of(const Boundary& boundary, const Trapezoids& table, Index 
 
 Ratio common_tau(std::initializer_list<Sheet*> sheets) { return common_tau(std::span(sheets.begin(), sheets.size())); }
 Ratio common_tau(std::span<Sheet* const> sheets) {
-    for (unsigned bits = finest;;) {
+    for (unsigned bits = trusted_bits;;) {
         Ratio low = sheets[0]->low, high = sheets[0]->high;
         for (const Sheet* f : sheets) low = std::max(low, f->low), high = std::min(high, f->high);
         if (low < high) return simple_middle(low, high);

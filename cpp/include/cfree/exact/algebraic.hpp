@@ -17,6 +17,7 @@ struct RealRoot {
 
 // Times a power of the denominator, the degree.
 Int value_at(const Poly& p, const Ratio& x);
+inline Ratio ratio_of(const Dyadic& x) { return reduced(x.n, Int(1) << x.k); }
 // A root, if it is rational.
 std::optional<Ratio> rational_value(RealRoot x);
 // Sign of q at the root; narrows its interval.

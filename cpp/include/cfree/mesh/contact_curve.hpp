@@ -9,6 +9,7 @@
 namespace cfree {
 
 using Complex = std::complex<double>;
+inline constexpr Complex i_unit{0, 1};
 
 inline Complex complex(const Vec<double>& v) { return {v.x, v.y}; }
 inline double dot(Complex u, Complex v) { return u.real() * v.real() + u.imag() * v.imag(); }

@@ -9,6 +9,8 @@
 
 namespace cfree {
 
+inline constexpr int most_halvings = 4096;  // of a way or an interval: more than any scene needs
+
 // A free way to a pose on a face, strictly between its first and last orientation, or far away.
 struct Landing {
     Index face;

@@ -11,6 +11,8 @@
 
 namespace cfree {
 
+inline constexpr unsigned trusted_bits = 32;  // of tau, with which doubles are trusted
+
 class Sheet {
 public:
     // Ends: all orientations from the first to the second, in its chart, are strictly within.
