@@ -160,14 +160,8 @@ class Planner(Value):
 
             def better(part: Sequence[Pose]) -> Sequence[Pose]:
                 improver = self._improver(part)
-<<<<<<< HEAD
-                return (
-                    improver.balanced(part, seconds) if objective == "balanced" else improver.shortened(part, seconds)
-                )
-=======
                 method = improver.balanced if objective == "balanced" else improver.shortened
                 return method(part, seconds)
->>>>>>> 6387f61 (core: each folder compiled as one file in wheels; shared constants once; a test of the planner)
 
             return self.path([q for part in parts for q in better(part)])
 
