@@ -63,8 +63,8 @@ Index RrtConnect::nearest(const Tree& tree, const Place& q) {
     left -= tree.size() / scanned;
     squares.resize(std::max(squares.size(), count));
     for (std::size_t k = 0; k < count; ++k) {
-        const double dx = tree.x[k] - q.x, dy = tree.y[k] - q.y, turn = std::abs(tree.theta[k] - q.theta);
-        const double by = weight * std::min(turn, 2 * pi - turn);
+        const double dx = tree.x[k] - q.x, dy = tree.y[k] - q.y, apart = std::abs(tree.theta[k] - q.theta);
+        const double by = weight * std::min(apart, 2 * pi - apart);
         squares[k] = dx * dx + dy * dy + by * by;
     }
     return static_cast<Index>(std::min_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(count)) - squares.begin());
