@@ -16,7 +16,8 @@ using std::numbers::pi;
 
 constexpr double longest_step = 0.2;  // of the extent of the configuration space
 constexpr int certainty = 16;         // guesses that take as long
-constexpr Index scanned = 2048;       // nodes that a guess takes as long as looking for the nearest of
+constexpr Index few = 200;             // nodes: all of them are looked at
+constexpr int squares = 32;            // along the longer side of the area
 constexpr double kept = 0.5;           // share of tries that do not turn: for less needless turning
 constexpr int some = 2000;            // guesses, for at least so many
 constexpr std::size_t new_parts = 3;
@@ -26,48 +27,76 @@ bool are_one(const Place& a, const Place& b) { return a.x == b.x && a.y == b.y &
 
 }  // namespace
 
-void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
-    tree.x.push_back(q.x), tree.y.push_back(q.y), tree.theta.push_back(q.theta);
-    tree.parent.push_back(from), tree.is_certain.push_back(false);
-    const auto part = [](double share) { return share < 1 ? static_cast<int>(parts * std::max(share, 0.0)) : parts - 1; };
-    const int column = part((q.x - area.x0) / (area.x1 - area.x0)), row = part((q.y - area.y0) / (area.y1 - area.y0));
-    tree.parts.insert((column * parts + row) * parts + part(0.5 + q.theta / (2 * pi)));
+std::array<int, 2> RrtConnect::square_of(const Place& q) const {
+    const auto at = [&](double offset) {
+        const double column = offset / side;
+        return column < squares ? static_cast<int>(std::max(column, 0.0)) : squares - 1;
+    };
+    return {at(q.x - area.x0), at(q.y - area.y0)};
 }
 
-void RrtConnect::Tree::cut(Index first) {
-    std::vector<Index> number(x.size(), -1);
-    Index kept = 0;
-    for (Index k = 0; k < size(); ++k) {
-        if (k == first || (parent[k] >= 0 && number[parent[k]] < 0)) continue;
-        x[kept] = x[k], y[kept] = y[k], theta[kept] = theta[k], is_certain[kept] = is_certain[k];
-        parent[kept] = parent[k] < 0 ? -1 : number[parent[k]];
-        number[k] = kept++;
+void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
+    const auto [column, row] = square_of(q);
+    tree.near[column * squares + row].push_back(tree.size());
+    tree.x.push_back(q.x), tree.y.push_back(q.y), tree.theta.push_back(q.theta);
+    tree.parent.push_back(from), tree.is_certain.push_back(false);
+    constexpr int by = squares / parts;
+    const double share = 0.5 + q.theta / (2 * pi);
+    tree.parts.insert(((column / by) * parts + row / by) * parts + (share < 1 ? static_cast<int>(parts * std::max(share, 0.0)) : parts - 1));
+}
+
+void RrtConnect::cut(Tree& tree, Index first) const {
+    Tree kept{tree.root, {}, {}, {}, {}, {}, std::move(tree.parts), decltype(tree.near)(tree.near.size())};
+    std::vector<Index> number(tree.x.size(), -1);
+    for (Index k = 0; k < tree.size(); ++k) {
+        const Index from = tree.parent[k];
+        if (k == first || (from >= 0 && number[from] < 0)) continue;
+        number[k] = kept.size();
+        add(kept, tree.at(k), from < 0 ? -1 : number[from]);
+        kept.is_certain.back() = tree.is_certain[k];
     }
-    x.resize(kept), y.resize(kept), theta.resize(kept), parent.resize(kept), is_certain.resize(kept);
+    tree = std::move(kept);
 }
 
 RrtConnect::RrtConnect(Joins j, Grid g, Area a, double w, Configuration start, Configuration goal,
                        std::uint64_t seed)
     : joins(std::move(j)), grid(g), area(a), weight(w),
-      range(longest_step * (norm(a.x1 - a.x0, a.y1 - a.y0) + w * pi)), random(seed) {
+      range(longest_step * (norm(a.x1 - a.x0, a.y1 - a.y0) + w * pi)), side(std::max(a.x1 - a.x0, a.y1 - a.y0) / squares), random(seed) {
     trees[0].root = std::move(start), trees[1].root = std::move(goal);
-    for (Tree& tree : trees) add(tree, tree.root.place(), -1);
+    for (Tree& tree : trees) {
+        tree.near.resize(squares * squares);
+        add(tree, tree.root.place(), -1);
+    }
 }
 
 double RrtConnect::distance(const Place& a, const Place& b) const {
     return norm(norm(b.x - a.x, b.y - a.y), weight * wrapped(b.theta - a.theta));
 }
 
-Index RrtConnect::nearest(const Tree& tree, const Place& q) {
-    const auto count = static_cast<std::size_t>(tree.size());
-    left -= tree.size() / scanned;
-    squares.resize(std::max(squares.size(), count));
-    for (std::size_t k = 0; k < count; ++k) {
-        const double dx = tree.x[k] - q.x, dy = tree.y[k] - q.y, apart = std::abs(tree.theta[k] - q.theta);
-        const double by = weight * std::min(apart, 2 * pi - apart);
-        squares[k] = dx * dx + dy * dy + by * by;
+// In its square, then in rings of squares around that, as long as these may be nearer.
+Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
+    Index best = 0;
+    double least = HUGE_VAL;
+    const auto look = [&](Index k) {
+        const double dx = tree.x[k] - q.x, dy = tree.y[k] - q.y, by = std::abs(tree.theta[k] - q.theta);
+        const double turning = weight * std::min(by, 2 * pi - by), square = dx * dx + dy * dy + turning * turning;
+        if (square < least || (square == least && k < best)) least = square, best = k;
+    };
+    if (tree.size() <= few) {
+        for (Index k = 0; k < tree.size(); ++k) look(k);
+        return best;
     }
-    return static_cast<Index>(std::min_element(squares.begin(), squares.begin() + static_cast<std::ptrdiff_t>(count)) - squares.begin());
+    const auto [column, row] = square_of(q);
+    const auto look_in = [&](int i, int j) {
+        if (i < 0 || j < 0 || i >= squares || j >= squares) return;
+        for (const Index k : tree.near[i * squares + j]) look(k);
+    };
+    look_in(column, row);
+    for (int r = 1; r < squares && !((r - 1) * side * ((r - 1) * side) > least); ++r) {
+        for (int k = -r; k <= r; ++k) look_in(column + k, row - r), look_in(column + k, row + r);
+        for (int k = 1 - r; k < r; ++k) look_in(column - r, row + k), look_in(column + r, row + k);
+    }
+    return best;
 }
 
 // From a node of a tree on; the second tree's motions are run the other way, which matters for half turns.
@@ -115,7 +144,7 @@ Route RrtConnect::branch(bool of_goal, Index last) {
         route.push_back(exact(of_goal, *k));
         if (*k == 0 || tree.is_certain[*k]) continue;
         if (!are_certainly_joined(of_goal, route[route.size() - 2], route.back())) {
-            tree.cut(*k);
+            cut(tree, *k);
             return {};
         }
         tree.is_certain[*k] = true;

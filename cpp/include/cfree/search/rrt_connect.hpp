@@ -4,6 +4,7 @@
 // doubles, over motions that seem to be free. Where trees meet, those on the way are checked, and what hangs on one that is not
 // free falls off (as in Bohlin and Kavraki's lazy roadmaps, 2000). Finding nothing means nothing.
 #pragma once
+#include <array>
 #include <functional>
 #include <set>
 #include <vector>
@@ -35,12 +36,14 @@ private:
         std::vector<Index> parent;
         std::vector<char> is_certain;  // the motion from the parent
         std::set<int> parts;           // of the configuration space, in which it has a node
+        std::vector<std::vector<Index>> near;  // nodes by squares of the area
         Index size() const { return static_cast<Index>(x.size()); }
         Place at(Index k) const { return {x[k], y[k], theta[k]}; }
-        void cut(Index k);  // and all that hangs on it
     };
     void add(Tree& tree, const Place& q, Index from) const;
-    Index nearest(const Tree& tree, const Place& q);
+    void cut(Tree& tree, Index k) const;  // and all that hangs on it
+    std::array<int, 2> square_of(const Place& q) const;
+    Index nearest(const Tree& tree, const Place& q) const;
     double distance(const Place& a, const Place& b) const;
     bool are_joined(bool of_goal, const Place& a, const Place& b);
     bool are_certainly_joined(bool of_goal, const Configuration& a, const Configuration& b);
@@ -53,12 +56,11 @@ private:
     const Joins joins;
     const Grid grid;
     const Area area;
-    const double weight, range;
+    const double weight, range, side;  // side of a square
     Tree trees[2];
     bool turn = false;  // which tree grows
     Random random;
     int left = 0;
-    std::vector<double> squares;
 };
 
 }  // namespace cfree
