@@ -124,6 +124,7 @@ def test_outline_that_crosses_itself_is_refused_with_its_place(fig9: Tried) -> N
     fig9.built(lambda: page.keyboard.press("Insert"))
     fig9.pull(page.locator(".vertex").nth(1), 200, -220)
     fig9.say("#edit", "obstacle 0: outer ring: edges 0 and 2 cross at (")
+    page.wait_for_timeout(500)  # until what was dropped is refused, too
     page.keyboard.press("ArrowDown")  # on with the last one that was well
     page.locator("#edit:empty").wait_for(state="attached", timeout=10_000)
 

@@ -15,6 +15,7 @@ export function save_scene(session: Session): void {
 
 // As `cfree verify` takes it; the hash says which scene it is for.
 async function save_answer(session: Session): Promise<void> {
+  if (!crypto.subtle) throw new Error("This page came over a connection that is not secure, where browsers compute no hashes: save the page, or use https");
   const written = await session.planner.call("written");
   const hash = await crypto.subtle.digest("SHA-256", new TextEncoder().encode(string(written, "scene")));
   const hex = [...new Uint8Array(hash)].map((byte) => byte.toString(16).padStart(2, "0")).join("");

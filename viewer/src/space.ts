@@ -36,6 +36,7 @@ export class Space {
   private size = "";
   frames = 0;  // drawn so far
   private still = 0;
+  private is_held = false;  // by a pointer that turns it
   private labels: { at: Vector3; element: HTMLElement }[] = [];
   private slice?: Columns;
   theta = 0;
@@ -53,6 +54,8 @@ export class Space {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = false;
     this.controls.addEventListener("change", () => this.ask());
+    this.controls.addEventListener("start", () => { this.is_held = true; });
+    this.controls.addEventListener("end", () => { this.is_held = false, this.ask(); });
     this.material = new ShaderMaterial({
       vertexShader: VERTEX, fragmentShader: FRAGMENT, transparent: true, depthWrite: false, side: DoubleSide, vertexColors: true,
       uniforms: { rise: { value: 1 }, length: { value: 1 }, opacity: { value: GLASS }, cut: { value: 1e9 }, dim: { value: 0 }, faded: { value: 0 } },
@@ -369,7 +372,8 @@ export class Space {
   ask(): void {
     if (!this.asked) this.asked = true, requestAnimationFrame((now) => this.move(now));
     clearTimeout(this.still);
-    this.still = window.setTimeout(() => requestAnimationFrame(() => this.draw(Math.max(2, devicePixelRatio), false)), STILL);
+    if (this.is_held) return;
+    this.still = window.setTimeout(() => requestAnimationFrame(() => this.draw(Math.max(2, devicePixelRatio), false)), Math.max(STILL, 2 * this.late));
   }
 
   // While something moves: coarser, if frames are late.
@@ -390,6 +394,7 @@ export class Space {
     if (this.size !== `${width} ${height} ${ratio}`) this.renderer.setPixelRatio(ratio), this.renderer.setSize(width, height, false);
     this.size = `${width} ${height} ${ratio}`;
     this.parts.surface.children.forEach((child, k) => { child.visible = k === 0 || !(is_coarse || this.parts.barrier.children.length); });
+    this.parts.barrier.children.forEach((child, k) => { child.visible = k === 0 || !is_coarse; });
     this.camera.aspect = width / height;
     this.camera.fov = 2 * Math.atan(Math.tan(16 * Math.PI / 180) * Math.max(1, 1.02 * height / width)) * 180 / Math.PI;
     this.camera.updateProjectionMatrix();
