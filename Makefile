@@ -9,7 +9,8 @@ INSTALL := $(BIN)/pip install -q --disable-pip-version-check
 # With tools of .venv and objects that stay: what is installed again later compiles only what has changed.
 TOOLS := scikit-build-core nanobind boost-headers cmake ninja
 DEV := .venv/rebuilt-at-import
-HERE = --no-build-isolation --config-settings=build-dir=$(if $(wildcard $(DEV)),build/dev $(REBUILT),'build/{wheel_tag}') -e
+HERE = --no-build-isolation --config-settings=build-dir=$(if $(wildcard $(DEV)),build/dev $(REBUILT),'build/{wheel_tag}' $(ONCE)) -e
+ONCE := --config-settings=cmake.define.CFREE_UNITY=ON
 REBUILT := --config-settings=editable.rebuild=true --config-settings=editable.verbose=false
 
 PARKING = examples/scenes/benchmr_parking1.json
@@ -29,12 +30,12 @@ test: $(TESTED) ctest lint  ## every test
 	$(BIN)/python -m pytest -n 2
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python
-	$(BIN)/cmake -S . -B build/ctest -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
+	$(BIN)/cmake -S . -B build/ctest -DCFREE_UNITY=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
 	$(BIN)/cmake --build build/ctest -j 2 >> build/ctest.log
 	$(BIN)/ctest --test-dir build/ctest --output-on-failure
 
 ctest-sanitize: $(INSTALLED)  ## the same under the address and undefined-behaviour sanitizers
-	$(BIN)/cmake -S . -B build/ctest-sanitize -DCFREE_SANITIZE=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest-sanitize.log
+	$(BIN)/cmake -S . -B build/ctest-sanitize -DCFREE_SANITIZE=ON -DCFREE_UNITY=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest-sanitize.log
 	$(BIN)/cmake --build build/ctest-sanitize -j 2 >> build/ctest-sanitize.log
 	$(BIN)/ctest --test-dir build/ctest-sanitize --output-on-failure
 
