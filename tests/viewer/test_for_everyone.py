@@ -16,6 +16,7 @@ pytestmark = pytest.mark.slow
 
 ROOT = Path(__file__).parents[2]
 AXE = ROOT / "viewer" / "node_modules" / "axe-core" / "axe.min.js"
+BUTTONS = {"edit": "#edit-shapes", "learn": "#learn"}
 REACHED = """() => {
   const of = document.activeElement;
   return of.id || (of.tagName === "CANVAS" ? "canvas" : of.getAttribute("class") ?? of.tagName);
@@ -135,6 +136,19 @@ def test_shapes_are_changed_and_drawn(tried: Tried) -> None:
     tried.say("#way", "A motion exists")
 
 
+def test_lessons_are_walked_through(tried: Tried) -> None:
+    press(tried, "#learn", "Enter")
+    for step in range(1, 7):
+        tried.say("#lesson-step", f"{step} of 6")
+        assert len(tried.page.locator("#lessons article:visible").inner_text()) > 100
+        press(tried, "#lesson-next", "Enter")
+    tried.page.locator("#lessons").wait_for(state="hidden")
+    assert tried.page.evaluate(REACHED) == "learn"
+    tried.page.select_option("#scenes", "paper_fig9")
+    tried.ready("paper_fig9")
+    tried.say("#way", "A motion exists")
+
+
 def test_keys_are_listed_and_the_list_is_left(tried: Tried) -> None:
     press(tried, "#space canvas", "?")
     tried.page.locator("#keys[open]").wait_for()
@@ -144,8 +158,8 @@ def test_keys_are_listed_and_the_list_is_left(tried: Tried) -> None:
 
 
 def test_another_scene_is_chosen(tried: Tried) -> None:
-    press(tried, "#scenes", "ArrowUp")
-    tried.ready("degenerate_exact_fit")
+    press(tried, "#scenes", "ArrowDown")
+    tried.ready("sofa_corner")
     press(tried, ".body.robot", "Control+z")
     tried.page.locator("body[data-ready='paper_fig9']").wait_for(timeout=30_000)
 
@@ -154,7 +168,7 @@ def test_another_scene_is_chosen(tried: Tried) -> None:
     not AXE.exists(), reason="axe-core is not installed (`npm ci` in viewer/): faults were not looked for"
 )
 @pytest.mark.parametrize("theme", ["light", "dark"])
-@pytest.mark.parametrize("part", ["page", "keys", "edit", "phone"])
+@pytest.mark.parametrize("part", ["page", "keys", "edit", "phone", "learn"])
 def test_axe_finds_no_serious_fault(tried: Tried, theme: Any, part: str) -> None:
     page = tried.page
     page.emulate_media(color_scheme=theme)
@@ -162,11 +176,13 @@ def test_axe_finds_no_serious_fault(tried: Tried, theme: Any, part: str) -> None
         page.set_viewport_size({"width": 390, "height": 844})
     if part == "keys":
         press(tried, "#space canvas", "?")
-    if part == "edit":
-        press(tried, "#edit-shapes", "Enter")
+    if part in BUTTONS:
+        press(tried, BUTTONS[part], "Enter")
     page.evaluate(f"{AXE.read_text()}; 0")
     found = page.evaluate("axe.run({ resultTypes: ['violations', 'incomplete'] })")
-    press(tried, "#edit-shapes", "Enter") if part == "edit" else page.keyboard.press("Escape")
+    if part in BUTTONS:
+        press(tried, BUTTONS[part], "Enter")
+    page.keyboard.press("Escape")
     page.set_viewport_size({"width": 1280, "height": 800})
     faults = [
         f"{fault['id']}: {fault['help']}: {node['html'][:120]} {node.get('failureSummary', '')}"

@@ -67,23 +67,33 @@ export class Engine {
     }
   }
 
-  // The scene that calls are about; what is being done for another one ends.
+  // The scene that calls are about; what is being done for another one ends. Of several wishes the newest is granted.
   async open(text: string): Promise<Columns> {
-    const before = this.opened;
-    for (let k = 0; k < 6 && this.busy; ++k) await new Promise((done) => setTimeout(done, 10));
+    const opening = this.opening = Symbol();
+    try { return await this.reopened(text); } finally { if (this.opening === opening) this.opening = undefined; }
+  }
+  private opening?: symbol;
+  private wishes = 0;
+  private async reopened(text: string): Promise<Columns> {
+    const before = this.opened, wish = ++this.wishes;
+    for (let k = 0; k < 6 && this.busy; ++k) {
+      await new Promise((done) => setTimeout(done, 10));
+      if (wish !== this.wishes) throw new Cancelled();
+    }
     if (this.busy) this.end();
     this.opened = text;
     try {
       return await this.call("open", text);
     } catch (error) {
-      this.opened = before;
+      if (this.opened === text) this.opened = before;
       throw error;
     }
   }
 
-  // Asked of a scene, which is opened first if it is not.
+  // Asked of a scene, which is opened first if it is not. What somebody opens meanwhile is not ended by a question.
   async of(text: string): Promise<this> {
-    if (this.opened !== text) await this.open(text);
+    while (this.opening) await new Promise((done) => setTimeout(done, 5));
+    if (this.opened !== text) await this.reopened(text);
     return this;
   }
 

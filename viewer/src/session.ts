@@ -161,8 +161,9 @@ export class Session {
   // Where the robot is: verdict, touching pairs, cells.
   async ask_robot(pose: PoseText): Promise<boolean | undefined> {
     try {
-      const asked = this.is_built ? this.builder : await this.quick.of(this.now.source);
+      const { source } = this.now, asked = this.is_built ? this.builder : await this.quick.of(source);
       const answer = await asked.newest("pose", words(pose));
+      if (source !== this.now.source) return undefined;
       const [x, y, theta] = doubles(answer, "place") as unknown as [number, number, number];
       const at = { x, y, theta };
       this.seen.robot = at;
@@ -187,7 +188,8 @@ export class Session {
     const slow = setTimeout(() => { this.is_waiting = true, working(true), say("way", { tone: "plain", text: "Looking for a motion …" }); }, 400);
     try {
       const planner = await this.planner.of(source);
-      this.show_way(await planner.newest("plan", words(start), words(goal)));
+      const answer = await planner.newest("plan", words(start), words(goal));
+      if (source === this.now.source) this.show_way(answer);
     } catch (error) {
       if (!(error instanceof Cancelled)) this.show_way(undefined), fault("way", error);
     } finally {
