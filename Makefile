@@ -20,7 +20,7 @@ SWIM = examples/scenes/nest_swim.json
 
 demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot get out, both verified, into demo/
 	mkdir -p demo
-	$(BIN)/cfree plan $(PARKING) -o demo/parking.json --picture demo/parking.png --objective clear
+	$(BIN)/cfree plan $(PARKING) -o demo/parking.json --picture demo/parking.png
 	$(BIN)/cfree verify $(PARKING) demo/parking.json
 	$(BIN)/cfree plan $(SWIM) -o demo/swim.json --picture demo/swim.png || test $$? -eq 1  # proved impossible
 	$(BIN)/cfree verify $(SWIM) demo/swim.json

@@ -155,8 +155,8 @@ class Planner(Value):
         seconds = improve and improve / len(parts)
         with self.phase("clearer paths" if objective == "clear" else "shorter paths"):
             if objective == "clear":
-                shorter = (self._improver(part).shortened(part, None) for part in parts)
-                return self.path([q for part in shorter for q in self._cleared(part, seconds)])
+                balanced = (self._improver(part).balanced(part, None) for part in parts)
+                return self.path([q for part in balanced for q in self._cleared(part, seconds)])
 
             def better(part: Sequence[Pose]) -> Sequence[Pose]:
                 improver = self._improver(part)
