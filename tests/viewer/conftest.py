@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from pages import CHROMIUM, SWIFTSHADER
+from pages import CHROMIUM, SWIFTSHADER, Tried
 
 
 @pytest.fixture(scope="module")
@@ -21,3 +23,14 @@ def browser() -> Iterator[Any]:
         found = running.chromium.launch(executable_path=str(CHROMIUM), args=SWIFTSHADER)
         yield found
         found.close()
+
+
+@pytest.fixture
+def tried(browser: Any, tmp_path: Path) -> Iterator[Tried]:
+    """The page as it is without a scene of one's own."""
+    page = tmp_path / "page.html"
+    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    tried = Tried(browser, page)
+    tried.ready("paper_fig9")
+    yield tried
+    tried.close()

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,11 +21,7 @@ def drawn(view: Any) -> float:
     return 1.0 - np.unique(colours, return_counts=True)[1].max() / len(colours)
 
 
-def test_every_scene_of_the_gallery_is_drawn(browser: Any, tmp_path: Path) -> None:
-    page = tmp_path / "page.html"
-    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
-    tried = Tried(browser, page)
-    tried.ready("paper_fig9")
+def test_every_scene_of_the_gallery_is_drawn(tried: Tried) -> None:
     names = tried.page.locator("#scenes option").evaluate_all("options => options.map(of => of.value)")
     assert len(names) == len(set(names)) == 11 and names[-1] == ""
     views = [tried.page.locator(view) for view in ("#workspace", "#space")]
@@ -39,4 +33,3 @@ def test_every_scene_of_the_gallery_is_drawn(browser: Any, tmp_path: Path) -> No
         assert apart == (name in ("caged_part", "nest_swim"))
         assert tried.page.locator(".obstacle, .bounds, .room").count() > 0
         assert min(map(drawn, views)) > 0.03, name
-    tried.close()

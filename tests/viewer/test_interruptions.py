@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator
-from importlib.resources import files
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -35,16 +32,6 @@ LOSE = """async () => {
     ending.restoreContext();
     await back;
 }"""
-
-
-@pytest.fixture
-def tried(browser: Any, tmp_path: Path) -> Iterator[Tried]:
-    page = tmp_path / "page.html"
-    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
-    tried = Tried(browser, page)
-    tried.ready("paper_fig9")
-    yield tried
-    tried.close()
 
 
 def test_work_is_stopped_at_once_and_another_scene_is_answered(tried: Tried) -> None:

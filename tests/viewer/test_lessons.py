@@ -2,10 +2,6 @@
 
 from __future__ import annotations
 
-from importlib.resources import files
-from pathlib import Path
-from typing import Any
-
 import pytest
 
 from pages import Tried
@@ -14,11 +10,7 @@ STEPS = ["contacts", "helix", "vertex_edge", "edge_vertex", "trimming", "start_t
 
 
 @pytest.mark.slow
-def test_every_step_has_scene_text_and_formulas(browser: Any, tmp_path: Path) -> None:
-    page = tmp_path / "page.html"
-    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
-    tried = Tried(browser, page)
-    tried.ready("paper_fig9")
+def test_every_step_has_scene_text_and_formulas(tried: Tried) -> None:
     tried.page.locator("#learn").click()
     formulas = 0
     for name in STEPS:
@@ -29,15 +21,10 @@ def test_every_step_has_scene_text_and_formulas(browser: Any, tmp_path: Path) ->
         assert "$" not in shown.inner_text()
         tried.page.locator("#lesson-next").click()
     assert formulas > 15 and tried.page.locator("#lessons").is_hidden()
-    tried.close()
 
 
 @pytest.mark.slow
-def test_door_that_is_closed_takes_the_path_away(browser: Any, tmp_path: Path) -> None:
-    page = tmp_path / "page.html"
-    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
-    tried = Tried(browser, page)
-    tried.ready("paper_fig9")
+def test_door_that_is_closed_takes_the_path_away(tried: Tried) -> None:
     tried.page.locator("#learn").click()
     for name in STEPS:
         tried.ready(name)
@@ -49,4 +36,3 @@ def test_door_that_is_closed_takes_the_path_away(browser: Any, tmp_path: Path) -
     for _ in range(2):
         tried.built(lambda: tried.page.keyboard.press("ArrowDown"))
     tried.say("#way", "No motion, not even touching")
-    tried.close()

@@ -44,7 +44,7 @@ public:
     Finder(const Scene& s, const Patches& p, const Trapezoids& l, const Trapezoids& t)
         : scene(s), patches(p), live(l), thin(t),
           hashes(s, t.patch.size(), [&](std::size_t k) { return NamedCurve{contact(t.patch[k]), unpacked(t.lower[k])}; }, 1),
-          tree(edge_boxes(s.obstacles)), first_patch(first_patches(s, p)) {
+          tree(edge_boxes(s.obstacles)), reach(reach_of(s.robot)), first_patch(first_patches(s, p)) {
         first_live.assign(p.kind.size() + 1, 0);
         for (const Index k : l.patch) ++first_live[k + 1];
         std::partial_sum(first_live.begin(), first_live.end(), first_live.begin());
@@ -80,7 +80,7 @@ private:
     // Live trapezoids of patches whose obstacle feature is within twice the robot's reach of this one's.
     template <class F>
     void for_each_near(Index patch, F&& report) const {
-        tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach_of(scene.robot)), [&](Index near) {
+        tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach), [&](Index near) {
             for (Index p = first_patch[near]; p < first_patch[near + 1]; ++p)
                 for (Index k = first_live[p]; k < first_live[p + 1]; ++k) report(p, k);
         });
@@ -315,6 +315,7 @@ private:
     const Trapezoids &live, &thin;
     CurveHashes hashes;
     BoxTree tree;
+    double reach;  // of the robot
     std::vector<Index> first_patch, first_live;
     std::vector<Flat> flats;
     std::vector<Ridge> ridges;
