@@ -100,13 +100,13 @@ std::vector<Sheet> LevelGluer::sheets_of(std::vector<Index>&& chosen) const {
 
 // Where the levels of a sheet end; those without width are left out.
 void LevelGluer::find_places(Sheet& sheet, Junction& at) {
-    struct End {
+    struct LevelEnd {
         Code curve;
         Index level;
         bool is_high;
-        auto operator<=>(const End&) const = default;
+        auto operator<=>(const LevelEnd&) const = default;
     };
-    std::vector<End> ends;
+    std::vector<LevelEnd> ends;
     for (const Index k : sheet.levels)
         if (levels[k].low_code != levels[k].high_code)
             ends.push_back({levels[k].low_code, k, false}), ends.push_back({levels[k].high_code, k, true});
