@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "cfree/support/elementary.hpp"
+
 namespace cfree {
 
 namespace {
@@ -74,6 +76,14 @@ std::string head(const World& world, const char* kind, const RationalPose& start
            decimals(goal.place()) + ",\n \"exact\": {\"start\": " + exact(start) + ", \"goal\": " + exact(goal) + "}";
 }
 
+std::string pair_text(Index a, Index b) { return '[' + std::to_string(a) + ", " + std::to_string(b) + ']'; }
+std::string contact_text(const SceneFeatures& features, const Feature& f) {
+    const auto i = static_cast<std::size_t>(f.robot), j = static_cast<std::size_t>(f.obstacle);
+    return std::string("{\"kind\": ") + quoted(f.kind == Kind::vertex_edge ? "vertex-edge" : "edge-vertex") + ", \"robot\": " +
+           pair_text(features.robot.polygon[i], features.robot.vertex[i]) + ", \"obstacle\": " +
+           pair_text(features.obstacles.polygon[j], features.obstacles.vertex[j]) + "}";
+}
+
 // From one pose to the next; theta is counted on.
 std::string motion(const RationalPose& a, const RationalPose& b, double& theta) {
     const Ratio dx = b.x - a.x, dy = b.y - a.y;
@@ -91,6 +101,43 @@ std::string motion(const RationalPose& a, const RationalPose& b, double& theta) 
            ", \"exact\": {\"pole\": " + exact(x, y) + ", \"tau\": " + tau_of(turn) + "}}";
 }
 
+// The way back: t = (r + tau) / (1 - r tau), and r goes from 0 to -tau.
+ContactSlide reversed(const ContactSlide& s) {
+    const Int &m = s.tau.d, &n = s.tau.n;
+    const auto at_end = [&](const std::array<Int, 5>& f) { return f[0] * m * m * m * m + f[1] * n * m * m * m + f[2] * n * n * m * m + f[3] * n * n * n * m + f[4] * n * n * n * n; };
+    const auto of_r = [&](const std::array<Int, 5>& f) {
+        std::array<Int, 5> sum{};
+        for (std::size_t k = 0; k < 5; ++k) {
+            std::array<Int, 5> term{f[k]};
+            for (std::size_t i = 0; i < 4; ++i) {
+                const bool above = i < k;  // times m r + n, or m - n r
+                for (std::size_t j = 5; j-- > 0;) term[j] = Int(term[j] * (above ? n : m)) + (j ? Int(term[j - 1] * (above ? m : Int(-n))) : Int(0));
+            }
+            for (std::size_t j = 0; j < 5; ++j) sum[j] += term[j];
+        }
+        return sum;
+    };
+    const Int x = at_end(s.x), y = at_end(s.y), d = at_end(s.d);
+    ContactSlide back{s.to, s.from, s.contacts, of_r(s.x), of_r(s.y), of_r(s.d), reduced(Int(-n), m)};
+    for (std::size_t j = 0; j < 5; ++j) {
+        back.x[j] = Int(back.x[j] * d) - Int(back.d[j] * x), back.y[j] = Int(back.y[j] * d) - Int(back.d[j] * y);
+        back.d[j] *= d;
+    }
+    return back;
+}
+
+std::string motion(const SceneFeatures& features, const ContactSlide& s, double& theta) {
+    const double angle = 2 * arc_tangent(nearest(s.tau.n, s.tau.d));
+    theta += angle;
+    const auto contact = [&](const Feature& f) { return contact_text(features, f); };
+    const auto terms = [&](const std::array<Int, 5>& of) { return listed(of, [&](const Int& c) { return quoted(reduced(c, s.d[0])); }); };
+    const Place to = s.to.place();
+    const Ratio dx = s.to.x - s.from.x, dy = s.to.y - s.from.y;
+    return "{\"type\": \"slide\", \"contacts\": " + listed(s.contacts, contact) + ", \"vector\": " + decimals(nearest(dx.n, dx.d), nearest(dy.n, dy.d)) +
+           ", \"angle\": " + decimal(angle) + ", \"to\": " + decimals({to.x, to.y, theta}) + ", \"exact\": {\"x\": " + terms(s.x) + ", \"y\": " +
+           terms(s.y) + ", \"d\": " + terms(s.d) + ", \"tau\": " + quoted(s.tau) + "}}";
+}
+
 std::string polygon_text(const Polygon& polygon) {
     const auto points = [](const std::vector<Rational>& of) { return listed(of, [](const Rational& p) { return exact(p[0], p[1]); }); };
     std::string holes;
@@ -102,21 +149,16 @@ std::string name(std::uint64_t code) {
     const Feature f = unpacked(code);
     return listed(std::array{static_cast<int>(f.kind), f.robot, f.obstacle}, [](int k) { return std::to_string(k); });
 }
-std::string pair_text(Index a, Index b) { return '[' + std::to_string(a) + ", " + std::to_string(b) + ']'; }
 
 std::string piece(const SceneFeatures& features, const Boundary& boundary, Index face) {
     const Trapezoids& t = boundary.trapezoids;
     const auto k = static_cast<std::size_t>(face);
-    const Feature f = boundary.patches.contact(t.patch[k]);
-    const auto i = static_cast<std::size_t>(f.robot), j = static_cast<std::size_t>(f.obstacle);
     const auto end = [&](std::uint64_t first, std::uint64_t second, double lo, double hi, int place) {
         std::string names = first ? name(first) : "";
         if (second) names += (names.empty() ? "" : ", ") + name(second);
         return "{\"names\": [" + names + "], \"tau\": " + decimals(lo, hi) + (place ? ", \"place\": " + std::to_string(place) : "") + "}";
     };
-    return std::string("  {\"contact\": {\"kind\": ") + quoted(f.kind == Kind::vertex_edge ? "vertex-edge" : "edge-vertex") + ", \"robot\": " +
-           pair_text(features.robot.polygon[i], features.robot.vertex[i]) + ", \"obstacle\": " +
-           pair_text(features.obstacles.polygon[j], features.obstacles.vertex[j]) + "}, \"chart\": " + std::to_string(t.chart[k]) + ", \"from\": " +
+    return "  {\"contact\": " + contact_text(features, boundary.patches.contact(t.patch[k])) + ", \"chart\": " + std::to_string(t.chart[k]) + ", \"from\": " +
            end(t.from_first[k], t.from_second[k], t.from_lo[k], t.from_hi[k], t.from_place[k]) + ", \"to\": " +
            end(t.to_first[k], t.to_second[k], t.to_lo[k], t.to_hi[k], t.to_place[k]) + ", \"lower\": " + name(t.lower[k]) + ", \"upper\": " +
            name(t.upper[k]) + "}";
@@ -171,11 +213,13 @@ void write_answer(const World& world, Reply& reply) {
     const World::Answer& answer = *world.answer;
     reply.text("scene", scene_text(world.shapes));
     if (const auto* proof = std::get_if<Separation>(&answer.found)) return reply.text("answer", separation_text(world, answer, *proof));
-    if (!answer.slides.empty()) throw std::invalid_argument("this path slides along two contacts; `cfree plan` writes such paths");
     const Poses& way = std::get<Poses>(answer.found);
     std::vector<std::string> motions;
     double theta = way.front().place().theta;
-    for (std::size_t k = 1; k < way.size(); ++k) motions.push_back(motion(way[k - 1], way[k], theta));
+    for (std::size_t k = 1; k < way.size(); ++k) {
+        const auto [slide, is_back] = slide_between(answer.slides, way[k - 1], way[k]);
+        motions.push_back(slide ? motion(world.features, is_back ? reversed(*slide) : *slide, theta) : motion(way[k - 1], way[k], theta));
+    }
     reply.text("answer", head(world, "path", way.front(), way.back()) + ",\n \"decimals\": \"approximate\",\n \"motions\": " +
                              listed(motions, [](const std::string& text) { return "\n  " + text; }, ",") + "}\n");
 }

@@ -56,15 +56,6 @@ Place along(const ContactSlide& slide, double t, double theta) {
     return {from.x + at(slide.x) / d, from.y + at(slide.y) / d, theta + 2 * arc_tangent(t)};
 }
 
-// The slide from one pose to another, and whether it is taken backwards.
-std::pair<const ContactSlide*, bool> slide_between(const std::vector<ContactSlide>& slides, const RationalPose& a, const RationalPose& b) {
-    for (const auto& slide : slides) {
-        if (slide.from == a && slide.to == b) return {&slide, false};
-        if (slide.from == b && slide.to == a) return {&slide, true};
-    }
-    return {nullptr, false};
-}
-
 // Throws std::logic_error where a motion is not free.
 void check(const World& world, const Poses& way, const std::vector<ContactSlide>& slides) {
     for (std::size_t k = 1; k < way.size(); ++k) {

@@ -41,4 +41,12 @@ void World::need_space() const {
     if (!space) throw std::invalid_argument("the boundary is not computed yet");
 }
 
+std::pair<const ContactSlide*, bool> slide_between(const std::vector<ContactSlide>& slides, const RationalPose& a, const RationalPose& b) {
+    for (const auto& slide : slides) {
+        if (slide.from == a && slide.to == b) return {&slide, false};
+        if (slide.from == b && slide.to == a) return {&slide, true};
+    }
+    return {nullptr, false};
+}
+
 }  // namespace cfree

@@ -44,4 +44,7 @@ public:
     double clearance(const Place& at) const;
 };
 
+// The slide from one pose to another, and whether it is taken backwards.
+std::pair<const ContactSlide*, bool> slide_between(const std::vector<ContactSlide>& slides, const RationalPose& a, const RationalPose& b);
+
 }  // namespace cfree

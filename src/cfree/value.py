@@ -46,9 +46,12 @@ class Value:
 
 
 class Shown:
-    """Base of values that a notebook shows as a picture."""
+    """Base of values that a notebook shows: some as the page, where it can be in a cell; all as a picture."""
 
     __slots__ = ()
+
+    def _repr_mimebundle_(self, **options: Any) -> Any:
+        return import_module("cfree.viewer.notebook").live(self, **options)
 
     def _repr_svg_(self) -> str | None:
         # by name: what draws all kinds of values imports all of them

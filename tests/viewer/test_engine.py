@@ -8,7 +8,7 @@ import shutil
 import subprocess
 from fractions import Fraction
 from importlib.resources import files
-from itertools import pairwise
+from itertools import pairwise, permutations
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ import numpy as np
 import pytest
 
 import cfree
+from cfree import verify
 from cfree.collision.distance import EdgeDistances
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
@@ -84,6 +85,23 @@ def test_paths_of_the_page_are_free(name: str) -> None:
         motions = [cfree.motion_between(a, b) for a, b in pairwise(poses)]
         path = cfree.Path(poses[0], motions)
         assert (path.start, path.goal) == (scene.start, scene.goal) and path.is_free(cfree.MotionChecker(scene))
+
+
+@pytest.mark.parametrize("ends", list(permutations([Pose(-7, 1), Pose(0, "1.5", "45deg")])))
+def test_written_paths_slide_along_two_contacts(ends: tuple[Pose, Pose], tmp_path: Path) -> None:
+    square, junction = (
+        [(-1, -1), (1, -1), (1, 1), (-1, 1)],
+        [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)],
+    )
+    scene = cfree.Scene(square, [], workspace=junction)
+    said = [f"{q.x} {q.y} {q.tau}" for q in ends]
+    _, _, written = asked(["open", scene_text(scene)], ["plan", *said], ["written"])
+    (tmp_path / "answer.json").write_text(
+        written["answer"].replace("{sha256}", hashlib.sha256(written["scene"].encode()).hexdigest())
+    )
+    path = cfree.load(tmp_path / "answer.json")
+    assert isinstance(path, cfree.Path) and any(isinstance(motion, cfree.Slide) for motion in path.motions)
+    assert (path.start, path.goal) == ends and verify.answer(scene, path).verified
 
 
 def test_contact_is_reached_exactly() -> None:

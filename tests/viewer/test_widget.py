@@ -46,6 +46,19 @@ def test_what_is_shown_is_read_back() -> None:
     assert len(cfree.widget(scene, path).poses.splitlines()) == len(path.poses)
 
 
+def test_values_display_themselves_as_the_page_and_as_a_picture() -> None:
+    scene = scene_of()
+    live, picture = "application/vnd.jupyter.widget-view+json", "image/svg+xml"
+    formatter = pytest.importorskip("IPython.core.formatters").DisplayFormatter()
+    for value in (scene, cfree.boundary(scene), cfree.free_space(cfree.boundary(scene)), cfree.plan(scene)):
+        assert {live, picture} <= set(formatter.format(value)[0])
+    many = cfree.Scene(ROBOT, [[(x, y), (x + 1, y), (x, y + 1)] for x in range(0, 290, 5) for y in range(0, 290, 5)])
+    unknown = cfree.Path(scene.start, cfree.plan(scene).motions)
+    for value in (scene.robot[0], many, unknown):
+        shown = set(formatter.format(value)[0])
+        assert picture in shown and live not in shown
+
+
 def test_what_is_dragged_is_read_back_exactly() -> None:
     widget = cfree.widget(scene_of())
     seen: list[Any] = []

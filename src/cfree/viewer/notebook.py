@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Any
 
 from cfree.arguments import checked
@@ -10,6 +11,8 @@ from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
+
+MOST_VERTICES = 10_000  # of a scene that a value shows by itself in the page: more are too slow for a glance
 
 
 @checked
@@ -44,9 +47,24 @@ def widget(
     """
     from cfree.viewer.widget import Widget
 
-    if isinstance(value, Path | Separated):
-        if value.scene is None:
-            raise ValueError("this answer was read from a file, without its scene; give widget(scene, answer)")
-        return Widget(value.scene, value if answer is None else answer)
-    boundary = value.boundary if isinstance(value, FreeSpace) else value
-    return Widget(boundary.scene if isinstance(boundary, Boundary) else boundary, answer)
+    scene = _scene(value)
+    if scene is None:
+        raise ValueError("this answer was read from a file, without its scene; give widget(scene, answer)")
+    return Widget(scene, value if answer is None and isinstance(value, Path | Separated) else answer)
+
+
+def live(value: object, **options: Any) -> Any:
+    """What a notebook displays of a value: the widget and its picture; None if the picture alone is to be shown."""
+    if not isinstance(value, Scene | Boundary | FreeSpace | Path | Separated) or find_spec("anywidget") is None:
+        return None
+    scene = _scene(value)
+    if scene is None or sum(map(len, (*scene.robot, *scene.obstacles))) > MOST_VERTICES:
+        return None
+    return widget(value)._repr_mimebundle_(**options)
+
+
+def _scene(value: Scene | Boundary | FreeSpace | Path | Separated) -> Scene | None:
+    """Which scene a value is about; nothing if it is an answer from a file."""
+    if isinstance(value, FreeSpace):
+        return value.boundary.scene
+    return value if isinstance(value, Scene) else value.scene
