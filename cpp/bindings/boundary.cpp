@@ -3,8 +3,10 @@
 
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/function.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
 #include "cfree/forbidden/consistency.hpp"
@@ -92,7 +94,7 @@ static void bind_tally(nb::module_& m) {
 
 // watch(share) is asked ten times a second whether to go on; what it raises ends the call.
 static SharedBoundary computed(const std::shared_ptr<const cfree::Scene>& scene, int threads, bool regularized,
-                               const nb::typed<nb::callable, bool(double)>& watch) {
+                               const nb::typed<nb::callable, bool(double)>& watch, std::optional<std::vector<int>> features) {
     Raised raised;
     const auto ask = [&](double share) {
         const nb::gil_scoped_acquire lock;
@@ -106,7 +108,7 @@ static SharedBoundary computed(const std::shared_ptr<const cfree::Scene>& scene,
     };
     try {
         const nb::gil_scoped_release release;
-        return cfree::compute_boundary(scene, {threads, regularized, ask});
+        return cfree::compute_boundary(scene, {threads, regularized, ask, std::move(features)});
     } catch (const cfree::Stopped&) {
     }
     raised.rethrow();
@@ -143,7 +145,7 @@ void bind_boundary(nb::module_& m) {
         .def_ro("tally", &Boundary::tally)
         .def("root", &root, "contact"_a, "chart"_a, "first"_a, "second"_a, "lo"_a, "hi"_a, "place"_a)
         .def("angle_ranks", &angle_ranks);
-    m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a);
+    m.def("compute_boundary", &computed, "scene"_a, "threads"_a, "regularized"_a, "watch"_a, "features"_a = nb::none());
     m.def("may_have_slits", [](const cfree::Scene& scene) { return cfree::may_have_slits(scene); }, "scene"_a);
     m.def("misfit", [](const Boundary& b, int threads) { return watched([&] { return cfree::misfit(b, threads); }); },
           "boundary"_a, "threads"_a);

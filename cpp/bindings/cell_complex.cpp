@@ -28,6 +28,9 @@ void bind_cell_complex(nb::module_& m) {
     m.def("glue", [](const cfree::SharedBoundary& boundary, int threads) {
         return watched([&] { return cfree::glue(boundary, threads); });
     }, "boundary"_a, "threads"_a);
+    m.def("glue_own", [](const cfree::SharedBoundary& boundary, const Column<char>& own, int threads) {
+        return watched([&] { return cfree::glue_own(boundary, vector_of(own), threads); });
+    }, "boundary"_a, "own"_a, "threads"_a);
 
     nb::class_<Mesh> mesh(m, "Mesh");
     rows<3>(mesh, "xyz", &Mesh::xyz);

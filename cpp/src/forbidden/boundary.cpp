@@ -29,15 +29,17 @@ namespace {
 // All patches of a scene, one after another, by any number of threads.
 class Trimming {
 public:
-    Trimming(const Scene& scene, bool regularized)
-        : one(scene, regularized), trimmed(one.patches.size(), 0), found(one.first_patch.size() - 1), found_thin(found.size()) {}
+    Trimming(const Scene& scene, bool regularized, const std::optional<std::vector<Index>>& features)
+        : one(scene, regularized), chosen(features), trimmed(one.patches.size(), 0), found(one.first_patch.size() - 1),
+          found_thin(found.size()) {}
 
     // What one thread does: all patches of one obstacle feature after another.
     void run(const std::atomic<bool>& stop) {
         Tally mine;
         Shadows near = one.shadows();
-        const auto count = static_cast<Index>(found.size());
-        for (Index j = next++; j < count && !stop; j = next++) {
+        const auto count = static_cast<Index>(chosen ? chosen->size() : found.size());
+        for (Index n = next++; n < count && !stop; n = next++) {
+            const Index j = chosen ? (*chosen)[n] : n;
             if (one.first_patch[j] == one.first_patch[j + 1]) continue;
             one.pillars_near(j, near);
             try {
@@ -57,6 +59,7 @@ public:
 
 private:
     PatchTrimming one;
+    const std::optional<std::vector<Index>>& chosen;
     std::atomic<Index> next{0};
     std::atomic<std::int64_t> done{0};
     std::mutex mutex;
@@ -115,7 +118,7 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     auto start = Clock::now();
     const auto lap = [&] { return std::chrono::duration<double>(Clock::now() - std::exchange(start, Clock::now())).count(); };
     const Scene& scene = shared->near();
-    Trimming work(scene, task.regularized);
+    Trimming work(scene, task.regularized, task.features);
     std::atomic<bool> stop{false}, cancelled{false};
     const auto ask = [&] {
         const Wish wish = task.watch(work.share());
@@ -135,11 +138,13 @@ SharedBoundary compute_boundary(const std::shared_ptr<const Scene>& shared, cons
     gather(work.found, trapezoids), gather(work.found_thin, thin);
     tally.collect_seconds = lap();
     IsolatedParts isolated;
-    if (work.is_complete() && !task.regularized)
+    if (work.is_complete() && !task.regularized && !task.features)
         isolated = isolated_parts(scene, work.patches, trapezoids, thin, task.threads, cancelled);
     heed_stop();
-    use_names(scene, trapezoids.features());
-    use_names(scene, isolated.parts.features());
+    if (!task.features) {
+        use_names(scene, trapezoids.features());
+        use_names(scene, isolated.parts.features());
+    }
     tally.isolated_seconds = lap();
     return std::make_shared<const Boundary>(shared, std::move(work.patches), std::move(work.trimmed), std::move(trapezoids),
                                             std::move(isolated), tally);

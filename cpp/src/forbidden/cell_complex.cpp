@@ -29,11 +29,11 @@ public:
         : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), faces(std::move(trapezoid_of)),
           threads(t) {}
 
-    // Of parts of faces.
-    CellComplex run(std::vector<Parts>&& lists) {
+    // Of parts of faces; components of some.
+    CellComplex run(std::vector<Parts>&& lists, const std::vector<char>* own = nullptr) {
         make_loops(std::move(lists));
         find_vertices();
-        find_components();
+        find_components(own);
         return std::move(result);
     }
 
@@ -47,7 +47,7 @@ private:
     void make_loops(std::vector<Parts>&& lists);
     void find_vertices();
     void place_vertex(Index vertex, Index h);
-    void find_components();
+    void find_components(const std::vector<char>* own);
 
     const Scene& scene;
     const Patches& patches;
@@ -159,11 +159,12 @@ void Assembly::place_vertex(Index vertex, Index h) {
     result.theta[vertex] = theta_of(chart, tau);
 }
 
-void Assembly::find_components() {
+void Assembly::find_components(const std::vector<char>* own) {
     result.component.assign(faces.size(), -1);
+    const auto is_other = [&](Index f) { return own && !(*own)[f]; };
     std::vector<Index> stack;
     for (Index f = 0; f < static_cast<Index>(faces.size()); ++f) {
-        if (result.component[f] >= 0) continue;
+        if (result.component[f] >= 0 || is_other(f)) continue;
         heed_stop();
         result.component[f] = result.components;
         stack.push_back(f);
@@ -173,7 +174,7 @@ void Assembly::find_components() {
             for (Index h = result.first[g]; h < result.first[g + 1]; ++h) {
                 if (result.twin[h] < 0) continue;
                 const Index neighbour = result.face[result.twin[h]];
-                if (result.component[neighbour] >= 0) continue;
+                if (result.component[neighbour] >= 0 || is_other(neighbour)) continue;
                 result.component[neighbour] = result.components;
                 stack.push_back(neighbour);
             }
@@ -272,6 +273,16 @@ GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, con
     const auto part = std::make_shared<const Boundary>(boundary->scene, boundary->patches, boundary->trimmed, std::move(rows),
                                                        IsolatedParts{});
     return {shared(Assembly(*boundary, std::vector(faces), 1).run(std::move(lists)), part), std::move(faces), std::move(missing)};
+}
+
+std::shared_ptr<const CellComplex> glue_own(const SharedBoundary& boundary, const std::vector<char>& own, int threads) {
+    std::vector<Index> all(own.size());
+    std::iota(all.begin(), all.end(), 0);
+    std::vector<Parts> lists = matched_sides(*boundary, own, threads);
+    for (const Parts& list : lists)
+        for (Index k = 0; k < list.size(); ++k)
+            if (list.twin[k] < 0 && own[list.trapezoid[k]]) fail_alone(list.trapezoid[k]);
+    return shared(Assembly(*boundary, std::move(all), threads).run(std::move(lists), &own), boundary);
 }
 
 std::vector<std::vector<Index>> pinched(const CellComplex& cells) {

@@ -134,8 +134,9 @@ std::vector<Index> place_orders(const Points& points) {
     return place;
 }
 
-Shape finished(Builder&& from, int shift) {
+Shape finished(Builder&& from, int shift, const Rounded& before) {
     Shape s;
+    s.rounded = before.once, s.rounded_twice = before.twice;
     Points points(std::move(from.x), std::move(from.y));
     s.ring_vertices = static_cast<Index>(from.next.size());
     s.v.resize(from.next.size()), s.w = from.next;
@@ -186,16 +187,15 @@ Shape finished(Builder&& from, int shift) {
     return s;
 }
 
-// What the robot must stay out of: a frame around the workspace, thicker than the robot, and its holes.
-void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obstacles, const std::vector<Int>& bounds) {
+// What the robot must stay out of: a frame around the workspace and all else, thicker than the robot, and its holes.
+void add_workspace(const Polygon& workspace, const Builder& robot, Builder& obstacles, const std::optional<Box>& others) {
     const Int factor = obstacles.scale / workspace.denominator;
     std::vector<Int> x, y;
     for (Index k = 0; k < workspace.vertices.size(); ++k)
         x.push_back(workspace.vertices.X[k] * factor), y.push_back(workspace.vertices.Y[k] * factor);
     const Points corners(x, y);
     Box around = box_of(x, y);
-    for (Index k = 0; k < obstacles.count(); ++k) around.add(obstacles.x[k], obstacles.y[k]);
-    for (std::size_t k = 0; k < bounds.size(); k += 2) around.add(bounds[k], bounds[k + 1]);
+    if (others) around.add(others->x0, others->y0), around.add(others->x1, others->y1);
     const Box size = box_of(robot.x, robot.y);
     const Int thickness = 1 + 2 * (abs(size.x0) + abs(size.y0) + abs(size.x1) + abs(size.y1));
     const Points frame = rectangle(around.x0 - thickness, around.y0 - thickness, around.x1 + thickness, around.y1 + thickness);
@@ -230,11 +230,10 @@ void add_bounds(Builder& robot, Builder& obstacles, const std::vector<Int>& inne
     }
 }
 
-Int widest_of(const Builder& shape, const Vec<Int>& from) {
+Int widest_of(const Box& box, const Vec<Int>& from) {
     Int widest = 0;
-    for (Index k = 0; k < shape.count(); ++k)
-        for (const Int& size : {Int(abs(shape.x[k] - from.x)), Int(abs(shape.y[k] - from.y))})
-            if (size > widest) widest = size;
+    for (const Int& size : {Int(abs(box.x0 - from.x)), Int(abs(box.x1 - from.x)), Int(abs(box.y0 - from.y)), Int(abs(box.y1 - from.y))})
+        if (size > widest) widest = size;
     return widest;
 }
 
@@ -243,15 +242,13 @@ int shift_of(const Int& widest) {
 }
 
 // The middle of vertices that are far away, in whole units of the user where these are small; else 0.
-Vec<Int> place_near(const Builder& shape) {
-    if (shape.x.empty()) return {0, 0};
-    const Box box = box_of(shape.x, shape.y);
+Vec<Int> place_near(const Box& box, const Int& scale) {
     const Int size = std::max(Int(box.x1 - box.x0), Int(box.y1 - box.y0));
     Int widest = 0;
     for (const Int* c : {&box.x0, &box.y0, &box.x1, &box.y1})
         if (abs(*c) > widest) widest = abs(*c);
     if (widest <= far * size) return {0, 0};
-    const Int unit = size > shape.scale ? shape.scale : Int(1);
+    const Int unit = size > scale ? scale : Int(1);
     return {floor_divide(box.x0 + box.x1, 2 * unit) * unit, floor_divide(box.y0 + box.y1, 2 * unit) * unit};
 }
 
@@ -263,10 +260,26 @@ Int floor_divide(const Int& n, const Int& d) {
     return rest.sign() < 0 ? Int(q - 1) : q;
 }
 
-SceneFeatures scene_features(const SceneShapes& shapes) {
+void WholeScene::add(const Polygon& polygon) {
+    if (scale % polygon.denominator != 0) {
+        const Int more = lcm(scale, polygon.denominator) / scale;
+        scale *= more;
+        if (box)
+            for (Int& c : *box) c *= more;
+    }
+    const Int factor = scale / polygon.denominator;
+    for (Index k = 0; k < polygon.offsets[1]; ++k) {
+        const Int x = polygon.vertices.X[k] * factor, y = polygon.vertices.Y[k] * factor;
+        if (!box) box = {x, y, x, y};
+        auto& [x0, y0, x1, y1] = *box;
+        x0 = std::min(x0, x), y0 = std::min(y0, y), x1 = std::max(x1, x), y1 = std::max(y1, y);
+    }
+}
+
+SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole) {
     SceneFeatures result;
     result.shapes = shapes;
-    Int scale = 1;  // the common denominator
+    Int scale = whole.scale;  // the common denominator
     const auto include = [&](const Int& denominator) {
         if (scale % denominator != 0) scale = lcm(scale, denominator);
     };
@@ -285,15 +298,25 @@ SceneFeatures scene_features(const SceneShapes& shapes) {
         robot.add_polygon(*shapes.robot[k], static_cast<Index>(k), true, own);
     for (std::size_t k = 0; k < shapes.obstacles.size(); ++k)
         obstacles.add_polygon(*shapes.obstacles[k], static_cast<Index>(k), true, own);
-    if (shapes.workspace) add_workspace(*shapes.workspace, robot, obstacles, bounds);
+    std::optional<Box> given;  // around all obstacles of the whole, and bounds
+    const auto give = [&](const Int& x, const Int& y) { given ? given->add(x, y) : void(given = Box{x, y, x, y}); };
+    if (whole.box) {
+        const Int more = scale / whole.scale;
+        const auto& [x0, y0, x1, y1] = *whole.box;
+        give(x0 * more, y0 * more), give(x1 * more, y1 * more);
+    }
+    const auto give_all = [&] { for (Index k = 0; k < obstacles.count(); ++k) give(obstacles.x[k], obstacles.y[k]); };
+    give_all();
+    for (std::size_t k = 0; k < bounds.size(); k += 2) give(bounds[k], bounds[k + 1]);
+    if (shapes.workspace) add_workspace(*shapes.workspace, robot, obstacles, given);
     if (shapes.workspace || shapes.bounds) {
+        give_all();
         Int reach_x = 0, reach_y = 0;
         for (Index k = 0; k < robot.count(); ++k) {
             if (abs(robot.x[k]) > reach_x) reach_x = abs(robot.x[k]);
             if (abs(robot.y[k]) > reach_y) reach_y = abs(robot.y[k]);
         }
-        Box outer = obstacles.x.empty() ? Box{bounds[0], bounds[1], bounds[0], bounds[1]} : box_of(obstacles.x, obstacles.y);
-        for (std::size_t k = 0; k < bounds.size(); k += 2) outer.add(bounds[k], bounds[k + 1]);
+        Box outer = *given;
         // so that doubles see the difference
         const Int reach = 1 + reach_x + reach_y + std::max(Int(outer.x1 - outer.x0), Int(outer.y1 - outer.y0)) / 8;
         outer = {outer.x0 - reach, outer.y0 - reach, outer.x1 + reach, outer.y1 + reach};
@@ -301,12 +324,15 @@ SceneFeatures scene_features(const SceneShapes& shapes) {
                       nearest(outer.y1, scale)};
         if (shapes.bounds) add_bounds(robot, obstacles, bounds, outer);
     }
-    const Vec<Int> zero{0, 0}, robot_origin = place_near(robot), obstacle_origin = place_near(obstacles);
-    const int shift = shift_of(std::max(widest_of(robot, zero), widest_of(obstacles, zero)));
-    const int near_shift = shift_of(std::max(widest_of(robot, robot_origin), widest_of(obstacles, obstacle_origin)));
+    give_all();
+    const Box moving = box_of(robot.x, robot.y), still = given.value_or(Box{0, 0, 0, 0});
+    const Vec<Int> zero{0, 0}, robot_origin = place_near(moving, scale), obstacle_origin = place_near(still, scale);
+    const int shift = shift_of(std::max(widest_of(moving, zero), widest_of(still, zero)));
+    const int near_shift = shift_of(std::max(widest_of(moving, robot_origin), widest_of(still, obstacle_origin)));
     result.robot = std::move(robot.owners), result.obstacles = std::move(obstacles.owners);
-    Scene scene{finished(std::move(robot), shift), finished(std::move(obstacles), shift), scale, shift, result.rim.has_value(), {}, nullptr};
-    result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift);
+    Scene scene{finished(std::move(robot), shift, {}), finished(std::move(obstacles), shift, whole.rounded), scale, shift,
+                result.rim.has_value(), {}, nullptr};
+    result.scene = scene_around(std::move(scene), robot_origin, obstacle_origin, near_shift, whole.near_rounded);
     return result;
 }
 

@@ -10,7 +10,6 @@ namespace cfree {
 
 void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift, const Int& scale) {
     X = std::move(exact_x), Y = std::move(exact_y);
-    rounded = rounded_twice = false;
     const auto convert = [&](const std::vector<Int>& exact, std::vector<double>& high, std::vector<double>& low) {
         high.clear(), low.clear();
         for (const Int& c : exact) {
@@ -26,11 +25,12 @@ void Shape::set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, 
 }
 
 std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
-                                          int near_shift) {
+                                          int near_shift, const Rounded& near_rounded) {
     const auto is_zero = [](const Vec<Int>& p) { return p.x.is_zero() && p.y.is_zero(); };
     if (is_zero(robot_origin) && is_zero(obstacle_origin) && near_shift == scene.shift)
         return std::make_shared<const Scene>(std::move(scene));
-    const auto around = [&](Shape shape, const Vec<Int>& origin) {
+    const auto around = [&](Shape shape, const Vec<Int>& origin, const Rounded& before) {
+        shape.rounded = before.once, shape.rounded_twice = before.twice;
         for (Int& c : shape.X) c -= origin.x;
         for (Int& c : shape.Y) c -= origin.y;
         shape.set_coordinates(std::move(shape.X), std::move(shape.Y), near_shift, scene.scale);
@@ -38,7 +38,7 @@ std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_ori
     };
     scene.frame = {ratio(obstacle_origin.x, scene.scale), ratio(obstacle_origin.y, scene.scale),
                    ratio(robot_origin.x, scene.scale), ratio(robot_origin.y, scene.scale)};
-    Scene moved{around(scene.robot, robot_origin), around(scene.obstacles, obstacle_origin), scene.scale, near_shift,
+    Scene moved{around(scene.robot, robot_origin, {}), around(scene.obstacles, obstacle_origin, near_rounded), scene.scale, near_shift,
                 scene.is_bounded, scene.frame, nullptr};
     scene.moved = std::make_shared<const Scene>(std::move(moved));
     return std::make_shared<const Scene>(std::move(scene));

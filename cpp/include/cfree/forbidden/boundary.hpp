@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "cfree/forbidden/angle_table.hpp"
@@ -62,6 +63,9 @@ struct Task {
     int threads = 1;
     bool regularized = false;           // without slits, surfaces that coincide with opposite sides
     std::function<Wish(double)> watch;  // asked ten times a second, with the share that is done
+    // Of a part of a scene: the obstacle features, vertices of rings and the edges that start there, whose patches are trimmed. No
+    // isolated parts are looked for then, and curves keep the names under which they were found, which depend on what is near.
+    std::optional<std::vector<Index>> features = {};
 };
 
 // Throws Stopped if cancelled.

@@ -37,4 +37,8 @@ struct GluedPart {
 };
 GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, const std::vector<Index>& seeds, Index target = -1);
 
+// Some trapezoids of a part of a boundary, with all others that their sides and ends meet: sides of those alone may be without twin.
+// Components are of the own ones, joined over sides that two of them share; of others it is -1.
+std::shared_ptr<const CellComplex> glue_own(const SharedBoundary& boundary, const std::vector<char>& own, int threads = 1);
+
 }  // namespace cfree

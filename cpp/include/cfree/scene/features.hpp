@@ -24,6 +24,15 @@ struct SceneShapes {
     std::optional<std::array<Ratio, 4>> bounds;       // xmin, ymin, xmax, ymax: the reference point stays in them
 };
 
+// What the features of a part of a scene need to know of the whole, so that all parts have the numbers of the whole.
+struct WholeScene {
+    Int scale = 1;                          // the common denominator
+    std::optional<std::array<Int, 4>> box;  // of its obstacles, times the denominator: xmin, ymin, xmax, ymax
+    Rounded rounded, near_rounded;          // of the scene, and of the scene that is near
+    // One obstacle more.
+    void add(const Polygon& polygon);
+};
+
 inline constexpr Index body_layer = 0, reference_layer = 1;
 inline constexpr Index bounds_owner = -1, workspace_owner = -2;  // in place of polygons of the user's robot or obstacles
 
@@ -38,7 +47,7 @@ struct SceneFeatures {
     Owners robot, obstacles;
     std::optional<std::array<double, 4>> rim;  // around all patches, if bounds or a workspace are given
 };
-SceneFeatures scene_features(const SceneShapes& shapes);
+SceneFeatures scene_features(const SceneShapes& shapes, const WholeScene& whole = {});
 
 Int floor_divide(const Int& n, const Int& d);  // d > 0
 

@@ -36,8 +36,8 @@ struct Shape {
     bool has_extent(Index e) const { return v[e] != w[e]; }  // or is the ring a single point
     // Vertices in the user's units, correctly rounded: x0, y0, x1, ...
     std::vector<double> xy;
-    // Sets X and Y and what is derived from them. Both shapes of a scene have the same scale, integers in a unit, and shift: 0,
-    // or enough to keep products of four doubles finite.
+    // Sets X and Y and what is derived from them; what is said to be rounded stays so. Both shapes of a scene have the same scale,
+    // integers in a unit, and shift: 0, or enough to keep products of four doubles finite.
     void set_coordinates(std::vector<Int> exact_x, std::vector<Int> exact_y, int shift = 0, const Int& scale = 1);
 };
 
@@ -66,9 +66,14 @@ private:
     std::array<std::vector<Index>, 2> vertices, edges;  // of obstacles, of the robot
 };
 
+// Whether coordinates of obstacles that are not there are rounded as well.
+struct Rounded {
+    bool once = false, twice = false;
+};
+
 // Measured from the two origins as well, in the scene's integers, with a shift for coordinates from there.
 std::shared_ptr<const Scene> scene_around(Scene scene, const Vec<Int>& robot_origin, const Vec<Int>& obstacle_origin,
-                                          int near_shift);
+                                          int near_shift, const Rounded& near_rounded = {});
 
 template <class T>
 Vec<T> difference(const Shape& s, Index p, Index q);  // vertex p minus vertex q
