@@ -3,6 +3,7 @@
 import copy
 import inspect
 import pickle
+import tempfile
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -84,6 +85,7 @@ def samples(x: int) -> dict[str, Any]:
         "Rotation": Rotation((x, 0), "30deg"),
         "Scene": scene,
         "Separated": separated,
+        "Sharded": cfree.distributed.boundary(scene, folder=tempfile.mkdtemp(), tile=x),
         "Slice": boundary.slice({"tau": step}),
         "Slide": cfree.Slide((TOUCH, TOUCH), [0, 0, x], [0, 2], [1, 0, 1], 1),
         "Surd": Surd(1, step, 2),

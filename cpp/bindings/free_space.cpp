@@ -2,6 +2,7 @@
 #include "cfree/free/cell_facts.hpp"
 
 #include <nanobind/stl/array.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
@@ -51,8 +52,32 @@ static void bind_surfaces(nb::module_& m) {
     column(surfaces, "lift", &Surfaces::lift);
 }
 
+static void bind_location(nb::module_& m) {
+    using cfree::PointLocation;
+    using Found = std::tuple<int, nb::int_, nb::int_, bool>;
+    nb::class_<PointLocation>(m, "PointLocation")
+        .def("__init__", [](PointLocation* x, const cfree::SharedBoundary& boundary) {
+            new (x) PointLocation(boundary, std::vector<cfree::Index>(boundary->trapezoids.size(), 0));
+        }, "boundary"_a)
+        .def("pose_on", [](const PointLocation& x, int trapezoid, int attempt) {
+            using Answer = std::optional<std::tuple<std::tuple<nb::int_, nb::int_, nb::int_, nb::int_, nb::int_>, int, bool>>;
+            const auto found = x.pose_on(trapezoid, attempt);
+            if (!found) return Answer();
+            const auto& q = found->first;
+            return Answer({{integer(q.X), integer(q.Y), integer(q.W), integer(q.p), integer(q.r)}, q.chart, found->second});
+        }, "trapezoid"_a, "attempt"_a)
+        .def("crossings", [](const PointLocation& x, const PoseIntegers& pose, int chart, int own) -> std::optional<std::vector<Found>> {
+            const auto found = x.crossings(pose_of(pose, chart), own);
+            if (!found) return {};
+            std::vector<Found> all;
+            for (const auto& c : *found) all.emplace_back(c.trapezoid, integer(c.n), integer(c.d), c.is_free_before);
+            return all;
+        }, "pose"_a, "chart"_a, "own"_a);
+}
+
 void bind_free_space(nb::module_& m) {
     bind_surfaces(m);
+    bind_location(m);
     const auto ints = [](const std::vector<int>& values) { return Made<const int>(values.data(), {values.size()}); };
     nb::class_<FreeSpace>(m, "FreeSpace")
         .def("__init__", [](FreeSpace* space, cfree::SharedBoundary boundary, const Surfaces& surfaces) {
@@ -72,5 +97,9 @@ void bind_free_space(nb::module_& m) {
             return space.locate(pose_of(pose, chart));
         }, "pose"_a, "chart"_a)
         .def("locate", &locate, "xy"_a, "chart"_a, "tau"_a, "threads"_a);
+    m.def("turns_of", [](const cfree::CellComplex& cells) {
+        auto found = watched([&] { return cfree::turns_of(cells); });
+        return std::tuple(array_of(std::move(found.turns)), array_of(std::move(found.lift)));
+    }, "cells"_a);
     m.def("free_space", [](const cfree::CellComplex& cells) { return watched([&] { return FreeSpace::of(cells); }); }, "cells"_a);
 }

@@ -278,7 +278,9 @@ GluedPart glue_part(const SharedBoundary& boundary, std::vector<char> whole, con
 std::shared_ptr<const CellComplex> glue_own(const SharedBoundary& boundary, const std::vector<char>& own, int threads) {
     std::vector<Index> all(own.size());
     std::iota(all.begin(), all.end(), 0);
-    std::vector<Parts> lists = matched_sides(*boundary, own, threads);
+    Whole whole;
+    for (const char is_own : own) whole.push_back(is_own ? 1 : 2);
+    std::vector<Parts> lists = matched_sides(*boundary, whole, threads);
     for (const Parts& list : lists)
         for (Index k = 0; k < list.size(); ++k)
             if (list.twin[k] < 0 && own[list.trapezoid[k]]) fail_alone(list.trapezoid[k]);

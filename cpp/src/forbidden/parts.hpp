@@ -39,12 +39,12 @@ private:
 template <class T>
 void free_memory(std::vector<T>& of) { std::vector<T>().swap(of); }
 
-// Of each trapezoid, whether all that its sides meet are there.
+// Of each trapezoid, whether all that its sides meet are there: 0 for no, 1 for yes, 2 where sides are matched as far as they can be.
 using Whole = std::vector<char>;
 
 // What must not be at a trapezoid that is whole; elsewhere something is missing.
 inline void fail_to_glue(const std::string& what, Index trapezoid, const Whole& whole) {
-    if (whole[trapezoid]) throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
+    if (whole[trapezoid] == 1) throw std::logic_error(what + " at trapezoid " + std::to_string(trapezoid));
 }
 
 // Whether a half-edge on that side runs as t or theta do.

@@ -29,26 +29,29 @@ std::vector<Index> depths(const Surfaces& s) {
     return result;
 }
 
-// How often loops on each surface go round in theta, and by how many turns faces are lifted.
-void find_turns(const CellComplex& c, Surfaces& out) {
+}  // namespace
+
+Turns turns_of(const CellComplex& c) {
     const auto& chart = c.boundary->trapezoids.chart;
     const auto leaves = [&](Index h) {  // over theta = 3 pi / 2
         const Index twin = c.twin[h];
         return c.side[h] == static_cast<std::uint8_t>(Side::last) && chart[c.face[h]] == 1 &&
                c.side[twin] == static_cast<std::uint8_t>(Side::first) && chart[c.face[twin]] == 0;
     };
-    out.turns.assign(c.components, 0), out.lift.assign(c.component.size(), 0);
+    Turns out{std::vector<Index>(c.components, 0), std::vector<Index>(c.component.size(), 0)};
     std::vector<char> seen(c.component.size(), 0);
     std::vector<Index> stack;
     for (Index f = 0; f < static_cast<Index>(c.component.size()); ++f) {
-        if (seen[f]) continue;
+        if (seen[f] || c.component[f] < 0) continue;
         seen[f] = 1;
         stack.push_back(f);
         while (!stack.empty()) {
             const Index g = stack.back();
             stack.pop_back();
             for (Index h = c.first[g]; h < c.first[g + 1]; ++h) {
-                const Index next = c.face[c.twin[h]], lift = out.lift[g] + leaves(h) - leaves(c.twin[h]);
+                const Index next = c.face[c.twin[h]];
+                if (c.component[next] < 0) continue;
+                const Index lift = out.lift[g] + leaves(h) - leaves(c.twin[h]);
                 if (!seen[next]) {
                     seen[next] = 1, out.lift[next] = lift;
                     stack.push_back(next);
@@ -59,9 +62,8 @@ void find_turns(const CellComplex& c, Surfaces& out) {
             }
         }
     }
+    return out;
 }
-
-}  // namespace
 
 std::vector<Index> parents(const PointLocation::Nesting& n, bool is_bounded) {
     const auto count = static_cast<Index>(n.free_inside.size());
@@ -107,7 +109,8 @@ std::shared_ptr<const FreeSpace> FreeSpace::of(const CellComplex& cells) {
     PointLocation location(cells.boundary, cells.component);
     auto nesting = location.nesting();
     s.parent = parents(nesting, cells.boundary->scene->is_bounded), s.free_inside = std::move(nesting.free_inside);
-    find_turns(cells, s);
+    Turns turns = turns_of(cells);
+    s.turns = std::move(turns.turns), s.lift = std::move(turns.lift);
     return std::make_shared<const FreeSpace>(cells.boundary, std::move(s), std::move(location));
 }
 

@@ -334,6 +334,25 @@ std::optional<PointLocation::Probe> PointLocation::probe(Index k, int attempt) c
     }
 }
 
+std::optional<std::pair<ExactPose, bool>> PointLocation::pose_on(Index k, int attempt) const {
+    const auto q = probe(k, attempt);
+    if (!q || q->is_level) return {};
+    return std::pair(q->pose, q->rise < 0);
+}
+
+std::optional<std::vector<PointLocation::Crossing>> PointLocation::crossings(const ExactPose& q, Index own) const {
+    const Nearby seen = look(View(q, scene.shift), When::at, own);
+    if (!seen.generic || !seen.on.empty()) return {};
+    const Rotation<Int> R = rotation_by(q.chart, q.p, q.r);
+    std::vector<Crossing> found;
+    for (const Index k : seen.crossed) {
+        const ContactLine<Int> line(scene, surface_of(patches, trapezoids, k).contact, CoreUnits<Int>{});
+        const Vec<Int> P = line.start(R), U = line.direction(R);
+        found.push_back({k, P.x * U.y * q.W + (q.Y * R.w - P.y * q.W) * U.x, U.y * q.W * R.w, U.y.sign() < 0});
+    }
+    return found;
+}
+
 PointLocation::Nesting PointLocation::nesting() const {
     const auto n = static_cast<Index>(component.size());
     const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;

@@ -13,6 +13,13 @@ struct Surfaces {
     std::vector<Index> lift;                // full turns of each trapezoid against the first of its surface, along some path
 };
 
+// How often loops on each component go round in theta, and by how many turns its faces are lifted; over sides that two of its
+// faces share.
+struct Turns {
+    std::vector<Index> turns, lift;
+};
+Turns turns_of(const CellComplex& cells);
+
 class FreeSpace {
 public:
     FreeSpace(SharedBoundary boundary, Surfaces surfaces);

@@ -54,6 +54,18 @@ public:
     // Trapezoids that may hold a pose, as far as heights in doubles tell.
     std::vector<Index> at_height_of(const ExactPose& q) const;
 
+    // Where the line from a pose towards -x, at its orientation, crosses trapezoids but its own: x = n / d in the scene's integers,
+    // and whether space is free to the left of it. Nothing if a critical angle is on it, or the pose on another trapezoid.
+    struct Crossing {
+        Index trapezoid;
+        Int n, d;
+        bool is_free_before;
+    };
+    std::optional<std::vector<Crossing>> crossings(const ExactPose& q, Index own = -1) const;
+    // A pose on a trapezoid, strictly between its angles and its curves, and whether space is free to the left of it; other ones for
+    // other attempts, nothing if there is none for this one.
+    std::optional<std::pair<ExactPose, bool>> pose_on(Index trapezoid, int attempt) const;
+
     // A critical angle as the only root in an interval of a polynomial; an empty one if both ends are it.
     const std::vector<Index>& components() const { return component; }
     // An interval no wider than 2^-bits around the first or last angle of a trapezoid; both ends are it if it is one.

@@ -1,0 +1,225 @@
+"""The boundary and the cells of a scene of any size, tile by tile, into a folder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cfree.arguments import checked
+from cfree.distributed import tasks
+from cfree.distributed.division import Division, divide_scene
+from cfree.distributed.joining import JoinedSurfaces, join
+from cfree.distributed.nesting import Answer, Nesting, Questions, nest
+from cfree.distributed.reading import read_source, source_key
+from cfree.distributed.running import run
+from cfree.distributed.shard import VERSION, is_sound, key_of, read_json, write_json, write_shard
+from cfree.distributed.sharded import Sharded
+from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_scene
+from cfree.distributed.trim import MODULUS
+from cfree.errors import FormatError
+from cfree.scene.scene import Scene
+
+TILE = 20_000
+ROUNDS = 3
+Progress = Callable[[str, int, int], object]
+
+
+@checked
+def boundary(
+    source: Scene | str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
+    *,
+    folder: str | os.PathLike[str],
+    client: Any = None,
+    tile: int = TILE,
+    progress: Callable[..., object] | None = None,
+) -> Sharded:
+    """Trim every contact patch of a scene, tile by tile, and find its cells.
+
+    Parameters
+    ----------
+    source : Scene, path, or sequence of paths
+        Of several files the first is a scene, the others are GeoJSON (also one feature a line), WKT or GeoParquet of
+        more obstacles, which are read one after the other.
+    folder : path
+        Where everything is kept. If it has the unfinished boundary of the same source, that is continued.
+    client : distributed.Client, optional
+        Whose workers see the same folder. Without one the same tasks run here, one after the other.
+    tile : int
+        About how many obstacle vertices a tile has.
+    progress : callable, optional
+        Called with the name of the stage, and how many of how many tiles are done.
+
+    Returns
+    -------
+    Sharded
+        With the same trapezoids for any tiles and workers, and the cells that one process finds.
+
+    Raises
+    ------
+    FormatError
+        If a file cannot be read, or the folder holds something else.
+    TaskError
+        If a tile ends every worker that begins it.
+    OSError
+        If the disk is full: what is finished is kept.
+
+    Notes
+    -----
+    Time is about linear in the vertices, memory of a process in the vertices of a tile; beside that, the process that
+    asks holds about 100 bytes a vertex. Isolated parts, which have no width, are not looked for.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> scene = Scene(robot=[(0, 0), (2, 0), (0, 1)], obstacles=[[(5, 5), (8, 5), (6, 7)], [(9, 9), (9, 8), (12, 8)]])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     found = boundary(scene, folder=folder, tile=3)
+    ...     again = boundary(scene, folder=f"{folder}/whole")
+    >>> found.tiles, again.tiles, found.digest == again.digest, found.cells
+    (2, 1, True, 1)
+    """
+    if client is not None and not hasattr(client, "submit"):
+        raise TypeError(f"client: {client!r} is a {type(client).__name__}; give a distributed.Client or None")
+    if tile < 1:
+        raise ValueError(f"tile: {tile}; give at least 1")
+    return _Build(source, Path(folder), client, tile, progress or (lambda stage, done, of: None)).run()
+
+
+class _Build:
+    """One computation, stage after stage."""
+
+    def __init__(self, source: Any, folder: Path, client: Any, tile: int, progress: Progress) -> None:
+        self.source, self.folder, self.client = source, folder, client
+        self.vertices_a_tile, self.progress = tile, progress
+        self.key = key_of(VERSION, source_key(source), tile)
+
+    def run(self) -> Sharded:
+        self._claim()
+        store = self._stored()
+        division = self._divided(store)
+        if not (self.folder / "manifest.json").exists():
+            self._describe(store, division)
+            counts = self._trim(division)
+            joined, nesting = self._cells(store, division)
+            self._finish(store, division, counts, joined, nesting)
+        return Sharded(self.folder)
+
+    def _claim(self) -> None:
+        """The folder is made, or is that of the same computation."""
+        path = self.folder / "source.json"
+        if path.exists() and (known := read_json(path).get("key")) != self.key:
+            raise FormatError(
+                f"{self.folder}: the folder of another scene, or of other tiles ({known}); give another", path=str(path)
+            )
+        if not path.exists():
+            if self.folder.exists() and any(self.folder.iterdir()):
+                raise FormatError(f"{self.folder}: the folder is not empty; give another", path=str(self.folder))
+            self.folder.mkdir(parents=True, exist_ok=True)
+            write_json(path, {"key": self.key, "version": VERSION})
+
+    def _stored(self) -> SceneStore:
+        """The scene as files; `facts.json` is written last."""
+        place = self.folder / "scene"
+        if (place / "facts.json").exists():
+            return SceneStore(place)
+        self.progress("read", 0, 1)
+        head, obstacles = read_source(self.source)
+        store = store_scene(head, obstacles, place)
+        self.progress("read", 1, 1)
+        return store
+
+    def _divided(self, store: SceneStore) -> Division:
+        place = self.folder / "tiles"
+        if is_sound(place / "division.npz", self.key):
+            return Division.open(place)
+        tiles = max(1, -(-store.vertices // self.vertices_a_tile))
+        return divide_scene(store, tiles, place, self.key)
+
+    def _describe(self, store: SceneStore, division: Division) -> None:
+        """What tasks need to know of all obstacles."""
+        path = self.folder / "plan.json"
+        if path.exists() and read_json(path).get("measured"):
+            return
+        rounded = list(NO_ROUNDING)
+        write_json(path, {"key": self.key, "rounded": rounded})
+        if not is_small(store):
+            for _, found in self._each(tasks.rounding_task, "measure", range(len(division))):
+                rounded = [a or b for a, b in zip(rounded, found, strict=True)]
+        write_json(path, {"key": self.key, "rounded": rounded, "measured": True})
+
+    def _each(self, task: Any, stage: str, tiles: Iterable[int], *more: Any) -> Any:
+        """Results of a task for all tiles."""
+        waiting = list(tiles)
+        self.progress(stage, 0, len(waiting))
+        arguments = [(k, (str(self.folder), self._stamp(), k, *more)) for k in waiting]
+        for done, (number, result) in enumerate(run(task, arguments, self.client), 1):
+            self.progress(stage, done, len(waiting))
+            yield number, result
+
+    def _stamp(self) -> str:
+        return (self.folder / "plan.json").read_text(encoding="utf-8")
+
+    def _trim(self, division: Division) -> dict[str, Any]:
+        tiles = range(len(division))
+        found = dict(self._each(tasks.trim_task, "trim", tiles, False))
+        if any(one["slits"] for one in found.values()):
+            plan = read_json(self.folder / "plan.json")
+            if not plan.get("slits"):
+                write_json(self.folder / "plan.json", plan | {"slits": True})
+            for _ in self._each(tasks.trim_task, "trim again", tiles, True):
+                pass
+        return {
+            "trapezoids": sum(one["trapezoids"] for one in found.values()),
+            "digest": f"{sum(int(one['digest'], 16) for one in found.values()) % MODULUS:064x}",
+        }
+
+    def _glue(self, division: Division) -> dict[int, int]:
+        """Components of each tile; a damaged shard is made again."""
+        for attempt in range(ROUNDS):
+            try:
+                return dict(self._each(tasks.glue_task, "glue", range(len(division))))
+            except FormatError as error:
+                if attempt == ROUNDS - 1 or error.path is None:
+                    raise
+                Path(error.path).unlink(missing_ok=True)
+                self._trim(division)
+        raise AssertionError
+
+    def _cells(self, store: SceneStore, division: Division) -> tuple[JoinedSurfaces, Nesting]:
+        components = self._glue(division)
+        work = tasks.Work(self.folder)
+        joined = join(len(division), lambda tile: work.shard(tasks.GLUED, tile))
+        present = {tile: np.unique(tasks.surfaces_in(joined, tile)) for tile, count in components.items() if count}
+
+        def ask(questions: Questions) -> Iterable[Answer]:
+            asked = [
+                (tile, (str(self.folder), self._stamp(), tile, tasks.surfaces_in(joined, tile), lines))
+                for tile, lines in sorted(questions.items())
+            ]
+            for _, answers in run(tasks.nest_task, asked, self.client):
+                yield from answers
+
+        features = work.store.features([])
+        nesting = nest(joined, present, division.boxes, ask, features.rim is not None, float(features.scale))
+        return joined, nesting
+
+    def _finish(
+        self, store: SceneStore, division: Division, counts: dict[str, Any], joined: JoinedSurfaces, nesting: Nesting
+    ) -> None:
+        outside = -1 if store.features([]).rim is not None else 0
+        own = outside + np.cumsum(nesting.free_inside)
+        around = np.where(nesting.parent >= 0, own[nesting.parent], outside) if len(own) else own
+        cell_of = np.where(nesting.free_inside, own, around).astype(np.int64)
+        arrays = {name: getattr(joined, name) for name in ("faces", "euler", "turns", "surface", "lift", "first")}
+        arrays |= {"parent": nesting.parent, "free_inside": nesting.free_inside, "cell_of": cell_of}
+        write_shard(self.folder / "cells.npz", arrays, self.key)
+        write_json(
+            self.folder / "manifest.json",
+            {"version": VERSION, "key": self.key, "tiles": len(division), "obstacles": len(store)}
+            | {"vertices": store.vertices, "surfaces": len(joined), "cells": int(cell_of.max(initial=outside)) + 1}
+            | counts,
+        )

@@ -1,0 +1,120 @@
+"""How a stored scene is divided into tiles: which features each has, and which obstacles and tiles are near them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.distributed.shard import read_shard, write_shard
+from cfree.distributed.store import SceneStore
+from cfree.distributed.tiles import BoxIndex, divide, merged
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+LISTS = ("features", "obstacles", "neighbours")
+
+
+@dataclass(frozen=True)
+class Division:
+    """Tiles of a scene.
+
+    Attributes
+    ----------
+    folder : Path
+    first : mapping of name to (tiles + 1,) int64
+        Where each tile's part of a list begins: of its features, of the obstacles within reach of them, and of the
+        tiles that have features within reach, itself among them.
+    boxes : (tiles, 4) float64
+        Around the poses of each tile's patches.
+    """
+
+    folder: Path
+    first: dict[str, Ints]
+    boxes: Floats
+
+    def __len__(self) -> int:
+        return len(self.boxes)
+
+    def listed(self, name: str, tile: int) -> Ints:
+        """A tile's part of one of the lists."""
+        begin, end = self.first[name][tile : tile + 2].tolist()
+        if begin == end:
+            return np.zeros(0, np.int64)
+        return np.array(np.memmap(self.folder / f"{name}.bin", np.int64, "r", 8 * begin, (end - begin,)))
+
+    @classmethod
+    def open(cls, folder: Path) -> Division:
+        """As `divide_scene` has written it."""
+        table = read_shard(folder / "division.npz")
+        return cls(folder, {name: table[name] for name in LISTS}, table["boxes"])
+
+
+class Features:
+    """All obstacle features that have patches: vertices of rings, and the edges that start there.
+
+    Those of workspace and bounds are numbered after those of all obstacles.
+    """
+
+    def __init__(self, store: SceneStore) -> None:
+        rest = store.features([]).obstacles
+        self._rings, self._emit = len(rest.previous), np.flatnonzero(rest.core.emit)
+        self._count = store.vertices
+        self._parts = (
+            (store.column("xy"), store.column("next")),
+            (rest.xy[: self._rings], rest.w[: self._rings] + self._count),
+        )
+
+    @property
+    def numbers(self) -> Ints:
+        """Of all of them."""
+        return np.concatenate([np.arange(self._count), self._emit + self._count])
+
+    def points(self, numbers: Ints) -> Floats:
+        """(n, 2) where vertices are, rounded."""
+        own = numbers < self._count
+        xy = np.empty((len(numbers), 2))
+        xy[own], xy[~own] = self._parts[0][0][numbers[own]], self._parts[1][0][numbers[~own] - self._count]
+        return xy
+
+    def boxes(self, numbers: Ints) -> Floats:
+        """(n, 4) boxes around the edges that start at vertices."""
+        own = numbers < self._count
+        after = np.empty(len(numbers), np.int64)
+        after[own], after[~own] = self._parts[0][1][numbers[own]], self._parts[1][1][numbers[~own] - self._count]
+        a, b = self.points(numbers), self.points(after)
+        return np.concatenate([np.minimum(a, b), np.maximum(a, b)], axis=1)
+
+
+def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Division:
+    """Divide a stored scene into about so many tiles."""
+    folder.mkdir(parents=True, exist_ok=True)
+    features = Features(store)
+    numbers = features.numbers
+    number = divide(features.points(numbers), tiles)
+    count = int(number.max(initial=-1)) + 1
+    order = np.argsort(number, kind="stable")
+    sorted_features = numbers[order]
+    starts = np.searchsorted(number[order], np.arange(count + 1))
+    radius = float(np.hypot(*store.features([]).robot.xy.T).max()) * (1 + 1e-9)
+    obstacles, edges = BoxIndex(store.column("box")), []
+    boxes = np.empty((count, 4))
+    lists: dict[str, list[Ints]] = {"obstacles": [], "neighbours": []}
+    for tile in range(count):
+        own = features.boxes(np.sort(sorted_features[starts[tile] : starts[tile + 1]]))
+        boxes[tile] = [*(own[:, :2].min(axis=0) - radius), *(own[:, 2:].max(axis=0) + radius)]
+        edges.append(merged(own))
+        lists["obstacles"].append(obstacles.near(edges[-1], store.reach))
+    tile_of = np.repeat(np.arange(count), [len(e) for e in edges])
+    near = BoxIndex(np.concatenate(edges) if edges else np.zeros((0, 4)))
+    for tile in range(count):
+        lists["neighbours"].append(np.unique(tile_of[near.near(edges[tile], store.reach)]))
+    first = {"features": starts.astype(np.int64)}
+    sorted_features.astype(np.int64).tofile(folder / "features.bin")
+    for name, parts in lists.items():
+        first[name] = np.cumsum([0, *map(len, parts)]).astype(np.int64)
+        np.concatenate([np.zeros(0, np.int64), *parts]).astype(np.int64).tofile(folder / f"{name}.bin")
+    write_shard(folder / "division.npz", first | {"boxes": boxes}, key)
+    return Division.open(folder)

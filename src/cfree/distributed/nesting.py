@@ -1,0 +1,220 @@
+"""Which closed surface is inside which, tile by tile: what a line from each towards -x meets first.
+
+On the line from a pose of a surface towards -x, at its orientation, the last point of the surface has its outside to
+the left. There begins the region that the next surface on the line bounds from the left: it is inside that one, or
+beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+import cfree._core as _core
+from cfree.distributed.joining import JoinedSurfaces
+from cfree.errors import InvariantError
+
+Ints = NDArray[np.int64]
+ATTEMPTS = 64
+NONE = -1
+
+
+@dataclass(frozen=True)
+class Line:
+    """A line towards -x from a pose on a surface: integers X, Y, W, p, r as the core has them, and the chart."""
+
+    pose: tuple[int, int, int, int, int]
+    chart: int
+    is_free_before: bool
+    row: int
+    """The trapezoid that the pose is on, in the tile that gave it."""
+
+    @property
+    def x(self) -> Fraction:
+        return Fraction(self.pose[0], self.pose[2])
+
+    @property
+    def y(self) -> Fraction:
+        return Fraction(self.pose[1], self.pose[2])
+
+
+@dataclass(frozen=True)
+class Crossing:
+    surface: int
+    x: Fraction
+    is_free_before: bool
+
+
+class TileLines:
+    """Lines through the trapezoids of one tile.
+
+    Parameters
+    ----------
+    boundary : _core.Boundary
+        Of the tile's own trapezoids.
+    surface : (n,) int64
+        Of each of them.
+    """
+
+    def __init__(self, boundary: _core.Boundary, surface: Ints) -> None:
+        self._location, self._surface = _core.PointLocation(boundary), surface
+        rows = boundary.trapezoids
+        self._width = rows.to_lo - rows.from_hi
+
+    def line(self, surface: int, attempt: int) -> Line | None:
+        """From a pose of a surface that is in the tile; other ones for other attempts."""
+        own = np.flatnonzero(self._surface == surface)
+        order = own[np.argsort(-self._width[own], kind="stable")]
+        row = int(order[attempt % len(order)])
+        found = self._location.pose_on(row, attempt)
+        return None if found is None else Line(*found, row)
+
+    def crossings(self, line: Line, is_its_own: bool) -> list[Crossing] | None:
+        """What the line crosses here; nothing if that cannot be told for this line."""
+        found = self._location.crossings(line.pose, line.chart, line.row if is_its_own else NONE)
+        if found is None:
+            return None
+        return [Crossing(int(self._surface[row]), Fraction(n, d), free) for row, n, d, free in found]
+
+
+Questions = dict[int, list[tuple[int, int, Line | None]]]
+Answer = tuple[int, Line | None, list[Crossing] | None]
+
+
+@dataclass
+class Nesting:
+    """Of each closed surface the next around it, or -1, and whether space is free just inside it."""
+
+    parent: Ints
+    free_inside: NDArray[np.bool_]
+
+
+@dataclass
+class _Search:
+    """What is known of one surface's line."""
+
+    attempt: int = 0
+    line: Line | None = None
+    done: set[int] = field(default_factory=set)
+    crossed: list[Crossing] = field(default_factory=list)
+
+
+def nest(
+    joined: JoinedSurfaces,
+    present: Mapping[int, Ints],
+    boxes: NDArray[np.float64],
+    ask: Callable[[Questions], Iterable[Answer]],
+    is_bounded: bool,
+    scale: float,
+) -> Nesting:
+    """Nest closed surfaces.
+
+    Parameters
+    ----------
+    joined : JoinedSurfaces
+    present : mapping of tile to surfaces
+        Which are in it.
+    boxes : (tiles, 4) float64
+        Around the poses of each tile's trapezoids, in the user's units.
+    ask : callable
+        Given questions by tile, (surface, attempt, line or None to begin one), the answers: surface, line, and what it
+        crosses in that tile.
+    is_bounded : bool
+        Whether there is no free space far away.
+    scale : float
+        Integers of a line in a unit of the user.
+    """
+    tiles_of: list[list[int]] = [[] for _ in range(len(joined))]
+    for here, surfaces in present.items():
+        for surface in surfaces.tolist():
+            tiles_of[surface].append(here)
+    for tiles in tiles_of:  # one that nothing of the surface is to the left of comes first
+        tiles.sort(key=lambda tile: (boxes[tile, 0], tile))
+    searches = [_Search() for _ in tiles_of]
+    waiting = set(range(len(searches)))
+    settled: dict[int, tuple[Crossing, Crossing | None]] = {}
+    while waiting:
+        questions: Questions = {}
+        for surface in sorted(waiting):
+            search = searches[surface]
+            own = tiles_of[surface]
+            attempt, turn = divmod(search.attempt, len(own))
+            tile: int | None = own[turn]
+            if search.line is not None:
+                tile = _next(search, surface, own, boxes, scale)
+            if tile is None:
+                settled[surface] = _ends(search, surface)
+                waiting.discard(surface)
+                continue
+            search.done.add(tile)
+            questions.setdefault(tile, []).append((surface, attempt, search.line))
+        for surface, line, crossed in ask(questions) if questions else ():
+            search = searches[surface]
+            known = search.crossed + (crossed or [])
+            places = [crossing.x for crossing in known]
+            if line is None or crossed is None or len(set(places)) < len(places) or line.x in places:
+                if search.attempt == ATTEMPTS * len(tiles_of[surface]):
+                    raise InvariantError(f"no line from closed surface {surface} in general position")
+                searches[surface] = _Search(search.attempt + 1)
+            else:
+                search.line, search.crossed = line, known
+    return _nested(settled, is_bounded)
+
+
+def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float64], scale: float) -> int | None:
+    """The tile to ask next: one that the surface is in, or that may hold something nearer than what is known."""
+    assert search.line is not None
+    y, x = float(search.line.y) / scale, float(search.line.x) / scale
+    last, beyond = _ends(search, surface)
+    low, high = boxes[:, 1] <= y, boxes[:, 3] >= y
+    near = low & high & (boxes[:, 0] <= x)
+    near[list(search.done)] = False
+    edge = float(last.x) / scale
+    mine = [tile for tile in own if near[tile] and boxes[tile, 0] <= edge]
+    if mine:
+        return max(mine, key=lambda t: (boxes[t, 2], t))
+    if beyond is not None:
+        near &= boxes[:, 2] >= float(beyond.x) / scale
+    near &= boxes[:, 0] <= edge
+    others = np.flatnonzero(near)
+    return int(others[np.argmax(boxes[others, 2])]) if len(others) else None
+
+
+def _ends(search: _Search, surface: int) -> tuple[Crossing, Crossing | None]:
+    """The last crossing of the surface on its line, as far as known, and what is crossed next."""
+    line = search.line
+    assert line is not None
+    own = [crossing for crossing in search.crossed if crossing.surface == surface]
+    last = min([Crossing(surface, line.x, line.is_free_before), *own], key=lambda c: c.x)
+    others = [c for c in search.crossed if c.surface != surface and c.x < last.x]
+    return last, max(others, key=lambda c: c.x, default=None)
+
+
+def _nested(settled: Mapping[int, tuple[Crossing, Crossing | None]], is_bounded: bool) -> Nesting:
+    count = len(settled)
+    free_inside = np.array([not settled[k][0].is_free_before for k in range(count)], np.bool_)
+    parent = np.full(count, NONE, np.int64)
+    beside = np.full(count, NONE, np.int64)
+    for surface, (last, beyond) in settled.items():
+        if beyond is None:
+            if last.is_free_before == is_bounded:
+                raise InvariantError(f"closed surface {surface} is around nothing, with the wrong side free")
+            continue
+        # to the right of a crossing is what is not to its left
+        if beyond.is_free_before == last.is_free_before:
+            raise InvariantError(f"closed surfaces {surface} and {beyond.surface} have no region between them")
+        inside = last.is_free_before == bool(free_inside[beyond.surface])
+        (parent if inside else beside)[surface] = beyond.surface
+    while np.any(beside >= 0):  # as far out as those that they are beside
+        which = np.flatnonzero(beside >= 0)
+        target = beside[which]
+        ready = beside[target] < 0
+        if not ready.any():
+            raise InvariantError("closed surfaces are beside each other in a circle")
+        parent[which[ready]] = parent[target[ready]]
+        beside[which[ready]] = NONE
+    return Nesting(parent, free_inside)

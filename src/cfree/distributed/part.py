@@ -1,0 +1,93 @@
+"""A part of a scene: some obstacles, with the numbers of their vertices among all."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.distributed.store import SceneStore
+from cfree.scene.features import SceneFeatures, unpacked
+
+Ints = NDArray[np.int64]
+Codes = NDArray[np.uint64]
+NO_EDGE = -1
+ON_VERTEX = (2, 3)  # kinds of features whose obstacle feature is a vertex: e-v and v-v
+
+
+class Part:
+    """Features of some obstacles, and of workspace and bounds, whose vertices come after those of all obstacles.
+
+    Parameters
+    ----------
+    store : SceneStore
+    numbers : (n,) int64
+        Of the obstacles, in order.
+    """
+
+    def __init__(self, store: SceneStore, numbers: Ints) -> None:
+        self.store, self.numbers = store, numbers
+        self.polygons = store.polygons(numbers)
+        self.features: SceneFeatures = store.features(self.polygons)
+
+    @cached_property
+    def vertices(self) -> Ints:
+        """Of each vertex of the part its number among all."""
+        first = self.store.column("first")
+        own = [first[k] + np.arange(len(polygon)) for k, polygon in zip(self.numbers, self.polygons, strict=True)]
+        count = sum(map(len, own))
+        rest = np.arange(len(self.features.obstacles.core.point) - count) + self.store.vertices
+        return np.concatenate([*own, rest]).astype(np.int64)
+
+    @cached_property
+    def edges(self) -> NDArray[np.int64]:
+        """(e, 2) of each edge the numbers of its ends among all."""
+        obstacles = self.features.obstacles
+        return np.stack([self.vertices[obstacles.v], self.vertices[obstacles.w]], axis=1)
+
+    def local(self, vertices: Ints) -> NDArray[np.int32]:
+        """Vertices of all by their numbers in the part."""
+        place = np.searchsorted(self.vertices, vertices)
+        if np.any(self.vertices[np.minimum(place, len(self.vertices) - 1)] != vertices):
+            raise KeyError("a vertex that is not in this part")
+        return place.astype(np.int32)
+
+    def keys(self, codes: Codes) -> NDArray[np.int64]:
+        """(n, 4) features as all parts know them: kind, robot's feature, obstacle's vertex, or the ends of its edge.
+
+        Instead of the second end of an edge, a vertex has `NO_EDGE`; no feature is four zeros.
+        """
+        kind, robot, obstacle = (part.astype(np.int64) for part in unpacked(codes))
+        on_vertex = np.isin(kind, ON_VERTEX)
+        keys = np.zeros((len(codes), 4), np.int64)
+        keys[:, 0], keys[:, 1] = kind, robot
+        keys[on_vertex, 2] = self.vertices[obstacle[on_vertex]]
+        keys[on_vertex, 3] = NO_EDGE
+        keys[~on_vertex, 2:] = self.edges[obstacle[~on_vertex]]
+        keys[kind == 0] = 0
+        return keys
+
+    def codes(self, keys: NDArray[np.int64]) -> Codes:
+        """The same features as the core knows those of this part."""
+        kind, robot, v, w = keys.T
+        obstacle = np.zeros(len(keys), np.int64)
+        there, on_vertex = kind != 0, np.isin(kind, ON_VERTEX)
+        obstacle[on_vertex] = self.local(v[on_vertex])
+        on_edge = there & ~on_vertex
+        obstacle[on_edge] = self._edge_numbers(np.stack([v[on_edge], w[on_edge]], axis=1))
+        packed = kind.astype(np.uint64) << np.uint64(61) | robot.astype(np.uint64) << np.uint64(31)
+        return np.where(there, packed | obstacle.astype(np.uint64), 0).astype(np.uint64)
+
+    def _edge_numbers(self, ends: NDArray[np.int64]) -> Ints:
+        """Edges of the part by their ends."""
+        edges = self.edges
+        order = np.lexsort((edges[:, 1], edges[:, 0]))
+        sought, at = np.unique(ends, axis=0, return_inverse=True)
+        table = edges[order]
+        both = np.concatenate([table, sought])
+        rank = np.unique(both, axis=0, return_inverse=True)[1].reshape(-1)
+        place = np.searchsorted(rank[: len(table)], rank[len(table) :])
+        if np.any(place == len(table)) or np.any(table[np.minimum(place, len(table) - 1)] != sought):
+            raise KeyError("an edge that is not in this part")
+        return order[place][at.reshape(-1)]

@@ -1,0 +1,111 @@
+"""Where scenes for shards come from: a scene, or files that are read one shape after the other."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+from cfree.collector import collection_paused
+from cfree.distributed.shard import key_of
+from cfree.errors import FormatError
+from cfree.formats.findings import Findings
+from cfree.formats.geojson import geojson_shapes
+from cfree.formats.json_text import read_json
+from cfree.formats.scene_file import load_polygons, load_scene
+from cfree.polygons.polygon import Polygon
+from cfree.scene.digest import stamp_of
+from cfree.scene.scene import Scene
+
+PathLike = str | os.PathLike[str]
+Source = Scene | PathLike | Sequence[PathLike]
+LINES = (".geojsonl", ".ndjson", ".jsonl")
+PARQUET = (".parquet", ".geoparquet")
+BLOCK = 1 << 20
+
+
+def files_of(source: Source) -> list[Path]:
+    """The files that a source is, folders replaced by what is in them; none of a scene."""
+    if isinstance(source, Scene):
+        return []
+    given = [source] if isinstance(source, str | os.PathLike) else source
+    found: list[Path] = []
+    for path in map(Path, given):
+        found += sorted(p for p in path.iterdir() if p.is_file() and p.name[0] != ".") if path.is_dir() else [path]
+    if not found:
+        raise FormatError("no files: give a scene, or the file of one followed by files of obstacles")
+    return found
+
+
+def source_key(source: Source) -> str:
+    """A short text that is another one for other shapes."""
+    if isinstance(source, Scene):
+        return key_of("scene", stamp_of(source).sha256)
+    digests = []
+    for path in files_of(source):
+        digest = hashlib.sha256()
+        try:
+            with path.open("rb") as file:
+                while block := file.read(BLOCK):
+                    digest.update(block)
+        except OSError as error:
+            raise FormatError(f"{path}: {error.strerror}", path=str(path)) from error
+        digests.append(digest.hexdigest())
+    return key_of("files", *digests)
+
+
+def read_source(source: Source) -> tuple[Scene, Iterator[Polygon]]:
+    """A scene, and obstacles beside those that it has.
+
+    Parameters
+    ----------
+    source : Scene, path, or sequence of paths
+        The first file is a scene; each other is GeoJSON, WKT, GeoJSON in lines (``.geojsonl``, ``.ndjson``), or
+        GeoParquet, all of whose polygons are obstacles. A folder stands for its files in the order of their names.
+    """
+    if isinstance(source, Scene):
+        return source, iter(())
+    first, *others = files_of(source)
+    return load_scene(first), (polygon for path in others for polygon in _polygons(path))
+
+
+def _polygons(path: Path) -> Iterator[Polygon]:
+    suffix = path.suffix.lower()
+    if suffix in LINES:
+        yield from _in_lines(path)
+    elif suffix in PARQUET:
+        yield from _in_table(path)
+    else:
+        yield from load_polygons(path)
+
+
+def _in_lines(path: Path) -> Iterator[Polygon]:
+    """One GeoJSON object a line; what is wrong is said with the line it is in."""
+    with path.open(encoding="utf-8") as file, collection_paused():
+        for number, line in enumerate(file, 1):
+            text = line.strip("\x1e \t\r\n")
+            if not text:
+                continue
+            findings = Findings(f"{path}:{number}", text)
+            shapes = geojson_shapes(findings, read_json(findings))
+            findings.fail_if_any()
+            for shape in shapes:
+                yield shape.polygon
+
+
+def _in_table(path: Path) -> Iterator[Polygon]:
+    """The column ``geometry`` of a table, as WKB; a group of rows at a time."""
+    try:
+        from pyarrow.parquet import ParquetFile
+    except ImportError as error:
+        message = "GeoParquet needs pyarrow; install it: pip install pyarrow"
+        raise ImportError(message, name="pyarrow") from error
+    import shapely
+
+    with ParquetFile(path) as table:
+        for batch in table.iter_batches(columns=["geometry"]):
+            for value in batch.column(0).to_pylist():
+                if value is not None:
+                    for part in shapely.get_parts(shapely.from_wkb(value)):
+                        yield Polygon(part.exterior.coords[:], [ring.coords[:] for ring in part.interiors])

@@ -1,0 +1,98 @@
+"""Rows of shards put together into a boundary of the core."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+import cfree._core as _core
+from cfree.distributed.part import NO_EDGE, Part
+from cfree.distributed.shard import Shard
+from cfree.distributed.store import SceneStore
+from cfree.distributed.trim import ENDS
+from cfree.forbidden.columns import CODED, COLUMNS
+
+Ints = NDArray[np.int64]
+
+
+@dataclass
+class Rows:
+    """Trapezoids of some tiles, in the order of their features.
+
+    Attributes
+    ----------
+    part : Part
+        With all obstacles that are named.
+    tile, row, feature : (n,) int64
+        Of each trapezoid, where it is from.
+    core : _core.Boundary
+    """
+
+    part: Part
+    tile: Ints
+    row: Ints
+    feature: Ints
+    core: _core.Boundary
+
+
+def gathered(store: SceneStore, shards: Sequence[tuple[int, Shard, NDArray[np.bool_]]]) -> Rows:
+    """Trapezoids of shards, each with its tile's number and the features whose rows are taken.
+
+    Curves have the names of all on their line, as in a boundary that is computed whole.
+    """
+    tables = [_table(tile, shard, chosen) for tile, shard, chosen in shards]
+    columns = {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
+    order = np.lexsort((columns["row"], columns["feature"]))
+    columns = {name: column[order] for name, column in columns.items()}
+    named = np.concatenate([columns[name] for name in CODED])
+    vertices = [columns["feature"], named[:, 2], named[named[:, 3] != NO_EDGE, 3]]
+    # the vertex after each feature's is of the same obstacle
+    numbers = _obstacles_of(store, np.unique(np.concatenate(vertices)))
+    part = Part(store, numbers)
+    distinct, at = np.unique(named, axis=0, return_inverse=True)
+    codes = part.codes(distinct)
+    codes = part.features.core.named(codes)[at.reshape(-1)].reshape(len(CODED), -1)
+    contacts = np.stack([part.local(columns["feature"]), columns["kind"], columns["robot"]], axis=1)
+    patches, patch = np.unique(contacts, axis=0, return_inverse=True)
+    patches = patches.astype(np.int32)
+    values = columns | dict(zip(CODED, codes, strict=True)) | {"patch": patch.reshape(-1).astype(np.int32)}
+    table = _core.Trapezoids(**{name: np.ascontiguousarray(values[name]) for name in COLUMNS})
+    listed = _core.Patches(patches[:, 1].astype(np.uint8), patches[:, 2].copy(), patches[:, 0].copy())
+    trimmed = np.ones(len(patches), np.uint8)
+    core = _core.Boundary(part.features.core, listed, trimmed, table, _no_parts())
+    return Rows(part, columns["tile"], columns["row"], columns["feature"], core)
+
+
+def _table(tile: int, shard: Shard, chosen: NDArray[np.bool_]) -> Shard:
+    """Columns of the rows of some features, their names spelt out."""
+    counts = np.diff(shard["start"])
+    which = np.flatnonzero(np.repeat(chosen, counts))
+    columns = {name: shard[name][which] for name in ("kind", "robot", "chart")}
+    columns |= {"tile": np.full(len(which), tile), "row": which, "feature": np.repeat(shard["feature"], counts)[which]}
+    columns |= {name: shard["keys"][shard[name][which]] for name in ("lower", "upper")}
+    for end in ENDS:
+        angle = shard[end][which]
+        for k, name in enumerate(("first", "second")):
+            columns[f"{end}_{name}"] = shard["keys"][shard["angle_keys"][angle, k]]
+        for k, name in enumerate(("lo", "hi")):
+            columns[f"{end}_{name}"] = shard["angle_tau"][angle, k]
+        columns[f"{end}_place"] = shard["angle_place"][angle]
+    return columns
+
+
+def _obstacles_of(store: SceneStore, vertices: Ints) -> Ints:
+    """Which obstacles have them; those of workspace and bounds are in every part."""
+    own = vertices[vertices < store.vertices]
+    return np.unique(np.searchsorted(store.column("first"), own, side="right") - 1).astype(np.int64)
+
+
+def _no_parts() -> _core.IsolatedParts:
+    none = {name: np.zeros(0, np.float64) for name in COLUMNS}
+    kinds = {"patch": np.int32, "chart": np.uint8, "from_place": np.uint8, "to_place": np.uint8}
+    kinds |= dict.fromkeys(CODED, np.uint64)
+    parts = _core.Trapezoids(**{name: none[name].astype(kinds.get(name, np.float64)) for name in COLUMNS})
+    patch, t = np.zeros(0, np.int32), np.zeros(0)
+    return _core.IsolatedParts(parts, patch, patch, patch, patch, t, t)

@@ -1,0 +1,68 @@
+"""Tasks of tiles run here, one after the other, or on a cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+from cfree.errors import CfreeError
+
+Task = Callable[..., Any]
+RETRIES = 4
+
+
+class TaskError(CfreeError, RuntimeError):
+    """A task that ends the processes it runs in; `tile` says of which tile it is."""
+
+    def __init__(self, message: str, tile: int) -> None:
+        super().__init__(message)
+        self.tile = tile
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return TaskError, (str(self), self.tile)
+
+
+def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -> Iterator[tuple[int, Any]]:
+    """Results of a task for some tiles, as they come.
+
+    Parameters
+    ----------
+    task : callable
+    tiles : pairs
+        Of each a number, and the arguments of the task.
+    client : distributed.Client, optional
+        Whose workers see the same folder; without one the tasks run here.
+
+    Raises
+    ------
+    TaskError
+        If a task has ended `RETRIES` workers.
+    """
+    if client is None:
+        for tile, arguments in tiles:
+            yield tile, task(*arguments)
+        return
+    from distributed import as_completed
+
+    futures = {client.submit(task, *arguments, pure=False): tile for tile, arguments in tiles}
+    try:
+        for future in as_completed(list(futures)):
+            tile = futures.pop(future)
+            yield tile, _result(future, tile)
+            future.release()  # what is computed is in its file
+    finally:
+        if futures:
+            client.cancel(list(futures))
+
+
+def _result(future: Any, tile: int) -> Any:
+    from distributed.scheduler import KilledWorker
+
+    try:
+        return future.result()
+    except KilledWorker as error:
+        raise TaskError(
+            f"tile {tile} has ended every worker that began it, perhaps for lack of memory; "
+            "give smaller tiles, workers with more memory, or run without a cluster",
+            tile,
+        ) from error

@@ -1,0 +1,190 @@
+"""A scene as files, so that no process holds all of its obstacles.
+
+``scene.json`` is the scene without obstacles; ``polygons.jsonl`` has the rings of one obstacle a line, its coordinates
+as they are; columns say where each line begins, where each obstacle is, and where its vertices are.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+import cfree._core as _core
+from cfree.distributed.shard import read_json, write_json
+from cfree.errors import InvalidPolygonError
+from cfree.formats.scene_file import load_scene, save_scene
+from cfree.polygons.polygon import Polygon, polygon_of
+from cfree.scene.core_shapes import core_shapes
+from cfree.scene.features import SceneFeatures
+from cfree.scene.scene import Scene
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+NO_ROUNDING = (False, False, False, False)
+COLUMNS: dict[str, tuple[type, int]] = {
+    "line": (np.int64, 1),  # where the obstacle's line begins
+    "first": (np.int64, 1),  # its first vertex among all
+    "box": (np.float64, 4),  # xmin, ymin, xmax, ymax, rounded
+    "xy": (np.float64, 2),  # of vertices, rounded
+    "next": (np.int64, 1),  # the vertex after each, in its ring
+}
+
+
+@dataclass
+class SceneStore:
+    """Obstacles by their numbers, read when asked for.
+
+    Parameters
+    ----------
+    folder : Path
+        Where `store_scene` has put them.
+    """
+
+    folder: Path
+    rounded: Sequence[bool] = field(default=NO_ROUNDING)
+
+    @cached_property
+    def head(self) -> Scene:
+        """The scene without its obstacles."""
+        return load_scene(self.folder / "scene.json")
+
+    @cached_property
+    def facts(self) -> dict[str, Any]:
+        """Numbers of obstacles and vertices, the common denominator, the box of all vertices times that."""
+        return read_json(self.folder / "facts.json")
+
+    def __len__(self) -> int:
+        return int(self.facts["obstacles"])
+
+    @property
+    def vertices(self) -> int:
+        """Of all obstacles."""
+        return int(self.facts["vertices"])
+
+    def column(self, name: str) -> NDArray[Any]:
+        """One of `COLUMNS`, mapped from its file."""
+        kind, width = COLUMNS[name]
+        file = self.folder / f"{name}.bin"
+        if file.stat().st_size == 0:
+            return np.zeros((0, width) if width > 1 else 0, kind)
+        values = np.memmap(file, kind, mode="r")
+        return values.reshape(-1, width) if width > 1 else values
+
+    def polygons(self, numbers: Sequence[int] | Ints) -> list[Polygon]:
+        """Some obstacles."""
+        begin, found = self.column("line"), []
+        with (self.folder / "polygons.jsonl").open("rb") as file:
+            for number in numbers:
+                file.seek(int(begin[number]))
+                core = _core.Polygon.of(json.loads(file.readline()))
+                if core is None:
+                    raise InvalidPolygonError(f"{file.name}: obstacle {number} cannot be read; store the scene again")
+                found.append(polygon_of(core))
+        return found
+
+    def features(self, polygons: Sequence[Polygon]) -> SceneFeatures:
+        """Of the scene with these obstacles alone, with the numbers of the whole."""
+        box = self.facts["box"]
+        whole = _core.WholeScene(self.facts["scale"], box and tuple(box), list(self.rounded))
+        head = self.head
+        robot, obstacles, workspace, bounds = core_shapes(head.robot, polygons, head.workspace, head.bounds)
+        return SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, bounds, whole))
+
+    def scene(self, numbers: Sequence[int] | Ints) -> Scene:
+        """The scene with some of its obstacles, which are named by their numbers."""
+        head, names = self.head, [f"obstacle {number}" for number in numbers]
+        return Scene(
+            head.robot,
+            self.polygons(numbers),
+            obstacle_names=names,
+            bounds=head.bounds,
+            workspace=head.workspace,
+            start=head.start,
+            goals=head.goals,
+            units=head.units,
+        )
+
+    @cached_property
+    def reach(self) -> float:
+        """No obstacle farther from a feature than that changes its patches."""
+        xy = self.features([]).robot.xy
+        size = xy.max(axis=0) - xy.min(axis=0)
+        return float(np.hypot(*size)) * (1 + 1e-9)
+
+
+def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> SceneStore:
+    """Write a scene to a folder, one obstacle after the other.
+
+    Parameters
+    ----------
+    head : Scene
+        All but the obstacles; those that it has come first.
+    obstacles : iterable of Polygon
+    folder : Path
+        Made if it is not there.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    whole = _core.WholeScene(1, None, list(NO_ROUNDING))
+    counts = {"obstacles": 0, "vertices": 0}
+    files = {name: (folder / f"{name}.bin").open("wb") for name in COLUMNS}
+    try:
+        with (folder / "polygons.jsonl").open("wb") as lines:
+            for polygon in (*head.obstacles, *obstacles):
+                whole.add(polygon.core)
+                offsets, first = polygon.ring_offsets, counts["vertices"]
+                xy = polygon.vertices
+                after = np.arange(1, len(polygon) + 1) + first
+                after[np.array(offsets[1:]) - 1] = np.array(offsets[:-1]) + first
+                low, high = np.nextafter(xy.min(axis=0), -np.inf), np.nextafter(xy.max(axis=0), np.inf)
+                rows = (lines.tell(), first, np.concatenate([low, high]), xy, after)
+                for (name, (kind, _)), row in zip(COLUMNS.items(), rows, strict=True):
+                    files[name].write(np.ascontiguousarray(row, kind).tobytes())
+                lines.write(_line(polygon))
+                counts["obstacles"] += 1
+                counts["vertices"] += len(polygon)
+    finally:
+        for file in files.values():
+            file.close()
+    save_scene(_without_obstacles(head), folder / "scene.json")
+    write_json(folder / "facts.json", counts | {"scale": whole.scale, "box": whole.box})
+    return SceneStore(folder)
+
+
+def rounding(store: SceneStore, numbers: Ints) -> tuple[bool, ...]:
+    """Whether coordinates of some obstacles are no doubles: all parts of a scene have to know it of all."""
+    return tuple(store.features(store.polygons(numbers)).made.rounded)
+
+
+def is_small(store: SceneStore) -> bool:
+    """Are all coordinates, times the common denominator, surely doubles?"""
+    made = store.features([])
+    widest = max((abs(c) for c in store.facts["box"] or ()), default=0)
+    return widest < 2**52 and made.core.shift == 0 and not any(made.made.rounded)
+
+
+def _line(polygon: Polygon) -> bytes:
+    """Its rings in JSON, on one line: integers, or quotients of two in quotes."""
+    d = polygon.denominator
+    points = [f"[{x},{y}]" if d == 1 else f'["{x}/{d}","{y}/{d}"]' for x, y in polygon.numerators]
+    rings = (f"[{','.join(points[i:j])}]" for i, j in pairwise(polygon.ring_offsets))
+    return f"[{','.join(rings)}]\n".encode("ascii")
+
+
+def _without_obstacles(scene: Scene) -> Scene:
+    return Scene(
+        scene.robot,
+        bounds=scene.bounds,
+        workspace=scene.workspace,
+        start=scene.start,
+        goals=scene.goals,
+        units=scene.units,
+        name=scene.name,
+    )

@@ -1,0 +1,158 @@
+"""What is done for one tile at a time, in this process or in any other that sees the folder.
+
+A task writes one file and can be done again at any time: what is there, sound, and made from the same, is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import cfree._core as _core
+from cfree.distributed.division import Division, Features
+from cfree.distributed.glue import glue_tile
+from cfree.distributed.joining import JoinedSurfaces
+from cfree.distributed.nesting import Crossing, Line, TileLines
+from cfree.distributed.part import Part
+from cfree.distributed.rows import Rows, gathered
+from cfree.distributed.shard import Shard, is_sound, key_of, read_json, read_shard, write_shard
+from cfree.distributed.store import SceneStore, rounding
+from cfree.distributed.trim import digest, trim_tile
+
+TRIMMED, REGULAR, GLUED = "trim", "regular", "glue"
+
+
+class Work:
+    """The folder of one computation, as its tasks see it.
+
+    Parameters
+    ----------
+    folder : path
+        With ``plan.json``: the key of the whole computation, and which coordinates are rounded.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.plan = read_json(folder / "plan.json")
+        self.store = SceneStore(folder / "scene", self.plan["rounded"])
+        self.division = Division.open(folder / "tiles")
+
+    def path(self, stage: str, tile: int) -> Path:
+        return self.folder / stage / f"{tile:06d}.npz"
+
+    def key(self, stage: str, tile: int) -> str:
+        """What a shard is computed from."""
+        return key_of(self.plan["key"], self.plan["rounded"], stage, tile)
+
+    def shard(self, stage: str, tile: int) -> Shard:
+        return read_shard(self.path(stage, tile), self.key(stage, tile))
+
+    def make(self, stage: str, tile: int, compute: Callable[[], Shard]) -> None:
+        """A shard, unless it is there."""
+        path, key = self.path(stage, tile), self.key(stage, tile)
+        if not is_sound(path, key):
+            path.parent.mkdir(exist_ok=True)
+            write_shard(path, compute(), key)
+
+    @property
+    def surfaces(self) -> str:
+        """The stage whose trapezoids bound cells."""
+        return REGULAR if self.plan.get("slits") else TRIMMED
+
+    def rows(self, tile: int, around: bool) -> Rows:
+        """Trapezoids of a tile, and those of features within reach of its own."""
+        if not around:
+            shard = self.shard(self.surfaces, tile)
+            return gathered(self.store, [(tile, shard, np.ones(len(shard["feature"]), bool))])
+        features = Features(self.store)
+        reach = self.store.reach * np.array([-1, -1, 1, 1])
+        own = features.boxes(self.division.listed("features", tile)) + reach
+        shards = []
+        for other in self.division.listed("neighbours", tile).tolist():
+            shard = self.shard(self.surfaces, other)
+            chosen = np.ones(len(shard["feature"]), bool)
+            if other != tile:
+                chosen = _meet(features.boxes(shard["feature"]), own)
+            shards.append((other, shard, chosen))
+        return gathered(self.store, shards)
+
+
+@lru_cache(maxsize=2)
+def opened(folder: str, stamp: str) -> Work:
+    """The work in a folder; `stamp` changes with what is known of it."""
+    return Work(Path(folder))
+
+
+def rounding_task(folder: str, stamp: str, tile: int) -> tuple[bool, ...]:
+    """Whether coordinates of the obstacles near a tile are no doubles."""
+    work = opened(folder, stamp)
+    return rounding(work.store, work.division.listed("obstacles", tile))
+
+
+def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> dict[str, Any]:
+    """Trim a tile's patches.
+
+    Returns
+    -------
+    dict
+        ``trapezoids``: how many; ``digest``; ``slits``: whether surfaces may coincide with opposite sides.
+    """
+    work = opened(folder, stamp)
+    stage = REGULAR if regularized else TRIMMED
+
+    def compute() -> Shard:
+        own = work.division.listed("features", tile)
+        part = Part(work.store, work.division.listed("obstacles", tile))
+        shard = trim_tile(part, np.sort(own), regularized)
+        total = digest(shard).to_bytes(32, "big")
+        slits = _core.may_have_slits(part.features.core)
+        return shard | {"digest": np.frombuffer(total, np.uint8), "slits": np.array([slits])}
+
+    work.make(stage, tile, compute)
+    shard = work.shard(stage, tile)
+    return {
+        "trapezoids": len(shard["kind"]),
+        "digest": shard["digest"].tobytes().hex(),
+        "slits": bool(shard["slits"][0]),
+    }
+
+
+def glue_task(folder: str, stamp: str, tile: int) -> int:
+    """Glue a tile's trapezoids to each other and to those around them; the number of its components."""
+    work = opened(folder, stamp)
+    work.make(GLUED, tile, lambda: glue_tile(work.rows(tile, around=True), tile))
+    return len(work.shard(GLUED, tile)["faces"])
+
+
+def nest_task(
+    folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], asked: list[tuple[int, int, Line | None]]
+) -> list[tuple[int, Line | None, list[Crossing] | None]]:
+    """What lines cross in a tile, by the surfaces that they are from; `surface` is that of each component."""
+    work = opened(folder, stamp)
+    component = work.shard(GLUED, tile)["component"]
+    lines = TileLines(work.rows(tile, around=False).core, surface[component])
+    answers = []
+    for number, attempt, line in asked:
+        is_own = line is None
+        line = lines.line(number, attempt) if line is None else line
+        answers.append((number, line, None if line is None else lines.crossings(line, is_own)))
+    return answers
+
+
+def surfaces_in(joined: JoinedSurfaces, tile: int) -> np.ndarray[Any, Any]:
+    """Of each component of a tile the closed surface."""
+    return joined.surface[joined.first[tile] : joined.first[tile + 1]]
+
+
+def _meet(boxes: np.ndarray[Any, Any], others: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    """Which boxes meet one of some others."""
+    import shapely
+
+    tree = shapely.STRtree(shapely.box(*others.T))
+    found = np.zeros(len(boxes), bool)
+    found[tree.query(shapely.box(*boxes.T))[0]] = True
+    return found
