@@ -74,7 +74,10 @@ class Sharded(Value):
 
     @property
     def _content(self) -> tuple[Any, ...]:
-        return (self.folder,)
+        return tuple(sorted(self.manifest.items()))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Sharded, (self.folder,)
 
     def __repr__(self) -> str:
         return (
