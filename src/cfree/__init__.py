@@ -104,6 +104,8 @@ _HOMES = {
     "viewer.browser": "view",
     "viewer.notebook": "widget",
 }
-_PACKAGES = "analysis collision contact exact figures film geometry ompl planning plot rational verify viewer"
+_PACKAGES = (
+    "analysis arrangements collision contact exact figures film geometry ompl planning plot rational verify viewer"
+)
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)
 __all__ = ["__version__", *_NAMES]
