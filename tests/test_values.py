@@ -68,6 +68,8 @@ def samples(x: int) -> dict[str, Any]:
         "FirstContact": cfree.first_contact(scene, Pose(1, 1), Translation((9, 0))),
         "Fit": cfree.fits(ROBOT, [*ROOM[:2], (x, 9)])[0],
         "FreeSpace": space,
+        "GaussBonnet": cfree.geometry.gauss_bonnet(boundary),
+        "Geodesic": cfree.geometry.geodesic(ruled, 0.5, 0.1, 0.3, x),
         "Helix": cfree.contact.contact_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), VertexVertex(0, 1)),
         "Intersection": meeting,
         "IntersectionCurve": meeting.curve,

@@ -164,6 +164,41 @@ class Helix:
         c, s = np.cos(phi), np.sin(phi)
         return np.stack((px - (c * ax - s * ay), py - (s * ax + c * ay), phi), axis=-1)
 
+    @property
+    def radius(self) -> float:
+        """|a|: how far the fixed point is from the robot's reference point."""
+        return math.hypot(*map(float, self.fixed))
+
+    @checked
+    def curvature(self, *, angle_scale: float = 1.0) -> float:
+        """|a| / (|a|^2 + w^2) where w is `angle_scale`, the length of a radian: the same everywhere, in 1 / length.
+
+        Examples
+        --------
+        >>> helix = rotation_about((3, 0), (1, 0))
+        >>> helix.curvature(), helix.torsion(), helix.length(0, 1) ** 2
+        (0.5, 0.5, 2.0000000000000004)
+        """
+        return self.radius / self._square(angle_scale)
+
+    @checked
+    def torsion(self, *, angle_scale: float = 1.0) -> float:
+        """w / (|a|^2 + w^2): to the right, as of every screw that climbs as it turns to the left, in 1 / length.
+
+        On the axis, |a| = 0, the helix is a straight line and has no torsion; this is then the limit.
+        """
+        return angle_scale / self._square(angle_scale)
+
+    @checked
+    def length(self, phi_from: float, phi_to: float, *, angle_scale: float = 1.0) -> float:
+        """Length between two angles, (phi_to - phi_from) sqrt(|a|^2 + w^2): negative if the first is larger."""
+        return (phi_to - phi_from) * math.sqrt(self._square(angle_scale))
+
+    def _square(self, angle_scale: float) -> float:
+        if not 0 < angle_scale < math.inf:
+            raise ValueError(f"angle_scale: {angle_scale}; give a finite length per radian above 0")
+        return self.radius**2 + angle_scale**2
+
     @checked
     def pose(self, theta: Angle) -> Pose:
         """The exact pose at theta."""
