@@ -23,8 +23,8 @@ SCENE = cfree.Scene(SQUARE, [[(3, 0), (4, 0), (4, 1)]], bounds=(-2, -2, 6, 6), s
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange BezierPatch Bottleneck Boundary Cell CellComplex Clearance EdgeEdgeSegment
     FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve Interval LocalGeometry Mesh
-    NearestMiss Pieces RationalHelix RationalRange RationalSegment RationalSurface Separated SharedLine Slice Surface Triple
-    TripleContact
+    NearestMiss Pieces RationalHelix RationalRange RationalSegment RationalSurface Separated SharedLine Slice Surface
+    Triple TripleContact
 """.split()  # noqa: SIM905
 
 
