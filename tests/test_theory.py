@@ -1,4 +1,4 @@
-"""The examples of docs/theory, and its list of what is in the paper."""
+"""The examples of docs/theory and of the page for geometers, and the list of what is in the paper."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from PIL import Image
 
 
 def pages(root: Path) -> list[Path]:
@@ -28,6 +30,20 @@ def test_the_examples_of_the_theory_pages_hold(request: pytest.FixtureRequest) -
         session = examples.globs
         attempted += result.attempted
     assert attempted >= 144
+
+
+def test_the_examples_for_geometers_hold(
+    request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    result = doctest.testfile(str(request.config.rootpath / "docs" / "for-geometers.md"), module_relative=False)
+    assert result.failed == 0 and result.attempted >= 60
+    with (
+        Image.open("three-contacts.png") as image,
+        Image.open(request.config.rootpath / "docs" / "images" / "three-contacts.png") as shown,
+    ):
+        drawn, kept = (np.asarray(one.convert("L").resize((70, 75)), float) for one in (image, shown))
+    assert np.abs(drawn - kept).mean() < 4  # the page shows what the example draws
 
 
 def test_the_first_theory_page_lists_all_others(request: pytest.FixtureRequest) -> None:

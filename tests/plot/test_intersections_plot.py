@@ -48,11 +48,11 @@ def faces(collection: Any) -> np.ndarray:
 def test_surfaces_and_their_curve_are_drawn_where_they_are() -> None:
     found = intersection(*PAIR)
     drawn = artists(plot_intersection(found))
-    assert set(drawn) == {"v-e surface", "e-v surface", "edges as lines", "curve on both"}
-    for surface, name in zip(PAIR, ("v-e surface", "e-v surface"), strict=True):
+    assert set(drawn) == {"v-e", "e-v", "edges as lines", "curve on both"}
+    for surface, name in zip(PAIR, ("v-e", "e-v"), strict=True):
         corners = faces(drawn[name]).reshape(-1, 3)
         assert off(surface, corners).max() < 1e-12 and corners[:, 2].min() == 0 and corners[:, 2].max() == 360
-        kind = PatchKind.VERTEX_EDGE if name == "v-e surface" else PatchKind.EDGE_VERTEX
+        kind = PatchKind.VERTEX_EDGE if name == "v-e" else PatchKind.EDGE_VERTEX
         shade = np.corrcoef(drawn[name].get_facecolor()[:, :3].mean(axis=0), to_rgb(COLOURS[kind]))[0, 1]
         assert shade > 0.98
     (part,) = found.ranges
@@ -70,7 +70,7 @@ def test_surfaces_and_their_curve_are_drawn_where_they_are() -> None:
 def test_of_patches_nothing_else_is_drawn() -> None:
     patches = rational_surface(ROBOT, NEAR, VertexEdge(1, 0)), rational_surface(ROBOT, FAR, EdgeVertex(0, 0))
     drawn = artists(plot_intersection(intersection(*patches)))
-    for patch, name in zip(patches, ("v-e surface", "e-v surface"), strict=True):
+    for patch, name in zip(patches, ("v-e", "e-v"), strict=True):
         assert patch.Phi is not None
         middle = np.radians(faces(drawn[name])[..., 2].mean(axis=1))
         assert all(patch.Phi.locate(math.tan(phi / 2)).value == "inside" for phi in middle.tolist())
@@ -90,7 +90,7 @@ def test_poses_on_three_surfaces_are_dots() -> None:
     )
     assert "three, edges as lines" not in drawn and drawn["three contacts"].get_markerfacecolor() == "black"
     names = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert names == ["v-e surface", "edges as lines", "curve on both", "three contacts"]
+    assert names == ["v-e", "edges as lines", "curve on both", "three contacts"]
     others = triple(*PAIR, contact_surface(ROBOT, FAR, VertexEdge(2, 2)))
     assert others.poses and not others.contacts
     dots = artists(plot_intersection(others))["three, edges as lines"]

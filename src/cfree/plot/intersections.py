@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 
 ROWS, CELLS, POINTS = 121, 13, 721  # of a surface over a full turn, across it, of a curve
 CURVE, LINE, SEEN_THROUGH = "black", Colours.edge_edge, 0.55
-NAMES = {PatchKind.VERTEX_EDGE: "v-e surface", PatchKind.EDGE_VERTEX: "e-v surface"}
+NAMES = {PatchKind.VERTEX_EDGE: "v-e", PatchKind.EDGE_VERTEX: "e-v"}
 
 
 @checked
@@ -111,7 +111,9 @@ def _draw_sheets(space: Any, found: Intersection | Triple, sheets: list[Floats])
         faces = _turned(faces, faces[..., 2].mean(axis=1))
         rgb = shaded(np.tile(to_rgb(COLOURS[kind]), (len(faces), 1)), faces, 1.0)
         space.add_collection3d(
-            Poly3DCollection(faces, facecolors=rgb, alpha=SEEN_THROUGH, linewidths=0, label=name, zorder=1)
+            Poly3DCollection(
+                faces, facecolors=rgb, alpha=SEEN_THROUGH, linewidths=0, antialiased=False, label=name, zorder=1
+            )
         )
 
 
