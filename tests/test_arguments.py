@@ -19,11 +19,18 @@ from public import NAMES, PACKAGES
 
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 SCENE = cfree.Scene(SQUARE, [[(3, 0), (4, 0), (4, 1)]], bounds=(-2, -2, 6, 6), start=(0, 0, 0), goal=(1, 2, "90deg"))
+MEETING = cfree.arrangements.intersection(
+    *(
+        cfree.contact.contact_surface(cfree.Polygon(SQUARE), SCENE.obstacles[0], cfree.contact.VertexEdge(0, j))
+        for j in (0, 1)
+    )
+)
 # made by cfree, and not by users
 RESULTS = """
     AlgebraicAngle AngleInterval AngleRange BezierPatch Bottleneck Boundary Cell CellComplex Clearance EdgeEdgeSegment
-    FirstContact Fit FreeSpace Helix Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
-    RationalSegment RationalSurface Separated Slice Surface
+    FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve Interval LocalGeometry Mesh
+    NearestMiss Pieces RationalHelix RationalRange RationalSegment RationalSurface Separated SharedLine Slice Surface
+    Triple TripleContact
 """.split()  # noqa: SIM905
 
 
@@ -69,7 +76,8 @@ def pool() -> list[Any]:
         cfree.rational.rational_surface(triangle, triangle, cfree.contact.VertexEdge(1, 2)), boundary.mesh(1.0),
         space.complex, cfree.Poses([[0, 0]], [0]), cfree.contact.contact_surface(triangle, triangle, contact),
         cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
-        cfree.exact.Surd(1), cfree.Preferences(),
+        cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
+        cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING,
     ]  # fmt: skip
 
 

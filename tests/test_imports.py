@@ -15,7 +15,7 @@ CORE = "cfree._core"
 ORDER = """
     lazy errors collector value arguments
     exact polygons scene contact collision forbidden geometry free paths planning analysis formats
-    verify distributed rational ompl plot figures film viewer cli __main__
+    verify distributed rational arrangements ompl plot figures film viewer cli __main__
 """.split()  # noqa: SIM905
 """Each imports only from those before it."""
 

@@ -43,6 +43,12 @@ def samples(x: int) -> dict[str, Any]:
     interval = cfree.turn_in_place(rod, Pose(0, 0))[0]
     surface = rational_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (x, 2), (0, 2)]), VertexEdge(1, 2))
     ruled = boundary.ruled[:1] * x
+    walls = cfree.Polygon([(0, 0), (x, 0), (0, 3)])
+    floor, below, slope = (
+        cfree.contact.contact_surface(TRIANGLE, walls, VertexEdge(i, j)) for i, j in ((0, 0), (1, 0), (2, 1))
+    )
+    meeting = cfree.arrangements.intersection(floor, slope)
+    three = cfree.arrangements.triple(floor, below, slope)
     return {
         "AlgebraicAngle": interval.start,
         "AllSeparated": cfree.AllSeparated((separated,), ((step, step),), "closed"),
@@ -63,7 +69,11 @@ def samples(x: int) -> dict[str, Any]:
         "FirstContact": cfree.first_contact(scene, Pose(1, 1), Translation((9, 0))),
         "Fit": cfree.fits(ROBOT, [*ROOM[:2], (x, 9)])[0],
         "FreeSpace": space,
+        "GaussBonnet": cfree.geometry.gauss_bonnet(boundary),
+        "Geodesic": cfree.geometry.geodesic(ruled, 0.5, 0.1, 0.3, x),
         "Helix": cfree.contact.contact_helix(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), VertexVertex(0, 1)),
+        "Intersection": meeting,
+        "IntersectionCurve": meeting.curve,
         "Interval": cfree.Interval(0.0, float(x)),
         "LocalGeometry": cfree.geometry.local_geometry(ruled, [0.5], [0.1]),
         "Mesh": boundary.mesh(1.0),
@@ -86,12 +96,15 @@ def samples(x: int) -> dict[str, Any]:
         "Scene": scene,
         "Separated": separated,
         "Sharded": cfree.distributed.boundary(scene, folder=tempfile.mkdtemp(), tile=x),
+        "SharedLine": cfree.arrangements.intersection(floor, below).lines[0],
         "Slice": boundary.slice({"tau": step}),
         "Slide": cfree.Slide((TOUCH, TOUCH), [0, 0, x], [0, 2], [1, 0, 1], 1),
         "Surd": Surd(1, step, 2),
         "Surface": cfree.contact.contact_surface(TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, 1)]), VertexEdge(0, 0)),
         "Touch": cfree.collision.Touch("vertex-edge", (0, 0), (0, x)),
         "Translation": Translation((x, 0)),
+        "Triple": three,
+        "TripleContact": three.poses[0],
         "Unwanted": cfree.Unwanted("sideways", 1.0, 0, x),
         "VertexEdge": VertexEdge(0, x),
         "VertexVertex": VertexVertex(0, x),

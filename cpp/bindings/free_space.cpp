@@ -86,7 +86,10 @@ void bind_free_space(nb::module_& m) {
         .def_ro("surfaces", &FreeSpace::surfaces)
         .def_prop_ro("cell_of", [ints](const FreeSpace& space) { return ints(space.cell_of); })
         .def_prop_ro("depth", [ints](const FreeSpace& space) { return ints(space.depth); })
-        .def("volumes", [](const FreeSpace& space) { return array_of(cfree::volumes(space)); })
+        .def("volumes", [](const FreeSpace& space) {
+            auto found = cfree::volumes(space);
+            return std::tuple{array_of(std::move(found.values)), array_of(std::move(found.errors))};
+        })
         .def("caged", [](const FreeSpace& space, const Column<int>& owner) { return array_of(cfree::caged(space, vector_of(owner))); }, "owner"_a)
         .def("angle", &angle, "trapezoid"_a, "last"_a, "bits"_a)
         .def("nearby", &nearby, "pose"_a, "chart"_a)

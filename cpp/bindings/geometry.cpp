@@ -2,10 +2,11 @@
 #include "cfree/geometry/local_geometry.hpp"
 
 #include <nanobind/stl/shared_ptr.h>
-#include <nanobind/stl/vector.h>
+#include <nanobind/stl/tuple.h>
 
 #include "arrays.hpp"
-#include "cfree/geometry/quadrature.hpp"
+#include "cfree/geometry/side_curvature.hpp"
+#include "watched.hpp"
 
 using namespace nb::literals;
 
@@ -25,17 +26,38 @@ static Made<double> local_geometry(const In<double, 2>& ruled, const Column<doub
     return array_of(std::move(out));
 }
 
-// along_t(trapezoid, lower, upper, theta): a column.
-static Made<double> trapezoid_integrals(const cfree::SharedBoundary& boundary, std::vector<double> nodes, std::vector<double> weights,
-                                        const nb::callable& along_t) {
-    return array_of(cfree::trapezoid_integrals(*boundary, {std::move(nodes), std::move(weights)}, [&](const cfree::QuadratureLines& lines) {
-        auto of = lines;
-        return vector_of(nb::cast<Column<double>>(along_t(array_of(std::move(of.trapezoid)), array_of(std::move(of.lower)),
-                                                          array_of(std::move(of.upper)), array_of(std::move(of.theta)))));
-    }));
+template <double of(const cfree::Ruled&, double, double, double, double)>
+static Made<double> along_rulings(const In<double, 2>& ruled, const Column<double>& phi, double angle_scale) {
+    const std::size_t n = phi.shape(0);
+    require(ruled.shape(0) == n && ruled.shape(1) == 8, "ruled and phi differ in length");
+    std::vector<double> out(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const double* r = ruled.data() + 8 * k;
+        out[k] = of({r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7]}, 0, 1, phi.data()[k], angle_scale);
+    }
+    return array_of(std::move(out));
+}
+
+// Values and errors.
+using Integrals = std::tuple<Made<double>, Made<double>>;
+template <std::vector<cfree::Integral> of(const cfree::Boundary&, double)>
+static Integrals over_trapezoids(const cfree::SharedBoundary& boundary, double angle_scale) {
+    std::vector<double> values, errors;
+    for (const auto& found : watched([&] { return of(*boundary, angle_scale); })) values.push_back(found.value), errors.push_back(found.error);
+    return {array_of(std::move(values)), array_of(std::move(errors))};
+}
+
+// Geodesic curvatures, their errors, turns; and starts, three numbers each.
+static std::tuple<Made<double>, Made<double>, Made<double>, Made<double>> side_curvatures(const cfree::CellComplex& cells, double angle_scale) {
+    auto of = watched([&] { return cfree::side_curvatures(cells, angle_scale); });
+    return {array_of(std::move(of.total)), array_of(std::move(of.error)), array_of(std::move(of.turn)), array_of(std::move(of.start))};
 }
 
 void bind_geometry(nb::module_& m) {
     m.def("local_geometry", &local_geometry, "ruled"_a, "t"_a, "phi"_a, "angle_scale"_a);
-    m.def("trapezoid_integrals", &trapezoid_integrals, "boundary"_a, "nodes"_a, "weights"_a, "along_t"_a);
+    m.def("ruling_areas", &along_rulings<cfree::ruling_area>, "ruled"_a, "phi"_a, "angle_scale"_a);
+    m.def("ruling_curvatures", &along_rulings<cfree::ruling_curvature>, "ruled"_a, "phi"_a, "angle_scale"_a);
+    m.def("trapezoid_areas", &over_trapezoids<cfree::trapezoid_areas>, "boundary"_a, "angle_scale"_a);
+    m.def("trapezoid_curvatures", &over_trapezoids<cfree::trapezoid_curvatures>, "boundary"_a, "angle_scale"_a);
+    m.def("side_curvatures", &side_curvatures, "cells"_a, "angle_scale"_a);
 }

@@ -281,7 +281,7 @@ void show_cell(World& world, Index cell, Reply& reply) {
     world.need_space();
     if (cell < 0 || cell >= world.space->cells()) throw std::invalid_argument("no such cell");
     const auto k = static_cast<std::size_t>(cell);
-    if (world.volumes.empty()) world.volumes = volumes(*world.space);
+    if (world.volumes.empty()) world.volumes = volumes(*world.space).values;
     reply.add("volume", world.volumes[k]);
     reply.add("caged", caged(*world.space, world.features.obstacles.polygon)[k] ? 1.0 : 0.0);
     reply.add("bounded", cell == world.space->outside ? 0.0 : 1.0);

@@ -105,7 +105,8 @@ _HOMES = {
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis collision contact distributed exact figures film geometry ompl planning plot rational verify viewer"
+    "analysis arrangements collision contact distributed exact figures film geometry "
+    "ompl planning plot rational verify viewer"
 )
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)
 __all__ = ["__version__", *_NAMES]

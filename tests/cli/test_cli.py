@@ -12,7 +12,9 @@ from typing import Any
 import numpy as np
 import pytest
 import shapely
+import trimesh
 from click.testing import CliRunner
+from PIL import Image
 
 import cfree
 from cfree.cli.app import app
@@ -159,9 +161,14 @@ def test_boundary_writes_all_files_and_their_names(run: Run, tmp_path: Path) -> 
     result = run("boundary", FIG9, *(x for option, name in files.items() for x in (option, tmp_path / name)))
     assert result.exit_code == 0, result.output
     assert "contact patches" in result.stdout and "trapezoids" in result.stdout
-    for name in files.values():
-        assert (tmp_path / name).stat().st_size > 1000
-        assert str(tmp_path / name) in result.stdout
+    assert all(str(tmp_path / name) in result.stdout for name in files.values())
+    found = cfree.load(tmp_path / "fig9.npz")
+    assert found == cfree.boundary(cfree.load_scene(FIG9))
+    again = trimesh.load(tmp_path / "fig9.glb", process=False)
+    assert {"v-e", "e-v"} <= set(again.geometry) and len(again.to_geometry().faces) > len(found.trapezoids)
+    with Image.open(tmp_path / "fig9.png") as image:
+        seen = np.asarray(image.convert("RGB"), float)
+    assert (seen[..., 0] > 2 * seen[..., 1]).sum() > 10_000  # red patches
     assert sorted(file.name for file in tmp_path.rglob("*") if file.is_file()) == ["fig9.glb", "fig9.npz", "fig9.png"]
 
 

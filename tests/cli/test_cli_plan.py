@@ -138,7 +138,9 @@ def test_goals_may_be_in_the_scene(run: Run, tmp_path: Path) -> None:
     assert "goal 0     x 9, y 0, any theta: free" in said and "goal 1     x 0, y 3, theta 0 degrees: free" in said
     assert json.loads(run("plan", scene, "--json").stdout)["goal reached"] == [0, 3, 0]
     assert run("plan", scene, "--goal", "9,0").exit_code == 1
-    assert run("boundary", scene, "--picture", picture).exit_code == 0 and picture.exists()
+    assert run("boundary", scene, "--picture", picture.with_suffix(".svg")).exit_code == 0
+    drawn = picture.with_suffix(".svg").read_text()
+    assert all(f"<!-- {name}" in drawn for name in ("workspace", "slice at θ = 0°", "28 of 36 contact patches bound"))
 
 
 def test_the_picture_shows_what_is_in_the_way(run: Run, tmp_path: Path) -> None:

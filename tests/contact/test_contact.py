@@ -5,7 +5,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import strategies
@@ -89,6 +89,25 @@ def test_edges_slide_along_each_other_until_a_reflex_vertex() -> None:
 
 
 # properties: the paper
+
+
+@settings(max_examples=30)
+@given(st.lists(strategies.fractions(5), min_size=3, max_size=6, unique=True), strategies.convex_polygons())
+def test_remark_4_for_vertices_on_a_circle(tangents: list[Fraction], shape: Shape) -> None:
+    """Phi from the angles alpha_i of the vertices alone: an edge is normal to the bisector of its ends' angles."""
+    robot, O = Polygon.from_polar([(2, {"tau": tau}) for tau in sorted(tangents)]), Polygon(*shape)
+    alpha, (x, y) = robot.polar[:, 1], O.exact_edge(0)
+    for i in range(len(robot)):
+        found = angle_range(robot, O, VertexEdge(i, 0))
+        before, after = (alpha[i] - alpha[i - 1]) % math.tau, (alpha[(i + 1) % len(alpha)] - alpha[i]) % math.tau
+        phi_min = math.atan2(-y, -x) - (alpha[i] + after / 2 + math.pi / 2)
+        assert math.isclose(math.remainder(found.phi_min - phi_min, math.tau), 0, abs_tol=1e-12)
+        assert math.isclose(found.phi_range, (before + after) / 2, abs_tol=1e-12)
+        # exactly, too: the direction of E_i is i (1 + i u) (1 + i v), u and v the tangents of half the ends' angles
+        u, v = sorted(tangents)[i], sorted(tangents)[(i + 1) % len(tangents)]
+        along = (-u - v, 1 - u * v)
+        ex, ey = robot.exact_edge(i)
+        assert along[0] * ey == along[1] * ex
 
 
 @given(convex_pairs)

@@ -15,6 +15,7 @@ from cfree.contact.surface import (
     contact_helix,
     contact_segment,
     contact_surface,
+    edge_edge_surface,
     rotation_about,
     rotation_of_combination,
 )
@@ -206,6 +207,24 @@ def test_edges_are_in_contact_exactly_on_the_closed_range(A: Polygon, O: Polygon
     if A is L_SHAPE is O:
         with pytest.raises(ValueError, match="has no segment: reflex vertices"):
             contact_segment(A, O, EdgeEdge(2, 3))
+
+
+@pytest.mark.parametrize(("A", "O"), [(SQUARE, SQUARE), (L_SHAPE, L_SHAPE)])
+def test_edges_have_more_than_a_point_in_common_exactly_on_two_segments(A: Polygon, O: Polygon) -> None:
+    for contact in (EdgeEdge(i, j) for i in range(0, len(A), 2) for j in range(len(O))):
+        against, alongside = edge_edge_surface(A, O, contact)
+        assert math.isclose(abs(math.remainder(against.phi - alongside.phi, math.tau)), math.pi)
+        for right in RIGHT_ANGLES.values():
+            (segment,) = [
+                s for s in (against, alongside) if abs(math.remainder(s.phi - Pose(0, 0, right).theta, math.tau)) < 1
+            ] or [None]
+            for t in (Fraction(k, 4) for k in range(-9, 14)):
+                q = against.surface.pose(t, right, beyond=True)
+                inside = segment is not None and segment.t_range[0] < t < segment.t_range[1]
+                assert (contact in contact_features(A, O, q)) == inside
+                assert not inside or segment is against or is_forbidden(A, O, q)
+    if (A, O) == (SQUARE, SQUARE):
+        assert contact_segment(A, O, EdgeEdge(0, 2)) == edge_edge_surface(A, O, EdgeEdge(0, 2))[0]
 
 
 @pytest.mark.slow

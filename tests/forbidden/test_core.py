@@ -29,7 +29,17 @@ def test_kinds_are_those_of_the_core() -> None:
 COMMENT = re.compile(r"//.*")
 NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?")
 # computed from the exact structure, in doubles
-COMPUTED = ("contact_curve", "limits", "mesh", "mesh_face", "quadrature", "slice", "surface", "triangulation")
+COMPUTED = (
+    "cell_facts",
+    "contact_curve",
+    "limits",
+    "mesh",
+    "mesh_face",
+    "quadrature",
+    "slice",
+    "surface",
+    "triangulation",
+)
 # guesses: motions are then decided, trapezoids that seem to be neighbours glued
 GUESSED = (
     "balance",

@@ -13,7 +13,6 @@ from cfree.contact.surface import contact_surface
 from cfree.errors import IncompleteError
 from cfree.forbidden.boundary import boundary
 from cfree.formats.scene_file import load_scene
-from cfree.geometry import quadrature
 from cfree.geometry.area import patch_areas, trapezoid_areas
 from cfree.geometry.development import develop
 from cfree.geometry.elliptic import second_kind
@@ -151,17 +150,6 @@ def test_trapezoids_of_one_convex_pair_add_up_to_the_patches(w: float) -> None:
         whole = patch_areas(result.ruled, result.phi_min, result.phi_range, angle_scale=w)
         parts = np.bincount(result.trapezoids.patch, trapezoid_areas(result, angle_scale=w), len(whole))
         np.testing.assert_allclose(parts, whole, rtol=1e-10)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("w", [1e-3, 1.0])
-@pytest.mark.parametrize("name", SCENES)
-def test_more_nodes_change_nothing(name: str, w: float, monkeypatch: pytest.MonkeyPatch) -> None:
-    result = boundary(load_scene(f"examples/scenes/{name}.json"))
-    areas = trapezoid_areas(result, angle_scale=w)
-    assert areas.shape == (len(result.trapezoids),) and (areas >= 0).all()
-    monkeypatch.setattr(quadrature, "NODES", 40)
-    np.testing.assert_allclose(areas, trapezoid_areas(result, angle_scale=w), atol=1e-10 * areas.sum())
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -43,8 +43,9 @@ def test_a_forklift_does_not_crab(hall: Scene, objective: cfree.paths.path.Objec
 
 def test_ahead_where_back_is_dear_and_few_turns_on_the_spot_where_they_are(hall: Scene) -> None:
     ahead, round_it = Preferences(sideways=20, backward=20), Preferences(turning=20)
+    ends = Pose(1, 1, "90deg"), Pose(13, 11, "-90deg")
     for kind, preferences in (("backward", ahead), ("turning", round_it)):
-        plain, found = plan(hall), plan(hall, preferences=preferences)
+        plain, found = plan(hall, *ends), plan(hall, *ends, preferences=preferences)
         assert isinstance(plain, Path) and isinstance(found, Path)
         assert amount(found, hall, kind) < 0.5 * amount(plain, hall, kind)
 

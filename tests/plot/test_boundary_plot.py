@@ -1,8 +1,11 @@
 """Figures: on given axes, with labels, legend and the paper's colours, without a display."""
 
+import re
 import subprocess
 import sys
+import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -11,12 +14,13 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
+from PIL import Image
 
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
-from cfree.forbidden.kinds import COLOURS
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.formats.scene_file import load_scene
 from cfree.plot import depth_sort, pieces
 from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
@@ -141,6 +145,15 @@ def test_the_workspace_shows_the_robot_at_start_and_goal() -> None:
     assert x0 < float(scene.bounds[0]) and x1 > float(scene.bounds[2])
 
 
+def test_goals_are_robots_or_stars_where_they_are() -> None:
+    ax = plot_workspace(Scene(TRIANGLE, SQUARE, start=(0, 0, 0), goals=[(9, 0), (0, 3, "90deg")]))
+    (star,) = [line for line in ax.lines if line.get_marker() == "*"]
+    assert star.get_xydata().tolist() == [[9, 0]] and star.get_label() == "goal, any theta"
+    assert {"start", "goal 1"} == {text.get_text() for text in ax.texts} - {""}
+    corners = [patch.get_path().vertices[:3].round(9).tolist() for patch in ax.patches]
+    assert [[0, 3], [0, 4], [-1, 3]] in corners and [[0, 0], [1, 0], [0, 1]] in corners
+
+
 def test_without_poses_the_robot_stands_at_rest() -> None:
     ax = plot_workspace(Scene(robot=TRIANGLE, obstacles=SQUARE))
     assert "at rest" in {text.get_text() for text in ax.texts}
@@ -166,10 +179,32 @@ def test_holes_are_seen_through() -> None:
     "name", ["five_convex", "degenerate_no_obstacles", "degenerate_own_hole", "degenerate_workspace"]
 )
 def test_overviews_of_all_sorts_of_scenes_are_drawn(name: str, tmp_path: Path) -> None:
-    file = tmp_path / f"{name}.png"
-    save_figure(plot_overview(boundary(load_scene(SCENES / f"{name}.json"))), file)
-    assert file.read_bytes()[:4] == b"\x89PNG"
+    file, found = tmp_path / f"{name}.png", boundary(load_scene(SCENES / f"{name}.json"))
+    figure = plot_overview(found)
+    plan, first, second, space = figure.axes
+    assert plan.get_title() == "workspace" and figure.get_suptitle() == found.scene.name
+    assert len(plan.patches) >= len(found.scene.obstacles)
+    for ax in (first, second):
+        theta = float(ax.get_title().removeprefix("slice at θ = ").removesuffix("°"))
+        assert drawn_area(ax) == pytest.approx(found.slice(f"{theta}deg").forbidden.area, rel=1e-3)
+    (painting,) = [c for c in space.collections if isinstance(c, depth_sort.Painting)]
+    faces = painting._pieces.sort < pieces.SECTION
+    assert faces.any() == bool(len(found.trapezoids))
+    save_figure(figure, file)
+    with Image.open(file) as image:
+        assert image.size == tuple(int(160 * inches) for inches in figure.get_size_inches())
     assert [entry.name for entry in file.parent.iterdir()] == [file.name]
+
+
+def drawn_area(ax: Any) -> float:
+    """Of the region that is drawn as forbidden; its rings are closed, and holes run clockwise."""
+    (region,) = [patch.get_path() for patch in ax.patches if patch.get_label() == "forbidden"]
+    corners, total = region.vertices, 0.0
+    starts = [*np.flatnonzero(region.codes == region.MOVETO), len(corners)] if len(corners) else [0]
+    for i, j in pairwise(starts):
+        x, y = (corners[i:j] - corners[i]).T
+        total += (x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
+    return total
 
 
 def test_an_empty_boundary_can_be_drawn() -> None:
@@ -178,9 +213,20 @@ def test_an_empty_boundary_can_be_drawn() -> None:
 
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".jpg", ".webp"])
 def test_other_formats_are_written(fig9: Boundary, suffix: str, tmp_path: Path) -> None:
-    file = tmp_path / f"slice{suffix}"
-    save_figure(plot_slice(fig9.slice(1.0)).figure, file)
-    assert file.stat().st_size > 1000
+    file, ax = tmp_path / f"slice{suffix}", plot_slice(fig9.slice(1.0))
+    save_figure(ax.figure, file)
+    width, height = ax.figure.get_size_inches()
+    if suffix == ".svg":
+        root = ElementTree.parse(file).getroot()
+        shades = {part.lower() for e in root.iter() for part in re.findall(r"#[0-9a-fA-F]{6}", e.get("style", ""))}
+        assert {COLOURS[kind] for kind in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX)} <= shades
+    elif suffix == ".pdf":
+        assert file.read_bytes().startswith(b"%PDF") and file.read_bytes().rstrip().endswith(b"%%EOF")
+    else:
+        with Image.open(file) as image:
+            assert image.size == (160 * width, 160 * height)
+            seen = np.asarray(image.convert("RGB")) / 255
+        assert (np.abs(seen - to_rgb(COLOURS[PatchKind.VERTEX_EDGE])).max(axis=-1) < 0.2).sum() > 200
 
 
 def test_unknown_formats_are_refused(fig9: Boundary, tmp_path: Path) -> None:

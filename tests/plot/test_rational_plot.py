@@ -10,9 +10,11 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.colors import to_rgb
 
 from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range
+from cfree.contact.surface import contact_surface
 from cfree.forbidden.kinds import COLOURS
 from cfree.plot.rational import SHOWN, plot_models
 from cfree.polygons.polygon import Polygon
+from cfree.rational.model import rational_range
 
 A = Polygon([(-1, -1), (2, -1), (0, 2)])
 O = Polygon([(3, 0), (6, 1), (4, 4)])
@@ -45,14 +47,13 @@ def test_both_halves_show_the_patch_in_its_colour(contact: VertexEdge | EdgeVert
 
 def test_cells_are_on_the_surface_and_the_patch_is_phi() -> None:
     from cfree.plot.rational import cells
-    from cfree.rational.model import rational_surface
 
-    S = rational_surface(A, O, VertexEdge(1, 0))
-    outlines, on_patch = cells(S, 180)
+    S, Phi = contact_surface(A, O, VertexEdge(1, 0)), rational_range(A, O, VertexEdge(1, 0))
+    outlines, on_patch = cells(S, Phi, 180)
     points = outlines.reshape(-1, 3)
-    n = S.surface.q
-    d = (points[:, 0] - float(S.surface.p[0])) * -float(n[1]) + (points[:, 1] - float(S.surface.p[1])) * float(n[0])
-    a = S.surface.a
+    n = S.q
+    d = (points[:, 0] - float(S.p[0])) * -float(n[1]) + (points[:, 1] - float(S.p[1])) * float(n[0])
+    a = S.a
     c, s = np.cos(points[:, 2]), np.sin(points[:, 2])
     moved = -float(n[1]) * (c * float(a[0]) - s * float(a[1])) + float(n[0]) * (s * float(a[0]) + c * float(a[1]))
     np.testing.assert_allclose(d + moved, 0, atol=1e-12)  # a_i is on the line of E_j

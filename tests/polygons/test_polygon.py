@@ -33,6 +33,29 @@ def star(n: int, seed: int = 1) -> list[tuple[float, float]]:
 # examples
 
 
+def test_polar_coordinates_are_those_of_section_1_1() -> None:
+    polygon = Polygon([(3, 4), (-5, 12), (0, -2)])
+    assert polygon.polar[:, 0].tolist() == [5, 13, 2]
+    np.testing.assert_allclose(polygon.polar[:, 1], [math.atan2(4, 3), math.atan2(12, -5), 1.5 * math.pi], rtol=1e-15)
+    tangents = [(5, {"tau": "1/2"}), (13, {"tau": "3/2"}), ("2", "270deg")]
+    assert Polygon.from_polar(tangents) == polygon
+    ring = Polygon.from_polar([(9, f"{90 * k}deg") for k in range(4)], [[(1, "0deg"), (1, "90deg"), (1, "180deg")]])
+    assert ring.exact_area == 162 - 1
+
+
+@given(strategies.polygons())
+def test_polar_coordinates_lead_back_up_to_rounding(shape: Shape) -> None:
+    polygon = Polygon(*shape)
+    rings = [polygon.polar[i:j] for i, j in pairwise(polygon.ring_offsets)]
+    back = [r[:, :1] * np.column_stack((np.cos(r[:, 1]), np.sin(r[:, 1]))) for r in rings]
+    np.testing.assert_allclose(np.concatenate(back), polygon.vertices, atol=1e-14)
+    assert ((polygon.polar[:, 1] >= 0) & (polygon.polar[:, 1] < math.tau)).all()
+    if len(rings) == 1 and polygon.is_convex:
+        again = Polygon.from_polar(polygon.polar)
+        if len(again) == len(polygon):  # rounding may make neighbours collinear
+            np.testing.assert_allclose(again.vertices, polygon.vertices, atol=1e-14)
+
+
 def test_an_l_shape_has_one_reflex_vertex() -> None:
     #   5---4
     #   |   |

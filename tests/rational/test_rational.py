@@ -22,13 +22,14 @@ from cfree.contact.contact import (
     contacts,
     edge_edge_range,
 )
-from cfree.contact.definitions import is_contact
+from cfree.contact.definitions import contact_features, is_contact, is_forbidden
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import chart_intervals, half_tangent
 from cfree.exact.orientation import Location
 from cfree.exact.pose import Pose
 from cfree.exact.surd import Surd
 from cfree.polygons.polygon import Polygon
+from cfree.rational.bezier import bezier_patches
 from cfree.rational.model import (
     RationalSegment,
     rational_helix,
@@ -352,10 +353,27 @@ def test_bad_arrays_are_refused() -> None:
 
 
 def test_reflex_vertices_have_no_patch() -> None:
-    for contact in (VertexEdge(3, 0), VertexVertex(0, 3), EdgeEdge(2, 3)):
-        shape = L_SHAPE if isinstance(contact, VertexEdge | EdgeEdge) else SQUARE
+    for contact, shape in ((VertexVertex(0, 3), SQUARE), (EdgeEdge(2, 3), L_SHAPE)):
         with pytest.raises(ValueError, match="never a contact"):
             of(shape, L_SHAPE, contact)
+    for contact in (VertexEdge(3, 0), EdgeVertex(0, 3)):
+        with pytest.raises(ValueError, match="never a contact"):
+            rational_range(L_SHAPE, L_SHAPE, contact)
+        with pytest.raises(ValueError, match="no patch"):
+            bezier_patches(rational_surface(L_SHAPE, L_SHAPE, contact))
+
+
+@pytest.mark.parametrize("contact", [VertexEdge(3, 0), EdgeVertex(0, 3)])
+@settings(max_examples=20)
+@given(ts, taus)
+def test_at_a_reflex_vertex_there_are_pseudo_contacts_and_no_contact(
+    contact: VertexEdge | EdgeVertex, t: Fraction, tau: Fraction | None
+) -> None:
+    S = rational_surface(L_SHAPE, L_SHAPE, contact)
+    x, y, _ = S.point(t, tau)
+    assert S.Phi is None and S.locate(t, tau) is Location.OUTSIDE
+    assert (contact in contact_features(L_SHAPE, L_SHAPE, Pose(x, y, {"tau": tau}))) == (t not in (0, 1))
+    assert is_forbidden(L_SHAPE, L_SHAPE, Pose(x, y, {"tau": tau})) or t in (0, 1)
 
 
 def test_huge_coordinates_do_not_matter() -> None:

@@ -15,11 +15,21 @@ double Limits::inside(double tau, double from, double to) {
 }
 
 std::array<double, 2> Limits::of(Index trapezoid, double tau) const {
+    const auto [lower, upper] = crossings(trapezoid, tau);
+    return {lower.t, upper.t};
+}
+
+std::array<Limits::Meeting, 2> Limits::meetings(Index trapezoid, double theta) const {
+    const int chart = boundary.trapezoids.chart[trapezoid];
+    return crossings(trapezoid, tangent(0.5 * (theta - chart * std::numbers::pi)));
+}
+
+std::array<Limits::Meeting, 2> Limits::crossings(Index trapezoid, double tau) const {
     const Trapezoids& t = boundary.trapezoids;
     const Feature contact = boundary.patches.contact(t.patch[trapezoid]);
     const auto r = rotation_by(t.chart[trapezoid], inside(tau, t.tau_from(trapezoid), t.tau_to(trapezoid)));
     const Line l = line(contact, r);
-    return {meets(contact, l, t.lower[trapezoid], r).t, meets(contact, l, t.upper[trapezoid], r).t};
+    return {meets(contact, l, t.lower[trapezoid], r), meets(contact, l, t.upper[trapezoid], r)};
 }
 
 Limits::Line Limits::line(const Feature& contact, const Rotation<double>& r) const {

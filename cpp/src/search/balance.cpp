@@ -18,6 +18,7 @@ constexpr double lowest = 1.0 / 64;                        // level of distance,
 constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
 constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
 constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
+constexpr double radii_beside = 3;                         // of way before and after it
 constexpr double worth_of_motion = 0.1;                    // in radii
 constexpr double not_much = 1.08;                          // longer
 constexpr std::size_t most_nodes = 40;                     // joined each with each
@@ -115,28 +116,29 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
     }
 }
 
-// Another way past the narrowest place that has not been tried, wider than that: two trees on both sides of it. False: there
-// is no such place.
-bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks, Route& other) {
-    const auto& at = top.path.mark;
-    const Route& route = top.path.route;
-    const double radius = way.costs.weight, end = at.back();
-    std::size_t narrowest = 0;
-    double least = HUGE_VAL;
-    const auto is_new = [&](std::size_t k) {
-        return at[k] > radius && at[k] < end - radius && std::none_of(tried.begin(), tried.end(), [&](const Configuration& q) {
-            return cost_between(q, route[k], way.length()) < radius;
-        });
+// Of all motions.
+double narrowest_of(const Ridge& top) {
+    return top.distance.size() < 3 ? top.distance.front() : *std::min_element(top.distance.begin() + 1, top.distance.end() - 1);
+}
+
+// A part of a ridge replaced by another ridge.
+void replace(Ridge& top, std::size_t i, std::size_t j, const Ridge& by) {
+    const auto put = [&](auto& values, const auto& with) {
+        values.erase(values.begin() + static_cast<std::ptrdiff_t>(i), values.begin() + static_cast<std::ptrdiff_t>(j) + 1);
+        values.insert(values.begin() + static_cast<std::ptrdiff_t>(i), with.begin(), with.end());
     };
-    for (std::size_t k = 0; k < at.size(); ++k)
-        if (top.distance[k] < least && is_new(k)) least = top.distance[k], narrowest = k;
-    if (least == HUGE_VAL) return false;
-    tried.push_back(route[narrowest]);
-    const double asked = wider * least;
-    std::size_t i = narrowest, j = narrowest;
-    while (i > 0 && (at[narrowest] - at[i] < radius || top.distance[i] < asked)) --i;
-    while (j + 1 < at.size() && (at[j] - at[narrowest] < radius || top.distance[j] < asked)) ++j;
-    if (top.distance[i] < asked || top.distance[j] < asked) return true;
+    std::vector<double> mark = by.path.mark, distance = by.distance;
+    distance.front() = std::min(distance.front(), top.distance[i]), distance.back() = std::min(distance.back(), top.distance[j]);
+    for (double& m : mark) m += top.path.mark[i];
+    const double longer = mark.back() - top.path.mark[j];
+    for (std::size_t k = j; k < top.path.mark.size(); ++k) top.path.mark[k] += longer;
+    put(top.path.mark, mark), put(top.path.route, by.path.route), put(top.distance, distance);
+}
+
+// From one pose of a ridge to another anew, by two trees, keeping a distance.
+Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j, double asked, int& checks) {
+    const Route& route = top.path.route;
+    const double radius = way.costs.weight;
     Area area{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (std::size_t k = i; k <= j; ++k) {
         area.x0 = std::min(area.x0, route[k].px - radius), area.x1 = std::max(area.x1, route[k].px + radius);
@@ -145,14 +147,43 @@ bool past_narrowest(const Way& way, const Ridge& top, Route& tried, int& checks,
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
     const auto exact = [&](const Place& q) { return way.grid.exact(q.x, q.y, q.theta); };
-    RrtConnect search({[&](const Place& a, const Place& b) { return joins(exact(a), exact(b)); }, joins}, way.grid, area, way.costs.weight, route[i], route[j], 0);
+    const auto seems = [&](const Place& a, const Place& b) { return joins(exact(a), exact(b)); };
+    RrtConnect search({seems, joins}, way.grid, area, radius, route[i], route[j], 0);
     Route found;
     for (int k = 0; k < runs && checks > 0 && found.empty(); ++k, checks -= checks_at_once) found = search.run(checks_at_once);
-    if (found.empty()) return true;
-    other.assign(route.begin(), route.begin() + static_cast<std::ptrdiff_t>(i));
-    other.insert(other.end(), found.begin(), found.end());
-    other.insert(other.end(), route.begin() + static_cast<std::ptrdiff_t>(j) + 1, route.end());
-    return true;
+    return found;
+}
+
+// Past the narrowest place that has not been tried by another way, wider than that. False: there is none.
+bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int& checks) {
+    const auto& at = top.path.mark;
+    const Route& route = top.path.route;
+    const double radius = way.costs.weight;
+    while (checks > 0) {
+        std::size_t narrowest = 0;
+        double least = HUGE_VAL;
+        const auto is_new = [&](std::size_t k) {
+            return at[k] > radius && at[k] < at.back() - radius && std::none_of(tried.begin(), tried.end(), [&](const Configuration& q) {
+                return cost_between(q, route[k], way.length()) < radius;
+            });
+        };
+        for (std::size_t k = 0; k < at.size(); ++k)
+            if (top.distance[k] < least && is_new(k)) least = top.distance[k], narrowest = k;
+        if (least == HUGE_VAL) return false;
+        tried.push_back(route[narrowest]);
+        const double asked = wider * least;
+        std::size_t i = narrowest, j = narrowest;
+        while (i > 0 && (at[narrowest] - at[i] < radius || top.distance[i] < asked)) --i;
+        while (j + 1 < at.size() && (at[j] - at[narrowest] < radius || top.distance[j] < asked)) ++j;
+        if (top.distance[i] < asked || top.distance[j] < asked) continue;
+        const Route found = another_way(way, top, i, j, asked, checks);
+        if (found.empty()) continue;
+        if (const Ridge part = ridge(way, found, level); narrowest_of(part) > least) {
+            replace(top, i, j, part);
+            return true;
+        }
+    }
+    return false;
 }
 
 // No part's ends, a radius from start and goal, can be farther from everything.
@@ -161,17 +192,21 @@ double most_distance(const Way& way, const Route& route) {
     return std::min({distance(route.front()), distance(route.back()), cost_of(route, way.length())}) + way.costs.weight;
 }
 
-double narrowest(const Ridge& top) { return *std::min_element(top.distance.begin() + 1, top.distance.end() - 1); }
-
-// From the ridge itself, while that makes its narrowest place wider.
-Ridge climbed_on(const Way& way, Ridge top, double level) {
-    while (top.distance.size() > 2 && narrowest(top) < narrow * way.costs.weight) {
-        Ridge next = ridge(way, top.path.route, level);
-        const bool gains = next.distance.size() > 2 && narrowest(next) > climbs_on * std::max(narrowest(top), way.nearness->least());
-        if (!gains) break;
-        top = std::move(next);
+// From the ridge itself, about its narrowest place, while that makes it wider.
+void climb_on(const Way& way, Ridge& top, double level) {
+    const double radius = way.costs.weight;
+    for (double least; top.distance.size() > 2 && (least = narrowest_of(top)) < narrow * radius;) {
+        const auto& at = top.path.mark;
+        const auto begin = top.distance.begin();
+        const auto place = static_cast<std::size_t>(std::find(begin + 1, top.distance.end() - 1, least) - begin);
+        std::size_t i = place, j = place;
+        while (i > 0 && at[place] - at[i] < radii_beside * radius) --i;
+        while (j + 1 < at.size() && at[j] - at[place] < radii_beside * radius) ++j;
+        const auto from = top.path.route.begin() + static_cast<std::ptrdiff_t>(i);
+        const Ridge part = ridge(way, Route(from, from + static_cast<std::ptrdiff_t>(j - i) + 1), level);
+        if (narrowest_of(part) < climbs_on * std::max(least, way.nearness->least())) break;
+        replace(top, i, j, part);
     }
-    return top;
 }
 
 // All parts keep a share of what each could, if that is not much longer than if only the first do.
@@ -181,7 +216,7 @@ Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
         Way along = way.asking(top.path, distances_asked(top, way.costs.weight, share_asked, depth));
         along.per_motion = worth_of_motion * way.costs.weight;
         const std::size_t motions = pruned(along, top.path).route.size() - 1;
-        Marked path = shortest(along, top.path, std::min(nodes, 6 + 2 * motions));
+        Marked path = shortest(along, top.path, way.costs.prefer() ? most_nodes : std::min(nodes, 6 + 2 * motions));
         if (!found || cost_of(path.route, way.costs) < not_much * cost_of(found->path.route, way.costs))
             found.emplace(Balanced{std::move(along), std::move(path)});
     }
@@ -195,22 +230,22 @@ Balanced balanced(const Way& way, const Route& route) {
     plain.costs = way.length();
     Way any = plain;
     any.nearness = nullptr;
-    Route path = pruned(any, {route, std::vector<double>(route.size())}).route, tried;
+    const Route path = pruned(any, {route, std::vector<double>(route.size())}).route;
     const double most = most_distance(way, path), radius = way.costs.weight;
+    Route tried;
     int checks = std::min(most_checks, checks_by_pose * static_cast<int>(route.size()));
-    for (double level = std::min(most, lowest * radius);;) {
-        const Ridge top = ridge(way, path, level);
-        std::vector<double> asked = distances_asked(top, radius, share_between, all_parts);
-        if (level < most && *std::max_element(asked.begin(), asked.end()) > gained * share_between * level) {
-            path = pruned(plain.asking(top.path, std::move(asked)), top.path).route;
+    double level = std::min(most, lowest * radius);
+    Ridge top = ridge(way, path, level);
+    do {
+        for (;;) {
+            std::vector<double> asked = distances_asked(top, radius, share_between, all_parts);
+            if (level == most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * level) break;
             level = std::min(most, level * (level < radius / 5 ? 4 : 2));
-            continue;
+            top = ridge(way, pruned(plain.asking(top.path, std::move(asked)), top.path).route, level);
         }
-        Route other;
-        while (other.empty() && checks > 0 && past_narrowest(way, top, tried, checks, other)) {}
-        if (other.empty()) return shortest_along(way, climbed_on(way, top, level), std::min(most_nodes, 12 + route.size() / 2));
-        path = std::move(other);
-    }
+    } while (past_narrowest(way, top, level, tried, checks));
+    climb_on(way, top, level);
+    return shortest_along(way, top, std::min(most_nodes, 12 + route.size() / 2));
 }
 
 }  // namespace cfree

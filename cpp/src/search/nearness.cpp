@@ -13,6 +13,8 @@ namespace {
 
 constexpr int deepest = 16, most_parts = 4096;  // of a motion: where more would be needed it does not keep its distance
 constexpr double nearly = 0.95;
+constexpr double looks_apart = 0.125;  // poses looked at, in the robot's radii
+constexpr int most_looks = 32;
 constexpr double rounding = 0x1p-40;  // of the size of the scene
 
 }  // namespace
@@ -163,6 +165,17 @@ double Nearness::distance(const Placed& placed, double within) const {
             if (are_near(placed, i, j, best, w)) best = w.distance;
         });
     return best;
+}
+
+// In the middle, in the middles of both halves, and so on.
+bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
+    const double most = travel_between(a, b) + reach * std::abs(turn_between(a, b));
+    int count = 1;
+    while (count < most_looks && most > looks_apart * reach * count) count *= 2;
+    for (int by = count; by > 0; by /= 2)
+        for (int k = by; k < 2 * count; k += 2 * by)
+            if (distance(along(a, b, 0.5 * k / count), 0) < -least_distance) return true;
+    return false;
 }
 
 // Halved, what is in the middle first. A part keeps its distance if the middle has enough for how far the robot gets from

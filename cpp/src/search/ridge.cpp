@@ -15,11 +15,15 @@ using Three = std::array<double, 3>;
 
 constexpr int most_steps = 12;      // uphill
 constexpr double idle = 0.05;       // of a step: what it must gain at least
+constexpr double longest = 0.5;     // step, in radii: beyond, a linear one says little
+constexpr int most_cuts = 16;
 constexpr double spacing = 1.0 / 3; // of poses, in radii
 constexpr double most_poses = 300;  // about
 constexpr int most_inserted = 100;  // poses between those
+constexpr int bridges = 3;          // halvings of what poses have not joined
+constexpr double most_of_apart = 0.75;
+constexpr double off_limits = 0.01; // radii: that much room for arcs beside them
 constexpr double ease_off = 0.5;    // how fast distances may change along a way
-constexpr double closely = 0.8;     // of the distances at its ends, what a motion keeps unless poses are inserted
 
 double dot(const Three& a, const Three& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Three cross(const Three& a, const Three& b) {
@@ -35,25 +39,50 @@ struct Slope {
     double value, u, v;
 };
 
-// The step in a square that makes the least of some distances greatest: golden sections of sections.
+// Of a concave function of two numbers at one place: its value, its slope in one of them and in the other.
+struct Tangent {
+    double value, slope, across;
+};
+struct Peak {
+    double at;
+    Tangent there;
+};
+
+// Where a concave function is greatest between -most and most: tangents from both sides are cut, the one there replaces one of
+// them. If the function is made of lines they are few.
+template <class F>
+Peak peak(F&& tangent, double most) {
+    double lo = -most, hi = most;
+    Tangent a = tangent(lo), b = tangent(hi);
+    if (a.slope <= 0) return {lo, a};
+    if (b.slope >= 0) return {hi, b};
+    for (int k = 0;; ++k) {
+        const double bend = a.slope - b.slope, on = std::clamp((b.value - a.value - b.slope * (hi - lo)) / bend, 0.0, hi - lo);
+        const Tangent t = tangent(lo + on);
+        const bool is_there = t.value >= a.value + a.slope * on - 1e-6 * most;
+        if (is_there || k == most_cuts) return {lo + on, {t.value, 0, (a.slope * b.across - b.slope * a.across) / bend}};
+        if (t.slope > 0) lo += on, a = t;
+        else hi = lo + on, b = t;
+    }
+}
+
+// The step in a square that makes the least of some distances greatest.
 std::array<double, 3> best_step(const std::vector<Slope>& slopes, double trust) {
-    constexpr double golden = 0.6180339887498949;
-    const auto section = [&](auto&& value) {
-        double lo = -trust, hi = trust, a = hi - golden * (hi - lo), b = lo + golden * (hi - lo), fa = value(a), fb = value(b);
-        for (int k = 0; k < 16; ++k) {
-            if (fa < fb) lo = a, a = b, fa = fb, b = lo + golden * (hi - lo), fb = value(b);
-            else hi = b, b = a, fb = fa, a = hi - golden * (hi - lo), fa = value(a);
-        }
-        return fa < fb ? b : a;
+    const auto beside = [&](double u) {
+        return peak([&](double v) {
+            const Slope* least = nullptr;
+            double f = HUGE_VAL;
+            for (const Slope& s : slopes)
+                if (const double d = s.value + s.u * u + s.v * v; d < f) f = d, least = &s;
+            return Tangent{f - idle * std::abs(v), least->v - std::copysign(idle, v), least->u};
+        }, trust);
     };
-    const auto least = [&](double u, double v) {
-        double f = HUGE_VAL;
-        for (const Slope& s : slopes) f = std::min(f, s.value + s.u * u + s.v * v);
-        return f - idle * (std::abs(u) + std::abs(v));
-    };
-    const auto best_v = [&](double u) { return section([&](double v) { return least(u, v); }); };
-    const double u = section([&](double at) { return least(at, best_v(at)); }), v = best_v(u);
-    return {u, v, least(u, v) + idle * (std::abs(u) + std::abs(v))};
+    const double u = peak([&](double at) {
+        const Tangent t = beside(at).there;
+        return Tangent{t.value - idle * std::abs(at), t.across - std::copysign(idle, at), 0};
+    }, trust).at;
+    const auto [v, there] = beside(u);
+    return {u, v, there.value + idle * std::abs(v)};
 }
 
 }  // namespace
@@ -62,22 +91,27 @@ double climb(const Way& way, Place& q, const Three& direction, double enough) {
     const Three t = unit(direction), other = std::abs(t[2]) < 0.9 ? Three{0, 0, 1} : Three{1, 0, 0};
     const Three e = unit(cross(t, other)), f = cross(t, e);
     const double radius = way.costs.weight;
-    const Area& limits = way.limits;
+    const auto between = [off = off_limits * radius](double from, double lo, double hi) {
+        return std::pair{std::min(from, lo + off), std::max(from, hi - off)};
+    };
+    const auto [x0, x1] = between(q.x, way.limits.x0, way.limits.x1);
+    const auto [y0, y1] = between(q.y, way.limits.y0, way.limits.y1);
     double d = way.nearness->distance(q, enough), trust = std::min(0.25 * radius, 2 * enough);
     for (int k = 0; k < most_steps && d < enough; ++k) {
         heed_stop();
         std::vector<Slope> slopes{{enough, 0, 0}};
         for (const Witness& w : way.nearness->around(q, d + 3 * trust)) {
             const Three g{w.normal.x, w.normal.y, (w.normal.y * w.arm.x - w.normal.x * w.arm.y) / radius};
-            slopes.push_back({w.distance, dot(g, e), dot(g, f)});
+            const Slope s{w.distance, dot(g, e), dot(g, f)};
+            if (s.value - trust * (std::abs(s.u) + std::abs(s.v)) < enough) slopes.push_back(s);
         }
         const auto [u, v, aim] = best_step(slopes, trust);
         if (aim - d < 0.02 * std::min(trust, d + 0.1 * trust)) break;
         Place next{q.x + u * e[0] + v * f[0], q.y + u * e[1] + v * f[1], q.theta + (u * e[2] + v * f[2]) / radius};
-        next.x = std::clamp(next.x, limits.x0, limits.x1), next.y = std::clamp(next.y, limits.y0, limits.y1);
+        next.x = std::clamp(next.x, x0, x1), next.y = std::clamp(next.y, y0, y1);
         const double now = way.nearness->distance(next, enough);
         if (now >= d + 0.1 * (aim - d)) {
-            if (now > d + 0.5 * (aim - d)) trust *= 2;
+            if (now > d + 0.5 * (aim - d)) trust = std::min(2 * trust, longest * radius);
             q = next, d = now;
         } else if ((trust /= 4) < 1e-7 * radius) {
             break;
@@ -92,6 +126,7 @@ struct Sample {
     double where;            // on the route
     Configuration own, high; // there, and uphill
     double distance;
+    bool is_on_route;  // and not beside it, rounded, where there is no room for that
 };
 
 struct Step {
@@ -107,9 +142,11 @@ public:
 private:
     Sample sample(double where, double up_to) const;
     std::vector<Sample> samples() const;
-    std::optional<Step> measured(const Configuration& a, const Configuration& b, double most, double least_share) const;
-    std::vector<Step> joined(const Sample& a, const Sample& b, bool roughly) const;
+    std::optional<Step> measured(const Configuration& a, const Configuration& b, double most, bool roughly) const;
+    std::vector<Step> leg(const Configuration& a, const Configuration& b, double most, bool roughly) const;
+    std::vector<Step> bridged(const Configuration& a, const Configuration& b, int depth) const;
     std::vector<Step> around(const Sample& a, const Sample& b) const;
+    bool is_above(const Sample& s) const { return s.is_on_route && !way.nearness->overlaps(s.own, s.high); }
     double distance(const Configuration& q) const { return way.nearness->distance({q.px, q.py, q.theta}, enough); }
 
     const Way& way;
@@ -127,13 +164,14 @@ Sample Climber::sample(double where, double up_to) const {
         const Place before = along(from, to, here - 1e-3), beyond = along(from, to, here + 1e-3);
         return {beyond.x - before.x, beyond.y - before.y, way.costs.weight * (beyond.theta - before.theta)};
     };
-    Place q = along(a, b, share);
-    Sample s{where, where == at[k] ? a : where == at[k + 1] ? b : way.grid.exact(q.x, q.y, q.theta), {}, 0};
-    s.high = s.own;
+    const Place here = along(a, b, share);
+    Sample s{where, where == at[k] ? a : where == at[k + 1] ? b : way.grid.exact(here.x, here.y, here.theta), {}, 0, true};
+    s.high = s.own, s.is_on_route = where == at[k] || where == at[k + 1] || distance(s.own) > way.nearness->least();
     if (where != at.front() && where != at.back()) {
+        Place q = here;
         const double reached = climb(way, q, direction(a, b, share), up_to);
         if (where == at[k] && reached < up_to) climb(way, q, direction(route[k - 1], a, 1), up_to);
-        s.high = way.grid.exact(q.x, q.y, q.theta);
+        if (q.x != here.x || q.y != here.y || q.theta != here.theta) s.high = way.grid.exact(q.x, q.y, q.theta);
     }
     s.distance = std::min(up_to, distance(s.high));
     return s;
@@ -164,52 +202,97 @@ std::vector<Sample> Climber::samples() const {
 }
 
 // Which share of a distance a motion keeps, as far as that is looked for; 0: it is free, and no more is known.
-std::optional<Step> Climber::measured(const Configuration& a, const Configuration& b, double most, double least_share) const {
-    for (const double share : {0.95, 0.8, 0.65, 0.5, 0.35, 0.2, 0.1, 0.03, 0.0})
-        if (share >= least_share && way.keeps(a, b, share * most)) return Step{b, share * most};
+std::optional<Step> Climber::measured(const Configuration& a, const Configuration& b, double most, bool roughly) const {
+    constexpr std::array shares{0.95, 0.8, 0.65, 0.5, 0.35, 0.2, 0.1, 0.03};
+    constexpr std::size_t close = 2;  // of them: unless poses are inserted
+    const auto keeps = [&](double share) { return way.keeps(a, b, share * most); };
+    if (most > way.nearness->least()) {
+        if (keeps(shares[0])) return Step{b, shares[0] * most};
+        const std::size_t end = roughly ? shares.size() : close;
+        std::size_t bad = 0, good = end;
+        while (bad + 1 < good) {
+            const std::size_t middle = (bad + good) / 2;
+            (keeps(shares[middle]) ? good : bad) = middle;
+        }
+        if (good < end) return Step{b, shares[good] * most};
+        if (!roughly) return {};
+    }
+    if (!keeps(0)) return {};
+    return Step{b, 0};
+}
+
+// One motion; or, where its arc may leave the limits, a turn and a straight way in either order.
+std::vector<Step> Climber::leg(const Configuration& a, const Configuration& b, double most, bool roughly) const {
+    if (const auto step = measured(a, b, most, roughly)) return {*step};
+    if (way.is_within(a, b)) return {};
+    for (const Configuration& between : {corner(b, a), corner(a, b)})
+        if (const auto first = measured(a, between, most, roughly))
+            if (const auto second = measured(between, b, most, roughly)) return {*first, *second};
     return {};
 }
 
-std::vector<Step> Climber::joined(const Sample& a, const Sample& b, bool roughly) const {
-    const auto step = measured(a.high, b.high, std::min(a.distance, b.distance), roughly ? 0 : closely);
-    return step ? std::vector{*step} : std::vector<Step>{};
-}
-
-// Down to the route, along it and up again.
-std::vector<Step> Climber::around(const Sample& a, const Sample& b) const {
-    Route r{a.high, a.own};
-    for (std::size_t k = 0; k < at.size(); ++k)
-        if (a.where < at[k] && at[k] < b.where) r.push_back(route[k]);
-    r.push_back(b.own), r.push_back(b.high);
+// Over poses half way between, pushed across.
+std::vector<Step> Climber::bridged(const Configuration& a, const Configuration& b, int depth) const {
+    const double apart = cost_between(a, b, way.length());
+    Place q = along(a, b, 0.5);
+    climb(way, q, {b.px - a.px, b.py - a.py, way.costs.weight * turn_between(a, b)}, std::min({enough, distance(a), distance(b)}));
+    const Configuration middle = way.grid.exact(q.x, q.y, q.theta);
+    if (distance(middle) <= way.nearness->least()) return {};
     std::vector<Step> steps;
-    for (std::size_t k = 1; k < r.size(); ++k) {
-        const auto step = measured(r[k - 1], r[k], std::min(distance(r[k - 1]), distance(r[k])), 0);
-        if (!step) return {};
-        steps.push_back(*step);
+    for (const auto& [from, to] : {std::pair{&a, &middle}, std::pair{&middle, &b}}) {
+        if (cost_between(*from, *to, way.length()) > most_of_apart * apart) return {};
+        auto some = leg(*from, *to, std::min(distance(*from), distance(*to)), true);
+        if ((some.empty() || some.front().distance == 0) && depth > 0) some = bridged(*from, *to, depth - 1);
+        if (some.empty()) return {};
+        steps.insert(steps.end(), some.begin(), some.end());
     }
     return steps;
+}
+
+// Down to the route, along it and up again. Whole motions of the route are free.
+std::vector<Step> Climber::around(const Sample& a, const Sample& b) const {
+    if (!a.is_on_route || !b.is_on_route) return {};
+    std::vector<Step> steps;
+    Configuration here = a.high;
+    const auto go_on = [&](const Configuration& to, bool is_whole) {
+        if (cost_between(here, to, way.length()) == 0) return true;
+        auto some = leg(here, to, std::min(distance(here), distance(to)), true);
+        if (some.empty() && is_whole) some = {{to, 0}};
+        steps.insert(steps.end(), some.begin(), some.end()), here = to;
+        return !some.empty();
+    };
+    bool is_free = go_on(a.own, false);
+    double before = a.where;
+    for (auto k = std::upper_bound(at.begin(), at.end(), a.where); is_free && *k < b.where; before = *k++)
+        is_free = go_on(route[static_cast<std::size_t>(k - at.begin())], *(k - 1) == before);
+    const auto last = std::lower_bound(at.begin(), at.end(), b.where);
+    is_free = is_free && go_on(b.own, *last == b.where && *(last - 1) == before) && go_on(b.high, false);
+    return is_free ? steps : std::vector<Step>{};
 }
 
 Ridge Climber::run() {
     std::vector<Sample> ahead = samples(), kept{ahead.back()};
     ahead.pop_back();
     std::vector<std::vector<Step>> steps{{}};  // to each sample kept
+    bool may_divide = true;
     for (int inserted = 0; !ahead.empty();) {
         heed_stop();
         const Sample next = ahead.back(), &last = kept.back();
         const double apart = cost_between(last.high, next.high, way.length()), middle = 0.5 * (last.where + next.where);
-        const bool divides = apart > 0.5 * std::min(last.distance, next.distance) && next.where - last.where > apart / 8 &&
+        const bool divides = may_divide && apart > 0.5 * std::min(last.distance, next.distance) && next.where - last.where > apart / 8 &&
                              last.where < middle && middle < next.where && inserted < most_inserted;
-        auto between = joined(last, next, !divides);
+        auto between = leg(last.high, next.high, std::min(last.distance, next.distance), !divides);
         if (between.empty() && divides) {
             const double off = ease_off * (middle - last.where);
             ahead.push_back(sample(middle, std::min({enough, last.distance + off, next.distance + off}))), ++inserted;
             continue;
         }
+        if (between.empty()) between = bridged(last.high, next.high, bridges);
         if (between.empty()) between = around(last, next);
-        if (!between.empty()) kept.push_back(next), steps.push_back(std::move(between)), ahead.pop_back();
-        else if (ahead.size() > 1) ahead.pop_back();        // by another sample
-        else kept.pop_back(), steps.pop_back();             // at last along the route itself
+        may_divide = !between.empty();
+        if (may_divide) kept.push_back(next), steps.push_back(std::move(between)), ahead.pop_back();
+        else if (kept.size() == 1 || (ahead.size() > 1 && (is_above(last) || !is_above(next)))) ahead.pop_back();  // by another sample
+        else kept.pop_back(), steps.pop_back();  // at last along the route itself
     }
     Ridge r{{{kept.front().own}, {0}}, {kept.front().distance}};
     for (const auto& between : steps)

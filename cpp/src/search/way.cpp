@@ -65,7 +65,7 @@ std::size_t Way::nearest(const Place& at, double from, double to) const {
 }
 
 bool Way::joins(const Configuration& a, const Configuration& b, double from, double to) const {
-    if (!nearness) return checker.is_free(motion_between(a, b));
+    if (!nearness) return is_free(a, b);
     double least = HUGE_VAL;
     const auto need = [&](double share) {
         const double distance = distances[nearest(along(a, b, share), from, to)];
@@ -73,7 +73,7 @@ bool Way::joins(const Configuration& a, const Configuration& b, double from, dou
         return distance;
     };
     if (!nearness->keeps(a, b, need)) return false;
-    return (least > nearness->least() && is_within(a, b)) || checker.is_free(motion_between(a, b));
+    return (least > nearness->least() && is_within(a, b)) || is_free(a, b);
 }
 
 bool Way::joins(const Marked& path) const {
@@ -84,10 +84,14 @@ bool Way::joins(const Marked& path) const {
 
 bool Way::keeps(const Configuration& a, const Configuration& b, double distance) const {
     if (!nearness->keeps(a, b, [&](double) { return distance; })) return false;
-    return (distance > nearness->least() && is_within(a, b)) || checker.is_free(motion_between(a, b));
+    return (distance > nearness->least() && is_within(a, b)) || is_free(a, b);
 }
 
-// Does the reference point certainly stay within the limits? Its arc is beside the chord by no more than an eighth.
+bool Way::is_free(const Configuration& a, const Configuration& b) const {
+    return !(nearness && nearness->overlaps(a, b)) && checker.is_free(motion_between(a, b));
+}
+
+// Its arc is beside the chord by no more than an eighth.
 bool Way::is_within(const Configuration& a, const Configuration& b) const {
     const double off = travel_between(a, b) * std::abs(turn_between(a, b)) / 8 + nearness->least();
     const auto [x0, x1] = std::minmax(a.px, b.px);

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from cfree.contact.surface import contact_helix as contact_helix
     from cfree.contact.surface import contact_segment as contact_segment
     from cfree.contact.surface import contact_surface as contact_surface
+    from cfree.contact.surface import edge_edge_surface as edge_edge_surface
     from cfree.contact.surface import helix_through as helix_through
     from cfree.contact.surface import rotation_about as rotation_about
     from cfree.contact.surface import rotation_of_combination as rotation_of_combination
@@ -35,6 +36,6 @@ __getattr__, __dir__, __all__ = lazy_names(
         "VertexVertex angle_range contact_curves contacts edge_edge_range",
         "definitions": "contact_features is_contact is_forbidden is_pseudo_contact",
         "surface": "EdgeEdgeSegment Helix Surface contact_helix "
-        "contact_segment contact_surface helix_through rotation_about rotation_of_combination",
+        "contact_segment contact_surface edge_edge_surface helix_through rotation_about rotation_of_combination",
     },
 )

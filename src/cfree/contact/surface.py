@@ -13,6 +13,7 @@ Results are arrays (..., 3) of x, y and phi in double precision; `pose` gives th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -23,8 +24,8 @@ from numpy.typing import ArrayLike, NDArray
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
-from cfree.exact.half_angle import Angle
-from cfree.exact.number import ExactPoint, Number, finite, to_fraction
+from cfree.exact.half_angle import Angle, normalize_angles
+from cfree.exact.number import ExactPoint, Number, angle, finite, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.polygons.polygon import Polygon
 
@@ -163,6 +164,41 @@ class Helix:
         c, s = np.cos(phi), np.sin(phi)
         return np.stack((px - (c * ax - s * ay), py - (s * ax + c * ay), phi), axis=-1)
 
+    @property
+    def radius(self) -> float:
+        """|a|: how far the fixed point is from the robot's reference point."""
+        return math.hypot(*map(float, self.fixed))
+
+    @checked
+    def curvature(self, *, angle_scale: float = 1.0) -> float:
+        """|a| / (|a|^2 + w^2) where w is `angle_scale`, the length of a radian: the same everywhere, in 1 / length.
+
+        Examples
+        --------
+        >>> helix = rotation_about((3, 0), (1, 0))
+        >>> helix.curvature(), helix.torsion(), helix.length(0, 1) ** 2
+        (0.5, 0.5, 2.0000000000000004)
+        """
+        return self.radius / self._square(angle_scale)
+
+    @checked
+    def torsion(self, *, angle_scale: float = 1.0) -> float:
+        """w / (|a|^2 + w^2): to the right, as of every screw that climbs as it turns to the left, in 1 / length.
+
+        On the axis, |a| = 0, the helix is a straight line and has no torsion; this is then the limit.
+        """
+        return angle_scale / self._square(angle_scale)
+
+    @checked
+    def length(self, phi_from: float, phi_to: float, *, angle_scale: float = 1.0) -> float:
+        """Length between two angles, (phi_to - phi_from) sqrt(|a|^2 + w^2): negative if the first is larger."""
+        return (phi_to - phi_from) * math.sqrt(self._square(angle_scale))
+
+    def _square(self, angle_scale: float) -> float:
+        if not 0 < angle_scale < math.inf:
+            raise ValueError(f"angle_scale: {angle_scale}; give a finite length per radian above 0")
+        return self.radius**2 + angle_scale**2
+
     @checked
     def pose(self, theta: Angle) -> Pose:
         """The exact pose at theta."""
@@ -173,7 +209,7 @@ class Helix:
 
 @dataclass(frozen=True, slots=True)
 class EdgeEdgeSegment:
-    """Straight curve C(t) = S(t, phi_min) of an e-e contact, section 3.3.2.
+    """Straight curve C(t) = S(t, phi) of an e-e contact, section 3.3.2, or of an e-e pseudo contact.
 
     Attributes
     ----------
@@ -182,7 +218,7 @@ class EdgeEdgeSegment:
         S of the v-e contact of the edge's first vertex.
     phi : float, radians
     t_range : (float, float)
-        Closed range of t where it is a contact, see `edge_edge_range`.
+        Closed range of t: see `contact_segment` and `edge_edge_surface`.
     """
 
     contact: EdgeEdge
@@ -191,7 +227,7 @@ class EdgeEdgeSegment:
     t_range: tuple[float, float]
 
     def __call__(self, t: ArrayLike) -> Floats:
-        """Points (x, y, phi): (..., 3); any t, a contact within `t_range`."""
+        """Points (x, y, phi): (..., 3); any t, also beyond `t_range`."""
         return self.surface(t, self.phi, beyond=True)
 
 
@@ -220,7 +256,7 @@ def contact_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> H
 
 @checked
 def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> EdgeEdgeSegment:
-    """Segment of an e-e contact.
+    """Segment of an e-e contact: `t_range` is where it is one, see `edge_edge_range`.
 
     Raises
     ------
@@ -240,6 +276,40 @@ def contact_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> Edg
         raise ValueError(f"{contact} has no segment: reflex vertices keep the edges apart; see contact_curves()")
     phi = angle_range(robot, obstacle, contact).phi_min
     return EdgeEdgeSegment(contact, contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j)), phi, t_range)
+
+
+@checked
+def edge_edge_surface(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[EdgeEdgeSegment, EdgeEdgeSegment]:
+    """Contact surface of an e-e pair, Definition 1: its two segments, contact or only pseudo contact.
+
+    Returns
+    -------
+    pair of EdgeEdgeSegment
+        Edges run against each other in the first, at phi_min, and alongside in the second, at phi_min + pi, where all
+        poses are forbidden. Inside `t_range` the edges have more than a point in common, at its ends a point.
+
+    Notes
+    -----
+    With L = |E_i| / |E_j| the robot's edge covers [t - L, t] of the obstacle's line at phi_min and [t, t + L] at
+    phi_min + pi, the obstacle's edge [0, 1]: so t is in [0, 1 + L], or in [-L, 1]. Reflex vertices do not matter for
+    pseudo contacts.
+
+    Examples
+    --------
+    >>> square = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> against, alongside = edge_edge_surface(square, square, EdgeEdge(0, 2))
+    >>> against.phi, against.t_range, alongside.t_range
+    (0.0, (0.0, 2.0), (-1.0, 1.0))
+    >>> alongside(alongside.t_range).round(9)
+    array([[4.        , 2.        , 3.14159265],
+           [0.        , 2.        , 3.14159265]])
+    """
+    (ux, uy), (vx, vy) = robot.edge_numerators[contact.i], obstacle.edge_numerators[contact.j]
+    c, s = ux * vx + uy * vy, ux * vy - uy * vx
+    L = math.hypot(*robot.edge(contact.i)) / math.hypot(*obstacle.edge(contact.j))
+    S = contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j))
+    against, alongside = (float(normalize_angles(angle(*direction))) for direction in ((-c, -s), (c, s)))
+    return EdgeEdgeSegment(contact, S, against, (0.0, 1 + L)), EdgeEdgeSegment(contact, S, alongside, (-L, 1.0))
 
 
 @checked

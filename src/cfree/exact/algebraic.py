@@ -171,6 +171,19 @@ def ratio(x: Exact, y: Exact) -> Exact:
     return x / y if isinstance(x, Number) or isinstance(y, Number) else Fraction(x) / y
 
 
+def near(x: Exact, bits: int) -> Fraction:
+    """The number if it is rational, else one at most 2^-bits away."""
+    return x.rounded(Fraction(1, 1 << bits)) if isinstance(x, Number) else Fraction(x)
+
+
+def rounded(x: Exact) -> float:
+    """As a double, within 0.51 units of its last place."""
+    bits = 64
+    while x != 0 and (abs(found := near(x, bits)).numerator << bits - 60) < found.denominator:
+        bits *= 2
+    return float(near(x, bits))
+
+
 def at(poly: fmpz_poly, x: Exact) -> Exact:
     """Value of a polynomial."""
     if isinstance(x, Number):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from cfree.arguments import checked
-from cfree.exact.algebraic import Root
+from cfree.exact.algebraic import Exact, Root
 from cfree.exact.half_angle import Angle, normalize_angles, tau_in_chart, theta_in
 from cfree.exact.pose import Pose, PoseLike, to_pose
 
@@ -52,6 +52,11 @@ class AlgebraicAngle:
     def __lt__(self, other: AlgebraicAngle) -> bool:
         """Order from -pi/2 on, counter-clockwise."""
         return self._root < other._root if self.chart == other.chart else self.chart < other.chart
+
+    @property
+    def coordinate(self) -> Exact:
+        """tau in its chart, to compute with."""
+        return self._root.value
 
     @property
     def theta(self) -> float:
@@ -115,10 +120,10 @@ class AngleInterval:
         return self.start is not None and self.start == self.stop
 
     @checked
-    def contains(self, theta: Angle) -> bool:
-        """Is an orientation in it? Exact, for the one that `Pose` takes it for."""
+    def contains(self, theta: Angle | AlgebraicAngle) -> bool:
+        """Is an orientation in it? Exact; numbers stand for what `Pose` takes them for."""
         if self.start is None or self.stop is None:
             return True
-        angle = AlgebraicAngle.of(Pose(0, 0, theta))
+        angle = theta if isinstance(theta, AlgebraicAngle) else AlgebraicAngle.of(Pose(0, 0, theta))
         after, before = not angle < self.start, not self.stop < angle
         return after or before if self.stop < self.start else after and before

@@ -1,8 +1,9 @@
 """The geometry of contact surfaces: the paper's section 4, for both kinds of surface.
 
-`local` has forms, curvatures and directions at a point; `rulings` what the lines on a surface say of it; `area` areas;
-`development` unrolls v-e surfaces, with `elliptic` integrals; `congruence` finds equal helices, surfaces and patches;
-`ruled` reads the eight numbers of a surface.
+`local` has forms, curvatures and directions at a point; `rulings` what the lines on a surface say of it; `area` areas,
+`total_curvature` integrals of K, `curvature_sum` what these add up to on closed surfaces; `development` unrolls v-e
+surfaces, with `elliptic` integrals; `geodesics` go straight on a surface; `congruence` finds equal helices, surfaces
+and patches; `kinematic` measures the poses that meet; `ruled` reads the eight numbers of a surface.
 """
 
 from typing import TYPE_CHECKING
@@ -16,7 +17,12 @@ if TYPE_CHECKING:
     from cfree.geometry.congruence import helix_classes as helix_classes
     from cfree.geometry.congruence import patch_classes as patch_classes
     from cfree.geometry.congruence import surface_classes as surface_classes
+    from cfree.geometry.curvature_sum import GaussBonnet as GaussBonnet
+    from cfree.geometry.curvature_sum import gauss_bonnet as gauss_bonnet
     from cfree.geometry.development import develop as develop
+    from cfree.geometry.geodesics import Geodesic as Geodesic
+    from cfree.geometry.geodesics import geodesic as geodesic
+    from cfree.geometry.kinematic import meeting_volume as meeting_volume
     from cfree.geometry.local import LocalGeometry as LocalGeometry
     from cfree.geometry.local import local_geometry as local_geometry
     from cfree.geometry.rulings import distribution_parameters as distribution_parameters
@@ -27,6 +33,8 @@ if TYPE_CHECKING:
     from cfree.geometry.rulings import striction_is_on_patch as striction_is_on_patch
     from cfree.geometry.rulings import striction_parameter as striction_parameter
     from cfree.geometry.rulings import striction_parameters as striction_parameters
+    from cfree.geometry.total_curvature import patch_curvatures as patch_curvatures
+    from cfree.geometry.total_curvature import trapezoid_curvatures as trapezoid_curvatures
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,
@@ -34,8 +42,12 @@ __getattr__, __dir__, __all__ = lazy_names(
         "area": "patch_areas trapezoid_areas",
         "congruence": "arc_classes helix_classes patch_classes surface_classes",
         "development": "develop",
+        "curvature_sum": "GaussBonnet gauss_bonnet",
+        "geodesics": "Geodesic geodesic",
+        "kinematic": "meeting_volume",
         "local": "LocalGeometry local_geometry",
         "rulings": "distribution_parameters is_developable is_helicoid is_minimal "
         "striction_curve striction_is_on_patch striction_parameter striction_parameters",
+        "total_curvature": "patch_curvatures trapezoid_curvatures",
     },
 )

@@ -11,13 +11,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.exact.number import finite
 from cfree.forbidden.boundary import Boundary
-from cfree.forbidden.columns import Ints
 from cfree.geometry.development import distance_across
-from cfree.geometry.quadrature import trapezoid_integrals
-from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
+from cfree.geometry.ruled import Floats, along_rulings, check_scale, read_ruled
 
 
 @checked
@@ -64,7 +63,7 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     start, width = finite("phi_min", phi_min), finite("phi_range", phi_range)
     if np.any(width < 0):
         raise ValueError(f"phi_range: {width.min()} is negative; give the width of the range in radians")
-    swept = width * _ruling_areas(rows, np.zeros(()), np.ones(()), start, w)
+    swept = width * along_rulings(_core.ruling_areas, ruled, start, w)
     unrolled = rows.L * distance_across(rows, start, start + width, w)
     return np.where(rows.is_edge_vertex, swept, unrolled)
 
@@ -94,22 +93,4 @@ def trapezoid_areas(boundary: Boundary, *, angle_scale: float = 1.0) -> Floats:
     """
     w = check_scale(angle_scale)
     boundary.require_complete()
-    rows = boundary.ruled[boundary.trapezoids.patch]
-
-    def along_t(which: Ints, lower: Floats, upper: Floats, theta: Floats) -> Floats:
-        return _ruling_areas(read_ruled(rows[which]), lower, upper, theta, w)
-
-    return trapezoid_integrals(boundary, along_t)
-
-
-def _ruling_areas(rows: Ruled, lower: Floats, upper: Floats, phi: Floats, w: float) -> Floats:
-    """Integral of v dt from lower to upper."""
-    (s0, _), (s1, _) = (rows.across_and_along(t, phi) for t in (lower, upper))
-    on_edge = rows.L * (upper - lower) * np.hypot(w, s0)
-    return np.where(rows.is_edge_vertex, _primitive(s1, w) - _primitive(s0, w), on_edge)
-
-
-def _primitive(s: Floats, w: float) -> Floats:
-    """Integral of sqrt(w^2 + s^2) ds from 0."""
-    area: Floats = (s * np.hypot(w, s) + w * w * np.arcsinh(s / w)) / 2
-    return area
+    return _core.trapezoid_areas(boundary.core, w)[0]

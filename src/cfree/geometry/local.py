@@ -116,6 +116,29 @@ class LocalGeometry(Value):
         small = -np.divide(root_of_minus_K**2, large, out=np.zeros_like(large), where=large != 0)
         return np.stack([np.minimum(large, small), np.maximum(large, small)], axis=-1)
 
+    @property
+    def dupin_conic(self) -> Floats:
+        """Coefficients (A, B, C) of Dupin's indicatrix A X^2 + 2 B X Y + C Y^2 = +-1, (..., 3), in 1 / length.
+
+        X runs along the ruling, Y across it, both in the tangent plane. A = 0: rulings are asymptotic. Two hyperbolas
+        with the same asymptotes on e-v surfaces; two lines along the ruling on v-e surfaces, none where these are flat.
+        """
+        H, B = self.mean_curvature, self.f / self.v
+        return np.stack([np.zeros_like(H), B, 2 * H], axis=-1)
+
+    @checked
+    def dupin_radius(self, xi: ArrayLike) -> Floats:
+        """How far Dupin's indicatrix is in a direction, in sqrt(length): 1 / sqrt |normal curvature|, or infinite.
+
+        Parameters
+        ----------
+        xi : (...) float, radians
+            Angle from the ruling, towards increasing phi.
+        """
+        bend = np.sqrt(np.abs(self.normal_curvature(xi)))
+        radius: Floats = np.divide(1.0, bend, out=np.full_like(bend, np.inf), where=bend > 0)
+        return radius
+
     @checked
     def tangent(self, xi: ArrayLike) -> Floats:
         """Unit tangent in the direction xi (radians, from the ruling), (..., 3), in x, y, angle_scale * theta."""

@@ -7,6 +7,7 @@ rows of `Boundary.ruled`. All arrays are broadcast against each other.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -79,6 +80,16 @@ def read_ruled(ruled: ArrayLike) -> Ruled:
         row = rows[moves == turns][0]
         raise ValueError(f"ruled: row {row} is no contact surface; one of q and g must be 0, the other not")
     return Ruled(rows[..., 0:2], rows[..., 2:4], rows[..., 4:6], rows[..., 6:8])
+
+
+def along_rulings(
+    integral: Callable[[Floats, Floats, float], Floats], ruled: ArrayLike, phi: Floats, w: float
+) -> Floats:
+    """An integral of the core's along whole rulings, t in [0, 1], at phi."""
+    rows = np.concatenate(read_ruled(ruled), axis=-1)
+    shape = np.broadcast_shapes(rows.shape[:-1], phi.shape)
+    flat = np.ascontiguousarray(np.broadcast_to(rows, (*shape, 8)).reshape(-1, 8))
+    return integral(flat, np.ascontiguousarray(np.broadcast_to(phi, shape).reshape(-1)), w).reshape(shape)
 
 
 def check_scale(angle_scale: float) -> float:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from cfree.plot.boundary import plot_slice as plot_slice
     from cfree.plot.boundary import plot_workspace as plot_workspace
     from cfree.plot.development import plot_development as plot_development
+    from cfree.plot.intersections import plot_intersection as plot_intersection
     from cfree.plot.path import plot_path as plot_path
     from cfree.plot.rational import plot_models as plot_models
 
@@ -23,6 +24,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "blockers": "plot_blockers",
         "boundary": "plot_boundary plot_overview plot_slice plot_workspace",
         "development": "plot_development",
+        "intersections": "plot_intersection",
         "path": "plot_path",
         "rational": "plot_models",
     },

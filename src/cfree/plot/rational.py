@@ -16,10 +16,11 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.contact.surface import Surface, contact_surface
 from cfree.exact.orientation import Location
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.polygons.polygon import Polygon
-from cfree.rational.model import RationalSurface, rational_surface, to_rational
+from cfree.rational.model import RationalRange, rational_range, to_rational
 
 Floats = NDArray[np.float64]
 
@@ -55,20 +56,20 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     from matplotlib.figure import Figure
     from matplotlib.patches import Patch
 
-    S = rational_surface(robot, obstacle, contact)
+    S, Phi = contact_surface(robot, obstacle, contact), rational_range(robot, obstacle, contact)
     figure = Figure(figsize=(11, 5.8), facecolor="white")
     with rc_context({"grid.color": "#dfe1e6", "grid.linewidth": 0.6}):
         geometrical: Any = figure.add_axes((0.01, 0.09, 0.46, 0.85), projection="3d")
         rational: Any = figure.add_axes((0.48, 0.09, 0.46, 0.85), projection="3d")
     colour = COLOURS[PatchKind.VERTEX_EDGE if isinstance(contact, VertexEdge) else PatchKind.EDGE_VERTEX]
 
-    corners, on_patch = cells(S, 180)
+    corners, on_patch = cells(S, Phi, 180)
     _draw(geometrical, corners * (1, 1, 180 / math.pi), np.where(on_patch, colour, PSEUDO), 180)
     geometrical.set_zticks(range(-180, 181, 90), labels=[f"{angle}°" for angle in range(-180, 181, 90)])
     geometrical.tick_params(axis="z", pad=7)
     geometrical.set_zlabel("θ", labelpad=10)
 
-    corners, on_patch = cells(S, math.degrees(2 * math.atan(SHOWN)))
+    corners, on_patch = cells(S, Phi, math.degrees(2 * math.atan(SHOWN)))
     _draw(rational, to_rational(corners), np.where(on_patch, colour, PSEUDO), SHOWN)
     rational.set_zticks(TICKS, labels=[f"{tau} ({math.degrees(2 * math.atan(tau)):.0f}°)" for tau in TICKS])
     rational.tick_params(axis="z", pad=15)
@@ -83,17 +84,17 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     return figure
 
 
-def cells(S: RationalSurface, limit: float) -> tuple[Floats, NDArray[np.bool_]]:
+def cells(S: Surface, Phi: RationalRange, limit: float) -> tuple[Floats, NDArray[np.bool_]]:
     """Outlines (n, 2 SIDE, 3) of cells between helices and rulings, theta in [-pi, pi], and which are of the patch."""
-    ends = [math.degrees(S.Phi.start.theta), math.degrees(S.Phi.end.theta)]
+    ends = [math.degrees(Phi.start.theta), math.degrees(Phi.end.theta)]
     even = range(-180, 181, STEP)
     degrees = np.unique([angle for angle in (*even, *ends, -limit, limit) if abs(angle) <= limit])
     middle = np.tan(np.radians(degrees[:-1] + degrees[1:]) / 4)
-    is_patch = [S.Phi.locate(tau) is not Location.OUTSIDE for tau in middle]
+    is_patch = [Phi.locate(tau) is not Location.OUTSIDE for tau in middle]
     along = np.linspace(0, 1, SIDE)
     theta = np.radians(degrees[:-1, None] * (1 - along) + degrees[1:, None] * along)
     t = np.arange(HELICES + 1) / HELICES
-    points = S.surface(t[:, None, None], theta)
+    points = S(t[:, None, None], theta)
     outlines = np.concatenate((points[:-1], points[1:, :, ::-1]), axis=2)
     return outlines.reshape(-1, 2 * SIDE, 3), np.tile(is_patch, HELICES)
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import reprlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -22,7 +22,8 @@ from numpy.typing import NDArray
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.errors import InvalidPolygonError
-from cfree.exact.number import ExactPoint, IntPoint, angle
+from cfree.exact.half_angle import Angle, half_angle_rotation, normalize_angles, read_angle
+from cfree.exact.number import ExactPoint, IntPoint, Number, angle, to_fraction
 from cfree.polygons.rings import Points, Removed, read_rings, restored
 from cfree.value import Shown
 
@@ -174,6 +175,33 @@ class Polygon(Shown):
         x, y = self.edge_numerators[i]
         return Fraction(x, self.denominator), Fraction(y, self.denominator)
 
+    @classmethod
+    @checked
+    def from_polar(
+        cls, outer: Iterable[tuple[Number, Angle]], holes: Iterable[Iterable[tuple[Number, Angle]]] = ()
+    ) -> Polygon:
+        """Polygon of vertices r (cos alpha, sin alpha), as the paper's section 1.1 gives the robot.
+
+        Parameters
+        ----------
+        outer : pairs (r, alpha)
+            alpha as theta in `Pose`: radians, "90deg" or {"tau": "1/3"}, and what it stands for there.
+        holes : lists of the same
+
+        Examples
+        --------
+        >>> square = Polygon.from_polar([(1, 0), (1, "90deg"), (1, math.pi), (1, {"tau": -1})])
+        >>> square == Polygon([(1, 0), (0, 1), (-1, 0), (0, -1)])
+        True
+        """
+        return cls(_from_polar(outer), [_from_polar(hole) for hole in holes])
+
+    @property
+    def polar(self) -> Floats:
+        """r and alpha of all vertices, alpha in [0, 2 pi), rounded, (n, 2); alpha is 0 at the origin."""
+        alpha = [angle(x, y) if x or y else 0.0 for x, y in self.numerators]
+        return np.column_stack((np.hypot(*self.vertices.T), normalize_angles(alpha)))
+
     # angles and measures
 
     @cached_property
@@ -264,6 +292,15 @@ def polygon_of(core: _core.Polygon) -> Polygon:
     polygon = Polygon.__new__(Polygon)
     object.__setattr__(polygon, "core", core)
     return polygon
+
+
+def _from_polar(points: Iterable[tuple[Number, Angle]]) -> list[ExactPoint]:
+    found = []
+    for radius, alpha in points:
+        c, s, w = half_angle_rotation(read_angle(alpha)[0])
+        r = to_fraction(radius) / w
+        found.append((r * c, r * s))
+    return found
 
 
 def _restored(numerators: Any, denominator: int, ring_offsets: Sequence[int], removed: tuple[Removed, ...]) -> Polygon:

@@ -188,7 +188,7 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
     Raises
     ------
     ValueError
-        If nothing of the patch is left: give more bits.
+        If nothing of the patch is left: give more bits. If there is none, at a reflex vertex.
 
     Examples
     --------
@@ -200,6 +200,8 @@ def bezier_patches(patch: RationalSurface, bits: int = 53) -> tuple[BezierPatch,
     >>> [(part.chart, *map(str, part.interval)) for part in bezier_patches(patch, bits=8)]
     [(1, '107/256', '1'), (0, '-1', '0')]
     """
+    if patch.Phi is None:
+        raise ValueError(f"{patch.surface.contact} is never a contact and has no patch; see contacts()")
     parts = chart_intervals(*patch.Phi.inside(bits))
     return tuple(bezier_patch(patch.surface, low, high, chart=chart) for chart, low, high in parts)
 

@@ -136,7 +136,8 @@ class RationalSurface:
     Attributes
     ----------
     surface : Surface
-    Phi : RationalRange
+    Phi : RationalRange or None
+        None at a reflex vertex: all poses are pseudo contacts then, and there is no patch.
 
     Examples
     --------
@@ -151,7 +152,7 @@ class RationalSurface:
     """
 
     surface: Surface
-    Phi: RationalRange
+    Phi: RationalRange | None
 
     def __call__(self, t: ArrayLike, tau: ArrayLike) -> Floats:
         """Points (x, y, tau) in doubles, t and tau broadcast against each other: (..., 3)."""
@@ -171,7 +172,7 @@ class RationalSurface:
     @checked
     def locate(self, t: Number, tau: Number | None) -> Location:
         """Is S(t, tau) inside the patch, on its rim, or outside of it? Exact."""
-        s, at = to_fraction(t), self.Phi.locate(tau)
+        s, at = to_fraction(t), self.Phi.locate(tau) if self.Phi else Location.OUTSIDE
         if not 0 <= s <= 1:
             return Location.OUTSIDE
         return Location.BOUNDARY if s in (0, 1) and at is Location.INSIDE else at
@@ -301,8 +302,17 @@ def rational_range(robot: Polygon, obstacle: Polygon, contact: Contact) -> Ratio
 
 @checked
 def rational_surface(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> RationalSurface:
-    """Surface and patch of a v-e or e-v contact; a ValueError at a reflex vertex, which has no patch."""
-    Phi = rational_range(robot, obstacle, contact)
+    """Surface and patch of a v-e or e-v contact; without a patch at a reflex vertex.
+
+    Examples
+    --------
+    >>> corner = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    >>> S = rational_surface(corner, corner, VertexEdge(3, 0))           # the reflex vertex on an edge
+    >>> S.Phi, S.point("1/2", 1), S.locate("1/2", 1)
+    (None, (Fraction(2, 1), Fraction(-1, 1), Fraction(1, 1)), <Location.OUTSIDE: 'outside'>)
+    """
+    is_convex = robot.convex[contact.i] if isinstance(contact, VertexEdge) else obstacle.convex[contact.j]
+    Phi = rational_range(robot, obstacle, contact) if is_convex else None
     return RationalSurface(contact_surface(robot, obstacle, contact), Phi)
 
 

@@ -22,11 +22,13 @@ public:
     struct Meeting {
         double t, sine;  // of the angle between the two lines, at least in size
     };
+    std::array<Meeting, 2> meetings(Index trapezoid, double theta) const;  // the same, with sines
     Meeting meets(const Feature& contact, const Line& l, std::uint64_t curve, const Rotation<double>& r) const;
     // Curves may have no value at the ends of a trapezoid: looked at a little inside.
     static double inside(double tau, double from, double to);
 
 private:
+    std::array<Meeting, 2> crossings(Index trapezoid, double tau) const;
     double helix_at(const Feature& contact, const Feature& helix) const;
 
     const Boundary& boundary;

@@ -4,8 +4,11 @@
 
 namespace cfree {
 
-// In length^2 radians, by the divergence theorem; infinite if unbounded.
-std::vector<double> volumes(const FreeSpace& space);
+// In length^2 radians, by the divergence theorem, and bounds of their errors; infinite if unbounded.
+struct Volumes {
+    std::vector<double> values, errors;
+};
+Volumes volumes(const FreeSpace& space);
 
 // Whether each cell is bounded and no face of its boundary belongs to bounds or workspace, whose owners are negative.
 std::vector<std::uint8_t> caged(const FreeSpace& space, const std::vector<Index>& owner);

@@ -1,25 +1,63 @@
-// Integrals over the trapezoids of a boundary: along t in closed form, over theta by Gauss-Legendre quadrature on intervals that
-// are halved until halving changes less than 1e-12 of the value, or of the mean of all: a measured error, no proved one.
+// Gauss-Legendre quadrature with eight nodes, on intervals that are halved until halving changes less than 1e-12 of the value: a
+// measured error, no proved one.
 #pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
-#include "cfree/forbidden/boundary.hpp"
+#include "cfree/forbidden/limits.hpp"
 
 namespace cfree {
 
-struct QuadratureRule {
-    std::vector<double> nodes, weights;  // on [-1, 1]
+struct Integral {
+    double value = 0, error = 0;
+    void operator+=(const Integral& x) { value += x.value, error += x.error; }
 };
-const QuadratureRule& gauss_legendre();  // of eight nodes
 
-// Lines of trapezoids at orientations, and the limits of t there.
-struct QuadratureLines {
-    std::vector<Index> trapezoid;
-    std::vector<double> lower, upper, theta;
+namespace gauss_legendre {
+inline constexpr int count = 8;
+inline constexpr std::array<double, count> nodes{-0.9602898564975363, -0.7966664774136267, -0.525532409916329, -0.18343464249564978,
+                                                 0.18343464249564978, 0.525532409916329,   0.7966664774136267, 0.9602898564975363};
+inline constexpr std::array<double, count> weights{0.10122853629037706, 0.22238103445337443, 0.3137066458778873, 0.3626837833783621,
+                                                   0.3626837833783621,  0.3137066458778873,  0.22238103445337443, 0.10122853629037706};
+}  // namespace gauss_legendre
+
+// f(x) at the nodes of an interval, each with its weight.
+template <class F>
+double over_nodes(const F& f, double from, double to) {
+    const double half = 0.5 * (to - from);
+    double sum = 0;
+    for (int k = 0; k < gauss_legendre::count; ++k) sum += gauss_legendre::weights[k] * half * f(from + half * (1 + gauss_legendre::nodes[k]));
+    return sum;
+}
+
+// Close is what halving may change of 1 or of the value; `coarse` is that of all nodes over the interval.
+template <class F>
+Integral integral(const F& f, double from, double to, double coarse, double one, int halvings = 12) {
+    constexpr double close = 1e-12;
+    const double middle = 0.5 * (from + to), left = over_nodes(f, from, middle), right = over_nodes(f, middle, to);
+    const double fine = left + right, off = std::abs(fine - coarse);
+    if (off <= close * std::max(std::abs(fine), one) || halvings == 1) return {fine, off};
+    Integral sum = integral(f, from, middle, left, one, halvings - 1);
+    sum += integral(f, middle, to, right, one, halvings - 1);
+    return sum;
+}
+
+// Limits of t on a trapezoid's line at an orientation, and the sines of the angles at which its two curves' lines cross it.
+struct TrapezoidLine {
+    Index trapezoid;
+    double theta, lower, upper, lower_sine, upper_sine;
 };
-using AlongT = std::function<std::vector<double>(const QuadratureLines& lines)>;
+TrapezoidLine trapezoid_line(const Limits& limits, Index trapezoid, double theta);
 
-std::vector<double> trapezoid_integrals(const Boundary& boundary, const QuadratureRule& rule, const AlongT& along_t);
+// First and last orientation.
+std::array<double, 2> angles_of(const Boundary& boundary, Index trapezoid);
+
+// Of a function of such lines, integrated over theta, for each trapezoid; 1 above is the mean of all.
+std::vector<Integral> trapezoid_integrals(const Boundary& boundary, const std::function<double(const TrapezoidLine&)>& along_t);
+std::vector<Integral> trapezoid_areas(const Boundary& boundary, double angle_scale);
+std::vector<Integral> trapezoid_curvatures(const Boundary& boundary, double angle_scale);  // of K
 
 }  // namespace cfree

@@ -4,7 +4,7 @@
 // inside where the bounds ask for them.
 #pragma once
 #include "cfree/forbidden/cell_complex.hpp"
-#include "cfree/mesh/contact_curve.hpp"
+#include "cfree/contact/contact_curve.hpp"
 
 namespace cfree {
 

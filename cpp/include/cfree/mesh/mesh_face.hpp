@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "cfree/mesh/contact_curve.hpp"
+#include "cfree/contact/contact_curve.hpp"
 
 namespace cfree {
 

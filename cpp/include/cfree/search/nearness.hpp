@@ -32,6 +32,8 @@ public:
     // Does the robot keep, at every share u of the motion, a distance of need(u), or nearly? False: it does not, or not
     // certainly. Distances that mean nothing are not looked at.
     bool keeps(const Configuration& a, const Configuration& b, const std::function<double(double)>& need) const;
+    // Does the robot overlap something at one of some poses of the motion, by more than rounding?
+    bool overlaps(const Configuration& a, const Configuration& b) const;
     // The least distance that means something.
     double least() const { return least_distance; }
 

@@ -51,6 +51,8 @@ struct Way {
     // The same of what is asked from mark to mark.
     bool joins(const Configuration& a, const Configuration& b, double from, double to) const;
     bool joins(const Marked& path) const;
+    // Does the reference point certainly stay within the limits?
+    bool is_within(const Configuration& a, const Configuration& b) const;
     // One motion, or a turn and a straight way in either order, or as it is driven: the first, or if something is preferred
     // the cheapest, that costs no more and is joined; or nothing.
     Marked simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const;
@@ -64,7 +66,8 @@ struct Way {
     Marked marked(Route route, double from, double to) const;
 
 private:
-    bool is_within(const Configuration& a, const Configuration& b) const;
+    // Exactly; most that are not are seen to overlap at some of their poses.
+    bool is_free(const Configuration& a, const Configuration& b) const;
 };
 
 }  // namespace cfree

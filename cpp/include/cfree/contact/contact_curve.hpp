@@ -15,6 +15,13 @@ inline Complex complex(const Vec<double>& v) { return {v.x, v.y}; }
 inline double dot(Complex u, Complex v) { return u.real() * v.real() + u.imag() * v.imag(); }
 inline double cross(Complex u, Complex v) { return u.real() * v.imag() - u.imag() * v.real(); }
 
+// A bound of exp(x), not far above it, for x from 0 to 4.
+inline double growth(double x) {
+    double bound = 1 / (1 - x / 16);
+    for (int k = 0; k < 4; ++k) bound *= bound;
+    return bound;
+}
+
 // Coordinates of robot and obstacles in the user's units: the robot as it is, obstacles from their origin.
 struct Places {
     const Scene& scene;
@@ -40,9 +47,13 @@ public:
     // Between two angles, which decide what happens at removable poles.
     ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to);
     Complex at(double phi) const;
+    Complex velocity(double phi) const;      // x'
+    Complex acceleration(double phi) const;  // x''
     // Bounds of |x'| and |x''| from one angle to another.
     double speed(double from, double to) const;
     double bend(double from, double to) const;
+    // Bound of |x - origin| for complex angles between these and within `beyond` of the real ones; infinite at a pole.
+    double reach(Complex origin, double from, double to, double beyond) const;
 
 private:
     void meet_parallel(const Places::Parts& p, const Places::Parts& q, bool turning);

@@ -1,8 +1,9 @@
 // Curves where two surfaces meet, and bounds of their derivatives; theory, "Curves".
-#include "cfree/mesh/contact_curve.hpp"
+#include "cfree/contact/contact_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "cfree/support/elementary.hpp"
@@ -72,6 +73,39 @@ Complex ContactCurve::at(double phi) const {
     if (k != 0) x += 0.5 * k / tangent(half(phi)) * e;
     if (l != 0) x += 0.5 * l * tangent(half(phi)) * e;
     return x;
+}
+
+Complex ContactCurve::velocity(double phi) const {
+    const Complex z = std::polar(1.0, phi);
+    const CosineSine at = cosine_sine(half(phi));
+    Complex x = i_unit * (z * (m + 2.0 * z * m_twice) - std::conj(z) * m_back);
+    if (k != 0) x -= 0.25 * k / (at.s * at.s) * e;
+    if (l != 0) x += 0.25 * l / (at.c * at.c) * e;
+    return x;
+}
+
+Complex ContactCurve::acceleration(double phi) const {
+    const Complex z = std::polar(1.0, phi);
+    const CosineSine at = cosine_sine(half(phi));
+    Complex x = -z * (m + 4.0 * z * m_twice) - std::conj(z) * m_back;
+    if (k != 0) x += 0.25 * k * at.c / (at.s * at.s * at.s) * e;
+    if (l != 0) x += 0.25 * l * at.s / (at.c * at.c * at.c) * e;
+    return x;
+}
+
+// |exp(i phi)| and |cos| grow as exp of the imaginary part at most, and |sin| is no less than that of the real part.
+double ContactCurve::reach(Complex origin, double from, double to, double beyond) const {
+    const double low = half(from), high = half(to), more = growth(beyond);
+    double result = std::abs(c - origin) + more * (std::abs(m) + std::abs(m_back) + more * std::abs(m_twice));
+    const auto add = [&](double of, double shift, double at_low, double at_high) {
+        if (of == 0) return;
+        const bool pole = std::floor(low / pi + shift) != std::floor(high / pi + shift);
+        result += pole ? std::numeric_limits<double>::infinity()
+                       : 0.5 * std::abs(of) * more / std::min(std::abs(at_low), std::abs(at_high));
+    };
+    const CosineSine a = cosine_sine(low), b = cosine_sine(high);
+    add(k, 0, a.s, b.s), add(l, 0.5, a.c, b.c);
+    return result;
 }
 
 // tan and cot of half(phi) and their derivatives grow from the middle of their period on: the ends bound them.

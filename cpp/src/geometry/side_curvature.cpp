@@ -1,0 +1,110 @@
+// In the frame along and across the ruling a curve (x(theta), w theta) of the surface has the velocity (x'.u, R): u is the ruling,
+// R^2 = w^2 + s^2. Its acceleration (x'', 0) has the parts x''.u and (x''.Ju) s / R.
+#include "cfree/geometry/side_curvature.hpp"
+
+#include <limits>
+#include <numbers>
+
+#include "cfree/contact/contact_curve.hpp"
+#include "cfree/support/elementary.hpp"
+
+namespace cfree {
+
+namespace {
+
+using std::numbers::pi;
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+class Face {
+public:
+    Face(const CellComplex& in, Index f, double scale)
+        : cells(in), w(scale), on(in.boundary->patches.contact(in.boundary->trapezoids.patch[static_cast<std::size_t>(f)])) {
+        const Boundary& boundary = *in.boundary;
+        const Trapezoids& table = boundary.trapezoids;
+        const auto k = static_cast<std::size_t>(f);
+        std::tie(from, to) = std::tuple_cat(angles_of(boundary, f));
+        const Places places{*boundary.scene};
+        const auto parts = places.parts(on);
+        turns = on.kind == Kind::edge_vertex;
+        a = parts.a, b = parts.b, edge = parts.edge;
+        curves = {ContactCurve(places, on, unpacked(table.lower[k]), from, to), ContactCurve(places, on, unpacked(table.upper[k]), from, to)};
+        first = in.first[k], last = in.first[k + 1];
+    }
+
+    void put_into(SideCurvatures& out) const {
+        for (Index h = first; h < last; ++h) {
+            const auto k = static_cast<std::size_t>(h);
+            const Index before = h == first ? last - 1 : h - 1, after = h + 1 == last ? first : h + 1;
+            out.turn[k] = side(before) == side(h) ? 0 : turn(tangent_of(before, angle(h)), tangent_of(h, angle(h)));
+            put_start(h, before, &out.start[3 * k]);
+            if (is_wall(h)) continue;  // straight lines
+            const ContactCurve& curve = curves[side(h) == Side::upper];
+            const auto f = [&](double at) { return curvature(curve, at); };
+            const double start = angle(h), stop = angle(after);
+            const Integral found = integral(f, start, stop, over_nodes(f, start, stop), 1);
+            out.total[k] = found.value, out.error[k] = std::abs(found.error);
+        }
+    }
+
+private:
+    void put_start(Index h, Index before, double* out) const {
+        const double phi = angle(h);
+        const bool within_wall = is_wall(h) && side(before) == side(h), upper = side(is_wall(h) ? before : h) == Side::upper;
+        const Complex x = within_wall ? Complex{unknown, unknown} : curves[upper].at(phi);
+        out[0] = x.real(), out[1] = x.imag(), out[2] = w * phi;
+    }
+    bool is_wall(Index h) const { return side(h) == Side::first || side(h) == Side::last; }
+    Side side(Index h) const { return static_cast<Side>(cells.side[static_cast<std::size_t>(h)]); }
+    // where a half-edge starts; the ends of a trapezoid are its own
+    double angle(Index h) const {
+        const Index before = h == first ? last - 1 : h - 1;
+        if (side(h) == Side::first) return from;
+        if (side(h) == Side::last) return to;
+        if (side(before) != side(h)) return side(h) == Side::upper ? from : to;
+        return std::clamp(cells.theta[static_cast<std::size_t>(cells.vertex[static_cast<std::size_t>(h)])], from, to);
+    }
+    Complex ruling(double phi) const { return turns ? -std::polar(1.0, phi) * edge : edge; }
+    // V across the ruling
+    double across(Complex x, double phi) const {
+        return turns ? -dot(x - b, std::polar(1.0, phi) * edge) : -dot(edge, std::polar(1.0, phi) * a);
+    }
+    // In the frame, as the loop runs.
+    Complex tangent_of(Index h, double phi) const {
+        if (side(h) == Side::first) return 1;
+        if (side(h) == Side::last) return -1;
+        const bool upper = side(h) == Side::upper;
+        const ContactCurve& curve = curves[upper];
+        const Complex along{dot(curve.velocity(phi), ruling(phi)), norm(w, across(curve.at(phi), phi))};
+        return upper ? along : -along;
+    }
+    // From 0 to pi, but for rounding.
+    static double turn(Complex before, Complex after) {
+        const double by = std::arg(after * std::conj(before));
+        return by < -0.5 * pi ? by + 2 * pi : by;
+    }
+    // A step of theta's.
+    double curvature(const ContactCurve& curve, double phi) const {
+        const Complex u = ruling(phi), acceleration = curve.acceleration(phi);
+        const double s = across(curve.at(phi), phi), R = norm(w, s), along = dot(curve.velocity(phi), u);
+        return (along * (s / R) * cross(u, acceleration) - R * dot(u, acceleration)) / (along * along + R * R);
+    }
+
+    const CellComplex& cells;
+    double w, from, to;
+    Feature on;
+    bool turns;
+    Complex a, b, edge;
+    std::array<ContactCurve, 2> curves;
+    Index first, last;
+};
+
+}  // namespace
+
+SideCurvatures side_curvatures(const CellComplex& cells, double angle_scale) {
+    const std::size_t n = cells.face.size();
+    SideCurvatures out{std::vector<double>(n), std::vector<double>(n), std::vector<double>(n), std::vector<double>(3 * n)};
+    for (Index f = 0; f < static_cast<Index>(cells.component.size()); ++f) Face(cells, f, angle_scale).put_into(out);
+    return out;
+}
+
+}  // namespace cfree

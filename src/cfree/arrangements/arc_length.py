@@ -1,0 +1,58 @@
+"""Length of a curve whose x and y are rational functions of tau, in balls that hold the true value (Arb)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import acb, arb, ctx, fmpq, fmpz_poly
+
+from cfree.exact.algebraic import near
+from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
+from cfree.exact.forms import Form, in_chart
+
+PRECISION = 128  # bits
+PLACES = 100  # bits of an end
+
+
+def arc_length(rows: tuple[Form, Form, Form], interval: AngleInterval, angle_scale: float) -> tuple[float, float]:
+    """Length, and a bound on its error, of (x / w, y / w, angle_scale theta) over orientations where w is not 0.
+
+    Notes
+    -----
+    In a chart, theta = 2 atan(tau) but for a half turn, so that with the derivatives u of x and v of y by tau the
+    integrand is sqrt((u^2 + v^2) / w^4 + (2 angle_scale / (1 + tau^2))^2), analytic around the interval.
+    """
+    with ctx.workprec(PRECISION):
+        total = sum((_over(rows, angle_scale, *part) for part in _parts(interval)), arb(0))
+        value = float(total)
+        return value, float((abs(total - value)).upper())
+
+
+def _over(rows: tuple[Form, Form, Form], angle_scale: float, chart: int, low: arb, high: arb) -> arb:
+    x, y, w = (fmpz_poly(list(in_chart(row, chart))) for row in rows)
+    u, v = (z.derivative() * w - z * w.derivative() for z in (x, y))
+
+    def speed(tau: acb, analytic: bool) -> acb:
+        below, turning = w(tau) ** 2, 2 * angle_scale / (1 + tau * tau)
+        return ((u(tau) / below) ** 2 + (v(tau) / below) ** 2 + turning**2).sqrt(analytic=analytic)
+
+    return acb.integral(speed, low, high).real
+
+
+def _parts(interval: AngleInterval) -> list[tuple[int, arb, arb]]:
+    """Charts, and from where to where in them."""
+    whole = arb(-1), arb(1)
+    if interval.start is None or interval.stop is None:
+        return [(0, *whole), (1, *whole)]
+    first, last = interval.start, interval.stop
+    start, stop = _ball(first), _ball(last)
+    if first.chart == last.chart and not last < first:
+        return [(first.chart, start, stop)]
+    between = [] if first.chart != last.chart else [(1 - first.chart, *whole)]
+    return [(first.chart, start, whole[1]), *between, (last.chart, whole[0], stop)]
+
+
+def _ball(angle: AlgebraicAngle) -> arb:
+    place = near(angle.coordinate, PLACES)
+    is_exact = isinstance(angle.coordinate, Fraction)
+    return arb(fmpq(*place.as_integer_ratio()), 0 if is_exact else fmpq(1, 1 << PLACES))

@@ -1,0 +1,161 @@
+"""Pictures of contact surfaces that meet: two with their curve, three with the poses that are on all of them."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from matplotlib.colors import to_rgb
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+from numpy.typing import NDArray
+
+from cfree.arguments import checked
+from cfree.arrangements.intersections import Intersection, intersection
+from cfree.arrangements.triples import Triple
+from cfree.contact.contact import VertexEdge
+from cfree.exact.angle_interval import AngleInterval
+from cfree.exact.orientation import Location
+from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.plot.boundary import new_figure, new_space
+from cfree.plot.pieces import Colours, shaded
+from cfree.rational.model import RationalSurface
+
+Floats = NDArray[np.float64]
+
+ROWS, CELLS, POINTS = 121, 13, 721  # of a surface over a full turn, across it, of a curve
+CURVE, LINE, SEEN_THROUGH = "black", Colours.edge_edge, 0.55
+NAMES = {PatchKind.VERTEX_EDGE: "v-e", PatchKind.EDGE_VERTEX: "e-v"}
+
+
+@checked
+def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) -> Axes3D:
+    """Draw the surfaces of an intersection, or of three contacts, and what they have in common, theta upwards.
+
+    Parameters
+    ----------
+    found : Intersection or Triple
+    ax : matplotlib axes with ``projection="3d"``, optional
+
+    Returns
+    -------
+    matplotlib axes with three dimensions
+
+    Notes
+    -----
+    Surfaces are in the paper's colours; of a `RationalSurface` its patch is drawn. Curves are black where they are on
+    both surfaces, and thin where edges count as lines. Poses on three are dots, hollow if an edge or patch ends before.
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    if ax is None:
+        ax = new_space(new_figure((7, 7.5)), (0.02, 0.09, 0.9, 0.9))
+    space: Any = ax
+    space.computed_zorder = False
+    sheets = [_sheet(surface) for surface in found.surfaces]
+    points = np.concatenate([sheet.reshape(-1, 3) for sheet in sheets])
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = 0.05 * max(*(high - low)[:2], 1e-300)
+    window = low[:2] - margin, high[:2] + margin
+    _draw_sheets(space, found, sheets)
+    if isinstance(found, Intersection):
+        _draw_pair(space, found, window)
+    else:
+        for pair in combinations(found.surfaces, 2):
+            _draw_pair(space, intersection(*pair), window)
+        _draw_poses(space, found)
+    (x0, y0), (x1, y1) = window
+    space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360), xlabel="x", ylabel="y", zlabel="θ")
+    space.set_box_aspect((x1 - x0, y1 - y0, 1.1 * max(x1 - x0, y1 - y0)))
+    space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
+    for axis in (space.xaxis, space.yaxis):
+        axis.set_major_locator(MaxNLocator(5))
+    handles = {artist.get_label(): artist for artist in (*space.collections, *space.lines)}
+    shown = {name: handle for name, handle in handles.items() if not name.startswith("_")}
+    space.legend(shown.values(), shown.keys(), loc="upper center", bbox_to_anchor=(0.5, -0.01), ncols=3, frameon=False)
+    return ax
+
+
+def _kind(surface: Any) -> PatchKind:
+    contact = surface.surface.contact if isinstance(surface, RationalSurface) else surface.contact
+    return PatchKind.VERTEX_EDGE if isinstance(contact, VertexEdge) else PatchKind.EDGE_VERTEX
+
+
+def _sheet(surface: Any) -> Floats:
+    """Points (rows, CELLS, 3) of a surface, or of its patch, theta in degrees, with a row at a full turn."""
+    low, high = 0.0, math.tau
+    if isinstance(surface, RationalSurface):
+        if surface.Phi is None:
+            return np.empty((0, CELLS, 3))
+        low = surface.Phi.start.theta % math.tau
+        high = low + (surface.Phi.end.theta - surface.Phi.start.theta) % math.tau
+    S = surface.surface if isinstance(surface, RationalSurface) else surface
+    theta = np.linspace(low, high, ROWS)
+    theta = np.union1d(theta, [math.tau]) if low < math.tau < high else theta
+    rows: Floats = S(np.linspace(0, 1, CELLS), theta[:, None]) * (1, 1, 180 / math.pi)
+    return rows
+
+
+def _draw_sheets(space: Any, found: Intersection | Triple, sheets: list[Floats]) -> None:
+    """All in one collection for each kind, sorted by depth."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    for kind, name in NAMES.items():
+        chosen = [p for p, surface in zip(sheets, found.surfaces, strict=True) if _kind(surface) is kind and len(p)]
+        if not chosen:
+            continue
+        faces = np.concatenate(
+            [np.stack((p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]), axis=2).reshape(-1, 4, 3) for p in chosen]
+        )
+        faces = _turned(faces, faces[..., 2].mean(axis=1))
+        rgb = shaded(np.tile(to_rgb(COLOURS[kind]), (len(faces), 1)), faces, 1.0)
+        space.add_collection3d(
+            Poly3DCollection(
+                faces, facecolors=rgb, alpha=SEEN_THROUGH, linewidths=0, antialiased=False, label=name, zorder=1
+            )
+        )
+
+
+def _turned(faces: Floats, degrees: Floats) -> Floats:
+    """What is beyond a full turn, a turn lower."""
+    lower: Floats = faces - np.stack((*np.zeros((2, len(faces))), 360.0 * (degrees > 360)), axis=-1)[:, None]
+    return lower
+
+
+def _draw_pair(space: Any, pair: Intersection, window: tuple[Floats, Floats]) -> None:
+    """The curve, thin within the window, thick where it is on both surfaces; lines that are shared."""
+    drawn = {line.get_label() for line in space.lines}
+
+    def draw(points: Floats, name: str, **look: Any) -> None:
+        space.plot(*(points * (1, 1, 180 / math.pi)).T, label=f"_{name}" if name in drawn else name, **look)
+        drawn.add(name)
+
+    if pair.curve is not None:
+        points = pair.curve(np.linspace(0, math.tau, POINTS))
+        outside = ((points[:, :2] < window[0]) | (points[:, :2] > window[1])).any(axis=1)
+        points[outside, :2] = np.nan
+        draw(points, "edges as lines", color=CURVE, linewidth=0.7, linestyle=(0, (4, 3)), zorder=2)
+        for part in pair.ranges:
+            for low, high in _within_a_turn(part):
+                draw(pair.curve(np.linspace(low, high, POINTS)), "curve on both", color=CURVE, linewidth=2.4, zorder=3)
+    for line in pair.lines:
+        if line.t_range is not None:
+            surface = pair.surfaces[0]
+            S = surface.surface if isinstance(surface, RationalSurface) else surface
+            draw(S(line.t_range, line.angle.theta), "shared line", color=LINE, linewidth=2.4, zorder=4)
+
+
+def _within_a_turn(part: AngleInterval) -> list[tuple[float, float]]:
+    start, stop = part.theta
+    return [(start, stop)] if stop <= math.tau else [(start, math.tau), (0.0, stop - math.tau)]
+
+
+def _draw_poses(space: Any, found: Triple) -> None:
+    for is_contact, name, fill in ((True, "three contacts", CURVE), (False, "three, edges as lines", "white")):
+        chosen = [pose for pose in found.poses if (pose.location is not Location.OUTSIDE) == is_contact]
+        if chosen:
+            points = np.array([(*pose.xy, math.degrees(pose.angle.theta)) for pose in chosen])
+            space.plot(
+                *points.T, "o", color=CURVE, markerfacecolor=fill, markersize=7, label=name, zorder=5, linestyle="none"
+            )
