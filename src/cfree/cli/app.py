@@ -33,6 +33,7 @@ from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
+    from cfree.verify.result import Verification
 
 
 def main() -> None:
@@ -93,6 +94,7 @@ def check(scene: Path, as_json: bool) -> None:
     epilog=examples(
         "cfree boundary scene.json --picture scene.png",
         "cfree boundary scene.json -o scene.npz --mesh scene.glb --threads 1",
+        "cfree boundary robot.json --obstacles city.geojsonl --folder city --workers 4",
     )
 )
 @options.scene
@@ -109,17 +111,31 @@ def check(scene: Path, as_json: bool) -> None:
 @options.threads
 @options.max_seconds
 @options.max_memory
+@file_option("--folder", metavar="DIR", help="Tile by tile, with the cells, into a folder, or go on there.")
+@click.option("--obstacles", multiple=True, type=FILE, metavar="FILE", help="With --folder: files of more obstacles.")
+@click.option("--tiles", type=click.IntRange(min=1), metavar="N", help="With --folder: how many tiles.",
+              show_default="one for 20,000 vertices")  # fmt: skip
+@options.workers
+@options.scheduler
 @options.as_json
 def boundary(
     scene: Path, output: Path | None, picture: Path | None, mesh: Path | None, error: float | None,
-    threads: int | None, max_seconds: float | None, max_memory: str | None, as_json: bool,
+    threads: int | None, max_seconds: float | None, max_memory: str | None, folder: Path | None,
+    obstacles: tuple[Path, ...], tiles: int | None, workers: int | None, scheduler: str | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Compute the boundary of the forbidden space.
 
     Every contact patch, trimmed. SCENE is JSON, GeoJSON or WKT. If a limit stops the work, what was done so far is
-    written, marked as incomplete, and the exit code is 3.
+    written, marked as incomplete, and the exit code is 3. Into a folder it is computed tile by tile, of any size and
+    by any number of processes; ended at any moment, the same command goes on.
     """
     with one_line_faults():
+        if folder is not None:
+            return _boundary_in_folder(
+                scene, folder, as_json, obstacles, tiles, workers, scheduler, (output, picture, mesh, error, max_memory)
+            )
+        if obstacles or tiles or workers or scheduler:
+            raise ValueError("--obstacles, --tiles, --workers, --scheduler: need --folder")
         if error is not None and not (mesh and 0 < error < math.inf):
             raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
         written = check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
@@ -140,6 +156,18 @@ def boundary(
 
         rows = boundary_facts(result) if as_json else boundary_rows(result)
         print_result(result.scene.name or str(scene), scene, rows, written, as_json)
+
+
+def _boundary_in_folder(
+    scene: Path, folder: Path, as_json: bool, obstacles: tuple[Path, ...], tiles: int | None, workers: int | None,
+    scheduler: str | None, others: tuple[Any, ...],
+) -> None:  # fmt: skip
+    from cfree.cli import folders
+
+    if any(other is not None for other in others):
+        raise ValueError("--folder: not with -o, --picture, --mesh, --error or --max-memory; leave them out")
+    found = folders.make(scene, obstacles, folder, tiles, workers, scheduler)
+    print_result(found.head.name or str(scene), scene, folders.facts(found, for_machines=as_json), {}, as_json)
 
 
 def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, picture: Path | None) -> None:
@@ -225,11 +253,13 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, step: str | None,
     turn: str | None, speed: str | None, clearance: str | None, improve: str | None, objective: str, prefer: str | None,
-    picture: Path | None, film: Path | None, miss: bool, what_if: bool, max_seconds: float | None, as_json: bool,
+    picture: Path | None, film: Path | None, miss: bool, what_if: bool, part: Path | None, max_seconds: float | None,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
-    Each motion is proved free. SCENE is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o. Exit code 0:
+    Each motion is proved free. SCENE is JSON, GeoJSON or WKT, a boundary written by cfree boundary -o, or a folder
+    written by cfree boundary --folder, of which only what is near the way is read. Exit code 0:
     a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch, or a clearance that is
     too near to the largest.
     """
@@ -239,14 +269,22 @@ def plan(
         printed = str(output) == "-"
         if printed and as_json:
             raise ValueError("-o -: --json prints there, too; leave one of them out")
-        written = check_outputs(scene, {"answer": None if printed else output, "picture": picture, "film": film})
+        written = check_outputs(
+            scene, {"answer": None if printed else output, "picture": picture, "film": film, "part": part}
+        )
         poses = Sampling.of(output, form, step, turn, speed)
         seconds = None if improve is None else read_seconds(improve)
         wanted = read_objective(objective)
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
-        planner = planner_of(scene, max_seconds, read_preferences(prefer))
+        planner: Any
+        if scene.is_dir():
+            from cfree.cli.folders import FolderPlanner
+
+            planner = FolderPlanner(scene, read_preferences(prefer))
+        else:
+            planner = planner_of(scene, max_seconds, read_preferences(prefer))
         found = Answering.of(planner, ends, written, options)
         if output:
             found.write(output, poses)
@@ -254,7 +292,13 @@ def plan(
             found.draw(picture, what_if=what_if)
         if film:
             found.film(film)
+        if part:
+            from cfree.formats.scene_file import save_scene
+
+            save_scene(found.planner.scene, part)
         rows = found.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)
+        if scene.is_dir():
+            rows["tiles read"] = planner.found.tiles_read
         with redirect_stdout(sys.stderr) if printed else nullcontext():
             print_result(found.planner.scene.name or str(scene), scene, rows, found.files, as_json)
     if found.exit_code:
@@ -367,9 +411,13 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
         print(printable(str(show(given, found, html=html, browser=browser))))
 
 
-@app.command(epilog=examples("cfree verify scene.json scene.npz", "cfree verify scene.json answer.json"))
+@app.command(
+    epilog=examples(
+        "cfree verify scene.json scene.npz", "cfree verify scene.json answer.json", "cfree verify city --sample 100"
+    )
+)
 @options.scene
-@click.argument("file", type=FILE)
+@click.argument("file", type=FILE, required=False)
 @click.option(
     "--sample",
     type=click.IntRange(min=0),
@@ -386,14 +434,29 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
     show_default=True,
 )
 @click.option("--seed", type=int, metavar="N", help="Of the random choices.", default=0, show_default=True)
+@options.workers
+@options.scheduler
 @options.as_json
-def verify(scene: Path, file: Path, sample: int | None, slices: int, seed: int, as_json: bool) -> None:
+def verify(
+    scene: Path, file: Path | None, sample: int | None, slices: int, seed: int, workers: int | None,
+    scheduler: str | None, as_json: bool,
+) -> None:  # fmt: skip
     """Check a boundary or an answer by independent exact code.
 
     What is proved is told from what is sampled. FILE is a boundary written by cfree boundary -o, or an answer: a path
-    or a proof. Exit code 0: verified; 1: refuted; 2: a file that cannot be read.
+    or a proof. SCENE may be a folder written by cfree boundary --folder: its shards are checked, each of them and then
+    its borders (--sample: of each tile), or a path in it. Exit code 0: verified; 1: refuted; 2: a file that cannot be
+    read.
     """
     with one_line_faults():
+        if scene.is_dir():
+            from cfree.cli import folders
+
+            with folders.cluster(workers, scheduler) as client:
+                result = folders.verified(scene, file, sample, seed, client)
+            return _print_verified(result, file or scene, as_json)
+        if file is None:
+            raise ValueError("FILE: there is none; give a boundary or an answer")
         from cfree.formats.scene_file import load_scene
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
@@ -405,12 +468,16 @@ def verify(scene: Path, file: Path, sample: int | None, slices: int, seed: int, 
                 result = verified_boundary(file, given, progress=progress, **options)  # type: ignore[arg-type]
             else:
                 result = verified_answer(given, file, progress=progress)
-        if as_json:
-            print_json({"file": str(file), "verified": result.verified, **asdict(result)})
-        else:
-            from cfree.cli.report import print_verification
+        _print_verified(result, file, as_json)
 
-            print_verification(str(file), result)
+
+def _print_verified(result: Verification, file: Path, as_json: bool) -> None:
+    if as_json:
+        print_json({"file": str(file), "verified": result.verified, **asdict(result)})
+    else:
+        from cfree.cli.report import print_verification
+
+        print_verification(str(file), result)
     if not result.verified:
         raise click.exceptions.Exit(REFUTED)
 

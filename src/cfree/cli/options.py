@@ -29,6 +29,8 @@ max_seconds = click.option(
 max_memory = click.option(
     "--max-memory", metavar="SIZE", help='Stop at "500MB" or "4GB" of memory, incomplete.', show_default="no limit"
 )
+workers = click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Use so many processes, by Dask.")
+scheduler = click.option("--scheduler", metavar="ADDRESS", help="Use a Dask cluster that sees the folder.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON, for machines.")
 
 

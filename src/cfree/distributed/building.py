@@ -35,6 +35,7 @@ def boundary(
     folder: str | os.PathLike[str],
     client: Any = None,
     tile: int = TILE,
+    tiles: int | None = None,
     progress: Callable[..., object] | None = None,
 ) -> Sharded:
     """Trim every contact patch of a scene, tile by tile, and find its cells.
@@ -50,6 +51,8 @@ def boundary(
         Whose workers see the same folder. Without one the same tasks run here, one after the other.
     tile : int
         About how many obstacle vertices a tile has.
+    tiles : int, optional
+        How many tiles instead.
     progress : callable, optional
         Called with the name of the stage, and how many of how many tiles are done.
 
@@ -84,18 +87,21 @@ def boundary(
     """
     if client is not None and not hasattr(client, "submit"):
         raise TypeError(f"client: {client!r} is a {type(client).__name__}; give a distributed.Client or None")
-    if tile < 1:
-        raise ValueError(f"tile: {tile}; give at least 1")
-    return _Build(source, Path(folder), client, tile, progress or (lambda stage, done, of: None)).run()
+    for name, count in (("tile", tile), ("tiles", tiles)):
+        if count is not None and count < 1:
+            raise ValueError(f"{name}: {count}; give at least 1")
+    return _Build(source, Path(folder), client, tile, tiles, progress or (lambda stage, done, of: None)).run()
 
 
 class _Build:
     """One computation, stage after stage."""
 
-    def __init__(self, source: Any, folder: Path, client: Any, tile: int, progress: Progress) -> None:
-        self.source, self.folder, self.client = source, folder, client
-        self.vertices_a_tile, self.progress = tile, progress
-        self.key = key_of(VERSION, source_key(source), tile)
+    def __init__(
+        self, source: Any, folder: Path, client: Any, tile: int, tiles: int | None, progress: Progress
+    ) -> None:
+        self.source, self.folder, self.client, self.progress = source, folder, client, progress
+        self.vertices_a_tile, self.tiles = tile, tiles
+        self.key = key_of(VERSION, source_key(source), tile if tiles is None else -tiles)
 
     def run(self) -> Sharded:
         self._claim()
@@ -136,7 +142,7 @@ class _Build:
         place = self.folder / "tiles"
         if is_sound(place / "division.npz", self.key):
             return Division.open(place)
-        tiles = max(1, -(-store.vertices // self.vertices_a_tile))
+        tiles = self.tiles or max(1, -(-store.vertices // self.vertices_a_tile))
         return divide_scene(store, tiles, place, self.key)
 
     def _describe(self, store: SceneStore, division: Division) -> None:

@@ -29,11 +29,14 @@ class Division:
         tiles that have features within reach, itself among them.
     boxes : (tiles, 4) float64
         Around the poses of each tile's patches.
+    spans : (tiles, 4) float64
+        Around all obstacles within reach of a tile's features.
     """
 
     folder: Path
     first: dict[str, Ints]
     boxes: Floats
+    spans: Floats
 
     def __len__(self) -> int:
         return len(self.boxes)
@@ -49,7 +52,7 @@ class Division:
     def open(cls, folder: Path) -> Division:
         """As `divide_scene` has written it."""
         table = read_shard(folder / "division.npz")
-        return cls(folder, {name: table[name] for name in LISTS}, table["boxes"])
+        return cls(folder, {name: table[name] for name in LISTS}, table["boxes"], table["spans"])
 
 
 class Features:
@@ -100,21 +103,24 @@ def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Divis
     starts = np.searchsorted(number[order], np.arange(count + 1))
     radius = float(np.hypot(*store.features([]).robot.xy.T).max()) * (1 + 1e-9)
     obstacles, edges = BoxIndex(store.column("box")), []
-    boxes = np.empty((count, 4))
+    boxes, spans = np.empty((count, 4)), np.empty((count, 4))
+    box = store.column("box")
     lists: dict[str, list[Ints]] = {"obstacles": [], "neighbours": []}
     for tile in range(count):
         own = features.boxes(np.sort(sorted_features[starts[tile] : starts[tile + 1]]))
         boxes[tile] = [*(own[:, :2].min(axis=0) - radius), *(own[:, 2:].max(axis=0) + radius)]
         edges.append(merged(own))
-        lists["obstacles"].append(obstacles.near(edges[-1], store.reach))
+        near = obstacles.near(edges[-1], store.reach)
+        lists["obstacles"].append(near)
+        spans[tile] = [*box[near, :2].min(axis=0, initial=np.inf), *box[near, 2:].max(axis=0, initial=-np.inf)]
     tile_of = np.repeat(np.arange(count), [len(e) for e in edges])
-    near = BoxIndex(np.concatenate(edges) if edges else np.zeros((0, 4)))
+    index = BoxIndex(np.concatenate(edges) if edges else np.zeros((0, 4)))
     for tile in range(count):
-        lists["neighbours"].append(np.unique(tile_of[near.near(edges[tile], store.reach)]))
+        lists["neighbours"].append(np.unique(tile_of[index.near(edges[tile], store.reach)]))
     first = {"features": starts.astype(np.int64)}
     sorted_features.astype(np.int64).tofile(folder / "features.bin")
     for name, parts in lists.items():
         first[name] = np.cumsum([0, *map(len, parts)]).astype(np.int64)
         np.concatenate([np.zeros(0, np.int64), *parts]).astype(np.int64).tofile(folder / f"{name}.bin")
-    write_shard(folder / "division.npz", first | {"boxes": boxes}, key)
+    write_shard(folder / "division.npz", first | {"boxes": boxes, "spans": spans}, key)
     return Division.open(folder)

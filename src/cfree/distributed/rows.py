@@ -38,45 +38,56 @@ class Rows:
     core: _core.Boundary
 
 
-def gathered(store: SceneStore, shards: Sequence[tuple[int, Shard, NDArray[np.bool_]]]) -> Rows:
-    """Trapezoids of shards, each with its tile's number and the features whose rows are taken.
+def gathered(
+    store: SceneStore, shards: Sequence[tuple[int, Shard, NDArray[np.bool_]]], obstacles: Ints | None = None
+) -> Rows:
+    """Trapezoids of shards, each with its tile's number and the features whose rows are taken; more obstacles if given.
 
     Curves have the names of all on their line, as in a boundary that is computed whole.
     """
     tables = [_table(tile, shard, chosen) for tile, shard, chosen in shards]
+    starts = np.cumsum([0, *(len(shard["keys"]) for _, shard, _ in shards)])
+    for table, start in zip(tables, starts, strict=False):
+        for name in CODED:
+            table[name] = table[name] + start
     columns = {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
     order = np.lexsort((columns["row"], columns["feature"]))
     columns = {name: column[order] for name, column in columns.items()}
-    named = np.concatenate([columns[name] for name in CODED])
+    keys = np.concatenate([shard["keys"] for _, shard, _ in shards])
+    used = np.zeros(len(keys), bool)
+    for name in CODED:
+        used[columns[name]] = True
+    named = keys[used]
     vertices = [columns["feature"], named[:, 2], named[named[:, 3] != NO_EDGE, 3]]
     # the vertex after each feature's is of the same obstacle
     numbers = _obstacles_of(store, np.unique(np.concatenate(vertices)))
-    part = Part(store, numbers)
-    distinct, at = np.unique(named, axis=0, return_inverse=True)
-    codes = part.codes(distinct)
-    codes = part.features.core.named(codes)[at.reshape(-1)].reshape(len(CODED), -1)
+    part = Part(store, numbers if obstacles is None else np.union1d(numbers, obstacles))
+    codes = np.zeros(len(keys), np.uint64)
+    codes[used] = part.features.core.named(part.codes(named))
     contacts = np.stack([part.local(columns["feature"]), columns["kind"], columns["robot"]], axis=1)
-    patches, patch = np.unique(contacts, axis=0, return_inverse=True)
-    patches = patches.astype(np.int32)
-    values = columns | dict(zip(CODED, codes, strict=True)) | {"patch": patch.reshape(-1).astype(np.int32)}
-    table = _core.Trapezoids(**{name: np.ascontiguousarray(values[name]) for name in COLUMNS})
+    # rows of one patch come one after the other
+    is_first = np.append(True, np.any(contacts[1:] != contacts[:-1], axis=1))[: len(contacts)]
+    patches = contacts[is_first].astype(np.int32)
+    values = columns | {name: codes[columns[name]] for name in CODED}
+    values["patch"] = (np.cumsum(is_first) - 1).astype(np.int32)
+    trapezoids = _core.Trapezoids(**{name: np.ascontiguousarray(values[name]) for name in COLUMNS})
     listed = _core.Patches(patches[:, 1].astype(np.uint8), patches[:, 2].copy(), patches[:, 0].copy())
     trimmed = np.ones(len(patches), np.uint8)
-    core = _core.Boundary(part.features.core, listed, trimmed, table, _no_parts())
+    core = _core.Boundary(part.features.core, listed, trimmed, trapezoids, _no_parts())
     return Rows(part, columns["tile"], columns["row"], columns["feature"], core)
 
 
 def _table(tile: int, shard: Shard, chosen: NDArray[np.bool_]) -> Shard:
-    """Columns of the rows of some features, their names spelt out."""
+    """Columns of the rows of some features; curves and angles by the shard's keys."""
     counts = np.diff(shard["start"])
     which = np.flatnonzero(np.repeat(chosen, counts))
     columns = {name: shard[name][which] for name in ("kind", "robot", "chart")}
     columns |= {"tile": np.full(len(which), tile), "row": which, "feature": np.repeat(shard["feature"], counts)[which]}
-    columns |= {name: shard["keys"][shard[name][which]] for name in ("lower", "upper")}
+    columns |= {name: shard[name][which].astype(np.int64) for name in ("lower", "upper")}
     for end in ENDS:
         angle = shard[end][which]
         for k, name in enumerate(("first", "second")):
-            columns[f"{end}_{name}"] = shard["keys"][shard["angle_keys"][angle, k]]
+            columns[f"{end}_{name}"] = shard["angle_keys"][angle, k].astype(np.int64)
         for k, name in enumerate(("lo", "hi")):
             columns[f"{end}_{name}"] = shard["angle_tau"][angle, k]
         columns[f"{end}_place"] = shard["angle_place"][angle]

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import os
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
+from pathlib import Path as FilePath
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
+from cfree.distributed.planning import Surroundings, plan_among
+from cfree.distributed.running import run
 from cfree.distributed.shard import VERSION, read_json, read_shard
 from cfree.distributed.tasks import TRIMMED, Work
+from cfree.distributed.verifying import summary, verify_task
 from cfree.errors import FormatError
-from cfree.scene.scene import Scene
+from cfree.exact.pose import PoseLike
+from cfree.paths.path import Objective, Path
+from cfree.paths.preferences import Preferences
+from cfree.planning.separation import Separated
+from cfree.scene.scene import Scene, required
 from cfree.value import Value
+from cfree.verify.result import Verification
 
 Ints = NDArray[np.int64]
 
@@ -56,6 +66,8 @@ class Sharded(Value):
         How many there are.
     digest : str
         Of all trapezoids: the same for any tiles, any number of workers, and any order.
+    tiles_read : int
+        How many tiles the last question has looked at.
 
     Raises
     ------
@@ -65,12 +77,13 @@ class Sharded(Value):
 
     @checked
     def __init__(self, folder: str | os.PathLike[str]) -> None:
-        self.folder = Path(folder)
+        self.folder = FilePath(folder)
         self.manifest = _manifest(self.folder)
         self.tiles, self.obstacles, self.vertices, self.trapezoids, self.cells = (
             int(self.manifest[name]) for name in ("tiles", "obstacles", "vertices", "trapezoids", "cells")
         )
         self.digest = str(self.manifest["digest"])
+        self.tiles_read = 0
 
     @property
     def _content(self) -> tuple[Any, ...]:
@@ -101,12 +114,97 @@ class Sharded(Value):
         return Surfaces(**{name: table[name] for name in Surfaces.__annotations__})
 
     @checked
+    def plan(
+        self,
+        start: PoseLike | None = None,
+        goal: PoseLike | None = None,
+        *,
+        improve: float | None = None,
+        objective: Objective = "balanced",
+        preferences: Preferences | None = None,
+    ) -> Path | Separated:
+        """A path among all obstacles, each motion proved free, or a proof that there is none.
+
+        Only what is near the ways that are looked at is read: `tiles_read` says how many tiles.
+
+        Parameters
+        ----------
+        start, goal : Pose or (x, y, theta), optional
+            Those of the scene unless given.
+        improve, objective, preferences
+            As of `cfree.plan`.
+
+        Returns
+        -------
+        Path or Separated
+            Its `scene` has the obstacles that it is about, by which `cfree.verify` can check it; they are named by
+            their numbers.
+
+        Raises
+        ------
+        InvalidPoseError
+            If there is no start or goal, or it is forbidden.
+        """
+        known = Surroundings(self.work)
+        ends = required(self.head, start, goal)
+        answer = plan_among(known, *ends, improve=improve, objective=objective, preferences=preferences)
+        self.tiles_read = len(known.read)
+        return answer
+
+    @checked
+    def scene_near(self, path: Path) -> Scene:
+        """The scene with all obstacles that may be touched on a path, and perhaps others."""
+        known = Surroundings(self.work)
+        known.add_around(path)
+        self.tiles_read = len(known.read)
+        return known.scene
+
+    @checked
+    def verify(
+        self,
+        *,
+        sample: int | None = None,
+        seed: int = 0,
+        client: Any = None,
+        progress: Callable[..., object] | None = None,
+    ) -> Verification:
+        """Check the shards, each alone and then its borders, by the code of `cfree.verify`.
+
+        Parameters
+        ----------
+        sample : int, optional
+            Of each tile check so many trapezoids, chosen at random, and no sides; all by default.
+        seed : int
+            Of the random choices.
+        client : distributed.Client, optional
+            As of `boundary`.
+        progress : callable, optional
+            Called with the name of the stage, and how many of how many tiles are done.
+
+        Returns
+        -------
+        Verification
+
+        Notes
+        -----
+        About 1 ms a trapezoid.
+        """
+        begin, stamp = time.perf_counter(), self.work.stamp
+        asked = [(k, (str(self.folder), stamp, k, sample, seed)) for k in range(self.tiles)]
+        checks = {}
+        for tile, check in run(verify_task, asked, client):
+            checks[tile] = check
+            if progress is not None:
+                progress("verify", len(checks), self.tiles)
+        return summary([checks[k] for k in sorted(checks)], self.digest, begin)
+
+    @checked
     def tile(self, number: int) -> dict[str, NDArray[Any]]:
         """The trapezoids of a tile, as `docs/shards.md` describes them."""
         return self.work.shard(TRIMMED, range(self.tiles)[number])
 
 
-def _manifest(folder: Path) -> dict[str, Any]:
+def _manifest(folder: FilePath) -> dict[str, Any]:
     path = folder / "manifest.json"
     if not path.exists():
         what = "is not finished; run it again" if (folder / "plan.json").exists() else "there is no boundary in it"

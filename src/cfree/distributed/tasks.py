@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 import cfree._core as _core
 from cfree.distributed.division import Division, Features
@@ -41,6 +42,11 @@ class Work:
         self.store = SceneStore(folder / "scene", self.plan["rounded"])
         self.division = Division.open(folder / "tiles")
 
+    @property
+    def stamp(self) -> str:
+        """Another one once more is known of all obstacles."""
+        return (self.folder / "plan.json").read_text(encoding="utf-8")
+
     def path(self, stage: str, tile: int) -> Path:
         return self.folder / stage / f"{tile:06d}.npz"
 
@@ -63,22 +69,22 @@ class Work:
         """The stage whose trapezoids bound cells."""
         return REGULAR if self.plan.get("slits") else TRIMMED
 
-    def rows(self, tile: int, around: bool) -> Rows:
-        """Trapezoids of a tile, and those of features within reach of its own."""
+    def rows(self, tile: int, stage: str, around: bool, obstacles: NDArray[np.int64] | None = None) -> Rows:
+        """Trapezoids of a tile, and those of features within reach of its own; more obstacles if given."""
         if not around:
-            shard = self.shard(self.surfaces, tile)
-            return gathered(self.store, [(tile, shard, np.ones(len(shard["feature"]), bool))])
+            shard = self.shard(stage, tile)
+            return gathered(self.store, [(tile, shard, np.ones(len(shard["feature"]), bool))], obstacles)
         features = Features(self.store)
         reach = self.store.reach * np.array([-1, -1, 1, 1])
         own = features.boxes(self.division.listed("features", tile)) + reach
         shards = []
         for other in self.division.listed("neighbours", tile).tolist():
-            shard = self.shard(self.surfaces, other)
+            shard = self.shard(stage, other)
             chosen = np.ones(len(shard["feature"]), bool)
             if other != tile:
                 chosen = _meet(features.boxes(shard["feature"]), own)
             shards.append((other, shard, chosen))
-        return gathered(self.store, shards)
+        return gathered(self.store, shards, obstacles)
 
 
 @lru_cache(maxsize=2)
@@ -124,7 +130,7 @@ def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> 
 def glue_task(folder: str, stamp: str, tile: int) -> int:
     """Glue a tile's trapezoids to each other and to those around them; the number of its components."""
     work = opened(folder, stamp)
-    work.make(GLUED, tile, lambda: glue_tile(work.rows(tile, around=True), tile))
+    work.make(GLUED, tile, lambda: glue_tile(work.rows(tile, work.surfaces, around=True), tile))
     return len(work.shard(GLUED, tile)["faces"])
 
 
@@ -134,7 +140,7 @@ def nest_task(
     """What lines cross in a tile, by the surfaces that they are from; `surface` is that of each component."""
     work = opened(folder, stamp)
     component = work.shard(GLUED, tile)["component"]
-    lines = TileLines(work.rows(tile, around=False).core, surface[component])
+    lines = TileLines(work.rows(tile, work.surfaces, around=False).core, surface[component])
     answers = []
     for number, attempt, line in asked:
         is_own = line is None

@@ -43,7 +43,7 @@ class BoxIndex:
 
     def near(self, boxes: Floats, reach: float) -> Ints:
         """Numbers of the boxes within a distance of others along both axes, in order."""
-        grown = merged(boxes + np.array([-reach, -reach, reach, reach]))
+        grown = boxes + np.array([-reach, -reach, reach, reach])
         if not len(grown) or not len(self._tree):
             return np.zeros(0, np.int64)
         return np.unique(self._tree.query(shapely.box(*grown.T))[1]).astype(np.int64)

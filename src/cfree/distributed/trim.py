@@ -13,6 +13,7 @@ from cfree.distributed.shard import Shard
 from cfree.forbidden.columns import CODED
 
 ENDS = ("from", "to")
+KEYED = ("first", "second")
 MODULUS = 1 << 256
 
 
@@ -44,16 +45,21 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
     rank = np.empty(len(order), np.uint32)
     rank[order] = np.arange(len(order), dtype=np.uint32)
     named = dict(zip(CODED, rank[number].reshape(len(CODED), -1), strict=True))
-    ends = [
-        np.rec.fromarrays(
-            [named[f"{end}_first"], named[f"{end}_second"]]
-            + [getattr(rows, f"{end}_{name}") for name in ("lo", "hi", "place")],
-            dtype=[("first", "u4"), ("second", "u4"), ("lo", "f8"), ("hi", "f8"), ("place", "u1")],
+    ends = {
+        name: np.concatenate(
+            [named[f"{end}_{name}"] if name in KEYED else getattr(rows, f"{end}_{name}") for end in ENDS]
         )
-        for end in ENDS
-    ]
-    angles, at = np.unique(np.concatenate(ends), return_inverse=True)
-    first_angle, last_angle = at.astype(np.uint32).reshape(2, -1)
+        for name in ("first", "second", "lo", "hi", "place")
+    }
+    by_angle = np.lexsort(list(ends.values()))
+    is_new = np.zeros(len(by_angle), bool)
+    is_new[:1] = True
+    for column in ends.values():
+        is_new[1:] |= column[by_angle[1:]] != column[by_angle[:-1]]
+    at = np.empty(len(by_angle), np.uint32)
+    at[by_angle] = np.cumsum(is_new) - 1
+    angles = {name: column[by_angle[is_new]] for name, column in ends.items()}
+    first_angle, last_angle = at.reshape(2, -1)
     obstacle = part.vertices[patches.obstacle[rows.patch]]
     return {
         "feature": own,
@@ -61,7 +67,7 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
         "keys": keys[order],
         "angle_keys": np.stack([angles["first"], angles["second"]], axis=1),
         "angle_tau": np.stack([angles["lo"], angles["hi"]], axis=1),
-        "angle_place": np.ascontiguousarray(angles["place"]),
+        "angle_place": angles["place"],
         "kind": patches.kind[rows.patch],
         "robot": patches.robot[rows.patch],
         "chart": rows.chart,

@@ -1,0 +1,158 @@
+"""Boundaries in folders, for commands: made, asked and checked, here or on a cluster."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from cfree.distributed.sharded import Sharded
+    from cfree.exact.pose import Pose
+    from cfree.free.space import FreeSpace
+    from cfree.paths.path import Path as Motions
+    from cfree.paths.preferences import Preferences
+    from cfree.planning.separation import Separated
+    from cfree.scene.scene import Scene
+    from cfree.verify.result import Verification
+
+SECOND, MINUTE, HOUR = 1, 60, 3600
+
+
+def make(
+    source: Path, obstacles: Sequence[Path], folder: Path, tiles: int | None, workers: int | None, scheduler: str | None
+) -> Sharded:
+    """The boundary of a scene in a folder, with so many tiles."""
+    from cfree.distributed.building import boundary
+
+    with cluster(workers, scheduler) as client, stages() as progress:
+        return boundary([source, *obstacles], folder=folder, client=client, tiles=tiles, progress=progress)
+
+
+def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, client: Any) -> Verification:
+    """Check the shards of a folder, or a path among its obstacles."""
+    from cfree.distributed.sharded import Sharded
+    from cfree.formats.files import load
+    from cfree.paths.path import Path as Motions
+    from cfree.verify.answers import answer as verified_answer
+
+    found = Sharded(folder)
+    if answer is None:
+        with stages() as progress:
+            return found.verify(sample=sample, seed=seed, client=client, progress=progress)
+    given = load(answer)
+    if not isinstance(given, Motions):
+        raise ValueError(
+            f"{answer}: not a path; give the scene that cfree plan --part has written, instead of the folder"
+        )
+    return verified_answer(found.scene_near(given), given)
+
+
+@contextmanager
+def cluster(workers: int | None, scheduler: str | None) -> Iterator[Any]:
+    """A client of so many workers here, or of a cluster that is there; nothing if neither is asked for."""
+    if workers is None and scheduler is None:
+        yield None
+        return
+    if workers is not None and scheduler is not None:
+        raise ValueError("--workers and --scheduler: give one of them")
+    try:
+        from distributed import Client, LocalCluster
+    except ImportError as error:
+        raise ValueError("a cluster needs Dask; install it: pip install 'cfree[dask]'") from error
+    if scheduler is not None:
+        try:
+            client = Client(scheduler, timeout="30s")
+        except (OSError, ValueError) as error:
+            raise ValueError(f"--scheduler: {scheduler}: {error}") from error
+        with client:
+            yield client
+        return
+    local = LocalCluster(
+        n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", silence_logs=50
+    )
+    with local, Client(local) as client:
+        yield client
+
+
+@contextmanager
+def stages() -> Iterator[Callable[[str, int, int], None] | None]:
+    """On a terminal a line says which tiles are done, how fast, and how long the rest may take."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    began: dict[str, float] = {}
+
+    def say(stage: str, done: int, of: int) -> None:
+        seconds = time.monotonic() - began.setdefault(stage, time.monotonic())
+        text = f"{stage} {done:,} of {of:,} tiles"
+        if 0 < done < of and seconds > SECOND:
+            text += f", {MINUTE * done / seconds:.3g} a minute, {_duration(seconds * (of - done) / done)} left"
+        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield say
+    finally:
+        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+
+
+def _duration(seconds: float) -> str:
+    if seconds < 2 * MINUTE:
+        return f"{seconds:.0f} s"
+    return f"{seconds / MINUTE:.0f} min" if seconds < 2 * HOUR else f"{seconds / HOUR:.1f} h"
+
+
+def facts(found: Sharded, *, for_machines: bool) -> dict[str, Any]:
+    """What a boundary in a folder is, in words or numbers."""
+    counts = {name: getattr(found, name) for name in ("obstacles", "vertices", "tiles", "trapezoids", "cells")}
+    counts["surfaces"] = len(found.surfaces)
+    shown = counts if for_machines else {name: f"{count:,}" for name, count in counts.items()}
+    return {"folder": os.fspath(found.folder)} | shown | {"digest": found.digest}
+
+
+class FolderPlanner:
+    """Answers from a folder, for what takes a `Planner`.
+
+    Attributes
+    ----------
+    scene : Scene
+        Before a question that without obstacles; then the one that the answer is about.
+    """
+
+    def __init__(self, folder: Path, preferences: Preferences) -> None:
+        from cfree.distributed.sharded import Sharded
+
+        self.found = Sharded(folder)
+        self.preferences = preferences
+        self.scene: Scene = self.found.head
+
+    def plan(
+        self, start: Pose, goal: Pose, *, clearance: Any, improve: float | None, objective: Any
+    ) -> Motions | Separated:
+        if clearance is not None:
+            raise ValueError("--clearance: not in a folder; give the scene itself")
+        answer = self.found.plan(start, goal, improve=improve, objective=objective, preferences=self.preferences)
+        assert answer.scene is not None  # it has just been found
+        self.scene = answer.scene
+        return answer
+
+    def plan_any(self, *_: Any, **__: Any) -> Any:
+        raise ValueError("--goal: a folder takes one goal, with theta")
+
+    @property
+    def angle_scale(self) -> float:
+        from cfree.scene.scene import robot_radius
+
+        return robot_radius(self.scene)
+
+    @cached_property
+    def free_space(self) -> FreeSpace:
+        from cfree.forbidden.boundary import boundary
+        from cfree.free.space import free_space
+
+        return free_space(boundary(self.scene))

@@ -1,0 +1,91 @@
+"""From start to goal in a scene that is too large to be read: with the obstacles near what has been found so far.
+
+What parts two poses among some of the obstacles parts them among all. A path among some is one among all if those are
+with them that come near it. So obstacles are added along the paths that are found, until one of the two is certain.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.distributed.tasks import Work
+from cfree.distributed.tiles import BoxIndex
+from cfree.exact.pose import Pose
+from cfree.paths.path import Path
+from cfree.planning.plan import plan
+from cfree.planning.separation import Separated
+from cfree.scene.scene import Scene
+
+Ints = NDArray[np.int64]
+Floats = NDArray[np.float64]
+MARGIN = 2.0
+"""How far around a path obstacles are added, in reaches of the robot."""
+
+
+@dataclass
+class Surroundings:
+    """Obstacles of a stored scene, those that have been needed so far.
+
+    Attributes
+    ----------
+    work : Work
+    numbers : set of int
+        Which obstacles are known.
+    read : set of int
+        Tiles whose lists have been read.
+    """
+
+    work: Work
+    numbers: set[int] = field(default_factory=set)
+    read: set[int] = field(default_factory=set)
+
+    @property
+    def radius(self) -> float:
+        """No point of the robot is farther from its reference point."""
+        xy = self.work.store.features([]).robot.xy
+        return float(np.hypot(*xy.T).max()) * (1 + 1e-9)
+
+    @property
+    def scene(self) -> Scene:
+        """The scene with what is known."""
+        return self.work.store.scene(sorted(self.numbers))
+
+    def around(self, points: Floats, reach: float, spans: bool = False) -> Ints:
+        """Obstacles whose boxes are within reach of points, by their edges, or by all that they cover."""
+        division = self.work.division
+        squares = np.concatenate([points, points], axis=1)
+        tiles = BoxIndex(division.spans if spans else division.boxes).near(squares, reach)
+        self.read |= set(tiles.tolist())
+        lists = [division.listed("obstacles", tile) for tile in tiles.tolist()]
+        numbers = np.unique(np.concatenate([np.zeros(0, np.int64), *lists]))
+        return numbers[BoxIndex(self.work.store.column("box")[numbers]).near(squares, reach)]
+
+    def add_around(self, path: Path, margin: float = 0.0) -> bool:
+        """Add what the robot may touch on a path, and what is within a margin of that; False if all of it was known."""
+        ends = np.array([[float(q.x), float(q.y)] for q in (path.start, path.goal)])
+        points, radius = path.sample(self.radius).xy, self.radius
+        near = set(self.around(points, 2 * radius).tolist()) | set(self.around(ends, radius, spans=True).tolist())
+        if near <= self.numbers:
+            return False
+        self.numbers |= near | set(self.around(points, 2 * radius + margin).tolist())
+        return True
+
+
+def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated:
+    """A path or a proof, whose scene has the obstacles that it is about; `wishes` as of `cfree.plan`."""
+    margin = MARGIN * known.radius
+    for end in (start, goal):
+        known.add_around(Path(end, []), margin)
+    for wish in ({"improve": 0.0}, wishes):
+        while True:
+            answer = plan(known.scene, start, goal, **wishes | wish)
+            if isinstance(answer, Separated):
+                return answer
+            assert isinstance(answer, Path)
+            if not known.add_around(answer, margin):
+                break
+    return answer

@@ -1,0 +1,94 @@
+"""A second opinion on the shards of a folder: each alone, then how its sides match those of the tiles around it."""
+
+from __future__ import annotations
+
+import random
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from cfree.distributed.tasks import TRIMMED, Work, opened
+from cfree.distributed.trim import MODULUS, digest
+from cfree.errors import FormatError
+from cfree.forbidden.boundary import boundary_of
+from cfree.verify.driver import ANGLES, CLOSED, DOMAINS, FREE, trapezoid_findings
+from cfree.verify.matching import matched
+from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
+from cfree.verify.trapezoids import Reader, Side
+
+SHARDS = "shards"
+
+
+@dataclass(frozen=True)
+class TileCheck:
+    """What has been found of a tile.
+
+    Attributes
+    ----------
+    trapezoids, checked : int
+        How many there are, and how many have been looked at.
+    digest : int
+    findings : tuple of Finding
+        What is wrong.
+    """
+
+    trapezoids: int
+    checked: int
+    digest: int
+    findings: tuple[Finding, ...]
+
+
+def verify_task(folder: str, stamp: str, tile: int, sample: int | None, seed: int) -> TileCheck:
+    """Check a tile's trapezoids by the code of `cfree.verify`; all, and all of their sides, or some of them."""
+    work, name = opened(folder, stamp), f"tile {tile}"
+    try:
+        shard = work.shard(TRIMMED, tile)
+    except FormatError as error:
+        return TileCheck(0, 0, 0, (Finding(SHARDS, name, str(error)),))
+    count = len(shard["kind"])
+    chosen = set(range(count))
+    if sample is not None and sample < count:
+        chosen = set(random.Random(f"{seed} {tile}").sample(range(count), sample))
+    found = _findings(work, tile, chosen, len(chosen) == count) if chosen else iter(())
+    wrong = tuple(Finding(finding.kind, f"{name}, {finding.where}", finding.text) for finding in found)
+    return TileCheck(count, len(chosen), digest(shard), wrong)
+
+
+def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator[Finding]:
+    """What is wrong with some rows of a tile, and if they are all, with their sides."""
+    rows = work.rows(tile, TRIMMED, around=is_all, obstacles=work.division.listed("obstacles", tile))
+    scene = work.store.scene(rows.part.numbers)
+    given = boundary_of(scene, rows.part.features, rows.core)
+    contacts = given.contact_kind, given.contact_robot, given.contact_obstacle
+    reader = Reader(scene, contacts, given.trapezoids, given.isolated)
+    loops: dict[int, list[Side | None]] = {}
+    for k, (where, row) in enumerate(zip(rows.tile.tolist(), rows.row.tolist(), strict=True)):
+        if where != tile:
+            loops[k] = reader.trapezoid(k).sides()
+        elif row in chosen:
+            yield from trapezoid_findings(reader, k, loops)
+    if is_all:
+        for owners, number in sorted(matched(reader, loops).unmatched.items()):
+            if own := [int(rows.row[k]) for k in owners if rows.tile[k] == tile]:
+                yield Finding(CLOSED, f"rows {own}", f"{number} edges of their sides find no partner")
+
+
+def summary(checks: Sequence[TileCheck], expected: str, begin: float) -> Verification:
+    """All tiles together; the digest of the whole is the one expected."""
+    findings = [finding for check in checks for finding in check.findings]
+    total = f"{sum(check.digest for check in checks) % MODULUS:064x}"
+    if total != expected:
+        findings.append(Finding(SHARDS, "the manifest", f"digest {expected}, but of the shards it is {total}"))
+    count, looked_at = (sum(getattr(check, name) for check in checks) for name in ("trapezoids", "checked"))
+    is_all = count == looked_at
+    how, of = (PROVED, f"{count:,}") if is_all else (SAMPLED, f"{looked_at:,} of {count:,}")
+    lines = [
+        Check(SHARDS, PROVED, f"{len(checks):,} shards are as they were written; their digest is that of the manifest"),
+        Check(ANGLES, how, f"{of} trapezoids: both angles are isolated roots of what they are named by, in order"),
+        Check(DOMAINS, how, f"{of} trapezoids: contact in range and 0 <= lower <= upper <= 1"),
+        Check(FREE, SAMPLED, f"{of} trapezoids: nothing covers any of it at one exact angle each"),
+        Check(CLOSED, how if is_all else SKIPPED, "all sides have partners" if is_all else "needs every trapezoid"),
+    ]
+    refuted = {finding.kind for finding in findings}
+    lines = [replace(line, how=REFUTED) if line.name in refuted else line for line in lines]
+    return Verification(tuple(lines), tuple(findings), (), time.perf_counter() - begin)
