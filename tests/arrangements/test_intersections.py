@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import meetings
 from cfree import Polygon, Pose
-from cfree.arrangements import IntersectionCurve, intersection
+from cfree.arrangements import IntersectionCurve, intersection, triple
 from cfree.contact import EdgeVertex, VertexEdge, VertexVertex, contact_features, contact_surface
 from cfree.contact.surface import Surface
 from cfree.exact import AlgebraicAngle, AngleInterval
@@ -163,6 +163,14 @@ def test_a_patch_counts_for_its_angles_alone() -> None:
     assert seen == {(True, True, True), (False, True, True), (False, False, True), (False, False, False)}
 
 
+def test_a_reflex_vertex_has_no_patch_to_meet() -> None:
+    corner = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    none, some = rational_surface(TRIANGLE, corner, EdgeVertex(0, 3)), rational_surface(TRIANGLE, BOX, VertexEdge(0, 2))
+    assert intersection(none, some).ranges == () != intersection(none.surface, some.surface).ranges
+    found = triple(none, some, contact_surface(TRIANGLE, BOX, VertexEdge(1, 1)))
+    assert found.contacts == () and found.poses
+
+
 def is_end(end: VertexVertex, contact: VertexEdge | EdgeVertex) -> bool:
     """Of triangles."""
     i, j = (contact.i, contact.j)
@@ -298,6 +306,21 @@ def test_the_length_is_that_of_a_fine_polyline_and_within_its_error(name: str) -
         polyline = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
         assert length == pytest.approx(polyline, rel=1e-7) and (name == "far" or length >= polyline - 1e-10)
     assert curve.length(AngleInterval(ends[0], ends[0])) == (0, pytest.approx(0, abs=1e-25))
+
+
+def test_at_an_asymptote_there_is_nothing() -> None:
+    slope, corner = Polygon([(0, 0), (4, 0), (0, 3)]), Polygon([(0, 0), (1, 5), (-3, 5)])
+    pair = contact_surface(slope, BOX, VertexEdge(1, 0)), contact_surface(slope, corner, EdgeVertex(0, 0))
+    curve = intersection(*pair).curve
+    assert curve is not None and [angle.theta for angle in curve.asymptotes] == []
+    pair = contact_surface(slope, BOX, VertexEdge(2, 0)), contact_surface(slope, corner, EdgeVertex(0, 1))
+    curve = intersection(*pair).curve
+    assert curve is not None and [angle.theta for angle in curve.asymptotes] == [0, math.pi]
+    assert not np.isfinite(curve([0.0, math.pi])[:, :2]).any() and np.isfinite(curve(1.0)).all()
+    for of in (curve.tangent, curve.curvature, curve.torsion):
+        assert np.isnan(of([0.0, math.pi])).all() and np.isfinite(of([0.5, 1.0])).all()
+    near = [AlgebraicAngle.of(Pose(0, 0, {"tau": tau})) for tau in (Fraction(1, 10**9), 1)]
+    assert curve.length(AngleInterval(*near))[0] > 1e8 and curve.length(AngleInterval(*near[::-1])) == (math.inf, 0)
 
 
 def test_lengths_add_up_over_irrational_ends() -> None:
