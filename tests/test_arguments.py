@@ -27,10 +27,10 @@ MEETING = cfree.arrangements.intersection(
 )
 # made by cfree, and not by users
 RESULTS = """
-    AlgebraicAngle AngleInterval AngleRange BezierPatch Bottleneck Boundary Cell CellComplex Clearance EdgeEdgeSegment
+    AlgebraicAngle AngleInterval AngleRange Arrangement ArrangementStatistics BezierPatch Bottleneck Boundary Cell CellComplex Clearance EdgeEdgeSegment
     FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve Interval LocalGeometry Mesh
-    NearestMiss Pieces RationalHelix RationalRange RationalSegment RationalSurface Separated SharedLine Slice Surface
-    Triple TripleContact
+    NearestMiss Pieces RationalHelix RationalRange RationalSegment RationalSurface Separated SharedLine Slice
+    Surface Triple TripleContact
 """.split()  # noqa: SIM905
 
 

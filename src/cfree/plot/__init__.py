@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from cfree.plot.boundary import plot_overview as plot_overview
     from cfree.plot.boundary import plot_slice as plot_slice
     from cfree.plot.boundary import plot_workspace as plot_workspace
+    from cfree.plot.depths import plot_depths as plot_depths
+    from cfree.plot.depths import plot_faces as plot_faces
     from cfree.plot.development import plot_development as plot_development
     from cfree.plot.intersections import plot_intersection as plot_intersection
     from cfree.plot.path import plot_path as plot_path
@@ -23,6 +25,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "answer": "picture plot_path_space",
         "blockers": "plot_blockers",
         "boundary": "plot_boundary plot_overview plot_slice plot_workspace",
+        "depths": "plot_depths plot_faces",
         "development": "plot_development",
         "intersections": "plot_intersection",
         "path": "plot_path",
