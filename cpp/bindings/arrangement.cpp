@@ -35,7 +35,10 @@ void bind_arrangement(nb::module_& m) {
     a.def_prop_ro("owners", [ints](const Arrangement& x) { return ints(x.sheets.owners); });
     a.def_prop_ro("set_start", [ints](const Arrangement& x) { return ints(x.sheets.sets.start); });
     a.def_prop_ro("set_member", [ints](const Arrangement& x) { return ints(x.sheets.sets.member); });
-    a.def("volumes", [](const Arrangement& x) { return array_of(watched([&] { return x.volumes(); })); });
+    a.def("volumes", [](const Arrangement& x) {
+        auto found = watched([&] { return x.volumes(); });
+        return std::tuple{array_of(std::move(found.values)), array_of(std::move(found.errors))};
+    });
     a.def("locate", [](const Arrangement& x, const std::array<nb::int_, 5>& n, int chart) {
         auto at = x.locate({integer(n[0]), integer(n[1]), integer(n[2]), chart, integer(n[3]), integer(n[4])});
         return std::pair(at.cell, std::move(at.on));

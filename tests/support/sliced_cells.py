@@ -1,9 +1,9 @@
 """Cells of an arrangement from slices, in doubles: what is planar between two critical angles does not change.
 
-For convex polygons. At each orientation the sums of obstacles and turned, mirrored robot parts are overlaid by shapely.
-A planar cell is followed from slice to slice by the edges around it, and across a critical angle by what it has in common
-with the cells beyond. Shares nothing with the package but the critical angles, which are found to be complete: without one of
-them the slices to its sides would differ.
+For convex polygons. At each orientation the sums of obstacles and turned, mirrored robot parts are overlaid by
+shapely. A planar cell is followed from slice to slice by the edges around it, and across a critical angle by what it
+has in common with the cells beyond. Shares nothing with the package but the critical angles, which are found to be
+complete: without one of them the slices to its sides would differ.
 """
 
 from __future__ import annotations
@@ -15,11 +15,12 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import shapely
+
 from shapes import PlainScene
 
 NEAR = 5e-6  # how far from a critical angle its neighbours are looked at
 THIN = 5e-5  # what is narrower at it is not counted
-SLIVER = 1e-13
+SLIVER, ROUNDED = 1e-13, 1e-10
 
 
 class Planar(NamedTuple):
@@ -31,7 +32,8 @@ class Planar(NamedTuple):
 
     @property
     def euler(self) -> int:
-        return 1 - len(self.region.interiors)
+        """Of the open region: a hole that touches the rim in a point is none."""
+        return _euler(shapely.buffer(self.region, -ROUNDED))
 
 
 class Unclear(Exception):
@@ -41,8 +43,8 @@ class Unclear(Exception):
 def sliced_cells(plain: PlainScene, angles: Sequence[float]) -> Counter[tuple[frozenset[tuple[int, int]], int]]:
     """How many cells there are, by the pairs that hold them and their Euler characteristic, but for the outer one.
 
-    A cell is made of prisms over planar cells, which meet in planar regions at critical angles: its characteristic is that
-    of the former minus that of the latter.
+    A cell is made of prisms over planar cells, which meet in planar regions at critical angles: its characteristic is
+    that of the former minus that of the latter.
     """
     ends = sorted({a % math.tau for a in angles})
     ends = [a for k, a in enumerate(ends) if k == 0 or a - ends[k - 1] > 1e-9]
@@ -137,5 +139,9 @@ def _common(one: shapely.Polygon, other: shapely.Polygon) -> int | None:
     """Euler characteristic of what two planar cells have in common, None if that is nothing."""
     if not one.intersects(other):
         return None
-    parts = _polygons(shapely.buffer(one & other, -THIN))
-    return sum(1 - len(part.interiors) for part in parts) if parts else None
+    meeting = shapely.buffer(one & other, -THIN)
+    return None if meeting.is_empty else _euler(meeting)
+
+
+def _euler(region: shapely.Geometry) -> int:
+    return sum(1 - len(part.interiors) for part in shapely.get_parts(region))

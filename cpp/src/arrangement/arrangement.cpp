@@ -7,8 +7,6 @@
 #include <string>
 
 #include "arrangement/union_find.hpp"
-#include "cfree/forbidden/limits.hpp"
-#include "cfree/geometry/quadrature.hpp"
 #include "forbidden/curve_sides.hpp"
 #include "forbidden/level_sides.hpp"
 #include "forbidden/loops.hpp"
@@ -320,42 +318,15 @@ Arrangement::Place Arrangement::locate(const ExactPose& pose) const {
     return {(crossed[0].to_left ? face_inner : face_outer)[face], {}};
 }
 
-std::vector<double> Arrangement::volumes() const {
-    const Boundary& of = *sheets.boundary;
-    const Limits limits(of);
-    const auto line = [&](Index trapezoid, double angle) {
-        const auto [c, s] = cosine_sine(angle);
-        return limits.line(of.patches.contact(of.trapezoids.patch[trapezoid]), {c, s, 1});
-    };
-    // of each closed surface a point near by, seen from where little cancels
-    std::vector<Vec<double>> origin;
-    std::vector<double> count;
+Volumes Arrangement::volumes() const {
+    std::vector<Facing> facing;
     for (std::size_t k = 0; k < surface.size(); ++k) {
-        const auto of_side = static_cast<std::size_t>(surface[k]);
-        if (of_side >= origin.size()) origin.resize(of_side + 1, {0, 0}), count.resize(of_side + 1, 0);
-        const auto which = static_cast<Index>(k / 2);
-        const double tau = 0.5 * (of.trapezoids.tau_from(which) + of.trapezoids.tau_to(which));
-        const auto p = line(which, theta_of(of.trapezoids.chart[k / 2], tau)).at(0.5);
-        auto& o = origin[of_side];
-        const double m = ++count[of_side];
-        o = {o.x + (p.x - o.x) / m, o.y + (p.y - o.y) / m};
+        const bool is_inner = k % 2 != 0;
+        facing.push_back({static_cast<Index>(k / 2), surface[k], (is_inner ? face_inner : face_outer)[face_of[k / 2]], is_inner});
     }
-    std::vector<double> result(cell_set.size(), 0);
-    for (const int side : {0, 1}) {
-        const auto swept = trapezoid_integrals(of, gauss_legendre(), [&](const QuadratureLines& lines) {
-            std::vector<double> area;
-            for (std::size_t k = 0; k < lines.theta.size(); ++k) {
-                const auto at = line(lines.trapezoid[k], lines.theta[k]);
-                const Vec<double> o = origin[surface[2 * lines.trapezoid[k] + side]];
-                area.push_back(0.5 * cross(at.at(lines.lower[k]) - o, at.at(lines.upper[k]) - o));
-            }
-            return area;
-        });
-        for (std::size_t k = 0; k < swept.size(); ++k)
-            result[(side == 0 ? face_outer : face_inner)[face_of[k]]] += side == 0 ? -swept[k] : swept[k];
-    }
-    result[0] = std::numeric_limits<double>::infinity();
-    return result;
+    Volumes found = enclosed(*sheets.boundary, facing, static_cast<Index>(cell_set.size()));
+    found.values[0] = found.errors[0] = std::numeric_limits<double>::infinity();
+    return found;
 }
 
 }  // namespace cfree

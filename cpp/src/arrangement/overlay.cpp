@@ -22,7 +22,9 @@ void Overlay::start(Index of) {
 
 void Overlay::take(const Band& band) {
     if (!has_begun) return subtract(band);
-    cut(band, false, [&](const Piece& x) { return with(x.holders, &Holders::around); });
+    if (!cut(band, false, [&](const Piece& x) { return with(x.holders, &Holders::around); })) return;
+    for (const Index end : {band.area.from, band.area.to})
+        if (!crosses_at(band, end)) grazed.push_back(end);
 }
 
 // The nearest vertex of a pillar stays on the line: it touches the surface along that helix.
@@ -85,20 +87,23 @@ Index Overlay::with(Index holders, std::vector<Index> Holders::* list) {
     return at->second;
 }
 
-// What is inside of the band gets what `into` says: holders, or -1 if it goes. Along a curve areas are only cut.
+// What is inside of the band gets what `into` says: holders, or -1 if it goes. Along a curve areas are only cut. False if nothing is
+// changed.
 template <class Into>
-void Overlay::cut(const Band& band, bool along_curve, Into&& into) {
+bool Overlay::cut(const Band& band, bool along_curve, Into&& into) {
     heed_stop();
     cut_up.clear();
     std::vector<Bit> bits;
     for (const Piece& x : pieces) {
         if ((x.is_in && !along_curve) || !split(x, band, along_curve, bits)) cut_up.push_back(x);
     }
-    // split() has put the parts of those it has cut behind the others
+    const bool has_changed_any = cut_up.size() != pieces.size() ||
+                                 std::any_of(cut_up.begin(), cut_up.end(), [](const Piece& x) { return x.holders < 0; });
     pieces.swap(cut_up);
     for (Piece& x : pieces)
         if (x.holders < 0) x.holders = into(Piece{x.area, -1 - x.holders, true});
     std::erase_if(pieces, [](const Piece& x) { return x.holders < 0; });
+    return has_changed_any;
 }
 
 // False if the band does not meet the piece. Its parts are added to `cut_up`, those inside with negated holders.
@@ -155,8 +160,11 @@ bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std:
     return true;
 }
 
-// Neighbours along theta that have the same curves and holders.
+// Neighbours along theta that have the same curves and holders, but where a pillar only touches the line between them.
 void Overlay::join() {
+    const auto is_grazed = [&](Index event) {
+        return std::any_of(grazed.begin(), grazed.end(), [&](Index other) { return equal(event, other); });
+    };
     const auto key = [](const Piece& x) { return std::array{x.holders, x.area.lower, x.area.upper}; };
     std::sort(pieces.begin(), pieces.end(), [&](const Piece& x, const Piece& y) {
         return key(x) != key(y) ? key(x) < key(y) : before(x.area.from, y.area.from);
@@ -164,8 +172,10 @@ void Overlay::join() {
     std::size_t count = 0;
     for (const Piece& x : pieces) {
         Area* last = count > 0 && key(pieces[count - 1]) == key(x) ? &pieces[count - 1].area : nullptr;
-        if (last != nullptr && equal(last->to, x.area.from) && order_at(last->to, last->lower, last->upper) != 0) last->to = x.area.to;
-        else pieces[count++] = x;
+        if (last != nullptr && equal(last->to, x.area.from) && !is_grazed(last->to) && order_at(last->to, last->lower, last->upper) != 0)
+            last->to = x.area.to;
+        else
+            pieces[count++] = x;
     }
     pieces.resize(count);
 }

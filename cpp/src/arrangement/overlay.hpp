@@ -57,7 +57,7 @@ private:
     void pass(const State& state, const Span& span) override;
     void touch(const Touch& at);
     template <class Into>
-    void cut(const Band& band, bool along_curve, Into&& into);
+    bool cut(const Band& band, bool along_curve, Into&& into);
     bool split(const Piece& piece, const Band& band, bool along_curve, std::vector<Bit>& bits);
     Index with(Index holders, std::vector<Index> Holders::* list);
     bool vanishes(Index s, Index v) const;
@@ -71,6 +71,7 @@ private:
     std::vector<Holders> all{{}};
     std::map<std::array<Index, 3>, Index> added;  // holders and what is added to them
     std::vector<Touch> touches;                   // of the own pair
+    std::vector<Index> grazed;                    // angles at which a pillar covers nothing between two at which it does
 };
 
 }  // namespace cfree

@@ -1,7 +1,7 @@
 """Contact surfaces among each other: before any trimming, and the arrangement of all.
 
-`intersection` has the curve of two surfaces, `triple` the poses on three. `arrangement` has every vertex, edge, face and cell
-of a scene's configuration space, with the depth of each cell.
+`intersection` has the curve of two surfaces, `triple` the poses on three. `arrangement` has every vertex, edge, face
+and cell of a scene's configuration space, with the depth of each cell.
 """
 
 from typing import TYPE_CHECKING
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
     from cfree.arrangements.intersections import SharedLine as SharedLine
     from cfree.arrangements.intersections import intersection as intersection
     from cfree.arrangements.regions import planar_cells as planar_cells
-    from cfree.arrangements.written import arrangement_json as arrangement_json
-    from cfree.arrangements.written import save_arrangement as save_arrangement
     from cfree.arrangements.statistics import ArrangementStatistics as ArrangementStatistics
     from cfree.arrangements.statistics import DepthCell as DepthCell
     from cfree.arrangements.triples import Triple as Triple
     from cfree.arrangements.triples import TripleContact as TripleContact
     from cfree.arrangements.triples import triple as triple
+    from cfree.arrangements.written import arrangement_json as arrangement_json
+    from cfree.arrangements.written import save_arrangement as save_arrangement
 
 __getattr__, __dir__, __all__ = lazy_names(
     __name__,

@@ -52,10 +52,11 @@ class ArrangementStatistics:
     vertices_by_kind, edges_by_kind, faces_by_contact : dict of str to int
     vertices_by_degree, vertices_by_pairs, faces_by_depth, cells_by_depth : dict of int to int
     bounds : dict of str to int
-        What vertices are at most, by how it is known: ``"surfaces"``, 4 for each three of the k surfaces and as many for
-        each helix and surface, which is O(k^3) (Halperin and Sharir 1992: the worst case of such arrangements is
-        Theta(k^3)); ``"(mn)^3"`` with m vertices of the robot and n of the obstacles (Avnaim, Boissonnat and Faverjon
-        1988), without its constant. Single cells are much simpler: m^3 n^2 2^O(log^(2/3) n) (Halperin and Sharir 1993).
+        What the number of vertices is at most. ``"surfaces"``: k contact surfaces have 4 for each three, 2 for each of
+        their helices and 1 for each of their edge-edge segments with each surface, and 4 corners each, which is O(k^3);
+        that is also the worst case of such arrangements (Halperin and Sharir 1992). ``"(mn)^3"``, without its constant:
+        a robot of m vertices among obstacles of n (Avnaim, Boissonnat and Faverjon 1988). Single cells are much
+        simpler: m^3 n^2 2^O(log^(2/3) n) (Halperin and Sharir 1993).
     """
 
     vertices: int
@@ -88,5 +89,4 @@ def counted(values: NDArray[Any], names: Sequence[str] = ()) -> Any:
 def vertex_bounds(features: SceneFeatures) -> dict[str, int]:
     """See `ArrangementStatistics.bounds`."""
     k, m, n = features.patches, len(features.robot.previous), len(features.obstacles.previous)
-    # a helix meets a surface at most twice, and three surfaces meet at most 4 times; each surface has two helices and two ends
-    return {"surfaces": 4 * comb(k, 3) + 4 * k * k + 4 * k, "(mn)^3": (m * n) ** 3}
+    return {"surfaces": 4 * comb(k, 3) + 6 * k * k + 4 * k, "(mn)^3": (m * n) ** 3}

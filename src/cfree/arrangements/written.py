@@ -1,4 +1,4 @@
-"""Arrangements as JSON: what there is and how it meets, by numbers; docs/theory/arrangement.md says what the words mean.
+"""Arrangements as JSON: what there is and how it meets, by numbers; `Arrangement` says what the words mean.
 
 | key | of each | what |
 |---|---|---|
@@ -8,8 +8,8 @@
 | cells | cell | pairs, depth, euler, surfaces, volume (null if infinite) |
 | statistics | | counts, as `ArrangementStatistics` |
 
-Features are numbers of vertices, or of the edges that start there, over all polygons one after another. Owners and pairs
-are [polygon of the robot, obstacle], where obstacle -1 is the bounds and -2 the workspace.
+Features are numbers of vertices, or of the edges that start there, over all polygons one after another. Owners and
+pairs are [polygon of the robot, obstacle], where obstacle -1 is the bounds and -2 the workspace.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from __future__ import annotations
 import json
 import math
 from dataclasses import asdict
+from itertools import pairwise
 from os import PathLike
 from typing import Any
 
@@ -54,8 +55,8 @@ def arrangement_json(whole: Arrangement) -> dict[str, Any]:
             )
         ],
         "edges": [
-            {"kind": EDGE_KINDS[kind], "vertices": ends if ends[0] >= 0 else [], "faces": around[start[k] : start[k + 1]]}
-            for k, (kind, ends) in enumerate(_rows(whole.edge_kind, whole.edge_vertices))
+            {"kind": EDGE_KINDS[kind], "vertices": ends if ends[0] >= 0 else [], "faces": around[i:j]}
+            for (kind, ends), (i, j) in zip(_rows(whole.edge_kind, whole.edge_vertices), pairwise(start), strict=True)
         ],
         "faces": [
             {

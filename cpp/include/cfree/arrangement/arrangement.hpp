@@ -4,7 +4,7 @@
 // two sides, the free one (outer) and the forbidden one (inner) of its pair; a cell is bounded by closed surfaces of sides.
 #pragma once
 #include "cfree/arrangement/sheets.hpp"
-#include "cfree/free/point_location.hpp"
+#include "cfree/free/cell_facts.hpp"
 
 namespace cfree {
 
@@ -32,8 +32,7 @@ struct Arrangement {
     std::vector<Index> cell_set, cell_euler, cell_surfaces;
     std::shared_ptr<const PointLocation> points;
 
-    // In length^2 radians; infinite for the first.
-    std::vector<double> volumes() const;
+    Volumes volumes() const;  // infinite for the first
     // What is at a pose: a cell and no trapezoids, or the trapezoids that it is on, and -1.
     struct Place {
         Index cell;
