@@ -9,6 +9,7 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from flint import fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -146,6 +147,41 @@ def sine_squared(pair: tuple[Surface, Surface], tau: Fraction | None, x: Vec) ->
     return sum(k * k for k in normal) / sum(k * k for k in (a, b, c)) / sum(k * k for k in (d, e, f))
 
 
+@FEW
+@given(meetings.surfaces(2), taus)
+def test_harmonics_are_the_curve_and_it_is_in_lowest_terms(pair: tuple[Surface, Surface], tau: Fraction | None) -> None:
+    curve = intersection(*pair).curve
+    if curve is None or tau in [t for angle in curve.asymptotes for t in angle.neighbours(60)]:
+        return
+    check_harmonics(curve, tau)
+    for divisor in ((1, 0, 1), (0, 1), (1, 1), (-1, 1), (2, 1)):  # 1 + tau^2, tau, ...
+        remainders = [fmpz_poly(list(row)) % fmpz_poly(list(divisor)) for row in (curve.x, curve.y, curve.w)]
+        assert len(curve.w) == 1 or any(remainder != 0 for remainder in remainders)
+    assert len(curve.w) == 1 or any(row[-1] for row in (curve.x, curve.y, curve.w))
+
+
+def check_harmonics(curve: IntersectionCurve, tau: Fraction | None) -> None:
+    (c, s) = M(tau, (Fraction(1), Fraction(0)))
+    waves = (1, c, s, c * c - s * s, 2 * c * s)
+    x, y, w = (sum(k * wave for k, wave in zip(row, waves, strict=True)) for row in curve.harmonics)
+    assert (x, y) == tuple(w * value for value in curve.point(tau))
+
+
+def test_a_line_shared_once_leaves_degree_3_and_shared_twice_2() -> None:
+    # the edge from (0, 0) to (1, 0) along y = 0 at 0 degrees only: the vertex (0, 1) is on the line y = 1 then
+    robot, bar = Polygon([(0, 0), (1, 0), (0, 1)]), Polygon([(5, 0), (4, -3), (7, -2)])
+    hall = Polygon([(0, 1), (9, 1), (9, 4)])
+    pair = contact_surface(robot, hall, VertexEdge(2, 0)), contact_surface(robot, bar, EdgeVertex(0, 0))
+    found = intersection(*pair)
+    assert [round(math.degrees(line.angle.theta)) for line in found.lines] == [0]
+    assert found.curve is not None and found.curve.degree == 3
+    assert [round(math.degrees(angle.theta)) for angle in found.curve.asymptotes] == [180]
+    for tau in (Fraction(0), Fraction(1, 3), Fraction(-7)):
+        check_harmonics(found.curve, tau)
+    helix = intersection(surface(robot, bar, VertexEdge, 0, 0), surface(robot, bar, EdgeVertex, 0, 0))
+    assert helix.curve is not None and (helix.curve.degree, len(helix.lines)) == (0, 2)  # the reference point stays
+
+
 # patches
 
 
@@ -211,6 +247,13 @@ def test_parallel_surfaces_share_lines_touch_or_are_apart() -> None:
     assert between_floor_and("1") == [(30, 1, (0, right)), (150, 1, (left, 1))]
     assert between_floor_and("2") == [(90, 2, (0, 1))]
     assert between_floor_and("2.0000000000000000000001") == []
+
+    # the same for a bar of the robot, 2 wide, and two corners
+    bar = Polygon([(0, 0), (9, 0), (9, 2), (0, 2)])
+    for distance, times in (("3", [1, 1]), ("2", [2]), ("1.99", [])):
+        corners = [Polygon([(0, y), (1, y), (0, 5)]) for y in ("0", distance)]
+        found = intersection(*(surface(bar, O, EdgeVertex, i, 0) for O, i in zip(corners, (0, 2), strict=True)))
+        assert found.relation == "parallel" and [line.multiplicity for line in found.lines] == times
 
 
 def test_one_line_is_one_surface() -> None:

@@ -19,11 +19,12 @@ import numpy as np
 import pytest
 import yaml
 from click.testing import CliRunner
+from matplotlib.colors import to_rgb
 from PIL import Image
 
 import cfree
 from cfree.cli.app import app
-from cfree.plot.path import UNWANTED
+from cfree.plot.path import LIMIT, UNWANTED
 
 SCENES = Path("examples/scenes")
 PARKING, SWIM, CONVEX = (str(SCENES / f"{name}.json") for name in ("benchmr_parking1", "nest_swim", "five_convex"))
@@ -43,7 +44,10 @@ def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path, monkeypa
     result = run("plan", CONVEX, "-o", answer, "--picture", picture, "--film", film, "--improve", "50ms")
     assert result.exit_code == 0, result.output
     assert "a path, each motion proved free" in result.stdout
-    assert picture.read_bytes()[:4] == b"\x89PNG" and film.read_bytes()[:3] == b"GIF"
+    with Image.open(picture) as drawn, Image.open(film) as shown:
+        seen = np.asarray(drawn.convert("RGB"), float) / 255
+        assert shown.n_frames == 4  # type: ignore[attr-defined]
+    assert (np.abs(seen - to_rgb(LIMIT)).max(axis=-1) < 0.05).sum() > 100  # the least clearance is marked
     data = json.loads(answer.read_text())
     scene = cfree.load_scene(CONVEX)
     assert data["answer"] == "path" and scene.start and scene.goal

@@ -23,7 +23,15 @@ from numpy.typing import ArrayLike, NDArray
 
 import cfree._core as _core
 from cfree.arguments import checked
-from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
+from cfree.contact.contact import (
+    EdgeEdge,
+    EdgeVertex,
+    VertexEdge,
+    VertexVertex,
+    angle_range,
+    direction_against,
+    edge_edge_range,
+)
 from cfree.exact.half_angle import Angle, normalize_angles
 from cfree.exact.number import ExactPoint, Number, angle, finite, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -304,11 +312,10 @@ def edge_edge_surface(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> t
     array([[4.        , 2.        , 3.14159265],
            [0.        , 2.        , 3.14159265]])
     """
-    (ux, uy), (vx, vy) = robot.edge_numerators[contact.i], obstacle.edge_numerators[contact.j]
-    c, s = ux * vx + uy * vy, ux * vy - uy * vx
+    c, s = direction_against(robot, obstacle, contact)
     L = math.hypot(*robot.edge(contact.i)) / math.hypot(*obstacle.edge(contact.j))
     S = contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j))
-    against, alongside = (float(normalize_angles(angle(*direction))) for direction in ((-c, -s), (c, s)))
+    against, alongside = (float(normalize_angles(angle(*direction))) for direction in ((c, s), (-c, -s)))
     return EdgeEdgeSegment(contact, S, against, (0.0, 1 + L)), EdgeEdgeSegment(contact, S, alongside, (-L, 1.0))
 
 
