@@ -1,4 +1,4 @@
-"""Vertices of an arrangement where three surfaces cross, and poses on three patches: found by separate code, the same."""
+"""Vertices of an arrangement where three surfaces cross, and poses on three patches: found separately, the same."""
 
 from __future__ import annotations
 
