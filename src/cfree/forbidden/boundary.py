@@ -236,7 +236,8 @@ class Boundary(BoundaryRecord, Shown):
         Parameters
         ----------
         error : float
-            Greatest distance of a point of a triangle to the boundary, in the scene's unit of length.
+            Greatest distance of a point of a triangle to the boundary, and of a point of the boundary to the triangles,
+            in the scene's unit of length.
         angle_scale : float, optional
             Length per radian, w below; the robot's radius about its reference point if not given.
 

@@ -15,6 +15,9 @@ struct MeshPoint {
     std::array<double, 2> inward;  // how far inside the lower and the upper curve
     Index vertex = -1;             // in the mesh
 };
+// Share of the error that chords of the curves may take: strips need it below sqrt(1/2).
+inline constexpr double on_curves = 0.7;
+
 using Corners = std::array<const MeshPoint*, 3>;
 
 class MeshFace {
@@ -32,6 +35,8 @@ public:
 
     // Coordinates in which an e-v edge (dx, dy) is off by w |dx dy| / 4, about: u = arsinh(s / w) + shear * phi, and phi.
     double u(double s) const { return std::asinh(s / w); }
+    double s(double u) const { return w * std::sinh(u); }
+    double scale() const { return w; }
     double width_u(double phi) const;  // of the face at an angle
     double most_width_u() const { return most_width; }
 
