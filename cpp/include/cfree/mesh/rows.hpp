@@ -1,4 +1,4 @@
-// Rows of points across a twisted face, from curve to curve along the rulings; theory, "Rows".
+// Rows of points across a twisted face, from curve to curve along the rulings; theory, "How few triangles".
 #pragma once
 #include <vector>
 
