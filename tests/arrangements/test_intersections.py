@@ -363,7 +363,10 @@ def test_at_an_asymptote_there_is_nothing() -> None:
     for of in (curve.tangent, curve.curvature, curve.torsion):
         assert np.isnan(of([0.0, math.pi])).all() and np.isfinite(of([0.5, 1.0])).all()
     near = [AlgebraicAngle.of(Pose(0, 0, {"tau": tau})) for tau in (Fraction(1, 10**9), 1)]
-    assert curve.length(AngleInterval(*near))[0] > 1e8 and curve.length(AngleInterval(*near[::-1])) == (math.inf, 0)
+    assert curve.length(AngleInterval(*near))[0] > 1e8
+    nearer = AlgebraicAngle.of(Pose(0, 0, {"tau": Fraction(1, 10**60)}))
+    assert curve.length(AngleInterval(nearer, near[1]))[0] > 1e59
+    assert curve.length(AngleInterval(*near[::-1])) == (math.inf, 0)
 
 
 def test_lengths_add_up_over_irrational_ends() -> None:
