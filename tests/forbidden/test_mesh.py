@@ -19,7 +19,7 @@ from cfree.forbidden.mesh import Mesh
 from cfree.formats.mesh_file import MESH_SUFFIXES, save_mesh
 from cfree.formats.scene_file import load_scene
 from cfree.free.space import free_space
-from cfree.plot.painted import painted
+from cfree.plot.paint import painted
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
 
@@ -211,6 +211,26 @@ def farthest_from_mesh(mesh: Mesh, result: Boundary, count: int) -> float:
     least = np.full(count, np.inf)
     np.minimum.at(least, of, np.linalg.norm(closest - points[of], axis=1))
     return float(least.max())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("scale", "error"), [(0.3, 2e-4), (1.0, 3e-4)])
+def test_vertices_off_the_surface_keep_both_bounds_and_save_triangles(
+    triangles: Boundary, scale: float, error: float
+) -> None:
+    result = triangles
+    for each in (100 * error, error):
+        on, off = (result.mesh(each, angle_scale=scale, off_surface=which) for which in (False, True))
+        check_closed(off, result)
+        check_error(off, result)
+        assert farthest_from_mesh(off, result, 300) <= each * (1 + 1e-6)
+    assert off.ratio < 0.985 * on.ratio
+    of = np.repeat(np.arange(len(off.triangles)), 3)
+    apart = distances(result, off.trapezoid[of], off.vertices[off.triangles].reshape(-1, 3), scale, error)
+    lifted = apart > 1e-6
+    assert lifted.mean() > 0.2 and np.quantile(apart[lifted], [0.1, 0.9]) == pytest.approx(error / 3, rel=0.05)
+    rim = np.isin(np.arange(len(off.vertices)), np.unique(off.seam))
+    assert not np.isin(off.triangles.ravel()[lifted], np.flatnonzero(rim)).any()
 
 
 def test_half_the_error_is_not_met(triangles: Boundary) -> None:

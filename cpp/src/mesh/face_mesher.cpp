@@ -96,11 +96,11 @@ double FaceMesher::scale_of_lattice() const {
     const auto fits = [&](double scale) {
         for (int k = 0; k <= 16; ++k) {
             std::array<MeshPoint, 3> p;
-            const double x[] = {0, 1 / golden, golden}, y[] = {0, golden, 1 / golden};
+            const double x[] = {0, lattice.m, lattice.n}, y[] = {0, lattice.n, lattice.m};
             for (int c = 0; c < 3; ++c) {
                 const double dy = scale * unit * y[c] / stretch;
                 const double u = low + wide * k / 16 + stretch * scale * unit * (x[c] - 0.76) - face->shear * dy;
-                p[c] = {face->s(u), phi + dy, {0, 0}};
+                p[c] = lifted({face->s(u), phi + dy, {0, 0}});
             }
             if (face->excess_inside({&p[0], &p[1], &p[2]}) > 1) return false;
         }
@@ -111,27 +111,37 @@ double FaceMesher::scale_of_lattice() const {
     return scale;
 }
 
-// Points of the lattice of best triangles: edges (1/g, g), (1, -1) and (g, 1/g), g the golden ratio, with |dx dy| = 1.
+// Of best triangles. On the surface: edges (1/g, g), (1, -1) and (g, 1/g), g the golden ratio, with |dx dy| = 1; a third of the
+// error below it |dx dy| is 2/3 for two of them and 4/3 for the third, (k, -k).
+FaceMesher::Lattice::Lattice(bool free)
+    : m(free ? 1 - 1 / std::numbers::sqrt3 : 1 / golden), n(free ? 1 + 1 / std::numbers::sqrt3 : golden),
+      k(free ? 2 / std::numbers::sqrt3 : 1), off(free ? -1.0 / 3 : 0) {}
+
+MeshPoint FaceMesher::lifted(MeshPoint p) const {
+    p.off = lattice.off * error * face->gradient(p.s);
+    return p;
+}
+
 void FaceMesher::add_lattice() {
     const double unit = lattice_unit() * scale_of_lattice();
     double left = 1e300, right = -1e300;
     for (const auto& p : net.places) left = std::min(left, p.x), right = std::max(right, p.x);
     const double x0 = 0.5 * (left + right), y0 = 0.5 * (face->from + face->to) * stretch, gap = rim_gap * unit;
     const double wide = 0.5 * (right - left) / unit, high = 0.5 * (face->to - face->from) * stretch / unit;
-    // the point i (1/g, g) + j (1, -1)
-    const auto rows = static_cast<Index>(std::ceil(wide * golden + high / golden)) + 2;
+    const auto [m, n, k, off] = lattice;
+    const auto rows = static_cast<Index>(std::ceil((wide * n + high * m) / (k * (m + n)))) + 2;
     for (Index j = -rows; j <= rows; ++j) {
         heed_stop();
-        const auto from = static_cast<Index>(std::floor((-high + j) / golden));
-        const auto to = static_cast<Index>(std::ceil((high + j) / golden));
+        const auto from = static_cast<Index>(std::floor((-high + j * k) / n));
+        const auto to = static_cast<Index>(std::ceil((high + j * k) / n));
         for (Index i = from; i <= to; ++i) {
-            const double x = x0 + unit * (i / golden + j), phi = (y0 + unit * (i * golden - j)) / stretch;
+            const double x = x0 + unit * (i * m + j * k), phi = (y0 + unit * (i * n - j * k)) / stretch;
             if (x < left || x > right || phi < face->from + gap / stretch || phi > face->to - gap / stretch) continue;
             const double u = stretch * x - face->shear * phi;
             const MeshPoint p = face->point(face->s(u), phi);
             const double low = p.s - p.inward[0], up = p.s + p.inward[1];
             if (u - face->u(low) < gap * stretch || face->u(up) - u < gap * stretch) continue;
-            insert(p);
+            insert(lifted(p));
         }
     }
 }

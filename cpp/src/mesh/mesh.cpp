@@ -23,10 +23,10 @@ bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
 
 class Mesher {
 public:
-    Mesher(const CellComplex& cells, double most_error, double scale)
+    Mesher(const CellComplex& cells, double most_error, double scale, bool off_surface = false)
         : in(cells), trapezoids(cells.boundary->trapezoids), patches(cells.boundary->patches), scene(*cells.boundary->scene),
           error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
-          half_edges(static_cast<Index>(cells.face.size())), filler(most_error, scale) {
+          half_edges(static_cast<Index>(cells.face.size())), filler(most_error, scale, off_surface) {
         for (Index v = 0; v < in.vertices; ++v) {  // the robot as it is, the obstacles from their origin
             const auto [c, s] = cosine_sine(in.theta[v]);
             const double a = scene.frame[2], b = scene.frame[3];
@@ -239,7 +239,7 @@ void Mesher::triangulate(Index f) {
         for (const Index c : t.corner) {
             MeshPoint& p = filler.points[c];
             if (p.vertex < 0) {
-                const Complex x = sheet.at(p.s, p.phi);
+                const Complex x = sheet.at(p.s, p.phi, p.off);
                 p.vertex = add_vertex(x.real(), x.imag(), p.phi);
             }
             out.corners.push_back(p.vertex);
@@ -352,6 +352,8 @@ MeshEstimate Mesher::estimate() const {
 MeshEstimate estimate_mesh(const CellComplex& cells, double error, double angle_scale) {
     return Mesher(cells, error, angle_scale).estimate();
 }
-Mesh mesh(const CellComplex& cells, double error, double angle_scale) { return Mesher(cells, error, angle_scale).run(); }
+Mesh mesh(const CellComplex& cells, double error, double angle_scale, bool off_surface) {
+    return Mesher(cells, error, angle_scale, off_surface).run();
+}
 
 }  // namespace cfree

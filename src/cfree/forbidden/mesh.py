@@ -106,7 +106,9 @@ class Mesh(Value, Shown):
         return table[self.kind]
 
 
-def triangulated(boundary: BoundaryRecord, cells: CellComplex, error: float, angle_scale: float | None) -> Mesh:
+def triangulated(
+    boundary: BoundaryRecord, cells: CellComplex, error: float, angle_scale: float | None, off_surface: bool
+) -> Mesh:
     """The mesh of `Boundary.mesh`."""
     scale = robot_radius(boundary.scene) if angle_scale is None else angle_scale
     if not 0 < error < math.inf:
@@ -122,7 +124,7 @@ def triangulated(boundary: BoundaryRecord, cells: CellComplex, error: float, ang
     if expected > MOST_TRIANGLES:
         raise UnsupportedError(_too_many(error, coarsest, expected))
     try:
-        found = _core.mesh(boundary.core_complex, error, scale)
+        found = _core.mesh(boundary.core_complex, error, scale, off_surface)
     except RuntimeError as fault:
         raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
     patch = boundary.trapezoids.patch[found.face]

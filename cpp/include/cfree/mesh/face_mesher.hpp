@@ -9,7 +9,8 @@ using Rim = std::array<std::vector<MeshPoint>, 4>;  // points by side, in the or
 
 class FaceMesher {
 public:
-    FaceMesher(double error, double angle_scale) : error(error), angle_scale(angle_scale) {}
+    // Inner points may be off the surface, if `free` says so.
+    FaceMesher(double error, double angle_scale, bool free) : error(error), angle_scale(angle_scale), lattice(free) {}
 
     // Triangles of `net`, their corners among `points`; of two ways to place points inside the one that needs fewer. Which face
     // it is, is for the message if the bounds cannot be met, a std::logic_error.
@@ -26,6 +27,12 @@ private:
     void insert(const MeshPoint& p);
     template <std::size_t n>
     Index add_middle(const std::array<Index, n>& of);
+    // The points i (m, n) + j (k, -k), that far off the surface, in units of the error.
+    struct Lattice {
+        explicit Lattice(bool free);
+        double m, n, k, off;
+    };
+    MeshPoint lifted(MeshPoint p) const;
     void add_lattice();
     void add_rows(const Rows& rows);
     double scale_of_lattice() const;
@@ -40,6 +47,7 @@ private:
     double lattice_unit() const { return 2 * std::sqrt(error / angle_scale); }
 
     const double error, angle_scale;
+    const Lattice lattice;
     const MeshFace* face = nullptr;
     Index number = 0;
     double stretch = 1;  // of the coordinates of `net`: (u / stretch, stretch * phi)
