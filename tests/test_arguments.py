@@ -27,10 +27,10 @@ MEETING = cfree.arrangements.intersection(
 )
 # made by cfree, and not by users
 RESULTS = """
-    AlgebraicAngle AngleInterval AngleRange BezierPatch Bottleneck Boundary Cell CellComplex Clearance EdgeEdgeSegment
-    FirstContact Fit FreeSpace GaussBonnet Geodesic Helix Intersection IntersectionCurve Interval LocalGeometry Mesh
-    NearestMiss Pieces RationalHelix RationalRange RationalSegment RationalSurface Separated SharedLine Slice Surface
-    Triple TripleContact
+    AlgebraicAngle AngleInterval AngleRange Arrangement ArrangementStatistics BezierPatch Bottleneck Boundary Cell
+    CellComplex Clearance DepthCell EdgeEdgeSegment FirstContact Fit FreeSpace GaussBonnet Geodesic Helix
+    Intersection IntersectionCurve Interval LocalGeometry Mesh NearestMiss Pieces RationalHelix RationalRange
+    RationalSegment RationalSurface Separated SharedLine Slice Surface Triple TripleContact
 """.split()  # noqa: SIM905
 
 
@@ -77,7 +77,7 @@ def pool() -> list[Any]:
         space.complex, cfree.Poses([[0, 0]], [0]), cfree.contact.contact_surface(triangle, triangle, contact),
         cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
         cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
-        cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING,
+        cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
     ]  # fmt: skip
 
 

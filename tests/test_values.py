@@ -54,12 +54,15 @@ def samples(x: int) -> dict[str, Any]:
         "AllSeparated": cfree.AllSeparated((separated,), ((step, step),), "closed"),
         "AngleInterval": interval,
         "AngleRange": cfree.contact.AngleRange(float(step), 1.0, (1, 0), (0, x)),
+        "Arrangement": cfree.arrangements.arrangement(cfree.Scene(ROBOT, [ROBOT, [(x, 0), (9, 0), (9, 9)]])),
+        "ArrangementStatistics": cfree.arrangements.arrangement(cfree.Scene(ROBOT, [ROBOT] * (x - 3))).statistics,
         "BezierPatch": bezier_patches(surface, bits=8)[0],
         "Boundary": boundary,
         "Cell": space.cells[0],
         "CellComplex": boundary.complex,
         "PoseChecker": cfree.PoseChecker(scene),
         "Clearance": cfree.clearance(path, scene),
+        "DepthCell": cfree.arrangements.DepthCell(x, ((0, 0),), 1, 1, 2.0),
         "EdgeEdge": EdgeEdge(0, x),
         "EdgeEdgeSegment": cfree.contact.contact_segment(
             TRIANGLE, cfree.Polygon([(0, 0), (x, 0), (0, x)]), EdgeEdge(0, 0)

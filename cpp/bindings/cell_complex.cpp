@@ -42,7 +42,7 @@ void bind_cell_complex(nb::module_& m) {
         const auto x = watched([&] { return cfree::estimate_mesh(of, error, angle_scale); });
         return std::pair(x.coarsest, x.triangles);
     }, "cells"_a, "error"_a, "angle_scale"_a);
-    m.def("mesh", [](const CellComplex& of, double error, double angle_scale) {
-        return watched([&] { return cfree::mesh(of, error, angle_scale); });
-    }, "cells"_a, "error"_a, "angle_scale"_a);
+    m.def("mesh", [](const CellComplex& of, double error, double angle_scale, bool off_surface) {
+        return watched([&] { return cfree::mesh(of, error, angle_scale, off_surface); });
+    }, "cells"_a, "error"_a, "angle_scale"_a, "off_surface"_a);
 }

@@ -66,8 +66,8 @@ static void bind_location(nb::module_& m) {
             const auto& q = found->first;
             return Answer({{integer(q.X), integer(q.Y), integer(q.W), integer(q.p), integer(q.r)}, q.chart, found->second});
         }, "trapezoid"_a, "attempt"_a)
-        .def("crossings", [](const PointLocation& x, const PoseIntegers& pose, int chart, int own) -> std::optional<std::vector<Found>> {
-            const auto found = x.crossings(pose_of(pose, chart), own);
+        .def("passages", [](const PointLocation& x, const PoseIntegers& pose, int chart, int own) -> std::optional<std::vector<Found>> {
+            const auto found = x.passages(pose_of(pose, chart), own);
             if (!found) return {};
             std::vector<Found> all;
             for (const auto& c : *found) all.emplace_back(c.trapezoid, integer(c.n), integer(c.d), c.is_free_before);

@@ -14,6 +14,7 @@ void bind_boundary(nb::module_& m);
 void bind_cell_complex(nb::module_& m);
 void bind_slice(nb::module_& m);
 void bind_free_space(nb::module_& m);
+void bind_arrangement(nb::module_& m);
 void bind_search(nb::module_& m);
 void bind_planning(nb::module_& m);
 
@@ -30,6 +31,7 @@ NB_MODULE(_core, m) {
     bind_cell_complex(m);
     bind_slice(m);
     bind_free_space(m);
+    bind_arrangement(m);
     bind_search(m);
     bind_planning(m);
 }

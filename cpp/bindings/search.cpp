@@ -44,6 +44,7 @@ void bind_search(nb::module_& m) {
     }, "guesses"_a);
     nb::class_<Shortener>(m, "Shortener")
         .def("run", [](Shortener& of, int checks) { of.path.run(checks); }, "checks"_a, nb::call_guard<nb::gil_scoped_release>())
+        .def("merge", [](Shortener& of) { of.path.merge(); }, nb::call_guard<nb::gil_scoped_release>())
         .def("length", [](const Shortener& of) { return of.path.length() / of.by->unit; })
         .def("path", [](const Shortener& of) { return list_of(of.by->poses(of.path.path())); });
     nb::class_<Searcher>(m, "Searcher")

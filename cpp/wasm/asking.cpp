@@ -41,6 +41,7 @@ Poses shortened(const World& world, const Poses& way) {
     const Searcher searcher(world.planner->scene, places, {world.radius});
     Shortcut shortcut = searcher.shortener(ends);
     shortcut.run(attempts);
+    shortcut.merge();
     return searcher.poses(shortcut.path());
 }
 

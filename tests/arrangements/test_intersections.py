@@ -9,12 +9,13 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
+from flint import fmpz_poly
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import meetings
 from cfree import Polygon, Pose
-from cfree.arrangements import IntersectionCurve, intersection
+from cfree.arrangements import IntersectionCurve, intersection, triple
 from cfree.contact import EdgeVertex, VertexEdge, VertexVertex, contact_features, contact_surface
 from cfree.contact.surface import Surface
 from cfree.exact import AlgebraicAngle, AngleInterval
@@ -146,6 +147,41 @@ def sine_squared(pair: tuple[Surface, Surface], tau: Fraction | None, x: Vec) ->
     return sum(k * k for k in normal) / sum(k * k for k in (a, b, c)) / sum(k * k for k in (d, e, f))
 
 
+@FEW
+@given(meetings.surfaces(2), taus)
+def test_harmonics_are_the_curve_and_it_is_in_lowest_terms(pair: tuple[Surface, Surface], tau: Fraction | None) -> None:
+    curve = intersection(*pair).curve
+    if curve is None or tau in [t for angle in curve.asymptotes for t in angle.neighbours(60)]:
+        return
+    check_harmonics(curve, tau)
+    for divisor in ((1, 0, 1), (0, 1), (1, 1), (-1, 1), (2, 1)):  # 1 + tau^2, tau, ...
+        remainders = [fmpz_poly(list(row)) % fmpz_poly(list(divisor)) for row in (curve.x, curve.y, curve.w)]
+        assert len(curve.w) == 1 or any(remainder != 0 for remainder in remainders)
+    assert len(curve.w) == 1 or any(row[-1] for row in (curve.x, curve.y, curve.w))
+
+
+def check_harmonics(curve: IntersectionCurve, tau: Fraction | None) -> None:
+    (c, s) = M(tau, (Fraction(1), Fraction(0)))
+    waves = (1, c, s, c * c - s * s, 2 * c * s)
+    x, y, w = (sum(k * wave for k, wave in zip(row, waves, strict=True)) for row in curve.harmonics)
+    assert (x, y) == tuple(w * value for value in curve.point(tau))
+
+
+def test_a_line_shared_once_leaves_degree_3_and_shared_twice_2() -> None:
+    # the edge from (0, 0) to (1, 0) along y = 0 at 0 degrees only: the vertex (0, 1) is on the line y = 1 then
+    robot, bar = Polygon([(0, 0), (1, 0), (0, 1)]), Polygon([(5, 0), (4, -3), (7, -2)])
+    hall = Polygon([(0, 1), (9, 1), (9, 4)])
+    pair = contact_surface(robot, hall, VertexEdge(2, 0)), contact_surface(robot, bar, EdgeVertex(0, 0))
+    found = intersection(*pair)
+    assert [round(math.degrees(line.angle.theta)) for line in found.lines] == [0]
+    assert found.curve is not None and found.curve.degree == 3
+    assert [round(math.degrees(angle.theta)) for angle in found.curve.asymptotes] == [180]
+    for tau in (Fraction(0), Fraction(1, 3), Fraction(-7)):
+        check_harmonics(found.curve, tau)
+    helix = intersection(surface(robot, bar, VertexEdge, 0, 0), surface(robot, bar, EdgeVertex, 0, 0))
+    assert helix.curve is not None and (helix.curve.degree, len(helix.lines)) == (0, 2)  # the reference point stays
+
+
 # patches
 
 
@@ -161,6 +197,14 @@ def test_a_patch_counts_for_its_angles_alone() -> None:
         assert on == (all_of_it and all(inside)) and one == (all_of_it and inside[1])
         seen.add((on, one, all_of_it))
     assert seen == {(True, True, True), (False, True, True), (False, False, True), (False, False, False)}
+
+
+def test_a_reflex_vertex_has_no_patch_to_meet() -> None:
+    corner = Polygon([(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)])
+    none, some = rational_surface(TRIANGLE, corner, EdgeVertex(0, 3)), rational_surface(TRIANGLE, BOX, VertexEdge(0, 2))
+    assert intersection(none, some).ranges == () != intersection(none.surface, some.surface).ranges
+    found = triple(none, some, contact_surface(TRIANGLE, BOX, VertexEdge(1, 1)))
+    assert found.contacts == () and found.poses
 
 
 def is_end(end: VertexVertex, contact: VertexEdge | EdgeVertex) -> bool:
@@ -203,6 +247,13 @@ def test_parallel_surfaces_share_lines_touch_or_are_apart() -> None:
     assert between_floor_and("1") == [(30, 1, (0, right)), (150, 1, (left, 1))]
     assert between_floor_and("2") == [(90, 2, (0, 1))]
     assert between_floor_and("2.0000000000000000000001") == []
+
+    # the same for a bar of the robot, 2 wide, and two corners
+    bar = Polygon([(0, 0), (9, 0), (9, 2), (0, 2)])
+    for distance, times in (("3", [1, 1]), ("2", [2]), ("1.99", [])):
+        corners = [Polygon([(0, y), (1, y), (0, 5)]) for y in ("0", distance)]
+        found = intersection(*(surface(bar, O, EdgeVertex, i, 0) for O, i in zip(corners, (0, 2), strict=True)))
+        assert found.relation == "parallel" and [line.multiplicity for line in found.lines] == times
 
 
 def test_one_line_is_one_surface() -> None:
@@ -298,6 +349,24 @@ def test_the_length_is_that_of_a_fine_polyline_and_within_its_error(name: str) -
         polyline = np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
         assert length == pytest.approx(polyline, rel=1e-7) and (name == "far" or length >= polyline - 1e-10)
     assert curve.length(AngleInterval(ends[0], ends[0])) == (0, pytest.approx(0, abs=1e-25))
+
+
+def test_at_an_asymptote_there_is_nothing() -> None:
+    slope, corner = Polygon([(0, 0), (4, 0), (0, 3)]), Polygon([(0, 0), (1, 5), (-3, 5)])
+    pair = contact_surface(slope, BOX, VertexEdge(1, 0)), contact_surface(slope, corner, EdgeVertex(0, 0))
+    curve = intersection(*pair).curve
+    assert curve is not None and [angle.theta for angle in curve.asymptotes] == []
+    pair = contact_surface(slope, BOX, VertexEdge(2, 0)), contact_surface(slope, corner, EdgeVertex(0, 1))
+    curve = intersection(*pair).curve
+    assert curve is not None and [angle.theta for angle in curve.asymptotes] == [0, math.pi]
+    assert not np.isfinite(curve([0.0, math.pi])[:, :2]).any() and np.isfinite(curve(1.0)).all()
+    for of in (curve.tangent, curve.curvature, curve.torsion):
+        assert np.isnan(of([0.0, math.pi])).all() and np.isfinite(of([0.5, 1.0])).all()
+    near = [AlgebraicAngle.of(Pose(0, 0, {"tau": tau})) for tau in (Fraction(1, 10**9), 1)]
+    assert curve.length(AngleInterval(*near))[0] > 1e8
+    nearer = AlgebraicAngle.of(Pose(0, 0, {"tau": Fraction(1, 10**60)}))
+    assert curve.length(AngleInterval(nearer, near[1]))[0] > 1e59
+    assert curve.length(AngleInterval(*near[::-1])) == (math.inf, 0)
 
 
 def test_lengths_add_up_over_irrational_ends() -> None:

@@ -410,7 +410,7 @@ def test_figures_are_written_as_asked(run: Run, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (("--only", "14"), "there are the figures 1 to 13"),
+        (("--only", "15"), "there are the figures 1 to 14"),
         (("--only", "6,x"), 'as in "7" or "7,9"'),
         (("--format", "png,gif"), "format 'gif'"),
         (("--only", ""), "give numbers of figures"),

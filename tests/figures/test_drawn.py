@@ -369,3 +369,18 @@ def test_slices_are_drawn_at_their_height_with_closed_rims() -> None:
     p, q, r = (inside.corners[:, k, :2] for k in range(3))
     areas = 0.5 * ((q - p)[:, 0] * (r - p)[:, 1] - (q - p)[:, 1] * (r - p)[:, 0])
     assert areas.sum() == pytest.approx(cut.forbidden.area)
+
+
+# figure 14
+
+
+def test_figure_14_adds_up_to_eulers_number_in_every_metric() -> None:
+    (ax,) = figure(14).axes
+    *parts, total, zero = ax.lines
+    assert [line.get_label() for line in parts] == ["at vertices", "on faces", "along edges"]
+    values = np.array([line.get_ydata() for line in parts])
+    np.testing.assert_allclose(values.sum(axis=0), total.get_ydata(), atol=1e-12)
+    chi = int(boundary(scenes.FIVE).complex.euler.sum())
+    np.testing.assert_allclose(total.get_ydata(), chi, atol=1e-8)
+    assert str(chi) in total.get_label() and not np.any(zero.get_ydata())
+    assert (values[1] < 0).all() and np.ptp(values[1]) > 1

@@ -32,10 +32,12 @@ NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?"
 COMPUTED = (
     "cell_facts",
     "contact_curve",
+    "face_mesher",
     "limits",
     "mesh",
     "mesh_face",
     "quadrature",
+    "rows",
     "slice",
     "surface",
     "triangulation",

@@ -29,7 +29,7 @@ def amount(path: Path, scene: Scene, kind: str) -> float:
 @pytest.fixture(scope="module")
 def hall() -> Scene:
     racks = [box(x, y, 4, 1) for x in (2, 8) for y in (2, 6, 10)]
-    ends = {"start": Pose(1, 1, "90deg"), "goal": Pose(13, 11, "90deg")}
+    ends = {"start": Pose(1, 1, "90deg"), "goal": Pose(13, 11, "-90deg")}
     return Scene(box(-0.4, -0.5, 2, 1), racks, workspace=box(0, 0, 14, 13), **ends)
 
 
@@ -43,9 +43,8 @@ def test_a_forklift_does_not_crab(hall: Scene, objective: cfree.paths.path.Objec
 
 def test_ahead_where_back_is_dear_and_few_turns_on_the_spot_where_they_are(hall: Scene) -> None:
     ahead, round_it = Preferences(sideways=20, backward=20), Preferences(turning=20)
-    ends = Pose(1, 1, "90deg"), Pose(13, 11, "-90deg")
     for kind, preferences in (("backward", ahead), ("turning", round_it)):
-        plain, found = plan(hall, *ends), plan(hall, *ends, preferences=preferences)
+        plain, found = plan(hall), plan(hall, preferences=preferences)
         assert isinstance(plain, Path) and isinstance(found, Path)
         assert amount(found, hall, kind) < 0.5 * amount(plain, hall, kind)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path as FilePath
 
 import numpy as np
 import pytest
@@ -10,6 +11,8 @@ import pytest
 import cfree
 from cfree import Path, Pose, Scene, clearance, narrowest, plan
 from cfree.planning.planner import Planner
+
+ROOT = FilePath(__file__).resolve().parents[2]
 
 Ring = list[tuple[float, float]]
 
@@ -82,6 +85,18 @@ def test_bounds_are_no_walls_but_hold() -> None:
     scene = Scene(box(0, 0, 1, 1), [box(3, -2, 1, 3)], bounds=(0, -2, 8, 2), start=Pose(0, 0), goal=Pose(7, 0, "90deg"))
     path = found(scene)
     assert least(path, scene) > 0.3
+
+
+def test_a_ridge_goes_beside_bounds_and_not_on_them() -> None:
+    """Walls in line leave much room above them, as far as the bounds: there arcs between poses would leave these."""
+    scene = cfree.load_scene(ROOT / "examples/scenes/degenerate_collinear_walls.json")
+    path = found(scene)
+    assert least(path, scene) >= 1.1 and len(path.motions) <= 9
+
+
+def test_many_motions_become_few() -> None:
+    scene = cfree.load_scene(ROOT / "examples/scenes/flat.json")
+    assert len(found(scene).motions) <= 10 < len(found(scene, improve=0).motions)
 
 
 def test_the_answer_depends_on_no_thread_and_no_time() -> None:

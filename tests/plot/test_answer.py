@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import shapely
 from matplotlib.collections import LineCollection, PathCollection
-from matplotlib.colors import to_rgb
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
@@ -191,13 +191,19 @@ def test_a_path_of_500_motions_is_drawn() -> None:
 def test_found_paths_are_drawn_in_every_format(name: str, tmp_path: FilePath) -> None:
     scene = load_scene(SCENES / f"{name}.json")
     path, found = cfree.plan(scene), boundary(scene)
-    for suffix, begin in ((".png", b"\x89PNG"), (".svg", b"<?xml"), (".pdf", b"%PDF")):
-        save_figure(picture(path, scene, found), tmp_path / f"way{suffix}")
-        assert (tmp_path / f"way{suffix}").read_bytes().startswith(begin)
-    assert ElementTree.parse(tmp_path / "way.svg").getroot().tag.endswith("svg")
+    figure = picture(path, scene, found)
+    for suffix in (".png", ".svg", ".pdf"):
+        save_figure(figure, tmp_path / f"way{suffix}")
+    with Image.open(tmp_path / "way.png") as image:
+        seen = np.asarray(image.convert("RGB")) / 255
+    assert (np.abs(seen - to_rgb(LIMIT)).max(axis=-1) < 0.05).sum() > 100  # the least clearance
+    root = ElementTree.parse(tmp_path / "way.svg").getroot()
+    assert any(to_hex(LIMIT) in element.get("style", "").lower() for element in root.iter())
     assert (tmp_path / "way.svg").stat().st_size < 3_000_000
+    pdf = (tmp_path / "way.pdf").read_bytes()
+    assert pdf.startswith(b"%PDF") and pdf.rstrip().endswith(b"%%EOF")
     with pytest.raises(UnsupportedError):
-        save_figure(picture(path, scene), tmp_path / "way.docx")
+        save_figure(figure, tmp_path / "way.docx")
 
 
 def test_units_that_are_words_stand_at_the_axes_only() -> None:

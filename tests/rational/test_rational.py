@@ -23,6 +23,7 @@ from cfree.contact.contact import (
     edge_edge_range,
 )
 from cfree.contact.definitions import contact_features, is_contact, is_forbidden
+from cfree.contact.surface import edge_edge_surface
 from cfree.errors import InvalidPoseError
 from cfree.exact.half_angle import chart_intervals, half_tangent
 from cfree.exact.orientation import Location
@@ -32,6 +33,7 @@ from cfree.polygons.polygon import Polygon
 from cfree.rational.bezier import bezier_patches
 from cfree.rational.model import (
     RationalSegment,
+    rational_edge_edge_surface,
     rational_helix,
     rational_range,
     rational_segment,
@@ -361,6 +363,30 @@ def test_reflex_vertices_have_no_patch() -> None:
             rational_range(L_SHAPE, L_SHAPE, contact)
         with pytest.raises(ValueError, match="no patch"):
             bezier_patches(rational_surface(L_SHAPE, L_SHAPE, contact))
+
+
+@settings(max_examples=20)
+@given(pairs, st.data())
+def test_both_segments_of_an_edge_edge_surface_place_edge_on_edge_exactly(
+    shapes: tuple[Shape, Shape], data: st.DataObject
+) -> None:
+    A, O = polygons(shapes)
+    i, j = data.draw(st.integers(0, len(A) - 1)), data.draw(st.integers(0, len(O) - 1))
+    exact, rounded = (f(A, O, EdgeEdge(i, j)) for f in (rational_edge_edge_surface, edge_edge_surface))
+    (against, alongside), L = exact, math.hypot(*A.edge(i)) / math.hypot(*O.edge(j))
+    assert (against.angle.c, against.angle.s) == (-alongside.angle.c, -alongside.angle.s)
+    (ux, uy), (vx, vy) = A.exact_edge(i), O.exact_edge(j)
+    for C, other, sense in zip(exact, rounded, (-1, 1), strict=True):
+        c, s = C.angle.c, C.angle.s
+        along = (c * ux - s * uy, s * ux + c * uy)  # E_i, turned and scaled
+        assert along[0] * vy == along[1] * vx and sense * (along[0] * vx + along[1] * vy) > 0
+        assert tuple(map(float, C.t_range)) == pytest.approx(other.t_range)
+        assert math.remainder(C.angle.theta - other.phi, math.tau) == pytest.approx(0, abs=1e-12)
+        # at the ends one end of E_i is at one of E_j, and inside they overlap
+        t = np.array([float(end) for end in C.t_range])
+        assert sorted(t) == pytest.approx([0, 1 + L] if sense < 0 else [-L, 1])
+        inside = Fraction(round(float(t.mean()) * 64), 64)
+        assert C.locate(inside) is Location.INSIDE and C.locate(C.t_range[1].neighbours(9)[1] + 1) is Location.OUTSIDE
 
 
 @pytest.mark.parametrize("contact", [VertexEdge(3, 0), EdgeVertex(0, 3)])

@@ -6,11 +6,9 @@
 #include <numbers>
 #include <numeric>
 
-#include "cfree/contact/contact_line.hpp"
-#include "cfree/predicates/junction.hpp"
-#include "cfree/support/elementary.hpp"
 #include "forbidden/curve_sides.hpp"
 #include "forbidden/level_sides.hpp"
+#include "forbidden/loops.hpp"
 #include "support/free_memory.hpp"
 #include "support/parallel.hpp"
 
@@ -26,8 +24,7 @@ class Assembly {
 public:
     // Face k is a trapezoid of the boundary: number k of a list.
     Assembly(const Boundary& b, std::vector<Index>&& trapezoid_of, int t)
-        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), faces(std::move(trapezoid_of)),
-          threads(t) {}
+        : boundary(&b), faces(std::move(trapezoid_of)), threads(t) {}
 
     // Of parts of faces; components of some.
     CellComplex run(std::vector<Parts>&& lists, const std::vector<char>* own = nullptr) {
@@ -49,66 +46,19 @@ private:
     void place_vertex(Index vertex, Index h);
     void find_components(const std::vector<char>* own);
 
-    const Scene& scene;
-    const Patches& patches;
-    const Trapezoids& trapezoids;
-    const AngleTable& angles;
+    const Boundary* boundary;
     const std::vector<Index> faces;
     const int threads;
     CellComplex result;
     std::vector<double> start;  // of each half-edge: see Parts
 };
 
-// The parts of all lists, whose columns are freed as soon as they have been read.
 void Assembly::make_loops(std::vector<Parts>&& lists) {
-    result.first.assign(faces.size() + 1, 0);
-    for (const Parts& list : lists)
-        for (const Index f : list.trapezoid) ++result.first[f + 1];
-    std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
-    const auto count = static_cast<std::size_t>(result.first.back());
-    std::vector<Index> number(count);  // of each part its half-edge
-    {
-        std::vector<Index> order(count), next(result.first.begin(), result.first.end() - 1);
-        std::vector<std::uint8_t> kind;  // twice its side, 1 more if its side's come in reverse
-        kind.reserve(count);
-        for (Parts& list : lists) {
-            for (Index k = 0; k < list.size(); ++k) {
-                order[next[list.trapezoid[k]]++] = static_cast<Index>(kind.size());
-                const Side side = list.side(k);
-                kind.push_back(static_cast<std::uint8_t>(2 * static_cast<int>(side) + (is_forwards(side) == list.is_backwards(k))));
-            }
-            free_memory(list.trapezoid);
-        }
-        result.side.reserve(count);
-        for (std::size_t f = 0; f < faces.size(); ++f) {
-            std::sort(order.begin() + result.first[f], order.begin() + result.first[f + 1], [&](Index x, Index y) {
-                return kind[x] != kind[y] ? kind[x] < kind[y] : (kind[x] % 2 == 0) == (x < y) && x != y;
-            });
-            for (Index h = result.first[f]; h < result.first[f + 1]; ++h)
-                number[order[h]] = h, result.side.push_back(kind[order[h]] / 2);
-        }
-    }
-    const auto for_each_part = [&](auto&& take, auto&& release) {
-        for (auto at = number.begin(); Parts& list : lists) {
-            for (Index k = 0; k < list.size(); ++k) take(list, k, at);
-            at += list.size();
-            release(list);
-        }
-        give_back_memory(faces.size());
-    };
-    result.twin.resize(count);
-    for_each_part([&](const Parts& list, Index k, auto at) { result.twin[at[k]] = list.twin[k] < 0 ? -1 : at[list.twin[k]]; },
-                  [](Parts& list) { free_memory(list.twin); });
-    result.edge.resize(count);
-    for_each_part([&](const Parts& list, Index k, auto at) {
-        result.edges += list.begins_edge(k);
-        result.edge[at[k]] = result.edges - 1;
-    }, [](Parts&) {});
-    start.resize(count);
-    for_each_part([&](const Parts& list, Index k, auto at) { start[at[k]] = list.start[k]; }, [](Parts& list) { list = {}; });
-    free_memory(number);
-    result.face.reserve(count);
-    for (std::size_t f = 0; f < faces.size(); ++f) result.face.resize(static_cast<std::size_t>(result.first[f + 1]), static_cast<Index>(f));
+    Loops loops = loops_of(faces.size(), std::move(lists));
+    for (auto& kind : loops.kind) kind /= 2;
+    result.face = std::move(loops.face), result.twin = std::move(loops.twin), result.edge = std::move(loops.edge);
+    result.first = std::move(loops.first), result.side = std::move(loops.kind), result.edges = loops.edges;
+    start = std::move(loops.start);
 }
 
 // Around the start of a half-edge, over twins.
@@ -135,28 +85,9 @@ void Assembly::find_vertices() {
     free_memory(start);
 }
 
-// Where a half-edge starts, in doubles.
 void Assembly::place_vertex(Index vertex, Index h) {
-    const Index k = faces[result.face[h]];
-    const auto [contact, chart] = surface_of(patches, trapezoids, k);
-    const Index rank = side(h) == Side::first  ? angles.from[k]
-                       : side(h) == Side::last ? angles.to[k]
-                                               : static_cast<Index>(start[h]);
-    const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart), tau = 0.5 * (lo + hi);
-    double t = start[h];
-    if (!is_level(h)) {
-        const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); });
-        t = at.value(contact, at.spot(contact, unpacked((side(h) == Side::upper ? trapezoids.upper : trapezoids.lower)[k])));
-    }
-    const auto R = rotation_by(chart, tau);
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const auto placed = [&](const Feature& helix) {
-        const Index a = helix.robot, b = helix.obstacle;
-        return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]});
-    };
-    const auto p = placed(end_helix(scene, contact, 0)), q = placed(end_helix(scene, contact, 1));
-    result.xy[2 * vertex] = p.x + t * (q.x - p.x), result.xy[2 * vertex + 1] = p.y + t * (q.y - p.y);
-    result.theta[vertex] = theta_of(chart, tau);
+    const auto [xy, theta] = place_of(*boundary, faces[result.face[h]], side(h), start[h]);
+    result.xy[2 * vertex] = xy.x, result.xy[2 * vertex + 1] = xy.y, result.theta[vertex] = theta;
 }
 
 void Assembly::find_components(const std::vector<char>* own) {
@@ -185,8 +116,8 @@ void Assembly::find_components(const std::vector<char>* own) {
 
 std::vector<Parts> matched_sides(const Boundary& boundary, const Whole& whole, int threads) {
     boundary.angles(threads);
-    std::vector<Parts> lists = glue_curves(boundary, whole, threads);
-    std::vector<Parts> levels = glue_levels(boundary, whole, threads);
+    std::vector<Parts> lists = glue_curves(boundary, whole, Around::free_sectors, threads);
+    std::vector<Parts> levels = glue_levels(boundary, whole, Around::free_sectors, threads);
     std::move(levels.begin(), levels.end(), std::back_inserter(lists));
     return lists;
 }

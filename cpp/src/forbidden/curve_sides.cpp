@@ -22,8 +22,8 @@ struct CurveSide {
 
 class CurveGluer {
 public:
-    CurveGluer(const Boundary& b, const Whole& w)
-        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w) {}
+    CurveGluer(const Boundary& b, const Whole& w, Around a)
+        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w), around(a) {}
 
     Parts run(CurveSide* begin, CurveSide* end) {
         std::sort(begin, end, [](const CurveSide& x, const CurveSide& y) {
@@ -56,6 +56,7 @@ private:
     const Trapezoids& trapezoids;
     const AngleTable& angles;
     const Whole& whole;
+    const Around around;
     Parts parts;
 };
 
@@ -87,6 +88,7 @@ void CurveGluer::glue(CurveSide* begin, CurveSide* end) {
             live.push_back(parts.add(s->trapezoid(), side, false, is_forwards(side) ? from : until));
         }
         if (live.size() == 2 && parts.side(live[0]) != parts.side(live[1])) parts.pair(live[0], live[1]);
+        else if (around == Around::all && live.size() <= 2) parts.pair(live.front(), live.back());
         else pair_around_point(from, until, live);
     }
 }
@@ -116,6 +118,10 @@ void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index
     });
     for (std::size_t k = 0; k < rays.size(); ++k) {
         const Ray &x = rays[k], &y = rays[(k + 1) % rays.size()];
+        if (around == Around::all) {
+            parts.twin[x.part] = y.part;
+            continue;
+        }
         if (x.arrives == y.arrives || rays.size() % 2 != 0)
             fail_to_glue("a curve with " + std::to_string(rays.size()) + " sides that do not alternate", parts.trapezoid[x.part], whole);
         if (x.arrives) parts.pair(x.part, y.part);
@@ -124,7 +130,7 @@ void CurveGluer::pair_around_point(Index from, Index to, const std::vector<Index
 
 }  // namespace
 
-std::vector<Parts> glue_curves(const Boundary& b, const Whole& whole, int threads) {
+std::vector<Parts> glue_curves(const Boundary& b, const Whole& whole, Around around, int threads) {
     const Trapezoids& t = b.trapezoids;
     const AngleTable& angles = b.angles();
     const std::size_t count = 2 * t.size();
@@ -145,7 +151,7 @@ std::vector<Parts> glue_curves(const Boundary& b, const Whole& whole, int thread
     }
     std::vector<Parts> result(lists);
     for_each_in_parallel(threads, lists, [&](std::size_t x) {
-        result[x] = CurveGluer(b, whole).run(sides.data() + start[x], sides.data() + start[x + 1]);
+        result[x] = CurveGluer(b, whole, around).run(sides.data() + start[x], sides.data() + start[x + 1]);
     });
     return result;
 }

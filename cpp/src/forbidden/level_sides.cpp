@@ -38,8 +38,8 @@ struct Sheet {
 
 class LevelGluer {
 public:
-    LevelGluer(const Boundary& b, const Whole& w)
-        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w) {}
+    LevelGluer(const Boundary& b, const Whole& w, Around a)
+        : scene(b.scene->near()), patches(b.patches), trapezoids(b.trapezoids), angles(b.angles()), whole(w), around(a) {}
 
     // sides: twice a trapezoid that begins there, 1 more for one that ends
     void glue(Index rank, std::span<const Index> sides);
@@ -60,6 +60,7 @@ private:
     const Trapezoids& trapezoids;
     const AngleTable& angles;
     const Whole& whole;
+    const Around around;
     std::vector<Level> levels;
     std::vector<Place> places;
 };
@@ -268,30 +269,35 @@ void LevelGluer::number_places(const Feature& line, std::vector<Index>& on_it, J
 // Around the line, seen along it: theta upwards, the line's left to the right. Counter-clockwise from there.
 void LevelGluer::pair_around_line(const std::vector<std::pair<const Level*, Index>>& live, const Spot& p, const Spot& q,
                                   Junction& at) {
-    auto around = live;
+    if (around == Around::all && live.size() <= 2) return parts.pair(live.front().second, live.back().second);
+    auto sorted = live;
     const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below
         const int s = at.across(contact(*x), contact(*y), p, q, x->is_above) * y->along;
         return s != 0 ? s > 0 : x->along > y->along;  // one slit: what is left of its left sheet is forbidden
     };
     // stable: a merge stays within its arrays whatever sheets from outside say of their order
-    std::stable_sort(around.begin(), around.end(), [&](const auto& x, const auto& y) {
+    std::stable_sort(sorted.begin(), sorted.end(), [&](const auto& x, const auto& y) {
         if (x.second == y.second) return false;
         if (x.first->is_above != y.first->is_above) return x.first->is_above;
         return x.first->is_above ? is_left(x.first, y.first) : is_left(y.first, x.first);
     });
     // forbidden is on the left of a segment
     const auto free_after = [](const Level* x) { return x->is_above == (x->along > 0); };
-    for (std::size_t k = 0; k < around.size(); ++k) {
-        const auto &x = around[k], &y = around[(k + 1) % around.size()];
-        if (around.size() % 2 != 0 || free_after(x.first) == free_after(y.first))
-            fail_to_glue("a line with " + std::to_string(around.size()) + " sides that do not alternate", x.first->trapezoid, whole);
+    for (std::size_t k = 0; k < sorted.size(); ++k) {
+        const auto &x = sorted[k], &y = sorted[(k + 1) % sorted.size()];
+        if (around == Around::all) {
+            parts.twin[x.second] = y.second;
+            continue;
+        }
+        if (sorted.size() % 2 != 0 || free_after(x.first) == free_after(y.first))
+            fail_to_glue("a line with " + std::to_string(sorted.size()) + " sides that do not alternate", x.first->trapezoid, whole);
         if (free_after(x.first)) parts.pair(x.second, y.second);
     }
 }
 
 }  // namespace
 
-std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, int threads) {
+std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, Around around, int threads) {
     const AngleTable& angles = b.angles();
     const auto n = static_cast<Index>(b.trapezoids.size());
     // sides by the angle where trapezoids begin, or end; the last angle is the first
@@ -310,7 +316,7 @@ std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, int thread
         if (start[rank + 1] - start[first.back()] >= block || rank + 1 == ranks) first.push_back(rank + 1);
     std::vector<Parts> result(first.size() - 1);
     for_each_in_parallel(threads, result.size(), [&](std::size_t k) {
-        LevelGluer gluer(b, whole);
+        LevelGluer gluer(b, whole, around);
         for (Index rank = first[k]; rank < first[k + 1]; ++rank) {
             heed_stop();
             if (start[rank] < start[rank + 1])

@@ -5,6 +5,6 @@
 namespace cfree {
 
 // One list after another, by any number of threads; for trapezoids that are whole.
-std::vector<Parts> glue_levels(const Boundary& boundary, const Whole& whole, int threads);
+std::vector<Parts> glue_levels(const Boundary& boundary, const Whole& whole, Around around, int threads);
 
 }  // namespace cfree

@@ -39,6 +39,10 @@ private:
 template <class T>
 void free_memory(std::vector<T>& of) { std::vector<T>().swap(of); }
 
+// What is put together at an edge: two and two that bound one free sector; or all in one circle, counter-clockwise seen along the
+// edge as theta grows, or along its line: `twin` is then the next.
+enum class Around { free_sectors, all };
+
 // Of each trapezoid, whether all that its sides meet are there: 0 for no, 1 for yes, 2 where sides are matched as far as they can be.
 using Whole = std::vector<char>;
 

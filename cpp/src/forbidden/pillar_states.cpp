@@ -33,6 +33,7 @@ void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& 
             if (verdict == Verdict::wrong) throw std::logic_error("an exact state contradicts its own conditions");
         }
         if (state.meets == Meets::crosses) add_band(state, span, p, k);
+        else pass(state, span);
         if (span.to != whole.to) todo.push_back({span.to, whole.to});
         if (span.from != whole.from) todo.push_back({whole.from, span.from});
     }

@@ -115,7 +115,7 @@ void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
     Area band{span.from, span.to, curve_of(l, false), curve_of(u, u.kind != Kind::vertex_vertex), 0, 1};
     bounds(band);
     if (band.t_max < 0 || band.t_min > 1) return;
-    subtract({band, p, k, &state});
+    take({band, p, k, &state});
 }
 
 void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
@@ -128,7 +128,7 @@ void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
     Area band{tighter(0, from, 1), tighter(1, to, -1), curve_of(first, false), curve_of(last, false), 0, 1};
     if (!before(band.from, band.to)) return;
     bounds(band);
-    subtract({band, -1, -1, nullptr});
+    take({band, -1, -1, nullptr});
 }
 
 // Whether the band covers the inside of its segment at this one of its angles.

@@ -103,29 +103,38 @@ private:
 
 }  // namespace
 
-Volumes volumes(const FreeSpace& space) {
-    const Boundary& boundary = *space.boundary;
+Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, Index cells) {
     const Trapezoids& table = boundary.trapezoids;
     const Limits limits(boundary);
     // of each closed surface a point near by, seen from where little cancels
-    const auto& component = space.surfaces.component;
-    std::vector<Vec<double>> origin(space.surfaces.parent.size(), {0, 0});
-    std::vector<double> count(origin.size());
-    for (std::size_t k = 0; k < table.size(); ++k) {
-        const auto [from, to] = angles_of(boundary, static_cast<Index>(k));
+    std::vector<Vec<double>> origin;
+    std::vector<double> count;
+    for (const Facing& x : facing) {
+        const auto k = static_cast<std::size_t>(x.trapezoid), surface = static_cast<std::size_t>(x.surface);
+        if (surface >= origin.size()) origin.resize(surface + 1, {0, 0}), count.resize(surface + 1);
+        const auto [from, to] = angles_of(boundary, x.trapezoid);
         const auto [c, s] = cosine_sine(0.5 * (from + to));
         const Vec<double> p = limits.line(boundary.patches.contact(table.patch[k]), {c, s, 1}).at(0.5);
-        auto& o = origin[static_cast<std::size_t>(component[k])];
-        o = {o.x + p.x, o.y + p.y}, count[static_cast<std::size_t>(component[k])] += 1;
+        auto& o = origin[surface];
+        o = {o.x + p.x, o.y + p.y}, count[surface] += 1;
     }
     for (std::size_t k = 0; k < origin.size(); ++k) origin[k] = {origin[k].x / count[k], origin[k].y / count[k]};
-    Volumes found{std::vector<double>(static_cast<std::size_t>(space.cells())), std::vector<double>(static_cast<std::size_t>(space.cells()))};
-    for (std::size_t k = 0; k < table.size(); ++k) {
-        const auto surface = static_cast<std::size_t>(component[k]), cell = static_cast<std::size_t>(space.cell_of[surface]);
-        const Integral flux = Flux(boundary, limits, static_cast<Index>(k), origin[surface]).over_all();
-        found.values[cell] -= flux.value;
+    Volumes found{std::vector<double>(static_cast<std::size_t>(cells)), std::vector<double>(static_cast<std::size_t>(cells))};
+    for (const Facing& x : facing) {
+        const auto cell = static_cast<std::size_t>(x.cell);
+        const Integral flux = Flux(boundary, limits, x.trapezoid, origin[static_cast<std::size_t>(x.surface)]).over_all();
+        found.values[cell] += x.is_inner ? flux.value : -flux.value;
         found.errors[cell] += flux.error + 4 * rounded * std::abs(flux.value) * std::sqrt(static_cast<double>(table.size()));
     }
+    return found;
+}
+
+Volumes volumes(const FreeSpace& space) {
+    std::vector<Facing> facing;
+    const auto& component = space.surfaces.component;
+    for (std::size_t k = 0; k < component.size(); ++k)
+        facing.push_back({static_cast<Index>(k), component[k], space.cell_of[static_cast<std::size_t>(component[k])], false});
+    Volumes found = enclosed(*space.boundary, facing, space.cells());
     if (space.outside == 0) found.values[0] = found.errors[0] = std::numeric_limits<double>::infinity();
     return found;
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "cfree/contact/contact_line.hpp"
+#include "free/lines.hpp"
 #include "predicates/form.hpp"
 #include "support/parallel.hpp"
 
@@ -16,79 +17,6 @@ namespace {
 
 // More than the roundings in any sign below: at most 40 in a row.
 constexpr double sign_error = 128 * u;
-
-// f at tau, or as a polynomial.
-struct Evaluation {
-    Approx c, s;
-    Approx operator()(const Trig<Approx>& f) const { return f.a + f.b * c + f.c * s; }
-};
-struct Expansion {
-    int chart;
-    Poly operator()(const Trig<Int>& f) const {
-        if (chart == 0) return {f.a + f.b, f.c + f.c, f.a - f.b};
-        return {f.a - f.b, -(f.c + f.c), f.a + f.b};
-    }
-};
-Approx two_products(Approx p, Approx q, Approx r, Approx s) { return p * q - r * s; }
-Poly two_products(const Poly& p, const Poly& q, const Poly& r, const Poly& s) {
-    return difference(product(p, q), product(r, s));
-}
-
-// f(p / r), times a positive number.
-Int value_at(const Poly& f, const Int& p, const Int& r) {
-    Int value = 0, power = 1;
-    for (int k = f.size() - 1; k >= 0; --k, power *= r) value = value * p + f[k] * power;
-    return value;
-}
-
-// The sign of the first derivative that is not zero, and its number; -1 if there is none.
-struct Leading {
-    int order, sign;
-};
-Leading leading(Poly f, const Int& p, const Int& r) {
-    for (int order = 0; !f.empty(); ++order, f = derivative(f))
-        if (const int s = value_at(f, p, r).sign(); s != 0) return {order, s};
-    return {-1, 0};
-}
-
-template <class T>
-T constant(int value) {
-    if constexpr (std::is_same_v<T, Int>) return value;
-    else return {double(value), double(std::abs(value))};
-}
-
-// The line of a contact surface seen from a point q / w; all times w.
-template <class T>
-struct Line : ContactLine<T> {
-    using ContactLine<T>::on_edge, ContactLine<T>::a, ContactLine<T>::b, ContactLine<T>::E;
-    Vec<T> q;
-    T w;
-    Line(const Scene& scene, const Feature& contact, const Vec<T>& point, const T& by)
-        : ContactLine<T>(scene, contact, CoreUnits<T>{}), q(point), w(by) {}
-    Vec<T> away() const { return {q.x - w * b.x, q.y - w * b.y}; }  // q - b
-    T zero() const { return constant<T>(0); }
-    Trig<T> side() const {  // U x (q - P): positive on its left
-        const auto d = away();
-        if (on_edge) return {cross(E, d), w * cross(E, a), w * dot(E, a)};
-        return {-(w * cross(E, a)), -cross(E, d), dot(E, d)};
-    }
-    Trig<T> along() const {  // U . (q - P)
-        const auto d = away();
-        if (on_edge) return {dot(E, d), w * dot(E, a), -(w * cross(E, a))};
-        return {-(w * dot(E, a)), -dot(E, d), -cross(E, d)};
-    }
-    Trig<T> length() const { return {w * dot(E, E), zero(), zero()}; }  // U . U
-    Trig<T> height() const { return {w * b.y - q.y, -(w * a.y), -(w * a.x)}; }  // of P over q
-    Trig<T> down() const {  // -U, vertically
-        if (on_edge) return {-(w * E.y), zero(), zero()};
-        return {zero(), w * E.y, w * E.x};
-    }
-    Trig<T> distance() const { return {w * b.x - q.x, -(w * a.x), w * a.y}; }  // of P to the right of q
-    Trig<T> back() const {  // -U, horizontally
-        if (on_edge) return {-(w * E.x), zero(), zero()};
-        return {zero(), w * E.x, -(w * E.y)};
-    }
-};
 
 }  // namespace
 
@@ -340,11 +268,11 @@ std::optional<std::pair<ExactPose, bool>> PointLocation::pose_on(Index k, int at
     return std::pair(q->pose, q->rise < 0);
 }
 
-std::optional<std::vector<PointLocation::Crossing>> PointLocation::crossings(const ExactPose& q, Index own) const {
+std::optional<std::vector<PointLocation::Passage>> PointLocation::passages(const ExactPose& q, Index own) const {
     const Nearby seen = look(View(q, scene.shift), When::at, own);
     if (!seen.generic || !seen.on.empty()) return {};
     const Rotation<Int> R = rotation_by(q.chart, q.p, q.r);
-    std::vector<Crossing> found;
+    std::vector<Passage> found;
     for (const Index k : seen.crossed) {
         const ContactLine<Int> line(scene, surface_of(patches, trapezoids, k).contact, CoreUnits<Int>{});
         const Vec<Int> P = line.start(R), U = line.direction(R);
@@ -353,34 +281,43 @@ std::optional<std::vector<PointLocation::Crossing>> PointLocation::crossings(con
     return found;
 }
 
-PointLocation::Nesting PointLocation::nesting() const {
+std::vector<PointLocation::Ray> PointLocation::rays() const {
     const auto n = static_cast<Index>(component.size());
     const Index components = n ? *std::max_element(component.begin(), component.end()) + 1 : 0;
     std::vector<Index> widest(components, -1);
     const auto width = [&](Index k) { return trapezoids.to_lo[k] - trapezoids.from_hi[k]; };
     for (Index k = 0; k < n; ++k)
         if (Index& best = widest[component[k]]; best < 0 || width(k) > width(best)) best = k;
-    Nesting result;
-    result.start.push_back(0);
-    for (Index x = 0; x < components; ++x) {
+    std::vector<Ray> result;
+    for (const Index k : widest) {
+        heed_stop();
         for (int attempt = 0;; ++attempt) {
             if (attempt == Predicates::most_attempts) throw std::logic_error("no ray in general position");
-            const auto q = probe(widest[x], attempt);
+            const auto q = probe(k, attempt);
             if (!q) continue;
-            const Nearby seen = look(View(q->pose, scene.shift), When::at, widest[x]);
+            Nearby seen = look(View(q->pose, scene.shift), When::at, k);
             if (!seen.generic || !seen.on.empty()) continue;
             // the ray is from just left of the surface, or above it where that is level: forbidden if the surface rises
-            const auto crossed = surfaces(seen.crossed);
-            bool is_inside = false;
-            for (std::size_t i = 0, j; i < crossed.size(); i = j) {
-                for (j = i; j < crossed.size() && crossed[j] == crossed[i];) ++j;
-                if ((j - i) % 2 == 0) continue;
-                if (crossed[i] == x) is_inside = true;
-                else result.around.push_back(crossed[i]);
-            }
-            result.free_inside.push_back(is_inside == (q->rise < 0));
+            result.push_back({q->pose, k, q->rise > 0, std::move(seen.crossed)});
             break;
         }
+    }
+    return result;
+}
+
+PointLocation::Nesting PointLocation::nesting() const {
+    Nesting result;
+    result.start.push_back(0);
+    for (const Ray& ray : rays()) {
+        const auto crossed = surfaces(ray.crossed);
+        bool is_inside = false;
+        for (std::size_t i = 0, j; i < crossed.size(); i = j) {
+            for (j = i; j < crossed.size() && crossed[j] == crossed[i];) ++j;
+            if ((j - i) % 2 == 0) continue;
+            if (crossed[i] == component[ray.from]) is_inside = true;
+            else result.around.push_back(crossed[i]);
+        }
+        result.free_inside.push_back(is_inside != ray.is_on_left);
         result.start.push_back(static_cast<Index>(result.around.size()));
     }
     return result;

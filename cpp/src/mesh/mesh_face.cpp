@@ -29,8 +29,10 @@ struct MeshFace::Spread {
         const auto [a, b] = std::minmax({c[0]->phi, c[1]->phi, c[2]->phi});
         low = a, high = b, angle = b - a;
         reach = std::max({std::abs(c[0]->s), std::abs(c[1]->s), std::abs(c[2]->s)});
+        off = std::max({std::abs(c[0]->off), std::abs(c[1]->off), std::abs(c[2]->off)});
     }
-    double low, high, angle, reach;
+    double low, high, angle, reach, off;
+    double slip() const { return off * angle / 2; }  // along the line, as normals turn
 };
 
 MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first,
@@ -56,9 +58,11 @@ double MeshFace::position(Complex x, double phi) const {
     return is_saddle ? -dot(x - fixed, std::polar(1.0, phi) * direction) : dot(x, direction);
 }
 
-Complex MeshFace::at(double s, double phi) const {
+double MeshFace::gradient(double s) const { return norm(1, s / w); }
+
+Complex MeshFace::at(double s, double phi, double off) const {
     const Complex z = std::polar(1.0, phi), normal = -i_unit * direction;
-    if (is_saddle) return fixed - z * (h * normal + s * direction);
+    if (is_saddle) return fixed - z * ((h + off) * normal + s * direction);
     return s * direction + (offset - dot(normal, z * fixed)) * normal;
 }
 
@@ -71,11 +75,18 @@ MeshPoint MeshFace::point(double s, double phi) const {
     return {s, phi, {std::max(0.0, s - low), std::max(0.0, high - s)}};
 }
 
-// In its own slice a point with weights l of the corners is off the line by the sum of l_j l_k form(j, k), j < k, up to third
-// order; of a product of two linear forms the extremes over a triangle are in the middles of its edges.
+// In its own slice a point with weights l of the corners is off the line by the sum of l_k off_k, less that of l_j l_k form(j, k),
+// j < k, up to third order; of that the extremes over a triangle are on its edges.
 double MeshFace::form(const MeshPoint& p, const MeshPoint& q) const {
     const double phi = q.phi - p.phi;
     return phi * (q.s - p.s + 0.5 * h * phi);
+}
+
+// The largest on an edge.
+double MeshFace::peak(const MeshPoint& p, const MeshPoint& q) const {
+    const double of = form(p, q), rise = q.off - p.off, ends = std::max(std::abs(p.off), std::abs(q.off));
+    if (std::abs(rise) >= std::abs(of)) return ends;
+    return std::max(ends, std::abs(0.5 * (p.off + q.off) - of / 4 - square(rise) / (4 * of)));
 }
 
 double MeshFace::most_form(const Corners& c) const {
@@ -83,11 +94,11 @@ double MeshFace::most_form(const Corners& c) const {
 }
 
 double MeshFace::third_order(const Spread& d) const {
-    return d.reach * cube(d.angle) / 48 + std::abs(h) * square(square(d.angle)) / 288;
+    return d.reach * cube(d.angle) / 48 + std::abs(h) * square(square(d.angle)) / 288 + d.off * square(d.angle) / 8;
 }
 
 double MeshFace::slice_distance(const Corners& c, const Spread& d) const {
-    if (is_saddle) return most_form(c) / 4 + third_order(d);
+    if (is_saddle) return std::max({peak(*c[0], *c[1]), peak(*c[1], *c[2]), peak(*c[2], *c[0])}) + third_order(d);
     const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
     return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
 }
@@ -103,7 +114,7 @@ double MeshFace::beyond(const Corners& c, const Spread& d) const {
         const double plain = bend * square(d.angle) / 8 - least;
         const double two = std::max(bend * square(p[1]->phi - p[0]->phi) / 8 - least,
                                     bend * square(d.angle) / 2 - p[2]->inward[side] * turn);
-        most = std::max(most, std::min(plain, two));
+        most = std::max(most, std::min(plain, two) + d.slip());
     }
     return most;
 }
@@ -119,7 +130,7 @@ double MeshFace::excess(const Corners& c) const {
 
 // Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
 double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) const {
-    const double all = slice_distance(c, d), forms = most_form(c), turn = cosine(d.angle), margin = eps / w;
+    const double all = slice_distance(c, d), forms = most_form(c) + d.off, turn = cosine(d.angle), margin = eps / w;
     double most = 0;
     // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
     const auto add = [&](std::array<double, 3> height, double near_by, double bend) {
@@ -128,9 +139,8 @@ double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) co
         const double bow = bend * square(d.angle), two = square(c[k[0]]->phi - c[k[1]]->phi);
         if (height[k[0]] - bow / 8 > near_by) return;
         const auto share = [](double part, double whole) { return whole > part ? part / whole : 1.0; };
-        const double by_one = forms * share(near_by, height[k[1]] - bow / 2);
-        const double by_two = std::abs(form(*c[k[0]], *c[k[1]])) / 4 +
-                              forms * share(near_by + bend * two / 8, height[k[2]] - bow / 2);
+        const double by_one = std::abs(c[k[0]]->off) + forms * share(near_by, height[k[1]] - bow / 2);
+        const double by_two = peak(*c[k[0]], *c[k[1]]) + forms * share(near_by + bend * two / 8, height[k[2]] - bow / 2);
         most = std::max(most, std::min({all, by_one + third_order(d), by_two + third_order(d)}));
     };
     add({c[0]->phi - from, c[1]->phi - from, c[2]->phi - from}, margin, 0);
@@ -138,7 +148,7 @@ double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) co
     const double low = std::max(from, d.low - margin), high = std::min(to, d.high + margin);
     for (int side = 0; side < 2; ++side)
         add({c[0]->inward[side] * turn, c[1]->inward[side] * turn, c[2]->inward[side] * turn},
-            margin * (curves[side].speed(low, high) + all), curves[side].bend(d.low, d.high));
+            margin * (curves[side].speed(low, high) + all) + d.slip(), curves[side].bend(d.low, d.high));
     return most;
 }
 
@@ -146,7 +156,7 @@ double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) co
 double MeshFace::excess_inside(const Corners& c) const {
     const Spread d(c);
     const double rest = third_order(d);
-    const double lost = d.reach * square(d.angle) / 8 + std::abs(h) * cube(d.angle) / 48 +
+    const double lost = d.slip() + d.reach * square(d.angle) / 8 + std::abs(h) * cube(d.angle) / 48 +
                         eps * norm(1, (std::abs(h) + eps * norm(1, d.reach / w)) / w);
     const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;
     const double G = norm(1, r), slope = std::copysign(r / (w * G), s);  // the tangent of a convex function
@@ -154,9 +164,11 @@ double MeshFace::excess_inside(const Corners& c) const {
     for (int k = 0; k < 3; ++k) {
         const MeshPoint &p = *c[k], &q = *c[(k + 1) % 3];
         const double Gp = G + slope * (p.s - s), Gq = G + slope * (q.s - s);
-        const double off = std::abs(form(p, q)), tilt = eps * std::abs(Gq - Gp);
-        most = std::max(most, tilt >= off ? rest / (eps * std::min(Gp, Gq))
-                                          : (off / 4 + square(tilt) / (4 * off) + rest) / (eps * 0.5 * (Gp + Gq)));
+        for (const int side : {1, -1}) {  // the largest of side * F - eps G on the edge
+            const double A = side * p.off - eps * Gp, B = side * q.off - eps * Gq, C = -side * form(p, q);
+            const double on_edge = C > std::abs(B - A) ? 0.5 * (A + B) + C / 4 + square(B - A) / (4 * C) : std::max(A, B);
+            most = std::max(most, 1 + (on_edge + rest) / (eps * 0.5 * (Gp + Gq)));
+        }
     }
     return most;
 }

@@ -172,11 +172,18 @@ int Triangulation::longest_inner_edge(Index t) const {
 }
 
 bool Triangulation::insert(Index p) {
+    // a triangle that has it inside, or on the edge opposite corner `on`
+    int on = -1;
     const auto is_in = [&](Index t, int& out) {
         const auto& x = triangles[t].corner;
         const double whole = std::abs(area(x[0], x[1], x[2]));
-        for (int k = 0; k < 3; ++k)
-            if (area(x[next(k)], x[previous(k)], p) <= flat * whole) return out = k, false;
+        on = -1;
+        for (int k = 0; k < 3; ++k) {
+            const double part = area(x[next(k)], x[previous(k)], p);
+            if (part > flat * whole) continue;
+            if (part < -flat * whole || on >= 0) return out = k, false;
+            on = k;
+        }
         return true;
     };
     Index t = std::min(last, static_cast<Index>(triangles.size()) - 1);
@@ -195,8 +202,9 @@ bool Triangulation::insert(Index p) {
     }
     for (Index x = 0; !found && x < static_cast<Index>(triangles.size()); ++x)
         if ((found = is_in(x, out))) t = x;
-    if (!found) return false;
-    split_triangle(t, p);
+    if (!found || (on >= 0 && triangles[t].across[on] < 0)) return false;
+    if (on < 0) split_triangle(t, p);
+    else split_edge(t, on, p);
     make_delaunay_around(p);
     last = t;
     return true;

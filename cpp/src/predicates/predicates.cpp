@@ -159,9 +159,11 @@ int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sam
 }
 
 int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) const {
-    const Dyadic tau = at.exact();
-    const auto denominator = [&](const Feature& f) { return cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), tau); };
-    return cfree::sign_at(polynomial(p, q), tau) * denominator(p) * denominator(q);
+    return cfree::sign_at(polynomial(p, q), at.exact()) * denominator_sign(p, at) * denominator_sign(q, at);
+}
+
+int Predicates::denominator_sign(const Feature& f, const Sample& at) const {
+    return cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), at.exact());
 }
 
 int Predicates::cross_sign(const Shape& shape, Index e, Index f) {

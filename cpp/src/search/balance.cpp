@@ -22,6 +22,7 @@ constexpr double radii_beside = 3;                         // of way before and 
 constexpr double worth_of_motion = 0.1;                    // in radii
 constexpr double not_much = 1.08;                          // longer
 constexpr std::size_t most_nodes = 40;                     // joined each with each
+constexpr int most_fails = 2;                              // before longer joins are not tried
 constexpr double wider = 1.3;                              // than a narrow place, another way
 constexpr int checks_by_pose = 30, most_checks = 3000;      // to find them: more on a way that was hard to find itself
 constexpr int checks_at_once = 50, runs = 6;               // at one place
@@ -54,37 +55,38 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
     struct Node {
         Configuration pose;
         std::size_t of;  // the pose of the path
-        bool own;
+        enum As { itself, start, goal, ahead } as;
     };
     std::vector<Node> nodes;
     const std::size_t stride = (route.size() + most - 1) / most;
-    const auto turned = [&](std::size_t k, const Configuration& as) {
+    const auto turned = [&](std::size_t k, const Configuration& as, Node::As what) {
         if (k == 0 || k + 1 == route.size() || route[k].theta == as.theta) return;
         const double enough = way.distances[k];
         Place q{route[k].px, route[k].py, as.theta};
-        if (climb(way, q, {0, 0, 1}, enough) >= enough) nodes.push_back({corner(way.grid.exact(q.x, q.y, q.theta), as), k, false});
+        if (climb(way, q, {0, 0, 1}, enough) >= enough) nodes.push_back({corner(way.grid.exact(q.x, q.y, q.theta), as), k, what});
     };
     for (std::size_t k = 0; k + 1 < route.size() + stride; k += stride) {
         k = std::min(k, route.size() - 1);
-        turned(k, route.front());
-        nodes.push_back({route[k], k, true});
-        if (route.front().theta != route.back().theta) turned(k, route.back());
+        turned(k, route.front(), Node::start);
+        nodes.push_back({route[k], k, Node::itself});
+        if (route.front().theta != route.back().theta) turned(k, route.back(), Node::goal);
         if (!way.costs.prefer() || k == 0 || k + 1 == route.size()) continue;
         const Configuration &before = route[k - std::min(k, stride)], &beyond = route[std::min(k + stride, route.size() - 1)];
         const double ahead = arc_tangent(beyond.py - before.py, beyond.px - before.px);
-        for (const double theta : {ahead, ahead + std::numbers::pi}) turned(k, way.turned(route[k], theta));
+        for (const double theta : {ahead, ahead + std::numbers::pi}) turned(k, way.turned(route[k], theta), Node::ahead);
     }
     const std::size_t count = nodes.size();
     struct Edge {
         double cost;
         bool known = false;
+        int fails = 0;  // of edges between poses in between, turned alike
         Marked way;
     };
     const auto price = [&](const Route& r) { return cost_of(r, way.costs) + way.per_motion * static_cast<double>(r.size() - 1); };
     std::vector<Edge> edges(count * count);
     for (std::size_t i = 0, last = 0; i < count; ++i) {
         for (std::size_t j = i + 1; j < count; ++j) edges[i * count + j].cost = cost_between(nodes[i].pose, nodes[j].pose, way.length()) + way.per_motion;
-        if (!nodes[i].own || i == 0) continue;
+        if (nodes[i].as != Node::itself || i == 0) continue;
         Edge& e = edges[last * count + i];
         const auto begin = static_cast<std::ptrdiff_t>(nodes[last].of), end = static_cast<std::ptrdiff_t>(nodes[i].of) + 1;
         e.way = {{route.begin() + begin, route.begin() + end}, {path.mark.begin() + begin, path.mark.begin() + end}};
@@ -108,6 +110,11 @@ Marked shortest(const Way& way, const Marked& path, std::size_t most) {
             all_known = false, e->known = true;
             e->way = way.simplest(a.pose, b.pose, path.mark[a.of], path.mark[b.of], HUGE_VAL);
             e->cost = e->way.route.empty() ? HUGE_VAL : price(e->way.route);
+            if (!e->way.route.empty()) continue;
+            for (std::size_t i = 0; i <= k / count; ++i)
+                for (std::size_t j = k % count; j < count; ++j)
+                    if (Edge& f = edges[i * count + j]; !f.known && nodes[i].as == a.as && nodes[j].as == b.as && ++f.fails == most_fails)
+                        f.known = true, f.cost = HUGE_VAL;
         }
         if (!all_known) continue;
         Marked found{{route.front()}, {path.mark.front()}};

@@ -13,6 +13,7 @@ namespace cfree {
 namespace {
 
 constexpr double least_gain = 1e-9;  // of the length
+constexpr std::size_t most_merged = 6;
 
 }  // namespace
 
@@ -25,6 +26,14 @@ void Shortcut::run(int checks) {
         --left;
         attempt();
     }
+}
+
+void Shortcut::merge() {
+    for (std::size_t i = 0; i + 2 < route.size(); ++i)
+        for (std::size_t j = std::min(i + most_merged, route.size() - 1); j > i + 1; --j) {
+            const Configuration &a = route[i], &b = route[j];
+            if (replace(i, j, {a, b}) || (j > i + 2 && (replace(i, j, {a, corner(a, b), b}) || replace(i, j, {a, corner(b, a), b})))) break;
+        }
 }
 
 // The path from one of its poses to another by a fresh route, if that is shorter and keeps what is asked.

@@ -45,7 +45,9 @@ Configuration corner(const Configuration& position, const Configuration& orienta
 }
 
 Way Way::asking(Marked along, std::vector<double> what) const {
-    return {checker, nearness, grid, limits, costs, per_motion, std::move(along), std::move(what)};
+    std::vector<Place> at;
+    for (const Configuration& q : along.route) at.push_back({q.px, q.py, q.theta});
+    return {checker, nearness, grid, limits, costs, per_motion, std::move(along), std::move(what), std::move(at)};
 }
 
 std::size_t Way::nearest(const Place& at, double from, double to) const {
@@ -55,8 +57,8 @@ std::size_t Way::nearest(const Place& at, double from, double to) const {
     auto best = static_cast<std::size_t>(std::min(begin, mark.end() - 1) - mark.begin());
     double least = HUGE_VAL;
     for (auto k = static_cast<std::size_t>(begin - mark.begin()); k < static_cast<std::size_t>(end - mark.begin()); ++k) {
-        const Configuration& q = ridge.route[k];
-        const double dx = q.px - at.x, dy = q.py - at.y, apart = dx * dx + dy * dy;
+        const Place& q = places[k];
+        const double dx = q.x - at.x, dy = q.y - at.y, apart = dx * dx + dy * dy;
         if (apart >= least) continue;
         const double turn = costs.weight * wrapped(q.theta - at.theta);
         if (const double square = apart + turn * turn; square < least) least = square, best = k;

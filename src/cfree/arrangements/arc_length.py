@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 
 from flint import acb, arb, ctx, fmpq, fmpz_poly
@@ -10,8 +11,7 @@ from cfree.exact.algebraic import near
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.exact.forms import Form, in_chart
 
-PRECISION = 128  # bits
-PLACES = 100  # bits of an end
+PRECISION = 128  # bits, or more where an end is close to an asymptote
 
 
 def arc_length(rows: tuple[Form, Form, Form], interval: AngleInterval, angle_scale: float) -> tuple[float, float]:
@@ -19,13 +19,17 @@ def arc_length(rows: tuple[Form, Form, Form], interval: AngleInterval, angle_sca
 
     Notes
     -----
-    In a chart, theta = 2 atan(tau) but for a half turn, so that with the derivatives u of x and v of y by tau the
-    integrand is sqrt((u^2 + v^2) / w^4 + (2 angle_scale / (1 + tau^2))^2), analytic around the interval.
+    In a chart, theta = 2 atan(tau) but for a half turn, so that with u = x' w - x w' and v = y' w - y w' the integrand
+    is sqrt((u^2 + v^2) / w^4 + (2 angle_scale / (1 + tau^2))^2), analytic around the interval.
     """
-    with ctx.workprec(PRECISION):
-        total = sum((_over(rows, angle_scale, *part) for part in _parts(interval)), arb(0))
-        value = float(total)
-        return value, float((abs(total - value)).upper())
+    bits = PRECISION
+    while True:
+        with ctx.workprec(bits):
+            total = sum((_over(rows, angle_scale, *part) for part in _parts(interval, bits)), arb(0))
+            if total.is_finite():
+                value = float(total)
+                return value, math.nextafter(float(abs(total - value).upper()), math.inf)
+        bits *= 2
 
 
 def _over(rows: tuple[Form, Form, Form], angle_scale: float, chart: int, low: arb, high: arb) -> arb:
@@ -39,20 +43,20 @@ def _over(rows: tuple[Form, Form, Form], angle_scale: float, chart: int, low: ar
     return acb.integral(speed, low, high).real
 
 
-def _parts(interval: AngleInterval) -> list[tuple[int, arb, arb]]:
+def _parts(interval: AngleInterval, bits: int) -> list[tuple[int, arb, arb]]:
     """Charts, and from where to where in them."""
     whole = arb(-1), arb(1)
     if interval.start is None or interval.stop is None:
         return [(0, *whole), (1, *whole)]
     first, last = interval.start, interval.stop
-    start, stop = _ball(first), _ball(last)
+    start, stop = _ball(first, bits), _ball(last, bits)
     if first.chart == last.chart and not last < first:
         return [(first.chart, start, stop)]
     between = [] if first.chart != last.chart else [(1 - first.chart, *whole)]
     return [(first.chart, start, whole[1]), *between, (last.chart, whole[0], stop)]
 
 
-def _ball(angle: AlgebraicAngle) -> arb:
-    place = near(angle.coordinate, PLACES)
+def _ball(angle: AlgebraicAngle, bits: int) -> arb:
+    place = near(angle.coordinate, bits)
     is_exact = isinstance(angle.coordinate, Fraction)
-    return arb(fmpq(*place.as_integer_ratio()), 0 if is_exact else fmpq(1, 1 << PLACES))
+    return arb(fmpq(*place.as_integer_ratio()), 0 if is_exact else fmpq(1, 1 << bits))

@@ -132,7 +132,7 @@ class IntersectionCurve:
 
     @checked
     def tangent(self, theta: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
-        """Unit tangents towards greater theta, in coordinates x, y, angle_scale * theta: (..., 3).
+        """Unit tangents towards greater theta, in coordinates x, y, angle_scale * theta: (..., 3); NaN at an asymptote.
 
         Examples
         --------
@@ -141,7 +141,8 @@ class IntersectionCurve:
         array([0., 1., 1.])
         """
         first = self._derivatives(theta, angle_scale)[0]
-        return np.asarray(first / np.linalg.norm(first, axis=-1, keepdims=True))
+        with np.errstate(invalid="ignore"):
+            return np.asarray(first / np.linalg.norm(first, axis=-1, keepdims=True))
 
     @checked
     def curvature(self, theta: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
@@ -154,14 +155,15 @@ class IntersectionCurve:
         (0.4, 0.2)
         """
         first, second, _ = self._derivatives(theta, angle_scale)
-        return _length(np.cross(first, second)) / _length(first) ** 3
+        with np.errstate(invalid="ignore"):
+            return np.asarray(_length(np.cross(first, second)) / _length(first) ** 3)
 
     @checked
     def torsion(self, theta: ArrayLike, *, angle_scale: float = 1.0) -> Floats:
         """Torsion, in 1 / length, (...): positive where the curve is a right-handed screw; NaN where it is straight."""
         first, second, third = self._derivatives(theta, angle_scale)
-        normal = np.cross(first, second)
         with np.errstate(invalid="ignore", divide="ignore"):
+            normal = np.cross(first, second)
             torsion: Floats = (normal * third).sum(axis=-1) / (normal * normal).sum(axis=-1)
         return np.where(np.isfinite(torsion), torsion, np.nan)
 

@@ -240,6 +240,11 @@ def edge_edge_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tup
     return low, min(L if to_a else 1 + L, 1.0 if to_b else 1 + L)
 
 
+def direction_against(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> IntPoint:
+    """Exact direction (cos, sin), up to length, in which two edges run against each other, in contact or not."""
+    return _against(robot.edge_numerators[contact.i], obstacle.edge_numerators[contact.j])
+
+
 def _occurs(robot: Polygon, obstacle: Polygon, contact: Contact) -> bool:
     """Is there an orientation at which the contact type is a contact?"""
     rho_is_convex, omega_is_convex = bool(robot.convex[contact.i]), bool(obstacle.convex[contact.j])

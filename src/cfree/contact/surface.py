@@ -23,7 +23,15 @@ from numpy.typing import ArrayLike, NDArray
 
 import cfree._core as _core
 from cfree.arguments import checked
-from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, edge_edge_range
+from cfree.contact.contact import (
+    EdgeEdge,
+    EdgeVertex,
+    VertexEdge,
+    VertexVertex,
+    angle_range,
+    direction_against,
+    edge_edge_range,
+)
 from cfree.exact.half_angle import Angle, normalize_angles
 from cfree.exact.number import ExactPoint, Number, angle, finite, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -166,12 +174,12 @@ class Helix:
 
     @property
     def radius(self) -> float:
-        """|a|: how far the fixed point is from the robot's reference point."""
+        """How far the fixed point is from the robot's reference point."""
         return math.hypot(*map(float, self.fixed))
 
     @checked
     def curvature(self, *, angle_scale: float = 1.0) -> float:
-        """|a| / (|a|^2 + w^2) where w is `angle_scale`, the length of a radian: the same everywhere, in 1 / length.
+        """r / (r^2 + w^2), r the radius and w the `angle_scale`, length per radian: everywhere the same, in 1 / length.
 
         Examples
         --------
@@ -183,15 +191,15 @@ class Helix:
 
     @checked
     def torsion(self, *, angle_scale: float = 1.0) -> float:
-        """w / (|a|^2 + w^2): to the right, as of every screw that climbs as it turns to the left, in 1 / length.
+        """w / (r^2 + w^2): to the right, as of every screw that climbs as it turns to the left, in 1 / length.
 
-        On the axis, |a| = 0, the helix is a straight line and has no torsion; this is then the limit.
+        On the axis, r = 0, the helix is a straight line and has no torsion; this is then the limit.
         """
         return angle_scale / self._square(angle_scale)
 
     @checked
     def length(self, phi_from: float, phi_to: float, *, angle_scale: float = 1.0) -> float:
-        """Length between two angles, (phi_to - phi_from) sqrt(|a|^2 + w^2): negative if the first is larger."""
+        """Length between two angles, (phi_to - phi_from) sqrt(r^2 + w^2): negative if the first is larger."""
         return (phi_to - phi_from) * math.sqrt(self._square(angle_scale))
 
     def _square(self, angle_scale: float) -> float:
@@ -290,9 +298,9 @@ def edge_edge_surface(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> t
 
     Notes
     -----
-    With L = |E_i| / |E_j| the robot's edge covers [t - L, t] of the obstacle's line at phi_min and [t, t + L] at
-    phi_min + pi, the obstacle's edge [0, 1]: so t is in [0, 1 + L], or in [-L, 1]. Reflex vertices do not matter for
-    pseudo contacts.
+    With L the length of E_i over that of E_j the robot's edge covers [t - L, t] of the obstacle's line at phi_min and
+    [t, t + L] at phi_min + pi, the obstacle's edge [0, 1]: so t is in [0, 1 + L], or in [-L, 1]. Reflex vertices do not
+    matter for pseudo contacts.
 
     Examples
     --------
@@ -304,11 +312,10 @@ def edge_edge_surface(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> t
     array([[4.        , 2.        , 3.14159265],
            [0.        , 2.        , 3.14159265]])
     """
-    (ux, uy), (vx, vy) = robot.edge_numerators[contact.i], obstacle.edge_numerators[contact.j]
-    c, s = ux * vx + uy * vy, ux * vy - uy * vx
+    c, s = direction_against(robot, obstacle, contact)
     L = math.hypot(*robot.edge(contact.i)) / math.hypot(*obstacle.edge(contact.j))
     S = contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j))
-    against, alongside = (float(normalize_angles(angle(*direction))) for direction in ((-c, -s), (c, s)))
+    against, alongside = (float(normalize_angles(angle(*direction))) for direction in ((c, s), (-c, -s)))
     return EdgeEdgeSegment(contact, S, against, (0.0, 1 + L)), EdgeEdgeSegment(contact, S, alongside, (-L, 1.0))
 
 

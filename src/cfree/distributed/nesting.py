@@ -75,7 +75,7 @@ class TileLines:
 
     def crossings(self, line: Line, is_its_own: bool) -> list[Crossing] | None:
         """What the line crosses here; nothing if that cannot be told for this line."""
-        found = self._location.crossings(line.pose, line.chart, line.row if is_its_own else NONE)
+        found = self._location.passages(line.pose, line.chart, line.row if is_its_own else NONE)
         if found is None:
             return None
         return [Crossing(int(self._surface[row]), Fraction(n, d), free) for row, n, d, free in found]

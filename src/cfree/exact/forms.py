@@ -130,7 +130,8 @@ def signs_around(forms: Sequence[Form]) -> list[Place]:
                     vanishing.setdefault(root, set()).add(k)
         for root, after in pairwise([*sorted(vanishing.keys() - {ONE}), ONE]):
             part(root, after)
-            gap = tuple(sign(form, between(root.hi, after.lo)) for form in seen)
+            sample = between(root.hi, after.lo)
+            gap = tuple(sign(form, sample) for form in seen)
             there = tuple(0 if k in vanishing[root] else s for k, s in enumerate(gap))
             places.append((AlgebraicAngle(chart, root), there, gap))
     return places

@@ -1,4 +1,4 @@
-"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and three that go on from there.
+"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and four that go on from there.
 
 Indices count from 1 in the figures, as in the paper. `draw_all` writes them, as ``cfree figures`` does.
 """
@@ -50,6 +50,7 @@ FIGURES = (
     Entry(11, "curvature", "Gaussian curvature of an e-v surface.", "curvature.gaussian"),
     Entry(12, "five-obstacles", "The boundary among five obstacles.", "scenes.five_obstacles"),
     Entry(13, "slices", "A stack of slices, and the surface they are cut from.", "scenes.slices"),
+    Entry(14, "gauss-bonnet", "Where a closed surface has its curvature.", "curvature_sum.gauss_and_bonnet"),
 )
 
 

@@ -230,15 +230,19 @@ class Boundary(BoundaryRecord, Shown):
         return Slice(self, theta)
 
     @checked
-    def mesh(self, error: float, *, angle_scale: float | None = None) -> Mesh:
+    def mesh(self, error: float, *, angle_scale: float | None = None, off_surface: bool = False) -> Mesh:
         """Closed triangle meshes within a stated distance of the boundary.
 
         Parameters
         ----------
         error : float
-            Greatest distance of a point of a triangle to the boundary, in the scene's unit of length.
+            Greatest distance of a point of a triangle to the boundary, and of a point of the boundary to the triangles,
+            in the scene's unit of length.
         angle_scale : float, optional
             Length per radian, w below; the robot's radius about its reference point if not given.
+        off_surface : bool
+            Whether vertices within e-v faces may be a third of the error off the boundary: up to 3 % fewer triangles on
+            large ones.
 
         Returns
         -------
@@ -266,7 +270,7 @@ class Boundary(BoundaryRecord, Shown):
         0
         """
         self.require_complete()
-        return triangulated(self, self.complex, error, angle_scale)
+        return triangulated(self, self.complex, error, angle_scale, off_surface)
 
 
 def regularize_by(threads: int, boundary: Boundary) -> None:

@@ -53,11 +53,14 @@ class Mesh(Value, Shown):
     seam : (k, 2) int32
         Vertices at theta = -pi/2 and at 3 pi/2 that are the same pose.
     error : float
-        No point of a triangle is farther from the boundary.
+        No point of a triangle is farther from the boundary, and no point of the boundary from the triangles: a bound of
+        the Hausdorff distance.
     angle_scale : float
         Length per radian.
     least : float
         Triangles that the best known density asks for on the e-v patches.
+    paint : (m, 4) uint8, optional
+        Colours instead of those of kinds; see `cfree.plot.painted`.
     """
 
     vertices: Floats
@@ -69,6 +72,7 @@ class Mesh(Value, Shown):
     error: float
     angle_scale: float
     least: float
+    paint: NDArray[np.uint8] | None = None
 
     def __repr__(self) -> str:
         n = len(self.triangles)
@@ -78,8 +82,10 @@ class Mesh(Value, Shown):
     def ratio(self) -> float:
         """Triangles on e-v patches, as a multiple of the best known density's; NaN if there is no such patch.
 
-        The density (sqrt(3)/4) sqrt(-K) / error of Atariah, Rote and Wintraecken holds for small errors: 1.033 is what
-        vertices on the surface can reach, and small patches need more for their rims.
+        It says something only together with `error`: the density (sqrt(3)/8) sqrt(-K) / error of Atariah, Rote and
+        Wintraecken holds for small ones, and patches of few triangles need more for their rims. Vertices on the surface
+        can reach 1.033. (They write sqrt(3)/4 for the graph of a x^2 + 2 b x y + c y^2, where sqrt(-K) is twice
+        sqrt(b^2 - a c).)
         """
         return int(np.count_nonzero(self.kind == PatchKind.EDGE_VERTEX)) / self.least if self.least > 0 else math.nan
 
@@ -91,14 +97,18 @@ class Mesh(Value, Shown):
 
     @property
     def colours(self) -> NDArray[np.uint8]:
-        """Red, green, blue and 255 of each triangle, (m, 4), by kind."""
+        """Red, green, blue and 255 of each triangle, (m, 4), by kind, or as painted."""
+        if self.paint is not None:
+            return self.paint
         table = np.zeros((4, 4), dtype=np.uint8)
         for kind, colour in COLOURS.items():
             table[kind] = *bytes.fromhex(colour[1:]), 255
         return table[self.kind]
 
 
-def triangulated(boundary: BoundaryRecord, cells: CellComplex, error: float, angle_scale: float | None) -> Mesh:
+def triangulated(
+    boundary: BoundaryRecord, cells: CellComplex, error: float, angle_scale: float | None, off_surface: bool
+) -> Mesh:
     """The mesh of `Boundary.mesh`."""
     scale = robot_radius(boundary.scene) if angle_scale is None else angle_scale
     if not 0 < error < math.inf:
@@ -114,7 +124,7 @@ def triangulated(boundary: BoundaryRecord, cells: CellComplex, error: float, ang
     if expected > MOST_TRIANGLES:
         raise UnsupportedError(_too_many(error, coarsest, expected))
     try:
-        found = _core.mesh(boundary.core_complex, error, scale)
+        found = _core.mesh(boundary.core_complex, error, scale, off_surface)
     except RuntimeError as fault:
         raise InvariantError(f"mesh with error {error}: {fault}", state=boundary.scene) from fault
     patch = boundary.trapezoids.patch[found.face]

@@ -23,10 +23,11 @@ def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     ----------
     mesh : Mesh
     path : path
-        ``.glb`` has one coloured mesh for each kind of patch, theta upwards; ``.obj`` has colours of the vertices. In
-        both each patch has vertices of its own, so that edges between patches look sharp. ``.ply`` has colours and
-        patch ids of the triangles, and shared vertices: closed surfaces; ``.stl`` triangles only. All have normals,
-        towards the free side.
+        ``.glb`` has one coloured mesh for each kind of patch, theta upwards, and if it is painted one mesh with colours
+        of triangles that have vertices of their own; ``.obj`` has colours of the vertices. In both each patch has
+        vertices of its own, so that edges between patches look sharp. ``.ply`` has colours and patch ids of the
+        triangles, and shared vertices: closed surfaces; ``.stl`` triangles only. All have normals, towards the free
+        side.
 
     Raises
     ------
@@ -39,7 +40,7 @@ def save_mesh(mesh: Mesh, path: str | PathLike[str]) -> None:
     import trimesh
 
     if suffix == ".glb":
-        data = _by_kind(mesh).export(file_type="glb")
+        data = (_by_kind(mesh) if mesh.paint is None else _by_triangle(mesh)).export(file_type="glb")
     else:
         vertices, corners = _patches_apart(mesh) if suffix == ".obj" else (mesh.vertices, mesh.triangles)
         shape: Any = trimesh.Trimesh(vertices, corners, vertex_normals=_normals_at(mesh, corners), process=False)
@@ -86,12 +87,29 @@ def _patches_apart(mesh: Mesh) -> tuple[Floats, NDArray[np.int64]]:
     return mesh.vertices[at % count], corners.reshape(-1, 3)
 
 
+UPRIGHT = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
+"""glTF's second axis points up: theta is turned there."""
+
+
+def _by_triangle(mesh: Mesh) -> Any:
+    """One mesh, each of whose triangles has its colour at three vertices of its own."""
+    import trimesh
+
+    vertices, corners = _patches_apart(mesh)
+    normals = _normals_at(mesh, corners)[corners].reshape(-1, 3)
+    apart = np.arange(corners.size).reshape(-1, 3)
+    shape: Any = trimesh.Trimesh(vertices[corners].reshape(-1, 3), apart, vertex_normals=normals, process=False)
+    shape.visual.vertex_colors = np.repeat(mesh.colours, 3, axis=0)
+    scene = trimesh.Scene()
+    scene.add_geometry(shape, node_name="boundary", geom_name="boundary", transform=UPRIGHT)
+    return scene
+
+
 def _by_kind(mesh: Mesh) -> Any:
-    """One mesh a kind, named, seen from both sides; glTF's second axis points up, so theta is turned there."""
+    """One mesh a kind, named, seen from both sides."""
     import trimesh
 
     visual: Any = trimesh.visual
-    upright = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], dtype=np.float64)
     scene = trimesh.Scene()
     vertices, corners = _patches_apart(mesh)
     normals = _normals_at(mesh, corners)
@@ -112,5 +130,5 @@ def _by_kind(mesh: Mesh) -> Any:
         faces = faces.reshape(-1, 3)
         shape = trimesh.Trimesh(vertices[used], faces, vertex_normals=normals[used], process=False)
         shape.visual = visual.TextureVisuals(material=material)
-        scene.add_geometry(shape, node_name=name, geom_name=name, transform=upright)
+        scene.add_geometry(shape, node_name=name, geom_name=name, transform=UPRIGHT)
     return scene

@@ -32,6 +32,8 @@ class GaussBonnet(Value):
     sides : (H,) float64
         Integral of the geodesic curvature along each coedge, as its loop runs: positive where it turns left, seen from
         the free side. 0 along walls, which are straight lines.
+    sides_error : (H,) float64
+        How much of that changes when the intervals of quadrature are halved: a measured error.
     angles : (H,) float64, radians
         Between a coedge and the one before it: the face's angle there.
     vertices : (V,) float64
@@ -39,13 +41,14 @@ class GaussBonnet(Value):
     euler : (C,) float64
         Of each closed surface: all of these, over 2 pi.
     error : (C,) float64
-        What quadrature may have missed of `euler`, as measured by halving its intervals.
+        What quadrature may have missed of `euler`, as measured in the same way.
     gap : float
         The farthest that two faces put a vertex that they share from each other, in length: by rounding, if they fit.
     """
 
     faces: Floats
     sides: Floats
+    sides_error: Floats
     angles: Floats
     vertices: Floats
     euler: Floats
@@ -93,7 +96,7 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
     """
     w, cells = check_scale(angle_scale), boundary.complex
     faces, faces_off = _core.trapezoid_curvatures(boundary.core, w)
-    sides, sides_off, turns, starts = _core.side_curvatures(boundary.core_complex, w)
+    sides, sides_error, turns, starts = _core.side_curvatures(boundary.core_complex, w)
     angles = math.pi - turns
     vertices = math.tau - np.bincount(cells.vertex, angles, cells.vertices).astype(np.float64)
     surface, of_vertex = cells.component[cells.face], np.zeros(cells.vertices, np.int32)
@@ -105,8 +108,10 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
         return np.array(sums, np.float64) / math.tau
 
     euler = summed((faces, cells.component), (sides, surface), (vertices, of_vertex))
-    error = summed((faces_off, cells.component), (sides_off, surface))
-    return GaussBonnet(faces, sides, angles, vertices, euler, error, _gap(boundary, starts.reshape(-1, 3), w))
+    error = summed((faces_off, cells.component), (sides_error, surface))
+    return GaussBonnet(
+        faces, sides, sides_error, angles, vertices, euler, error, _gap(boundary, starts.reshape(-1, 3), w)
+    )
 
 
 def _gap(boundary: Boundary, starts: Floats, w: float) -> float:

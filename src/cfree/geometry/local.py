@@ -128,7 +128,7 @@ class LocalGeometry(Value):
 
     @checked
     def dupin_radius(self, xi: ArrayLike) -> Floats:
-        """How far Dupin's indicatrix is in a direction, in sqrt(length): 1 / sqrt |normal curvature|, or infinite.
+        """How far Dupin's indicatrix is in a direction, in sqrt(length): 1 / sqrt(abs(normal curvature)), or infinite.
 
         Parameters
         ----------

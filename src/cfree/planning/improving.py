@@ -33,7 +33,7 @@ SEARCH = 50_000  # motions guessed about for one of them
 BLOCK = 200  # motions checked, or guessed about, between two looks at the clock and at Ctrl-C
 LESS = 0.9  # of a distance kept: more is not given for a shorter way
 
-Better = Any  # the core's, of one path: run(checks), length(), path()
+Better = Any  # the core's, of one path: run(checks), merge(), length(), path()
 
 
 class Improver:
@@ -144,7 +144,9 @@ class Improver:
             return poses
         if self.stop.is_set():
             raise KeyboardInterrupt
-        return [*map(from_numbers, min(found, key=_length).path())]
+        best = min(found, key=_length)
+        best.merge()
+        return [*map(from_numbers, best.path())]
 
     def _other(self, poses: Sequence[Pose], seed: int, end: float) -> Sequence[Pose] | None:
         """Another way from the first to the last, if one is found in time."""

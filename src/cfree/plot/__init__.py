@@ -12,8 +12,11 @@ if TYPE_CHECKING:
     from cfree.plot.boundary import plot_overview as plot_overview
     from cfree.plot.boundary import plot_slice as plot_slice
     from cfree.plot.boundary import plot_workspace as plot_workspace
+    from cfree.plot.depths import plot_depths as plot_depths
+    from cfree.plot.depths import plot_faces as plot_faces
     from cfree.plot.development import plot_development as plot_development
     from cfree.plot.intersections import plot_intersection as plot_intersection
+    from cfree.plot.paint import painted as painted
     from cfree.plot.path import plot_path as plot_path
     from cfree.plot.rational import plot_models as plot_models
 
@@ -23,8 +26,10 @@ __getattr__, __dir__, __all__ = lazy_names(
         "answer": "picture plot_path_space",
         "blockers": "plot_blockers",
         "boundary": "plot_boundary plot_overview plot_slice plot_workspace",
+        "depths": "plot_depths plot_faces",
         "development": "plot_development",
         "intersections": "plot_intersection",
+        "paint": "painted",
         "path": "plot_path",
         "rational": "plot_models",
     },

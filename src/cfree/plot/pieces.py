@@ -128,7 +128,7 @@ def patches_of(
     colours = colours or Colours()
     rows = strips(boundary, step_for(boundary, detail.rows, detail.steps))
     widest = math.hypot(window[2] - window[0], window[3] - window[1]) / detail.cells
-    corners, strip, first = _faces(rows, widest)
+    corners, strip, first = faces_of(rows, widest)
     kind = boundary.patch_kind[boundary.trapezoids.patch[rows.trapezoid[rows.joined]]][strip]
     table = np.array(
         [(0.0, 0.0, 0.0), *map(to_rgb, (colours.vertex_edge, colours.edge_vertex, COLOURS[PatchKind.BOUND]))]
@@ -150,7 +150,7 @@ def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pie
     return of_one_colour(corners, colour, sort, np.full(len(corners), -1), width)
 
 
-def _faces(rows: Strips, widest: float) -> tuple[Floats, Ints, Ints]:
+def faces_of(rows: Strips, widest: float) -> tuple[Floats, Ints, Ints]:
     """Corners of all faces, the strip that each is a part of, and the first face of each strip."""
     ends = _with_degrees(rows.points, rows.theta)
     here, after = ends[rows.joined], ends[rows.joined + 1]

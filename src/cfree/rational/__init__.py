@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from cfree.rational.model import RationalRange as RationalRange
     from cfree.rational.model import RationalSegment as RationalSegment
     from cfree.rational.model import RationalSurface as RationalSurface
+    from cfree.rational.model import rational_edge_edge_surface as rational_edge_edge_surface
     from cfree.rational.model import rational_helix as rational_helix
     from cfree.rational.model import rational_range as rational_range
     from cfree.rational.model import rational_segment as rational_segment
@@ -27,7 +28,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
         "bezier": "BezierPatch bezier_patch bezier_patches save_bezier",
-        "model": "RationalHelix RationalRange RationalSegment RationalSurface rational_helix "
-        "rational_range rational_segment rational_surface to_geometrical to_rational",
+        "model": "RationalHelix RationalRange RationalSegment RationalSurface rational_edge_edge_surface "
+        "rational_helix rational_range rational_segment rational_surface to_geometrical to_rational",
     },
 )

@@ -26,7 +26,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.arguments import checked
-from cfree.contact.contact import Contact, EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, end_directions
+from cfree.contact.contact import (
+    Contact,
+    EdgeEdge,
+    EdgeVertex,
+    VertexEdge,
+    VertexVertex,
+    direction_against,
+    end_directions,
+)
 from cfree.contact.surface import Helix, Surface, contact_helix, contact_surface
 from cfree.exact.half_angle import half_angle_rotation, half_tangent, rational_rotation, tau_of, theta_of_tau
 from cfree.exact.number import Number, to_fraction
@@ -218,16 +226,16 @@ class RationalHelix:
 
 @dataclass(frozen=True, slots=True)
 class RationalSegment:
-    """C(t) of an e-e contact, section 3.3.2, at one orientation that has a square root in general.
+    """C(t) of an e-e contact, section 3.3.2, or pseudo contact, at one orientation, with a square root in general.
 
     Attributes
     ----------
     surface : Surface
         S of the v-e contact of the edge's first vertex.
     angle : ExactAngle
-        phi_min.
+        phi_min, or phi_min + pi.
     t_range : (Surd, Surd)
-        Closed range of t where it is a contact, see `cfree.contact.contact.edge_edge_range`.
+        Closed range of t: see `rational_segment` and `rational_edge_edge_surface`.
 
     Examples
     --------
@@ -266,7 +274,7 @@ class RationalSegment:
 
     @checked
     def locate(self, t: Number) -> Location:
-        """Is C(t) inside the segment of contacts, at an end, or outside? Exact."""
+        """Is C(t) inside the segment, at an end, or outside? Exact."""
         after_low, before_high = self.t_range[0].compare(t), self.t_range[1].compare(t)
         if after_low is Order.AFTER or before_high is Order.BEFORE:
             return Location.OUTSIDE
@@ -324,10 +332,31 @@ def rational_helix(robot: Polygon, obstacle: Polygon, contact: VertexVertex) -> 
 
 @checked
 def rational_segment(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> RationalSegment:
-    """Segment of an e-e contact; a ValueError if reflex vertices keep the edges apart."""
+    """Segment of an e-e contact, t where it is one; a ValueError if reflex vertices keep the edges apart."""
     angle = rational_range(robot, obstacle, contact).start
     S = contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j))
     return RationalSegment(S, angle, _t_range(robot, obstacle, contact))
+
+
+@checked
+def rational_edge_edge_surface(
+    robot: Polygon, obstacle: Polygon, contact: EdgeEdge
+) -> tuple[RationalSegment, RationalSegment]:
+    """Both segments of an e-e pair's contact surface, Definition 1; `cfree.contact.edge_edge_surface`, exactly.
+
+    Examples
+    --------
+    >>> triangle, square = Polygon([(0, 0), (2, 0), (1, 1)]), Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    >>> for C in rational_edge_edge_surface(triangle, square, EdgeEdge(1, 2)):
+    ...     print(C.angle.tau, *C.t_range, sep=", ")
+    -1 - sqrt(2), 0, 1 + 1/2 sqrt(2)
+    -1 + sqrt(2), - 1/2 sqrt(2), 1
+    """
+    c, s = direction_against(robot, obstacle, contact)
+    S = contact_surface(robot, obstacle, VertexEdge(contact.i, contact.j))
+    q, n = _ratio_of_lengths(robot, obstacle, contact)
+    against, alongside = (Surd(0), Surd(1, q, n)), (Surd(0, -q, n), Surd(1))
+    return RationalSegment(S, ExactAngle(c, s), against), RationalSegment(S, ExactAngle(-c, -s), alongside)
 
 
 @checked
@@ -415,10 +444,7 @@ def _placed(P: tuple[ArrayLike, ArrayLike], tau: Floats, a: tuple[ArrayLike, Arr
 
 def _t_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[Surd, Surd]:
     """`edge_edge_range` of a range that is not empty, with L = |E_i| / |E_j| as it is."""
-    i, j = contact.i, contact.j
-    (ux, uy), (vx, vy) = robot.exact_edge(i), obstacle.exact_edge(j)
-    L2 = (ux * ux + uy * uy) / (vx * vx + vy * vy)
-    root = Fraction(1, L2.denominator), L2.numerator * L2.denominator
+    i, j, root = contact.i, contact.j, _ratio_of_lengths(robot, obstacle, contact)
     zero, one, L, both = Surd(0), Surd(1), Surd(0, *root), Surd(1, *root)
     L_is_long = L.compare(1) is Order.AFTER
     from_a, from_b = not robot.convex[i], not obstacle.convex[j]
@@ -426,6 +452,13 @@ def _t_range(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[Surd
     low = L if from_b and (L_is_long or not from_a) else one if from_a else zero
     high = L if to_a and not (to_b and L_is_long) else one if to_b else both
     return low, high
+
+
+def _ratio_of_lengths(robot: Polygon, obstacle: Polygon, contact: EdgeEdge) -> tuple[Fraction, int]:
+    """q and n of the length q sqrt(n) of E_i over that of E_j."""
+    (ux, uy), (vx, vy) = robot.exact_edge(contact.i), obstacle.exact_edge(contact.j)
+    L2 = (ux * ux + uy * uy) / (vx * vx + vy * vy)
+    return Fraction(1, L2.denominator), L2.numerator * L2.denominator
 
 
 def _checked(t: ArrayLike, low: float, high: float) -> Floats:

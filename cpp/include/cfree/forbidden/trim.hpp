@@ -40,6 +40,7 @@ class Trimmer {
 public:
     // The part of a patch between two angles of one chart.
     Trimmer(const Scene& scene, const Surface& surface, const Event& from, const Event& to);
+    virtual ~Trimmer() = default;
 
     // Take away robot piece p against obstacle piece k, which covers nothing that is left outside of this part.
     void cover(Index p, Index k, const Slices& slices, const Slices::Part& part);
@@ -53,7 +54,7 @@ public:
 
     Predicates decide;
 
-private:
+protected:
     struct Span {
         Index from, to;  // events
     };
@@ -132,6 +133,9 @@ private:
     Feature normal_form(const Feature& feature) const;
     double extreme(const Curve& curve, double lo, double hi, bool want_max) const;
     void bounds(Area& area) const;
+    // What becomes of a band, and of a state in which the line does not pass through the pillar.
+    virtual void take(const Band& band) { subtract(band); }
+    virtual void pass(const State&, const Span&) {}
     void subtract(const Band& band);
     bool subtract_from(const Area& area, const Band& band);
     bool compare(Overlap& x);

@@ -10,6 +10,14 @@ struct Volumes {
 };
 Volumes volumes(const FreeSpace& space);
 
+// A side of a trapezoid, the free one or the inner, forbidden one: the closed surface of such sides that it is in, and the cell
+// that this bounds. By such sides the volumes of all cells.
+struct Facing {
+    Index trapezoid, surface, cell;
+    bool is_inner;
+};
+Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, Index cells);
+
 // Whether each cell is bounded and no face of its boundary belongs to bounds or workspace, whose owners are negative.
 std::vector<std::uint8_t> caged(const FreeSpace& space, const std::vector<Index>& owner);
 

@@ -28,6 +28,22 @@ public:
         std::vector<std::uint8_t> free_inside;
     };
     Nesting nesting() const;
+    // Of every component, a ray in general position towards -x from a pose on one of its trapezoids: the trapezoids that it
+    // crosses, and whether it begins on the left of that one, its forbidden side.
+    struct Ray {
+        ExactPose pose;
+        Index from;
+        bool is_on_left;
+        std::vector<Index> crossed;
+    };
+    std::vector<Ray> rays() const;
+    // Trapezoids that a ray from a pose crosses, just after its orientation or at it, in the order in which it does; and whether
+    // it comes to their left sides.
+    struct Crossing {
+        Index trapezoid;
+        bool to_left;
+    };
+    std::vector<Crossing> in_order(const ExactPose& pose, const std::vector<Index>& crossed, bool after) const;
 
     // The cell of a pose, -1 if it is forbidden, by what bounds which cell. On the boundary: the first cell that it bounds.
     struct Cells {
@@ -56,12 +72,12 @@ public:
 
     // Where the line from a pose towards -x, at its orientation, crosses trapezoids but its own: x = n / d in the scene's integers,
     // and whether space is free to the left of it. Nothing if a critical angle is on it, or the pose on another trapezoid.
-    struct Crossing {
+    struct Passage {
         Index trapezoid;
         Int n, d;
         bool is_free_before;
     };
-    std::optional<std::vector<Crossing>> crossings(const ExactPose& q, Index own = -1) const;
+    std::optional<std::vector<Passage>> passages(const ExactPose& q, Index own = -1) const;
     // A pose on a trapezoid, strictly between its angles and its curves, and whether space is free to the left of it; other ones for
     // other attempts, nothing if there is none for this one.
     std::optional<std::pair<ExactPose, bool>> pose_on(Index trapezoid, int attempt) const;

@@ -22,7 +22,8 @@ struct MeshEstimate {
 };
 MeshEstimate estimate_mesh(const CellComplex& cells, double error, double angle_scale);
 
-// A face whose bounds cannot be met, which is a fault, is thrown as std::logic_error.
-Mesh mesh(const CellComplex& cells, double error, double angle_scale);
+// Inner points may be off the surface if that makes triangles fewer, and is wished. A face whose bounds cannot be met, which is a
+// fault, is thrown as std::logic_error.
+Mesh mesh(const CellComplex& cells, double error, double angle_scale, bool off_surface = false);
 
 }  // namespace cfree

@@ -14,7 +14,11 @@ struct MeshPoint {
     double s, phi;
     std::array<double, 2> inward;  // how far inside the lower and the upper curve
     Index vertex = -1;             // in the mesh
+    double off = 0;                // the line, along its normal
 };
+// Share of the error that chords of the curves may take: strips need it below sqrt(1/2).
+inline constexpr double on_curves = 0.7;
+
 using Corners = std::array<const MeshPoint*, 3>;
 
 class MeshFace {
@@ -24,7 +28,8 @@ public:
 
     MeshPoint point(double s, double phi) const;
     double position(Complex x, double phi) const;
-    Complex at(double s, double phi) const;
+    Complex at(double s, double phi, double off = 0) const;
+    double gradient(double s) const;  // how much off the line a place is for each unit of distance from an e-v surface
     // At most 1 if every point of the triangle is proved to be within `error` of the face.
     double excess(const Corners& corners) const;
     // The same for an e-v triangle far from the face's sides.
@@ -32,6 +37,8 @@ public:
 
     // Coordinates in which an e-v edge (dx, dy) is off by w |dx dy| / 4, about: u = arsinh(s / w) + shear * phi, and phi.
     double u(double s) const { return std::asinh(s / w); }
+    double s(double u) const { return w * std::sinh(u); }
+    double scale() const { return w; }
     double width_u(double phi) const;  // of the face at an angle
     double most_width_u() const { return most_width; }
 
@@ -51,6 +58,7 @@ private:
     double beyond(const Corners& corners, const Spread& d) const;
     double slice_distance_near_sides(const Corners& corners, const Spread& d) const;
     double form(const MeshPoint& p, const MeshPoint& q) const;
+    double peak(const MeshPoint& p, const MeshPoint& q) const;
 
     double eps, w;
     Complex fixed, direction;  // e-v: b and the robot's edge; v-e: a and the obstacle's edge

@@ -135,6 +135,8 @@ public:
 
     // Order at a sample of where two curves are on the surface, wherever that is.
     int order_at(const Feature& p, const Feature& q, const Sample& at) const;
+    // Sign of the D of a curve there.
+    int denominator_sign(const Feature& f, const Sample& at) const;
 
     // 0 if the angle is the only root in its interval of doubles, else its number among those there, from 1.
     int place(const Event& x) const;

@@ -10,6 +10,8 @@ public:
     Shortcut(Way way, Marked path, std::uint64_t seed);
     // Check about so many motions.
     void run(int checks);
+    // Neighbours replaced by one motion, or two, from start to goal.
+    void merge();
     const Route& path() const { return route; }
     double length() const { return at.back(); }
 

@@ -42,6 +42,7 @@ struct Way {
     double per_motion = 0;         // the length that a motion is worth
     Marked ridge = {};                   // along which something is asked,
     std::vector<double> distances = {};  // of each pose of it a distance
+    std::vector<Place> places = {};      // of these poses
 
     Way asking(Marked along, std::vector<double> what) const;
     // The pose of the ridge nearest to a place, of those with marks about from a number to another.

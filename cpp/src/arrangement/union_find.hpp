@@ -1,0 +1,37 @@
+// Classes of numbers.
+#pragma once
+#include <numeric>
+#include <vector>
+
+#include "cfree/exact/number.hpp"
+
+namespace cfree {
+
+class UnionFind {
+public:
+    explicit UnionFind(std::size_t count) : parent(count) { std::iota(parent.begin(), parent.end(), 0); }
+    Index find(Index x) {
+        while (parent[x] != x) x = parent[x] = parent[parent[x]];
+        return x;
+    }
+    // The least of a class stands for it.
+    void unite(Index x, Index y) {
+        x = find(x), y = find(y);
+        (x < y ? parent[y] : parent[x]) = std::min(x, y);
+    }
+    // Classes numbered in the order of their least members; returns how many.
+    Index number(std::vector<Index>& of) {
+        Index count = 0;
+        of.resize(parent.size());
+        for (std::size_t k = 0; k < parent.size(); ++k) {
+            const Index root = find(static_cast<Index>(k));
+            of[k] = root == static_cast<Index>(k) ? count++ : of[root];
+        }
+        return count;
+    }
+
+private:
+    std::vector<Index> parent;
+};
+
+}  // namespace cfree

@@ -1,0 +1,93 @@
+// Lists of parts read once, column by column; theory, "Closed surfaces".
+#include "forbidden/loops.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "cfree/contact/contact_line.hpp"
+#include "cfree/predicates/junction.hpp"
+#include "cfree/support/elementary.hpp"
+#include "support/free_memory.hpp"
+
+namespace cfree {
+
+// The parts of all lists, whose columns are freed as soon as they have been read.
+Loops loops_of(std::size_t faces, std::vector<Parts>&& lists) {
+    Loops result;
+    result.first.assign(faces + 1, 0);
+    for (const Parts& list : lists)
+        for (const Index f : list.trapezoid) ++result.first[f + 1];
+    std::partial_sum(result.first.begin(), result.first.end(), result.first.begin());
+    const auto count = static_cast<std::size_t>(result.first.back());
+    std::vector<Index> number(count);  // of each part its half-edge
+    {
+        std::vector<Index> order(count), next(result.first.begin(), result.first.end() - 1);
+        std::vector<std::uint8_t> kind;  // twice its side, 1 more if its side's come in reverse
+        kind.reserve(count);
+        for (Parts& list : lists) {
+            for (Index k = 0; k < list.size(); ++k) {
+                order[next[list.trapezoid[k]]++] = static_cast<Index>(kind.size());
+                const Side side = list.side(k);
+                kind.push_back(static_cast<std::uint8_t>(2 * static_cast<int>(side) + (is_forwards(side) == list.is_backwards(k))));
+            }
+            free_memory(list.trapezoid);
+        }
+        result.kind.reserve(count);
+        for (std::size_t f = 0; f < faces; ++f) {
+            std::sort(order.begin() + result.first[f], order.begin() + result.first[f + 1], [&](Index x, Index y) {
+                return kind[x] != kind[y] ? kind[x] < kind[y] : (kind[x] % 2 == 0) == (x < y) && x != y;
+            });
+            for (Index h = result.first[f]; h < result.first[f + 1]; ++h)
+                number[order[h]] = h, result.kind.push_back(kind[order[h]]);
+        }
+    }
+    const auto for_each_part = [&](auto&& take, auto&& release) {
+        for (auto at = number.begin(); Parts& list : lists) {
+            for (Index k = 0; k < list.size(); ++k) take(list, k, at);
+            at += list.size();
+            release(list);
+        }
+        give_back_memory(faces);
+    };
+    result.twin.resize(count);
+    for_each_part([&](const Parts& list, Index k, auto at) { result.twin[at[k]] = list.twin[k] < 0 ? -1 : at[list.twin[k]]; },
+                  [](Parts& list) { free_memory(list.twin); });
+    result.edge.resize(count);
+    for_each_part([&](const Parts& list, Index k, auto at) {
+        result.edges += list.begins_edge(k);
+        result.edge[at[k]] = result.edges - 1;
+    }, [](Parts&) {});
+    result.start.resize(count);
+    for_each_part([&](const Parts& list, Index k, auto at) { result.start[at[k]] = list.start[k]; }, [](Parts& list) { list = {}; });
+    free_memory(number);
+    result.face.reserve(count);
+    for (std::size_t f = 0; f < faces; ++f) result.face.resize(static_cast<std::size_t>(result.first[f + 1]), static_cast<Index>(f));
+    return result;
+}
+
+// Where a half-edge starts, in doubles.
+PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) {
+    const Scene& scene = boundary.scene->near();
+    const Trapezoids& trapezoids = boundary.trapezoids;
+    const AngleTable& angles = boundary.angles();
+    const auto [contact, chart] = surface_of(boundary.patches, trapezoids, k);
+    const Index rank = side == Side::first  ? angles.from[k]
+                       : side == Side::last ? angles.to[k]
+                                               : static_cast<Index>(start);
+    const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart), tau = 0.5 * (lo + hi);
+    double t = start;
+    if (side == Side::upper || side == Side::lower) {
+        const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); });
+        t = at.value(contact, at.spot(contact, unpacked((side == Side::upper ? trapezoids.upper : trapezoids.lower)[k])));
+    }
+    const auto R = rotation_by(chart, tau);
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const auto placed = [&](const Feature& helix) {
+        const Index a = helix.robot, b = helix.obstacle;
+        return Vec<double>{O.x[b], O.y[b]} - R(Vec<double>{A.x[a], A.y[a]});
+    };
+    const auto p = placed(end_helix(scene, contact, 0)), q = placed(end_helix(scene, contact, 1));
+    return {{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)}, theta_of(chart, tau)};
+}
+
+}  // namespace cfree

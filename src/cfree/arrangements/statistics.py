@@ -1,0 +1,92 @@
+"""What is told of an arrangement: its cells, how many there are of each sort, and bounds from the literature."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from math import comb
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.scene.features import SceneFeatures
+
+
+@dataclass(frozen=True, slots=True)
+class DepthCell:
+    """A cell of an arrangement.
+
+    Attributes
+    ----------
+    index : int
+    pairs : tuple of (int, int)
+        The polygons of the robot and obstacles whose interiors meet in it; see `Arrangement.sets`.
+    euler : int
+        Euler characteristic: 1 for a ball, 0 if it goes round in theta once and has no holes.
+    surfaces : int
+        How many closed surfaces bound it.
+    volume : float
+        In length^2 radians; infinite for the first cell.
+    """
+
+    index: int
+    pairs: tuple[tuple[int, int], ...]
+    euler: int
+    surfaces: int
+    volume: float
+
+    @property
+    def depth(self) -> int:
+        """How many pairs overlap."""
+        return len(self.pairs)
+
+
+@dataclass(frozen=True, slots=True)
+class ArrangementStatistics:
+    """How many vertices, edges, faces and cells there are, by sort.
+
+    Attributes
+    ----------
+    vertices, edges, faces, cells, max_depth : int
+    vertices_by_kind, edges_by_kind, faces_by_contact : dict of str to int
+    vertices_by_degree, vertices_by_pairs, faces_by_depth, cells_by_depth : dict of int to int
+    bounds : dict of str to int
+        What the number of vertices is at most. ``"surfaces"``: k contact surfaces have 4 for each three, 2 for each of
+        their helices and 1 for each of their edge-edge segments with each surface, and 4 corners each, which is O(k^3);
+        that is also the worst case of such arrangements (Halperin and Sharir 1992). ``"(mn)^3"``, without its constant:
+        a robot of m vertices among obstacles of n (Avnaim, Boissonnat and Faverjon 1988). Single cells are much
+        simpler: m^3 n^2 2^O(log^(2/3) n) (Halperin and Sharir 1993).
+    """
+
+    vertices: int
+    edges: int
+    faces: int
+    cells: int
+    max_depth: int
+    vertices_by_kind: dict[str, int] = field(hash=False)
+    vertices_by_degree: dict[int, int] = field(hash=False)
+    vertices_by_pairs: dict[int, int] = field(hash=False)
+    edges_by_kind: dict[str, int] = field(hash=False)
+    faces_by_contact: dict[str, int] = field(hash=False)
+    faces_by_depth: dict[int, int] = field(hash=False)
+    cells_by_depth: dict[int, int] = field(hash=False)
+    bounds: dict[str, int] = field(hash=False)
+
+
+def counted(values: NDArray[Any], names: Sequence[str] = ()) -> Any:
+    """How often each value occurs, by name if there are names; of others only those that do.
+
+    Examples
+    --------
+    >>> counted(np.array([3, 1, 3])), counted(np.array([1, 1]), ("left", "right"))
+    ({1: 1, 3: 2}, {'left': 0, 'right': 2})
+    """
+    count = np.bincount(values, minlength=len(names)).tolist()
+    return {names[k] if names else k: n for k, n in enumerate(count) if names or n}
+
+
+def vertex_bounds(features: SceneFeatures) -> dict[str, int]:
+    """See `ArrangementStatistics.bounds`."""
+    k, m, n = features.patches, len(features.robot.previous), len(features.obstacles.previous)
+    return {"surfaces": 4 * comb(k, 3) + 6 * k * k + 4 * k, "(mn)^3": (m * n) ** 3}

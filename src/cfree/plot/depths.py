@@ -1,0 +1,119 @@
+"""Arrangements drawn by depth: regions of a slice, and faces in (x, y, theta)."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from mpl_toolkits.mplot3d.axes3d import Axes3D
+from numpy.typing import NDArray
+
+from cfree.arguments import checked
+from cfree.arrangements.arranged import Arrangement
+from cfree.arrangements.regions import planar_cells
+from cfree.exact.half_angle import Angle
+from cfree.plot.boundary import around, new_axes, new_figure, new_space, set_window, with_unit
+from cfree.plot.pieces import FINE, SURFACE, Pieces, faces_of, shaded
+from cfree.plot.strips import step_for, strips
+from cfree.plot.workspace import path_of, rings_of_geometry
+from cfree.scene.scene import robot_radius
+
+COLOURS = "YlGnBu"
+
+
+@checked
+def plot_depths(whole: Arrangement, theta: Angle, ax: Axes | None = None) -> Axes:
+    """How many pairs overlap where, at one orientation.
+
+    Parameters
+    ----------
+    whole : Arrangement
+    theta : float in radians, "30deg" or {"tau": "p/q"}
+    ax : matplotlib axes, optional
+
+    Returns
+    -------
+    matplotlib axes
+    """
+    from matplotlib.collections import LineCollection
+    from matplotlib.patches import Patch, PathPatch
+
+    ax = ax or new_axes((7, 6))
+    cut, colours = whole.slice(theta), depth_colours(whole)
+    cells = planar_cells(whole, theta)
+    depths = [int(whole.cell_depth[cell]) for _, cell in cells]
+    for (region, _), depth in zip(cells, depths, strict=True):
+        ax.add_patch(PathPatch(path_of(rings_of_geometry(region)), facecolor=colours[depth], edgecolor="none"))
+    ax.add_collection(LineCollection(list(cut.segments), colors="#20242b", linewidths=0.6))
+    if len(cut.segments):
+        low, high = cut.segments.min(axis=(0, 1)).tolist(), cut.segments.max(axis=(0, 1)).tolist()
+        set_window(ax, around([(*low, *high)]), whole.scene.units)
+    ax.set_title(f"depth at θ = {math.degrees(cut.theta):.4g}°")
+    handles = [Patch(facecolor=colours[depth], edgecolor="#20242b", label=str(depth)) for depth in sorted(set(depths))]
+    ax.legend(handles=handles, title="pairs that overlap", loc="upper right", frameon=False)
+    return ax
+
+
+@checked
+def plot_faces(whole: Arrangement, ax: Axes3D | None = None, *, depth: int | None = None) -> Axes3D:
+    """Faces in (x, y, theta), coloured by their depth; of one depth alone if that is given.
+
+    Parameters
+    ----------
+    whole : Arrangement
+    ax : matplotlib axes with ``projection="3d"``, optional
+    depth : int, optional
+        Those of depth 0 are the boundary of the free space.
+
+    Returns
+    -------
+    matplotlib axes with three dimensions
+    """
+    from matplotlib.patches import Patch
+
+    from cfree.plot.depth_sort import Painting
+
+    if ax is None:
+        ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
+    space: Any = ax
+    pieces, depths = _pieces(whole)
+    if depth is not None:
+        pieces, depths = pieces.chosen(depths == depth), depths[depths == depth]
+    corners = pieces.corners.reshape(-1, 3)
+    low, high = (corners.min(axis=0), corners.max(axis=0)) if len(corners) else (np.zeros(3), np.ones(3))
+    space.add_collection(Painting(pieces), autolim=False)
+    space.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(0, 360))
+    x, y = high[0] - low[0], high[1] - low[1]
+    space.set_box_aspect((x, y, 0.75 * max(x, y)), zoom=1.08)
+    space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
+    space.set_xlabel(with_unit("x", whole.scene.units))
+    space.set_ylabel(with_unit("y", whole.scene.units))
+    space.set_zlabel("θ")
+    colours = depth_colours(whole)
+    handles = [Patch(color=colours[k], label=f"depth {k}") for k in sorted(set(depths.tolist()))]
+    space.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=6, frameon=False)
+    return space
+
+
+def depth_colours(whole: Arrangement) -> NDArray[np.float64]:
+    """(d, 3) a colour for each depth, darker for deeper."""
+    from matplotlib import colormaps
+
+    most = int(whole.cell_depth.max())
+    colours: NDArray[np.float64] = colormaps[COLOURS](np.linspace(0.15, 0.95, most + 1))[:, :3]
+    return colours
+
+
+def _pieces(whole: Arrangement) -> tuple[Pieces, NDArray[np.int64]]:
+    """What there is to draw, and the depth of each of it."""
+    rows = strips(whole.sheets, step_for(whole.sheets, FINE.rows, FINE.steps))
+    points = rows.points.reshape(-1, 2)
+    widest = float(np.hypot(*np.ptp(points, axis=0))) / FINE.cells if len(points) else 1.0
+    corners, strip, _ = faces_of(rows, widest)
+    depths = whole.depth_of_pieces[rows.trapezoid[rows.joined]][strip]
+    rgb = shaded(depth_colours(whole)[depths], corners, robot_radius(whole.scene))
+    n = len(corners)
+    part = rows.part[rows.joined][strip]
+    return Pieces(corners, rgb, np.full(n, SURFACE), np.arange(n), np.zeros(n), part), depths

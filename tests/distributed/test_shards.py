@@ -1,0 +1,122 @@
+"""Boundaries in folders: the same trapezoids, surfaces and cells as in one process, for any tiles."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import cfree
+import cfree._core as _core
+from cfree.distributed import boundary
+from cfree.distributed.part import Part
+from cfree.distributed.store import SceneStore, is_small, rounding, store_scene
+from cfree.distributed.trim import digest, trim_tile
+from compared import scene_of
+from shapes import KINDS, random_scene
+
+SCENES = Path(__file__).parents[2] / "examples" / "scenes"
+LARGE = ("benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin", "benchmr_parking1", "flat")
+TRIANGLE = [(0, 0), (2, 0), (0, 1)]
+
+
+def stored(scene: cfree.Scene, folder: Path) -> SceneStore:
+    store = store_scene(scene, [], folder)
+    if not is_small(store):
+        store.rounded = rounding(store, np.arange(len(store)))
+    return store
+
+
+def check_tiles(scene: cfree.Scene, folder: Path, counts: tuple[int, ...] = (1, 7, 64)) -> None:
+    """The same for all numbers of tiles, and the same as in memory."""
+    space = cfree.free_space(cfree.boundary(scene))
+    digests = set()
+    for tiles in counts:
+        found = boundary(scene, folder=folder / str(tiles), tiles=tiles)
+        surfaces = found.surfaces
+        digests.add((found.digest, found.trapezoids))
+        assert np.array_equal(surfaces.faces, np.bincount(space.component, minlength=len(space.parent)))
+        assert np.array_equal(surfaces.euler, space.complex.euler)
+        for name in ("parent", "free_inside", "turns", "cell_of"):
+            assert np.array_equal(getattr(surfaces, name), getattr(space, name)), name
+        assert found.cells == len(space)
+    assert len(digests) == 1
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        pytest.param(path, marks=pytest.mark.slow if path.stem in LARGE else ())
+        for path in sorted(SCENES.glob("*.json"))
+        if path.stem not in ("benchmr_warehouse", "nest_swim", "street_Berlin")
+    ],
+    ids=lambda path: path.stem,
+)
+def test_example_scenes_are_the_same_in_any_tiles(path: Path, tmp_path: Path) -> None:
+    check_tiles(cfree.load_scene(path), tmp_path)
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_random_scenes_are_the_same_in_any_tiles(kind: str, tmp_path: Path) -> None:
+    check_tiles(scene_of(random_scene(11, kind)), tmp_path, (1, 5))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_borders_run_through_vertices_and_along_edges(seed: int, tmp_path: Path) -> None:
+    """Squares on a lattice, some of them touching, in a hall; far away from the origin, and at quotients."""
+    rng = random.Random(seed)
+    at, unit = (0, Fraction(1)) if seed % 2 else (10**9, Fraction(1, 3))
+
+    def box(x: Any, y: Any, w: Any, h: Any) -> list[tuple[Any, Any]]:
+        corners = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
+        return [(at + unit * a, at + unit * b) for a, b in corners]
+
+    places = rng.sample([(x, y) for x in range(4) for y in range(4)], 9)
+    squares = [box(3 * x, 3 * y, 2 + rng.randint(0, 1), 2 + rng.randint(0, 1)) for x, y in places]
+    robot = [(0, 0), (unit, 0), (unit, 2 * unit), (0, 2 * unit)]
+    check_tiles(cfree.Scene(robot, squares, workspace=box(-3, -3, 18, 18)), tmp_path, (1, 4, 16))
+
+
+def test_edges_and_polygons_lead_over_many_tiles(tmp_path: Path) -> None:
+    """A wall along all others, and a comb around them, with bounds."""
+    teeth = [p for k in range(9) for p in ((4 * k, 0), (4 * k, -3), (4 * k + 1, -3), (4 * k + 1, 0))]
+    comb = [(-2, 1), (-2, -0), *teeth, (36, 0), (36, 1)][::-1]
+    stones = [[(4 * k + 2, -5), (4 * k + 3, -5), (4 * k + 2, -4)] for k in range(9)]
+    floor = [(-5, -9), (40, -9), (40, -8), (-5, -8)]
+    check_tiles(cfree.Scene(TRIANGLE, [comb, *stones, floor], bounds=(-4, -8, 39, 2)), tmp_path, (1, 5, 40))
+
+
+def test_trapezoids_are_those_of_the_whole(tmp_path: Path) -> None:
+    """Column for column, the core asked at once and with its own constants."""
+    scene = cfree.load_scene(SCENES / "comb_hook.json")
+    store = stored(scene, tmp_path / "scene")
+    part = Part(store, np.arange(len(store)))
+    features = np.arange(len(part.features.obstacles.previous))
+    shard = trim_tile(part, part.vertices[features])
+    whole = _core.compute_boundary(
+        cfree.scene.features.scene_features(scene).core, 1, False, lambda share: True, features=features.tolist()
+    )
+    rows = whole.trapezoids
+    assert np.array_equal(part.codes(shard["keys"])[shard["lower"]], rows.lower)
+    assert np.array_equal(shard["angle_tau"][shard["from"], 0], rows.from_lo)
+    assert np.array_equal(shard["angle_tau"][shard["to"], 1], rows.to_hi)
+    named = cfree.boundary(scene).trapezoids
+    assert np.array_equal(whole.trapezoids.tau_from if hasattr(rows, "tau_from") else rows.from_lo, named.from_lo)
+    assert digest(shard) != 0
+
+
+def test_obstacles_are_read_as_they_were(tmp_path: Path) -> None:
+    holed = cfree.Polygon([(0, 0), (9, 0), (9, 9), (0, 9)], [[(2, 2), (2, "10/3"), (3, 2)]])
+    scene = cfree.Scene(TRIANGLE, [holed, [(20, 0), ("61/3", 0), (20, 10**40)]], bounds=(-5, -5, 99, 99))
+    store = store_scene(scene, [], tmp_path / "scene")
+    assert tuple(store.polygons([0, 1])) == scene.obstacles
+    assert store.scene([1]).obstacles == scene.obstacles[1:] and store.head.bounds == scene.bounds
+
+
+def test_nothing_at_all_has_a_boundary(tmp_path: Path) -> None:
+    found = boundary(cfree.Scene(TRIANGLE), folder=tmp_path / "empty")
+    assert (found.trapezoids, found.cells, found.obstacles) == (0, 1, 0)
