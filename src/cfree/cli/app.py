@@ -248,6 +248,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     is_flag=True,
     help="Of a proof: which single obstacles, taken away, open a way; the picture shows these.",
 )
+@file_option("--part", metavar="JSON", help="Of a folder: write the scene with the obstacles that were needed.")
 @options.max_seconds
 @options.as_json
 def plan(

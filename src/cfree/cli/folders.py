@@ -47,9 +47,7 @@ def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, c
             return found.verify(sample=sample, seed=seed, client=client, progress=progress)
     given = load(answer)
     if not isinstance(given, Motions):
-        raise ValueError(
-            f"{answer}: not a path; give the scene that cfree plan --part has written, instead of the folder"
-        )
+        raise ValueError(f"{answer}: no path; give the scene that cfree plan --part has written, not the folder")
     return verified_answer(found.scene_near(given), given)
 
 

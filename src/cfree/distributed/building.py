@@ -197,11 +197,13 @@ class _Build:
 
     def _cells(self, store: SceneStore, division: Division) -> tuple[JoinedSurfaces, Nesting]:
         components = self._glue(division)
+        self.progress("join", 0, 1)
         work = tasks.Work(self.folder)
         joined = join(len(division), lambda tile: work.shard(tasks.GLUED, tile))
         present = {tile: np.unique(tasks.surfaces_in(joined, tile)) for tile, count in components.items() if count}
 
         def ask(questions: Questions) -> Iterable[Answer]:
+            self.progress("nest", 0, 1)
             asked = [
                 (tile, (str(self.folder), self._stamp(), tile, tasks.surfaces_in(joined, tile), lines))
                 for tile, lines in sorted(questions.items())

@@ -207,7 +207,7 @@ class Sharded(Value):
 def _manifest(folder: FilePath) -> dict[str, Any]:
     path = folder / "manifest.json"
     if not path.exists():
-        what = "is not finished; run it again" if (folder / "plan.json").exists() else "there is no boundary in it"
+        what = "is not finished; run it again" if (folder / "source.json").exists() else "there is no boundary in it"
         raise FormatError(f"{folder}: {what}: cfree boundary SCENE --folder {folder}", path=str(folder))
     manifest = read_json(path)
     if manifest.get("version") != VERSION:

@@ -108,6 +108,7 @@ class SceneStore:
             bounds=head.bounds,
             workspace=head.workspace,
             start=head.start,
+            goal=head.goal,
             goals=head.goals,
             units=head.units,
         )
@@ -184,6 +185,7 @@ def _without_obstacles(scene: Scene) -> Scene:
         bounds=scene.bounds,
         workspace=scene.workspace,
         start=scene.start,
+        goal=scene.goal,
         goals=scene.goals,
         units=scene.units,
         name=scene.name,

@@ -13,7 +13,6 @@ from cfree.distributed.shard import Shard
 from cfree.forbidden.columns import CODED
 
 ENDS = ("from", "to")
-KEYED = ("first", "second")
 MODULUS = 1 << 256
 
 
@@ -45,12 +44,9 @@ def trim_tile(part: Part, own: NDArray[np.int64], regularized: bool = False) -> 
     rank = np.empty(len(order), np.uint32)
     rank[order] = np.arange(len(order), dtype=np.uint32)
     named = dict(zip(CODED, rank[number].reshape(len(CODED), -1), strict=True))
-    ends = {
-        name: np.concatenate(
-            [named[f"{end}_{name}"] if name in KEYED else getattr(rows, f"{end}_{name}") for end in ENDS]
-        )
-        for name in ("first", "second", "lo", "hi", "place")
-    }
+    ends = {name: np.concatenate([named[f"{end}_{name}"] for end in ENDS]) for name in ("first", "second")}
+    for name in ("lo", "hi", "place"):
+        ends[name] = np.concatenate([getattr(rows, f"{end}_{name}") for end in ENDS])
     by_angle = np.lexsort(list(ends.values()))
     is_new = np.zeros(len(by_angle), bool)
     is_new[:1] = True
