@@ -15,7 +15,7 @@ from cfree.distributed.division import Division, divide_scene
 from cfree.distributed.joining import JoinedSurfaces, join
 from cfree.distributed.nesting import Answer, Nesting, Questions, nest
 from cfree.distributed.reading import read_source, source_key
-from cfree.distributed.running import run
+from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, is_sound, key_of, read_json, write_json, write_shard
 from cfree.distributed.sharded import Sharded
 from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_scene
@@ -85,8 +85,7 @@ def boundary(
     >>> found.tiles, again.tiles, found.digest == again.digest, found.cells
     (2, 1, True, 1)
     """
-    if client is not None and not hasattr(client, "submit"):
-        raise TypeError(f"client: {client!r} is a {type(client).__name__}; give a distributed.Client or None")
+    check_client(client)
     for name, count in (("tile", tile), ("tiles", tiles)):
         if count is not None and count < 1:
             raise ValueError(f"{name}: {count}; give at least 1")

@@ -8,7 +8,6 @@ from typing import Any
 from cfree.errors import CfreeError
 
 Task = Callable[..., Any]
-RETRIES = 4
 
 
 class TaskError(CfreeError, RuntimeError):
@@ -20,6 +19,12 @@ class TaskError(CfreeError, RuntimeError):
 
     def __reduce__(self) -> tuple[Any, ...]:
         return TaskError, (str(self), self.tile)
+
+
+def check_client(client: Any) -> None:
+    """See that it is one of Dask's, or None."""
+    if client is not None and not hasattr(client, "submit"):
+        raise TypeError(f"client: {client!r} is a {type(client).__name__}; give a distributed.Client or None")
 
 
 def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -> Iterator[tuple[int, Any]]:
@@ -36,7 +41,7 @@ def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -
     Raises
     ------
     TaskError
-        If a task has ended `RETRIES` workers.
+        If a task has ended as many workers as the scheduler allows.
     """
     if client is None:
         for tile, arguments in tiles:
@@ -63,6 +68,6 @@ def _result(future: Any, tile: int) -> Any:
     except KilledWorker as error:
         raise TaskError(
             f"tile {tile} has ended every worker that began it, perhaps for lack of memory; "
-            "give smaller tiles, workers with more memory, or run without a cluster",
+            "make tiles smaller, give workers more memory, or run without a cluster",
             tile,
         ) from error

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.distributed.planning import Surroundings, plan_among
-from cfree.distributed.running import run
+from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, read_json, read_shard
 from cfree.distributed.tasks import TRIMMED, Work
 from cfree.distributed.verifying import summary, verify_task
@@ -189,6 +189,7 @@ class Sharded(Value):
         -----
         About 1 ms a trapezoid.
         """
+        check_client(client)
         begin, stamp = time.perf_counter(), self.work.stamp
         asked = [(k, (str(self.folder), stamp, k, sample, seed)) for k in range(self.tiles)]
         checks = {}
