@@ -32,6 +32,7 @@ private:
         explicit Lattice(bool free);
         double m, n, k, off;
     };
+    double side() const { return face->shear < 0 ? -1 : 1; }  // -1: the lattice in a mirror, as helices there lean to the other side
     MeshPoint lifted(MeshPoint p) const;
     void add_lattice();
     void add_rows(const Rows& rows);
