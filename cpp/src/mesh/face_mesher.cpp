@@ -192,7 +192,7 @@ bool FaceMesher::flip_to_better(Index t) {
 }
 
 // Takes out inner points that are not needed; those amid lattice points are.
-void FaceMesher::simplify(Index rim, Index lattice) {
+void FaceMesher::simplify(Index rim, Index inner) {
     std::vector<Index> at(points.size(), -1);
     for (Index t = 0; t < static_cast<Index>(net.triangles.size()); ++t)
         for (const Index c : net.triangles[t].corner) at[c] = t;
@@ -221,7 +221,7 @@ void FaceMesher::simplify(Index rim, Index lattice) {
         for (auto p = static_cast<Index>(points.size()) - 1; p >= rim; --p) {
             if (at[p] < 0) continue;
             net.star_of(p, at[p], star);
-            const auto is_plain = [&](Index q) { return q >= rim && q < lattice; };
+            const auto is_plain = [&](Index q) { return q >= rim && q < inner; };
             if (is_plain(p) && std::all_of(star.link.begin(), star.link.end(), is_plain)) continue;
             again = drop(p) || again;
         }
