@@ -94,6 +94,12 @@ def test_a_ridge_goes_beside_bounds_and_not_on_them() -> None:
     assert least(path, scene) >= 1.1 and len(path.motions) <= 9
 
 
+def test_the_goal_is_reached_where_turning_takes_so_much_that_travel_is_rounded_away() -> None:
+    far = 2**60
+    robot = [(-far, 0), (-2 * far, 0), (-2 * far, -far), (-far, -far)]
+    found(Scene(robot, [], bounds=(0, 5, 7, 8), start=Pose(7, 5, "180deg"), goal=Pose(0, 8)))
+
+
 def test_many_motions_become_few() -> None:
     scene = cfree.load_scene(ROOT / "examples/scenes/flat.json")
     assert len(found(scene).motions) <= 10 < len(found(scene, improve=0).motions)

@@ -99,7 +99,7 @@ double FaceMesher::scale_of_lattice() const {
             const double x[] = {0, lattice.m, lattice.n}, y[] = {0, lattice.n, lattice.m};
             for (int c = 0; c < 3; ++c) {
                 const double dy = scale * unit * y[c] / stretch;
-                const double u = low + wide * k / 16 + stretch * scale * unit * (x[c] - 0.76) - face->shear * dy;
+                const double u = low + wide * k / 16 + side() * stretch * scale * unit * (x[c] - 0.76) - face->shear * dy;
                 p[c] = lifted({face->s(u), phi + dy, {0, 0}});
             }
             if (face->excess_inside({&p[0], &p[1], &p[2]}) > 1) return false;
@@ -118,7 +118,7 @@ FaceMesher::Lattice::Lattice(bool free)
       k(free ? 2 / std::numbers::sqrt3 : 1), off(free ? -1.0 / 3 : 0) {}
 
 MeshPoint FaceMesher::lifted(MeshPoint p) const {
-    p.off = lattice.off * error * face->gradient(p.s);
+    p.off = side() * lattice.off * error * face->gradient(p.s);
     return p;
 }
 
@@ -135,7 +135,7 @@ void FaceMesher::add_lattice() {
         const auto from = static_cast<Index>(std::floor((-high + j * k) / n));
         const auto to = static_cast<Index>(std::ceil((high + j * k) / n));
         for (Index i = from; i <= to; ++i) {
-            const double x = x0 + unit * (i * m + j * k), phi = (y0 + unit * (i * n - j * k)) / stretch;
+            const double x = x0 + side() * unit * (i * m + j * k), phi = (y0 + unit * (i * n - j * k)) / stretch;
             if (x < left || x > right || phi < face->from + gap / stretch || phi > face->to - gap / stretch) continue;
             const double u = stretch * x - face->shear * phi;
             const MeshPoint p = face->point(face->s(u), phi);
@@ -192,7 +192,7 @@ bool FaceMesher::flip_to_better(Index t) {
 }
 
 // Takes out inner points that are not needed; those amid lattice points are.
-void FaceMesher::simplify(Index rim, Index lattice) {
+void FaceMesher::simplify(Index rim, Index inner) {
     std::vector<Index> at(points.size(), -1);
     for (Index t = 0; t < static_cast<Index>(net.triangles.size()); ++t)
         for (const Index c : net.triangles[t].corner) at[c] = t;
@@ -221,7 +221,7 @@ void FaceMesher::simplify(Index rim, Index lattice) {
         for (auto p = static_cast<Index>(points.size()) - 1; p >= rim; --p) {
             if (at[p] < 0) continue;
             net.star_of(p, at[p], star);
-            const auto is_plain = [&](Index q) { return q >= rim && q < lattice; };
+            const auto is_plain = [&](Index q) { return q >= rim && q < inner; };
             if (is_plain(p) && std::all_of(star.link.begin(), star.link.end(), is_plain)) continue;
             again = drop(p) || again;
         }

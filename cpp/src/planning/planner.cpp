@@ -14,7 +14,7 @@ namespace {
 
 constexpr int search_guesses = 40000;  // of motions, at most, before all of the free space is built
 constexpr int quick_guesses = 2000;    // before anything exact is
-constexpr int guesses_each = 25;       // that take no longer than a patch of a surface
+constexpr int guesses_each = 45;       // that take no longer than a patch of a surface
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
     if (a.x != b.x) return a.x < b.x;

@@ -14,7 +14,7 @@ namespace {
 constexpr int deepest = 16, most_parts = 4096;  // of a motion: where more would be needed it does not keep its distance
 constexpr double nearly = 0.95;
 constexpr double looks_apart = 0.125;  // poses looked at, in the robot's radii
-constexpr int most_looks = 32;
+constexpr int most_counted = 32;
 constexpr double rounding = 0x1p-40;  // of the size of the scene
 
 }  // namespace
@@ -171,7 +171,7 @@ double Nearness::distance(const Placed& placed, double within) const {
 bool Nearness::overlaps(const Configuration& a, const Configuration& b) const {
     const double most = travel_between(a, b) + reach * std::abs(turn_between(a, b));
     int count = 1;
-    while (count < most_looks && most > looks_apart * reach * count) count *= 2;
+    while (count < most_counted && most > looks_apart * reach * count) count *= 2;
     for (int by = count; by > 0; by /= 2)
         for (int k = by; k < 2 * count; k += 2 * by)
             if (distance(along(a, b, 0.5 * k / count), 0) < -least_distance) return true;

@@ -165,7 +165,7 @@ Sample Climber::sample(double where, double up_to) const {
         return {beyond.x - before.x, beyond.y - before.y, way.costs.weight * (beyond.theta - before.theta)};
     };
     const Place here = along(a, b, share);
-    Sample s{where, where == at[k] ? a : where == at[k + 1] ? b : way.grid.exact(here.x, here.y, here.theta), {}, 0, true};
+    Sample s{where, where == at[k + 1] ? b : where == at[k] ? a : way.grid.exact(here.x, here.y, here.theta), {}, 0, true};
     s.high = s.own, s.is_on_route = where == at[k] || where == at[k + 1] || distance(s.own) > way.nearness->least();
     if (where != at.front() && where != at.back()) {
         Place q = here;
@@ -265,7 +265,7 @@ std::vector<Step> Climber::around(const Sample& a, const Sample& b) const {
     double before = a.where;
     for (auto k = std::upper_bound(at.begin(), at.end(), a.where); is_free && *k < b.where; before = *k++)
         is_free = go_on(route[static_cast<std::size_t>(k - at.begin())], *(k - 1) == before);
-    const auto last = std::lower_bound(at.begin(), at.end(), b.where);
+    const auto last = std::upper_bound(at.begin(), at.end(), b.where) - 1;
     is_free = is_free && go_on(b.own, *last == b.where && *(last - 1) == before) && go_on(b.high, false);
     return is_free ? steps : std::vector<Step>{};
 }
@@ -294,6 +294,7 @@ Ridge Climber::run() {
         else if (kept.size() == 1 || (ahead.size() > 1 && (is_above(last) || !is_above(next)))) ahead.pop_back();  // by another sample
         else kept.pop_back(), steps.pop_back();  // at last along the route itself
     }
+    if (kept.back().where != at.back()) return {{route, at}, std::vector<double>(at.size(), 0)};  // rounding has lost it
     Ridge r{{{kept.front().own}, {0}}, {kept.front().distance}};
     for (const auto& between : steps)
         for (const auto& [pose, kept_there] : between) {

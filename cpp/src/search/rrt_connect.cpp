@@ -17,7 +17,7 @@ using std::numbers::pi;
 constexpr double longest_step = 0.2;  // of the extent of the configuration space
 constexpr int certainty = 16;         // guesses that take as long
 constexpr Index few = 200;             // nodes: all of them are looked at
-constexpr int squares = 32;            // along the longer side of the area
+constexpr int squares = 24;            // along the longer side of the area
 constexpr double kept = 0.5;           // share of tries that do not turn: for less needless turning
 constexpr int some = 2000;            // guesses, for at least so many
 constexpr std::size_t new_parts = 3;
@@ -37,7 +37,7 @@ std::array<int, 2> RrtConnect::square_of(const Place& q) const {
 
 void RrtConnect::add(Tree& tree, const Place& q, Index from) const {
     const auto [column, row] = square_of(q);
-    tree.near[column * squares + row].push_back(tree.size());
+    tree.near[column * squares + row].push_back({q, tree.size()});
     tree.x.push_back(q.x), tree.y.push_back(q.y), tree.theta.push_back(q.theta);
     tree.parent.push_back(from), tree.is_certain.push_back(false);
     constexpr int by = squares / parts;
@@ -77,19 +77,19 @@ double RrtConnect::distance(const Place& a, const Place& b) const {
 Index RrtConnect::nearest(const Tree& tree, const Place& q) const {
     Index best = 0;
     double least = HUGE_VAL;
-    const auto look = [&](Index k) {
-        const double dx = tree.x[k] - q.x, dy = tree.y[k] - q.y, by = std::abs(tree.theta[k] - q.theta);
+    const auto look = [&](const Place& at, Index k) {
+        const double dx = at.x - q.x, dy = at.y - q.y, by = std::abs(at.theta - q.theta);
         const double turning = weight * std::min(by, 2 * pi - by), square = dx * dx + dy * dy + turning * turning;
         if (square < least || (square == least && k < best)) least = square, best = k;
     };
     if (tree.size() <= few) {
-        for (Index k = 0; k < tree.size(); ++k) look(k);
+        for (Index k = 0; k < tree.size(); ++k) look(tree.at(k), k);
         return best;
     }
     const auto [column, row] = square_of(q);
     const auto look_in = [&](int i, int j) {
         if (i < 0 || j < 0 || i >= squares || j >= squares) return;
-        for (const Index k : tree.near[i * squares + j]) look(k);
+        for (const auto& [at, k] : tree.near[i * squares + j]) look(at, k);
     };
     look_in(column, row);
     for (int r = 1; r < squares && !((r - 1) * side * ((r - 1) * side) > least); ++r) {

@@ -10,7 +10,7 @@ using Rim = std::array<std::vector<MeshPoint>, 4>;  // points by side, in the or
 class FaceMesher {
 public:
     // Inner points may be off the surface, if `free` says so.
-    FaceMesher(double error, double angle_scale, bool free) : error(error), angle_scale(angle_scale), lattice(free) {}
+    FaceMesher(double most_error, double scale, bool free) : error(most_error), angle_scale(scale), lattice(free) {}
 
     // Triangles of `net`, their corners among `points`; of two ways to place points inside the one that needs fewer. Which face
     // it is, is for the message if the bounds cannot be met, a std::logic_error.
@@ -32,6 +32,7 @@ private:
         explicit Lattice(bool free);
         double m, n, k, off;
     };
+    double side() const { return face->shear < 0 ? -1 : 1; }  // -1: the lattice in a mirror, as helices there lean to the other side
     MeshPoint lifted(MeshPoint p) const;
     void add_lattice();
     void add_rows(const Rows& rows);

@@ -36,7 +36,11 @@ private:
         std::vector<Index> parent;
         std::vector<char> is_certain;  // the motion from the parent
         std::set<int> parts;           // of the configuration space, in which it has a node
-        std::vector<std::vector<Index>> near;  // nodes by squares of the area
+        struct Node {
+            Place at;
+            Index number;
+        };
+        std::vector<std::vector<Node>> near;  // by squares of the area
         Index size() const { return static_cast<Index>(x.size()); }
         Place at(Index k) const { return {x[k], y[k], theta[k]}; }
     };
