@@ -100,6 +100,13 @@ void bind_free_space(nb::module_& m) {
             return space.locate(pose_of(pose, chart));
         }, "pose"_a, "chart"_a)
         .def("locate", &locate, "xy"_a, "chart"_a, "tau"_a, "threads"_a);
+    m.def("fluxes", [](const cfree::SharedBoundary& boundary, const In<double, 2>& origins) {
+        require(origins.shape(0) == boundary->trapezoids.size() && origins.shape(1) == 2, "a point for each trapezoid");
+        std::vector<cfree::Vec<double>> points;
+        for (std::size_t k = 0; k < origins.shape(0); ++k) points.push_back({origins.data()[2 * k], origins.data()[2 * k + 1]});
+        auto found = watched([&] { return cfree::fluxes(*boundary, points); });
+        return std::tuple(array_of(std::move(found.values)), array_of(std::move(found.errors)));
+    }, "boundary"_a, "origins"_a);
     m.def("turns_of", [](const cfree::CellComplex& cells) {
         auto found = watched([&] { return cfree::turns_of(cells); });
         return std::tuple(array_of(std::move(found.turns)), array_of(std::move(found.lift)));

@@ -38,12 +38,16 @@ def check_tiles(scene: cfree.Scene, folder: Path, counts: tuple[int, ...] = (1, 
     for tiles in counts:
         found = boundary(scene, folder=folder / str(tiles), tiles=tiles)
         surfaces = found.surfaces
-        digests.add((found.digest, found.trapezoids))
+        digests.add((found.digest, found.trapezoids, found.cells.volume.tobytes()))
         assert np.array_equal(surfaces.faces, np.bincount(space.component, minlength=len(space.parent)))
         assert np.array_equal(surfaces.euler, space.complex.euler)
         for name in ("parent", "free_inside", "turns", "cell_of"):
             assert np.array_equal(getattr(surfaces, name), getattr(space, name)), name
-        assert found.cells == len(space)
+        volume, error = found.cells.volume, found.cells.volume_error
+        bounded = np.isfinite(space.volumes)
+        assert np.array_equal(np.isfinite(volume), bounded) and np.all(error[bounded] <= 1e-6 * (1 + volume[bounded]))
+        assert np.all(abs(volume[bounded] - space.volumes[bounded]) <= (error + space.volume_errors)[bounded])
+        assert found.cells.caged.tolist() == [cell.caged for cell in space.cells]
     assert len(digests) == 1
 
 
@@ -119,4 +123,4 @@ def test_obstacles_are_read_as_they_were(tmp_path: Path) -> None:
 
 def test_nothing_at_all_has_a_boundary(tmp_path: Path) -> None:
     found = boundary(cfree.Scene(TRIANGLE), folder=tmp_path / "empty")
-    assert (found.trapezoids, found.cells, found.obstacles) == (0, 1, 0)
+    assert (found.trapezoids, len(found.cells), found.obstacles) == (0, 1, 0)

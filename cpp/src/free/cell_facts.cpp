@@ -129,6 +129,17 @@ Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, In
     return found;
 }
 
+Volumes fluxes(const Boundary& boundary, const std::vector<Vec<double>>& origins) {
+    const Limits limits(boundary);
+    Volumes found;
+    for (std::size_t k = 0; k < origins.size(); ++k) {
+        heed_stop();
+        const Integral flux = Flux(boundary, limits, static_cast<Index>(k), origins[k]).over_all();
+        found.values.push_back(-flux.value), found.errors.push_back(flux.error);
+    }
+    return found;
+}
+
 Volumes volumes(const FreeSpace& space) {
     std::vector<Facing> facing;
     const auto& component = space.surfaces.component;

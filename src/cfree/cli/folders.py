@@ -107,8 +107,8 @@ def _duration(seconds: float) -> str:
 
 def facts(found: Sharded, *, for_machines: bool) -> dict[str, Any]:
     """What a boundary in a folder is, in words or numbers."""
-    counts = {name: getattr(found, name) for name in ("obstacles", "vertices", "tiles", "trapezoids", "cells")}
-    counts["surfaces"] = len(found.surfaces)
+    counts = {name: getattr(found, name) for name in ("obstacles", "vertices", "tiles", "trapezoids")}
+    counts |= {"surfaces": len(found.surfaces), "cells": len(found.cells)}
     shown = counts if for_machines else {name: f"{count:,}" for name, count in counts.items()}
     return {"folder": os.fspath(found.folder)} | shown | {"digest": found.digest}
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -11,7 +12,7 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.distributed import tasks
-from cfree.distributed.division import Division, divide_scene
+from cfree.distributed.division import Division, Features, divide_scene
 from cfree.distributed.joining import JoinedSurfaces, join
 from cfree.distributed.nesting import Answer, Nesting, Questions, nest
 from cfree.distributed.reading import read_source, source_key
@@ -82,7 +83,7 @@ def boundary(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     found = boundary(scene, folder=folder, tile=3)
     ...     again = boundary(scene, folder=f"{folder}/whole")
-    >>> found.tiles, again.tiles, found.digest == again.digest, found.cells
+    >>> found.tiles, again.tiles, found.digest == again.digest, len(found.cells)
     (2, 1, True, 1)
     """
     check_client(client)
@@ -109,8 +110,7 @@ class _Build:
         if not (self.folder / "manifest.json").exists():
             self._describe(store, division)
             counts = self._trim(division)
-            joined, nesting = self._cells(store, division)
-            self._finish(store, division, counts, joined, nesting)
+            self._finish(store, division, counts, *self._cells(store, division))
         return Sharded(self.folder)
 
     def _claim(self) -> None:
@@ -194,7 +194,7 @@ class _Build:
                 self._trim(division)
         raise AssertionError
 
-    def _cells(self, store: SceneStore, division: Division) -> tuple[JoinedSurfaces, Nesting]:
+    def _cells(self, store: SceneStore, division: Division) -> tuple[JoinedSurfaces, Nesting, Any]:
         components = self._glue(division)
         self.progress("join", 0, 1)
         work = tasks.Work(self.folder)
@@ -212,21 +212,61 @@ class _Build:
 
         features = work.store.features([])
         nesting = nest(joined, present, division.boxes, ask, features.rim is not None, float(features.scale))
-        return joined, nesting
+        return joined, nesting, self._measure(store, joined, present, len(joined))
+
+    def _measure(
+        self, store: SceneStore, joined: JoinedSurfaces, present: dict[int, Any], count: int
+    ) -> tuple[list[Fraction], list[Fraction], list[bool]]:
+        """Of each closed surface the volume between it and its free side, a bound of its error, and whether more than
+        obstacles bound it."""
+        values, errors, foreign = [Fraction(0)] * count, [Fraction(0)] * count, [False] * count
+        features = Features(store)
+        x, y, *_ = store.features([]).frame
+        near = features.points(joined.lead) - np.array([x, y])
+        asked = [
+            (tile, (str(self.folder), self._stamp(), tile, tasks.surfaces_in(joined, tile), near[surfaces]))
+            for tile, surfaces in present.items()
+        ]
+        for done, (_, found) in enumerate(run(tasks.measure_task, asked, self.client), 1):
+            self.progress("volumes", done, len(asked))
+            for surface, (value, error, others) in found.items():
+                values[surface] += value
+                errors[surface] += error
+                foreign[surface] |= others
+        return values, errors, foreign
 
     def _finish(
-        self, store: SceneStore, division: Division, counts: dict[str, Any], joined: JoinedSurfaces, nesting: Nesting
+        self,
+        store: SceneStore,
+        division: Division,
+        counts: dict[str, Any],
+        joined: JoinedSurfaces,
+        nesting: Nesting,
+        measured: tuple[list[Fraction], list[Fraction], list[bool]],
     ) -> None:
         outside = -1 if store.features([]).rim is not None else 0
         own = outside + np.cumsum(nesting.free_inside)
         around = np.where(nesting.parent >= 0, own[nesting.parent], outside) if len(own) else own
         cell_of = np.where(nesting.free_inside, own, around).astype(np.int64)
+        cells = int(cell_of.max(initial=outside)) + 1
+        values, errors, caged = [Fraction(0)] * cells, [Fraction(0)] * cells, np.ones(cells, np.bool_)
+        for surface, cell in enumerate(cell_of.tolist()):
+            values[cell] += measured[0][surface]
+            errors[cell] += measured[1][surface]
+            caged[cell] &= not measured[2][surface]
+        volumes = np.array([float(value) for value in values])
+        # one rounding of an exact sum
+        bounds = np.array([float(error) for error in errors]) + np.spacing(np.abs(volumes))
+        if outside == 0:
+            volumes[0] = bounds[0] = np.inf
+            caged[0] = False
         arrays = {name: getattr(joined, name) for name in ("faces", "euler", "turns", "surface", "lift", "first")}
         arrays |= {"parent": nesting.parent, "free_inside": nesting.free_inside, "cell_of": cell_of}
+        arrays |= {"volume": volumes, "volume_error": bounds, "caged": caged}
         write_shard(self.folder / "cells.npz", arrays, self.key)
         write_json(
             self.folder / "manifest.json",
             {"version": VERSION, "key": self.key, "tiles": len(division), "obstacles": len(store)}
-            | {"vertices": store.vertices, "surfaces": len(joined), "cells": int(cell_of.max(initial=outside)) + 1}
+            | {"vertices": store.vertices, "surfaces": len(joined), "cells": cells}
             | counts,
         )

@@ -25,12 +25,15 @@ class JoinedSurfaces:
         Components of tile k are first[k] to first[k + 1] - 1.
     surface, lift : (components,) int64
         Of each component the surface, and by how many turns it is lifted against the first one.
+    lead : (surfaces,) int64
+        Of each surface the feature of its first trapezoid.
     faces, euler, turns : (surfaces,) int64
     """
 
     first: Ints
     surface: Ints
     lift: Ints
+    lead: Ints
     faces: Ints
     euler: Ints
     turns: Ints
@@ -67,7 +70,7 @@ def join(tiles: int, glued: Callable[[int], Shard]) -> JoinedSurfaces:
     roots, lift = forest.settled()
     if not len(roots):
         nothing = np.zeros(0, np.int64)
-        return JoinedSurfaces(first, nothing, nothing, nothing, nothing, nothing)
+        return JoinedSurfaces(first, nothing, nothing, nothing, nothing, nothing, nothing)
     order = np.lexsort(total["least"].T[::-1])
     leaders: dict[int, int] = {}
     for component in order.tolist():
@@ -86,7 +89,8 @@ def join(tiles: int, glued: Callable[[int], Shard]) -> JoinedSurfaces:
     euler = counts["vertices"] - counts["sides"] // 2 + counts["faces"]
     if np.any(counts["sides"] % 2) or np.any(euler % 2) or np.any(euler > 2):
         raise InvariantError(f"Euler numbers {euler.tolist()}; those of closed surfaces are even and at most 2")
-    return JoinedSurfaces(first, surface, lift - lift[lead[surface]], counts["faces"], euler, turns)
+    features = total["least"][lead, 0]
+    return JoinedSurfaces(first, surface, lift - lift[lead[surface]], features, counts["faces"], euler, turns)
 
 
 class _Forest:

@@ -53,6 +53,26 @@ class Surfaces:
         return len(self.faces)
 
 
+@dataclass(frozen=True)
+class Cells:
+    """Cells of the free space, an unbounded one first.
+
+    Attributes
+    ----------
+    volume, volume_error : (n,) float64
+        In length^2 radians, and a bound of the error; infinite if unbounded.
+    caged : (n,) bool
+        Whether obstacles alone enclose it.
+    """
+
+    volume: NDArray[np.float64]
+    volume_error: NDArray[np.float64]
+    caged: NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.volume)
+
+
 class Sharded(Value):
     """A boundary whose trapezoids are in the files of a folder; see `boundary`.
 
@@ -62,7 +82,7 @@ class Sharded(Value):
 
     Attributes
     ----------
-    tiles, obstacles, vertices, trapezoids, cells : int
+    tiles, obstacles, vertices, trapezoids : int
         How many there are.
     digest : str
         Of all trapezoids: the same for any tiles, any number of workers, and any order.
@@ -79,8 +99,8 @@ class Sharded(Value):
     def __init__(self, folder: str | os.PathLike[str]) -> None:
         self.folder = FilePath(folder)
         self.manifest = _manifest(self.folder)
-        self.tiles, self.obstacles, self.vertices, self.trapezoids, self.cells = (
-            int(self.manifest[name]) for name in ("tiles", "obstacles", "vertices", "trapezoids", "cells")
+        self.tiles, self.obstacles, self.vertices, self.trapezoids = (
+            int(self.manifest[name]) for name in ("tiles", "obstacles", "vertices", "trapezoids")
         )
         self.digest = str(self.manifest["digest"])
         self.tiles_read = 0
@@ -95,7 +115,7 @@ class Sharded(Value):
     def __repr__(self) -> str:
         return (
             f"Sharded({os.fspath(self.folder)!r}, {self.vertices:,} vertices, {self.trapezoids:,} trapezoids "
-            f"in {self.tiles:,} tiles, {self.cells:,} cells)"
+            f"in {self.tiles:,} tiles, {self.manifest['cells']:,} cells)"
         )
 
     @cached_property
@@ -110,8 +130,16 @@ class Sharded(Value):
     @cached_property
     def surfaces(self) -> Surfaces:
         """The closed surfaces, and how they are nested."""
-        table = read_shard(self.folder / "cells.npz", self.manifest["key"])
-        return Surfaces(**{name: table[name] for name in Surfaces.__annotations__})
+        return Surfaces(**{name: self._table[name] for name in Surfaces.__annotations__})
+
+    @cached_property
+    def cells(self) -> Cells:
+        """The cells of the free space."""
+        return Cells(**{name: self._table[name] for name in Cells.__annotations__})
+
+    @cached_property
+    def _table(self) -> dict[str, NDArray[Any]]:
+        return read_shard(self.folder / "cells.npz", self.manifest["key"])
 
     @checked
     def plan(

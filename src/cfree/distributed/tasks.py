@@ -6,6 +6,7 @@ A task writes one file and can be done again at any time: what is there, sound, 
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -147,6 +148,27 @@ def nest_task(
         line = lines.line(number, attempt) if line is None else line
         answers.append((number, line, None if line is None else lines.crossings(line, is_own)))
     return answers
+
+
+def measure_task(
+    folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], origins: np.ndarray[Any, Any]
+) -> dict[int, tuple[Fraction, Fraction, bool]]:
+    """What a tile gives to the volumes of surfaces, bounds of the errors, and whether others than obstacles bound them.
+
+    `surface` is that of each component, `origins` the points from which each surface is seen, by surface.
+    """
+    work = opened(folder, stamp)
+    rows = work.rows(tile, work.surfaces, around=False)
+    of = surface[work.shard(GLUED, tile)["component"]]
+    known = np.unique(of, return_inverse=True)[1].reshape(-1)
+    values, errors = _core.fluxes(rows.core, np.ascontiguousarray(origins[known]))
+    foreign = rows.feature >= work.store.vertices
+    found = {}
+    for k, number in enumerate(np.unique(of).tolist()):
+        mine = known == k
+        value, error = (sum(map(Fraction, column[mine].tolist()), Fraction(0)) for column in (values, errors))
+        found[number] = Fraction(value), Fraction(error), bool(foreign[mine].any())
+    return found  # exact sums, so that tiles do not matter
 
 
 def surfaces_in(joined: JoinedSurfaces, tile: int) -> np.ndarray[Any, Any]:

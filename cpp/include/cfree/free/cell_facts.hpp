@@ -18,6 +18,9 @@ struct Facing {
 };
 Volumes enclosed(const Boundary& boundary, const std::vector<Facing>& facing, Index cells);
 
+// What each trapezoid of a boundary gives to the volume enclosed by its closed surface, the free side inside, seen from points.
+Volumes fluxes(const Boundary& boundary, const std::vector<Vec<double>>& origins);
+
 // Whether each cell is bounded and no face of its boundary belongs to bounds or workspace, whose owners are negative.
 std::vector<std::uint8_t> caged(const FreeSpace& space, const std::vector<Index>& owner);
 
