@@ -69,6 +69,14 @@ def test_an_obstacle_that_touches_another_from_within_parts_it() -> None:
     assert cells_of(whole) == sliced_cells(plain, angles_of(whole))
 
 
+def test_surfaces_that_touch_in_points_share_vertices_there() -> None:
+    # congruent obstacles that touch: helices of both meet crosswise
+    kites = [(3, 0), (1, 0), (2, -2), (3, -1)], [(2, 2), (0, 2), (1, 0), (2, 1)], [(-3, 2), (-3, 0), (-1, 1), (-2, 2)]
+    plain = PlainScene([([(0, 0), (0, 2), (-2, 1), (-1, 0)], [])], [(kite, []) for kite in kites])
+    whole = arrangement(scene_of(plain))
+    assert cells_of(whole) == sliced_cells(plain, angles_of(whole))
+
+
 def angles_of(whole: Arrangement) -> list[float]:
     table = whole.sheets.trapezoids
     return np.concatenate([table.theta_from, table.theta_to]).tolist()
