@@ -69,6 +69,14 @@ def test_an_obstacle_that_touches_another_from_within_parts_it() -> None:
     assert cells_of(whole) == sliced_cells(plain, angles_of(whole))
 
 
+def test_surfaces_that_touch_in_points_share_vertices_there() -> None:
+    # congruent obstacles that touch: helices of both meet crosswise
+    kites = [(3, 0), (1, 0), (2, -2), (3, -1)], [(2, 2), (0, 2), (1, 0), (2, 1)], [(-3, 2), (-3, 0), (-1, 1), (-2, 2)]
+    plain = PlainScene([([(0, 0), (0, 2), (-2, 1), (-1, 0)], [])], [(kite, []) for kite in kites])
+    whole = arrangement(scene_of(plain))
+    assert cells_of(whole) == sliced_cells(plain, angles_of(whole))
+
+
 def angles_of(whole: Arrangement) -> list[float]:
     table = whole.sheets.trapezoids
     return np.concatenate([table.theta_from, table.theta_to]).tolist()
@@ -136,14 +144,12 @@ def test_depth_0_is_the_free_space(kind: str) -> None:
         assert free == pytest.approx(sorted(space.volumes), rel=1e-9, abs=1e-9), number
 
 
-def test_two_free_cells_may_touch_along_a_helix_on_the_bounds() -> None:
-    # the robot's reference point is its vertex, and the obstacles' vertex is on the upper bound: free is on both sides
-    wedge = Scene(
-        [(0, 0), (1, 0), (0, 1)], [[(0, 2), (-1, 5), (1, 5)], [(0, 2), (-1, -1), (1, -1)]], bounds=(-2, 0, 2, 2)
-    )
-    whole = arrangement(wedge)
-    left, right = (whole.cell(Pose(x, "3/2", "200deg")) for x in (-1.5, 1.5))
-    assert whole.cell_depth[[left, right]].tolist() == [0, 0]
+def test_free_cells_that_touch_along_a_helix_on_the_bounds_are_two() -> None:
+    # the robot's reference point is its vertex; the wedge's tip is on the upper bound, its foot on the lower one
+    whole = arrangement(Scene([(0, 0), (1, -1), (0, 1)], [[(0, 2), (-1, 0), (1, 0)]], bounds=(-2, 0, 2, 2)))
+    left, right = (whole.cell(Pose(x, "3/2", "135deg")) for x in (-1.5, 1.5))
+    assert whole.cell_depth[[left, right]].tolist() == [0, 0] and left != right
+    assert (whole.cell_depth == 0).sum() == 2
 
 
 def test_beyond_everything_is_what_bounds_and_workspace_forbid() -> None:

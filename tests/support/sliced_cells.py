@@ -1,6 +1,6 @@
 """Cells of an arrangement from slices, in doubles: what is planar between two critical angles does not change.
 
-For convex polygons. At each orientation the sums of obstacles and turned, mirrored robot parts are overlaid by
+At each orientation the sums of obstacles and turned, mirrored robot parts, triangle by triangle, are overlaid by
 shapely. A planar cell is followed from slice to slice by the edges around it, and across a critical angle by what it
 has in common with the cells beyond. Shares nothing with the package but the critical angles, which are found to be
 complete: without one of them the slices to its sides would differ.
@@ -11,12 +11,13 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from itertools import pairwise
+from functools import cache
+from itertools import pairwise, product
 from typing import Any, NamedTuple
 
 import shapely
 
-from shapes import PlainScene
+from shapes import PlainScene, Shape
 
 NEAR = 5e-6  # how far from a critical angle its neighbours are looked at
 THIN = 5e-5  # what is narrower at it is not counted
@@ -84,36 +85,55 @@ def sliced_cells(plain: PlainScene, angles: Sequence[float]) -> Counter[tuple[fr
 
 def overlay(plain: PlainScene, theta: float) -> list[Planar]:
     """Planar cells at an orientation; that beyond everything has no edges."""
-    sums = dict(_sums(plain, theta))
-    box = shapely.box(*shapely.buffer(shapely.union_all([shapely.Polygon(s) for s in sums.values()]), 1).bounds)
+    sums: dict[tuple[int, int], list[shapely.Geometry]] = {}
+    names, sides = [], []
+    for pair, ring in _sums(plain, theta):
+        points = [point for point, _ in ring]
+        sums.setdefault(pair, []).append(shapely.Polygon(points))
+        for (p, first), (q, second) in pairwise([*ring, ring[0]]):
+            names.append((pair, first, second))
+            sides.append(shapely.LineString([p, q]))
+    forbidden = {pair: shapely.union_all(parts) for pair, parts in sums.items()}
+    box = shapely.box(*shapely.buffer(shapely.union_all(list(forbidden.values())), 1).bounds)
     found = [(frozenset[tuple[int, int]](), box)]
-    sides = []
-    for pair, ring in sums.items():
-        solid = shapely.Polygon(ring)
+    for pair, solid in forbidden.items():
         parts = [(of | {pair}, region & solid) for of, region in found] + [(of, region - solid) for of, region in found]
         found = [(of, part) for of, whole in parts for part in _polygons(whole)]
-        sides += [(pair, k, shapely.LineString(side)) for k, side in enumerate(pairwise([*ring, ring[0]]))]
-    tree = shapely.STRtree([line for *_, line in sides])
+    tree = shapely.STRtree(sides)
     cells = []
     for of, region in found:
         edges = set()
         for ring in (region.exterior, *region.interiors):
             for p, q in pairwise(ring.coords):
                 middle = shapely.Point((p[0] + q[0]) / 2, (p[1] + q[1]) / 2)
-                edges |= {sides[k][:2] for k in tree.query(middle, predicate="dwithin", distance=1e-10)}
+                edges |= {names[k] for k in tree.query(middle, predicate="dwithin", distance=1e-10)}
         outer = region.exterior.distance(box.exterior) == 0
         cells.append(Planar(of, frozenset() if outer else frozenset(edges), region))
     return cells
 
 
-def _sums(plain: PlainScene, theta: float) -> Iterator[tuple[tuple[int, int], list[tuple[float, float]]]]:
+def _sums(plain: PlainScene, theta: float) -> Iterator[tuple[tuple[int, int], list[Any]]]:
+    """Convex polygons that make up what a pair forbids: points, and the vertices that they are sums of."""
     c, s = math.cos(theta), math.sin(theta)
-    for i, (robot, _) in enumerate(plain.robot):
-        turned = [(c * x - s * y, s * x + c * y) for x, y in robot]
-        for j, (obstacle, _) in enumerate(plain.obstacles):
-            points = [(float(x - a), float(y - b)) for x, y in obstacle for a, b in turned]
-            hull = shapely.convex_hull(shapely.MultiPoint(points))
-            yield (i, j), list(shapely.orient_polygons(hull).exterior.coords)[:-1]
+    for (i, robot), (j, obstacle) in product(enumerate(plain.robot), enumerate(plain.obstacles)):
+        for part, piece in product(_triangles(robot), _triangles(obstacle)):
+            turned = [((x, y), (c * x - s * y, s * x + c * y)) for x, y in part]
+            points = {(x - a, y - b): (v, (x, y)) for x, y in piece for v, (a, b) in turned}
+            hull = shapely.orient_polygons(shapely.convex_hull(shapely.MultiPoint(list(points))))
+            yield (i, j), [(point, points[point]) for point in hull.exterior.coords[:-1]]
+
+
+@cache
+def _cut(outer: tuple[Any, ...], holes: tuple[tuple[Any, ...], ...]) -> list[list[tuple[float, float]]]:
+    polygon = shapely.Polygon(outer, holes)
+    if polygon.equals(shapely.convex_hull(polygon)):
+        return [list(polygon.exterior.coords)[:-1]]
+    return [list(part.exterior.coords)[:-1] for part in shapely.constrained_delaunay_triangles(polygon).geoms]
+
+
+def _triangles(shape: Shape) -> list[list[tuple[float, float]]]:
+    outer, *holes = (tuple((float(x), float(y)) for x, y in ring) for ring in (shape[0], *shape[1]))
+    return _cut(outer, tuple(holes))
 
 
 def _polygons(region: shapely.Geometry) -> list[shapely.Polygon]:

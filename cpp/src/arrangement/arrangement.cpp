@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "arrangement/touching_points.hpp"
 #include "arrangement/union_find.hpp"
 #include "forbidden/curve_sides.hpp"
 #include "forbidden/level_sides.hpp"
@@ -26,6 +27,7 @@ public:
     Arrangement run(std::int64_t most_vertices) {
         join_around_edges();
         find_faces();
+        find_touching_points();
         find_vertices(most_vertices);
         find_edges();
         find_cells();
@@ -55,6 +57,8 @@ private:
     [[noreturn]] void refuse(Index f, Index g) const;
     void join_around_edges();
     void find_faces();
+    void find_touching_points();
+    void join_touching_points(const std::vector<Index>& cell);
     void find_vertices(std::int64_t most);
     void place_vertices(const std::vector<Index>& first_corner);
     void find_edges();
@@ -70,6 +74,9 @@ private:
     std::vector<Index> corner_class, vertex;    // of each corner; of each class its vertex, -1 if it is none
     std::vector<Index> edge_of;                 // of each edge of the loops; -1 within a face
     Index corner_classes = 0;
+    std::vector<Index> link;                     // of each corner its class before points that only touch were made one
+    std::vector<std::vector<Index>> touching;    // such classes of links
+    std::vector<char> is_touching;               // of each class of corners
 };
 
 Loops Assembly::glued() {
@@ -151,8 +158,59 @@ bool Assembly::goes_on(Index h, Index other) const {
     return h == other || (is_level(h) == is_level(other) && signature(h) == signature(other));
 }
 
-void Assembly::find_vertices(std::int64_t most) {
+// What edges connect around a point are links; several links may be in one place.
+void Assembly::find_touching_points() {
+    const Index links = corners.number(link);
+    std::vector<PieceCorner> of_link(static_cast<std::size_t>(links), {-1, false, false});
+    for (Index h = 0; h < static_cast<Index>(link.size()); ++h) {
+        PieceCorner& corner = of_link[link[h]];
+        const Index before = h == loops.first[loops.face[h]] ? loops.first[loops.face[h] + 1] - 1 : h - 1;
+        if (corner.trapezoid >= 0 || side(before) == side(h)) continue;  // where one side begins, a piece has a corner
+        const Side begins = side(h);
+        corner = {loops.face[h], begins == Side::last || begins == Side::lower, begins == Side::upper || begins == Side::last};
+    }
+    touching = touching_points(boundary, of_link, threads);
+    std::vector<Index> first(static_cast<std::size_t>(links), -1);
+    for (Index h = 0; h < static_cast<Index>(link.size()); ++h)
+        if (first[link[h]] < 0) first[link[h]] = h;
+    for (const auto& links_there : touching)
+        for (const Index other : links_there) corners.unite(first[links_there[0]], first[other]);
     corner_classes = corners.number(corner_class);
+    is_touching.assign(static_cast<std::size_t>(corner_classes), 0);
+    for (const auto& links_there : touching) is_touching[corner_class[first[links_there[0]]]] = 1;
+}
+
+// Where r links are in one place, a cell among them has r - 1 fewer: its boundary, pushed inwards, is connected there.
+void Assembly::join_touching_points(const std::vector<Index>& cell) {
+    std::vector<Index> place(link.empty() ? 0 : static_cast<std::size_t>(*std::max_element(link.begin(), link.end())) + 1, -1);
+    std::vector<std::vector<Index>> cells_of;
+    std::vector<Index> face_at;
+    for (const auto& links_there : touching)
+        for (const Index x : links_there) place[x] = static_cast<Index>(cells_of.size()), cells_of.emplace_back(), face_at.push_back(-1);
+    for (Index h = 0; h < static_cast<Index>(link.size()); ++h) {
+        const Index x = place[link[h]];
+        if (x < 0) continue;
+        face_at[x] = loops.face[h];
+        for (const int s : {0, 1}) cells_of[x].push_back(cell[result.surface[2 * loops.face[h] + s] + 1]);
+    }
+    for (auto& list : cells_of) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    for (const auto& links_there : touching) {
+        std::vector<Index> common = cells_of[place[links_there[0]]], rest;
+        for (const Index x : links_there) {
+            const auto& list = cells_of[place[x]];
+            rest.clear();
+            std::set_intersection(common.begin(), common.end(), list.begin(), list.end(), std::back_inserter(rest));
+            common.swap(rest);
+        }
+        if (common.size() != 1) refuse(face_at[place[links_there[0]]], face_at[place[links_there[1]]]);
+        result.cell_euler[common[0]] -= static_cast<Index>(links_there.size()) - 1;
+    }
+}
+
+void Assembly::find_vertices(std::int64_t most) {
     const auto classes = static_cast<std::size_t>(corner_classes);
     std::vector<Index> degree(classes, 0), first_corner(classes, -1);
     std::vector<std::array<Index, 2>> ends(classes, {-1, -1});  // edges that end there, by half-edges
@@ -169,8 +227,8 @@ void Assembly::find_vertices(std::int64_t most) {
     vertex.assign(classes, -1);
     std::vector<Index> chosen;
     for (Index c = 0; c < corner_classes; ++c) {
-        if (degree[c] == 0) ++result.face_euler[result.face_of[loops.face[first_corner[c]]]];
-        if (degree[c] == 0 || (degree[c] == 2 && goes_on(ends[c][0], ends[c][1]))) continue;
+        if (degree[c] == 0 && !is_touching[c]) ++result.face_euler[result.face_of[loops.face[first_corner[c]]]];
+        if (!is_touching[c] && (degree[c] == 0 || (degree[c] == 2 && goes_on(ends[c][0], ends[c][1])))) continue;
         vertex[c] = static_cast<Index>(chosen.size());
         chosen.push_back(first_corner[c]);
         result.vertex_degree.push_back(degree[c]);
@@ -287,6 +345,7 @@ void Assembly::find_cells() {
     result.cell_euler.assign(static_cast<std::size_t>(count), 0), result.cell_surfaces.assign(static_cast<std::size_t>(count), 0);
     for (Index s = 0; s < surfaces; ++s) result.cell_euler[cell[s + 1]] += euler[s], ++result.cell_surfaces[cell[s + 1]];
     for (Index& x : result.cell_euler) x /= 2;
+    join_touching_points(cell);
     for (std::size_t k = 0; k < 2 * n; ++k) {
         const auto trapezoid = static_cast<Index>(k / 2);
         Index& set = result.cell_set[cell[surface[k] + 1]];

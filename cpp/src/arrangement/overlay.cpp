@@ -35,6 +35,22 @@ void Overlay::pass(const State& state, const Span& span) {
     else touches.push_back(at);
 }
 
+// A vertex touches the surface in one point, and leaves it again. A curve that goes on from there makes that point a corner.
+void Overlay::meet(const State& state, Index event) {
+    const bool on_edge = surface.contact.kind == Kind::vertex_edge;
+    for (const Index around : on_edge ? state.obstacle_around : state.robot_around) {
+        if (around < 0) continue;
+        const Feature through = on_edge ? Feature{Kind::vertex_edge, state.s, around} : Feature{Kind::edge_vertex, around, state.v};
+        const auto& direction = on_edge ? scene.obstacles.direction : scene.robot.direction;
+        if (direction[around] == direction[on_edge ? surface.contact.obstacle : surface.contact.robot]) continue;
+        if (!before(event, 1)) return;
+        const Touch at{{event, 1}, named(through, decide.between(events[event], events[1]))};
+        if (has_begun) touch(at);
+        else touches.push_back(at);
+        return;
+    }
+}
+
 bool Overlay::vanishes(Index s, Index v) const {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const Index i = surface.contact.robot, j = surface.contact.obstacle;
@@ -106,11 +122,29 @@ bool Overlay::cut(const Band& band, bool along_curve, Into&& into) {
     return has_changed_any;
 }
 
+// Where a curve of the band meets one of the piece in a point, and does not cross it.
+void Overlay::note_touch(const Overlap& x) {
+    const Area &area = x.area, &band = x.band.area;
+    const Index pairs_of[4][2] = {{band.lower, area.upper}, {band.upper, area.lower}, {band.lower, area.lower}, {band.upper, area.upper}};
+    for (int w = 0; w < 4; ++w) {
+        const Predicates::Order& order = x.orders[w];
+        const auto [p, q] = pairs_of[w];
+        if (order.sign[0] == 0) continue;  // one curve, or not asked
+        for (int r = 0; r < order.count; ++r)
+            if (order.at[r].is_touch) touched.push_back(intern(order.at[r]));
+        if (order.strict) continue;
+        for (const Index end : {x.from, x.to})
+            if (before(area.from, end) && before(end, area.to) && order_at(end, p, q) == 0) touched.push_back(end);
+    }
+}
+
 // False if the band does not meet the piece. Its parts are added to `cut_up`, those inside with negated holders.
 bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std::vector<Bit>& open_bits) {
     const Area &area = piece.area, &of = band.area;
     Overlap x{area, band, -1, -1, {}, {}};
-    if (!compare(x)) return false;
+    const bool meets = compare(x);
+    if (x.to >= 0 && before(x.from, x.to)) note_touch(x);
+    if (!meets) return false;
     sort_cuts(x);
     open_bits.clear();
     if (x.from != area.from) open_bits.push_back({area.from, area.lower, area.upper, false});
@@ -197,7 +231,8 @@ void Overlay::put_own(std::vector<Trapezoid>& out) {
 
 void Overlay::put(Index patch, std::vector<Trapezoid>& out, std::vector<Holders>& holders) {
     join();
-    for (const Index pinch : pinches) cut_at_angle(pinch);
+    for (const auto* list : {&pinches, &touched})
+        for (const Index event : *list) cut_at_angle(event);
     std::sort(pieces.begin(), pieces.end(), [&](const Piece& x, const Piece& y) {
         if (!equal(x.area.from, y.area.from)) return before(x.area.from, y.area.from);
         return x.area.t_min != y.area.t_min ? x.area.t_min < y.area.t_min : x.area.t_max < y.area.t_max;

@@ -55,6 +55,8 @@ private:
     };
     void take(const Band& band) override;
     void pass(const State& state, const Span& span) override;
+    void meet(const State& state, Index event) override;
+    void note_touch(const Overlap& x);
     void touch(const Touch& at);
     template <class Into>
     bool cut(const Band& band, bool along_curve, Into&& into);
@@ -71,7 +73,8 @@ private:
     std::vector<Holders> all{{}};
     std::map<std::array<Index, 3>, Index> added;  // holders and what is added to them
     std::vector<Touch> touches;                   // of the own pair
-    std::vector<Index> grazed;                    // angles at which a pillar covers nothing between two at which it does
+    std::vector<Index> grazed;   // angles at which a pillar covers nothing between two at which it does
+    std::vector<Index> touched;  // at which one only touches a piece in a point of its rim
 };
 
 }  // namespace cfree

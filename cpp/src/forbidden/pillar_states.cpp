@@ -297,8 +297,12 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Spa
             continue;
         }
         if (at == 0) return Verdict::resample;
-        for (int r = 0; r < roots.count; ++r)
-            if (roots.at[r].is_touch && touches_along(state)) pinches.push_back(intern(roots.at[r]));
+        for (int r = 0; r < roots.count; ++r) {
+            if (!roots.at[r].is_touch || state.meets == Meets::crosses) continue;
+            const Index at_touch = intern(roots.at[r]);
+            if (touches_along(state)) pinches.push_back(at_touch);
+            else meet(state, at_touch);
+        }
         for (int r = 0; r < roots.count; ++r) {
             if (decide.order(roots.at[r], sample) < 0) {
                 span.from = intern(roots.at[r]);

@@ -68,8 +68,7 @@ def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float |
     -----
     Time is about linear in the pairs of a patch and a pillar near it, times the pieces that the patch is cut into:
     some 10 microseconds and 600 bytes a piece. All signs are exact. Where a polygon of the robot fits one obstacle
-    exactly, with no width to spare (`Boundary.isolated`), the pair counts as overlapping. Surfaces that touch in a
-    single point are counted as if they were apart there.
+    exactly, with no width to spare (`Boundary.isolated`), the pair counts as overlapping.
 
     Examples
     --------

@@ -136,6 +136,8 @@ protected:
     // What becomes of a band, and of a state in which the line does not pass through the pillar.
     virtual void take(const Band& band) { subtract(band); }
     virtual void pass(const State&, const Span&) {}
+    // In such a state, an angle at which the nearest vertex just touches the line.
+    virtual void meet(const State&, Index) {}
     void subtract(const Band& band);
     bool subtract_from(const Area& area, const Band& band);
     bool compare(Overlap& x);
