@@ -29,6 +29,7 @@ BENCHES = (
     "free",
     "cells",
     "city",
+    "shards",
     "plan",
     "paths",
     "tight",

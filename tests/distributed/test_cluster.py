@@ -31,6 +31,17 @@ def ends_its_process(folder: str) -> None:
     os.kill(os.getpid(), signal.SIGKILL)
 
 
+def area_of(scene: cfree.Scene) -> Any:
+    return scene.obstacles[0].exact_area
+
+
+def test_functions_are_mapped_over_scenes(client: Any) -> None:
+    scenes = [cfree.Scene([(0, 0), (1, 0), (0, 1)], [[(k, 3), (k + 1, 3), (k, 4)]]) for k in range(2, 6)]
+    areas = [scene.obstacles[0].exact_area for scene in scenes]
+    assert list(cfree.distributed.map(area_of, scenes, client=client)) == areas
+    assert list(cfree.distributed.map(area_of, scenes)) == areas
+
+
 def test_a_cluster_gives_the_same_bytes_when_workers_are_killed(client: Any, tmp_path: Path) -> None:
     here = boundary(SCENE, folder=tmp_path / "here", tiles=12)
     killed = []
@@ -49,12 +60,6 @@ def test_a_cluster_gives_the_same_bytes_when_workers_are_killed(client: Any, tmp
     assert there.verify(sample=5, client=client).verified
 
 
-def test_a_tile_that_ends_its_workers_is_named(client: Any) -> None:
-    with pytest.raises(TaskError, match="tile 7") as caught:
-        list(run(ends_its_process, [(7, ("",))], client))
-    assert caught.value.tile == 7
-
-
 def test_nobody_else_can_reach_the_cluster(client: Any) -> None:
     """Scheduler and dashboard listen on this machine alone."""
     address = client.scheduler.address
@@ -66,12 +71,7 @@ def test_nobody_else_can_reach_the_cluster(client: Any) -> None:
             pass
 
 
-def test_functions_are_mapped_over_scenes(client: Any) -> None:
-    scenes = [cfree.Scene([(0, 0), (1, 0), (0, 1)], [[(k, 3), (k + 1, 3), (k, 4)]]) for k in range(2, 6)]
-    areas = [scene.obstacles[0].exact_area for scene in scenes]
-    assert list(cfree.distributed.map(area_of, scenes, client=client)) == areas
-    assert list(cfree.distributed.map(area_of, scenes)) == areas
-
-
-def area_of(scene: cfree.Scene) -> Any:
-    return scene.obstacles[0].exact_area
+def test_a_tile_that_ends_its_workers_is_named(client: Any) -> None:
+    with pytest.raises(TaskError, match="tile 7") as caught:
+        list(run(ends_its_process, [(7, ("",))], client))
+    assert caught.value.tile == 7

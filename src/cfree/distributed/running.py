@@ -42,6 +42,8 @@ def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -
     ------
     TaskError
         If a task has ended as many workers as the scheduler allows.
+    ConnectionError
+        If the cluster is gone.
     """
     if client is None:
         for tile, arguments in tiles:
@@ -61,10 +63,15 @@ def run(task: Task, tiles: Sequence[tuple[int, tuple[Any, ...]]], client: Any) -
 
 
 def _result(future: Any, tile: int) -> Any:
+    from concurrent.futures import CancelledError
+
+    from distributed.comm.core import CommClosedError
     from distributed.scheduler import KilledWorker
 
     try:
         return future.result()
+    except (CancelledError, CommClosedError) as error:
+        raise ConnectionError("the cluster is gone; what is finished is kept: start both again") from error
     except KilledWorker as error:
         raise TaskError(
             f"tile {tile} has ended every worker that began it, perhaps for lack of memory; "
