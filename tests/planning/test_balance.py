@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from fractions import Fraction
 from pathlib import Path as FilePath
 
 import numpy as np
@@ -98,6 +99,14 @@ def test_the_goal_is_reached_where_turning_takes_so_much_that_travel_is_rounded_
     far = 2**60
     robot = [(-far, 0), (-2 * far, 0), (-2 * far, -far), (-far, -far)]
     found(Scene(robot, [], bounds=(0, 5, 7, 8), start=Pose(7, 5, "180deg"), goal=Pose(0, 8)))
+
+
+def test_poses_nearer_than_doubles_tell_are_two() -> None:
+    for start, goal in (
+        (Pose(1, 1, "90deg"), Pose(7 - Fraction(1, 2**156), 1)),
+        (Pose(1, 1), Pose(1 - Fraction(1, 2**90), 1)),
+    ):
+        found(Scene(box(0, 0, 1, 1), [box(3, 0, 1, 3)], workspace=box(0, 0, 9, 9), start=start, goal=goal))
 
 
 def test_many_motions_become_few() -> None:

@@ -295,7 +295,7 @@ Ridge Climber::run() {
         else kept.pop_back(), steps.pop_back();  // at last along the route itself
     }
     if (kept.back().where != at.back()) return {{route, at}, std::vector<double>(at.size(), 0)};  // rounding has lost it
-    Ridge r{{{kept.front().own}, {0}}, {kept.front().distance}};
+    Ridge r{{{route.front()}, {0}}, {kept.front().distance}};
     for (const auto& between : steps)
         for (const auto& [pose, kept_there] : between) {
             const double length = cost_between(r.path.route.back(), pose, way.length());
@@ -304,6 +304,9 @@ Ridge Climber::run() {
             r.distance.back() = std::min(r.distance.back(), kept_there);
             r.distance.push_back(std::min(kept_there, distance(pose)));
         }
+    const Configuration &last = r.path.route.back(), &goal = route.back();
+    if (last.x != goal.x || last.y != goal.y || last.unit != goal.unit || last.hx != goal.hx || last.hy != goal.hy)  // nearer than doubles tell
+        r.path.route.push_back(goal), r.path.mark.push_back(r.path.mark.back()), r.distance.push_back(r.distance.back());
     return r;
 }
 

@@ -83,6 +83,7 @@ void Shortcut::straighten() {
         return a.px == b.px && a.py == b.py && a.theta == b.theta;
     });
     fresh.erase(last, fresh.end());
+    fresh.back() = route[j];  // doubles may not tell it from the one before
     replace(i, j, std::move(fresh));
 }
 

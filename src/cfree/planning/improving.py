@@ -85,7 +85,8 @@ class Improver:
             return better
 
         found = self._best(make, poses, seconds, will_do)
-        return found if self.checker.joins(found) else poses  # doubles guided it
+        same_ends = found[0] == poses[0] and found[-1] == poses[-1]
+        return found if same_ends and self.checker.joins(found) else poses  # doubles guided it
 
     def _shorter(self, poses: Sequence[Pose], seed: int) -> Better:
         found = self.searcher.shortener([*map(end_of, poses)], seed)
