@@ -3,8 +3,8 @@
     python write_city.py FOLDER BLOCKS [SEED]
 
 robot.json is a car, city.geojsonl has the obstacles: blocks of 60 by 60 around a courtyard with a door and four sheds,
-streets of 14; every eleventh courtyard has no door. places.json has poses: in a street, in courtyards with a door and in
-some without. Row after row, so that no more than one is in memory.
+streets of 14; every eleventh courtyard has no door. places.json has poses: in a street, in courtyards with a door and
+in some without. Row after row, so that no more than one is in memory.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ using std::numbers::pi;
 constexpr double rounded = 0x1p-53;
 constexpr double enough = 1e-18;  // of a closed surface's extent, cubed: what quadrature may leave out of an interval
 constexpr int halvings = 40;
+constexpr int most_intervals = 1000;  // of one trapezoid; then the bound is what it is
 
 // Half the cross product of the two ends of a trapezoid's line, seen from a point, integrated over theta; and how far off it may be.
 class Flux {
@@ -33,15 +34,18 @@ public:
         size = std::abs(parts.a) + std::abs(arm) + parts.length + std::abs(parts.b);
     }
 
-    Integral over_all() const { return over(start, stop, enough * size * size * size, halvings); }
+    Integral over_all() const {
+        int intervals = most_intervals;
+        return over(start, stop, enough * size * size * size, halvings, intervals);
+    }
 
 private:
-    Integral over(double from, double to, double most, int depth) const {
+    Integral over(double from, double to, double most, int depth, int& intervals) const {
         const double left_out = remainder(from, to);
-        if (left_out > most && depth > 0) {
+        if (left_out > most && depth > 0 && --intervals > 0) {
             const double middle = 0.5 * (from + to);
-            Integral sum = over(from, middle, most, depth - 1);
-            sum += over(middle, to, most, depth - 1);
+            Integral sum = over(from, middle, most, depth - 1, intervals);
+            sum += over(middle, to, most, depth - 1, intervals);
             return sum;
         }
         const double half = 0.5 * (to - from);
