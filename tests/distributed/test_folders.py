@@ -7,6 +7,7 @@ import random
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
@@ -126,6 +127,15 @@ def test_verdicts_are_those_of_the_whole_scene(seed: int, tmp_path: Path) -> Non
             assert here.is_free(cfree.MotionChecker(scene))
         else:
             assert here.scene is not None and cfree.verify.answer(here.scene, here).verified
+
+
+def test_many_questions_have_the_same_answers(made: Sharded) -> None:
+    poses = cfree.Poses(np.random.default_rng(1).uniform(-9, 49, (500, 2)), np.linspace(0, 6, 500))
+    assert np.array_equal(made.is_free(poses), cfree.is_free(SCENE, poses))
+    queries = [((-5, -5, 0), (45, 45, 0)), ((-5, -5, 0), (45, -5, 1))]
+    answers = made.plan_many(queries, improve=0)
+    assert [type(answer) for answer in answers] == [cfree.Path, cfree.Path]
+    assert [answer.start.x for answer in answers] == [-5, -5]
 
 
 def test_shards_are_verified(made: Sharded, tmp_path: Path) -> None:

@@ -20,7 +20,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree import Boundary, IncompleteError, Polygon, Scene, _core, boundary, load_scene, save
+from cfree import Boundary, IncompleteError, Polygon, Scene, _core, boundary, free_space, load_scene, save
+from cfree.arrangements import arrangement
 from cfree.formats.boundary_file import load_boundary
 from cfree.scene.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
@@ -436,9 +437,12 @@ print("done", flush=True)
 def test_open_bug(path: Path) -> None:
     for program in ("compared.py", "fuzz.py"):
         done = subprocess.run(
-            [sys.executable, str(TESTS / program), str(path)], capture_output=True, text=True, timeout=30
+            [sys.executable, str(TESTS / "support" / program), str(path)], capture_output=True, text=True, timeout=30
         )
         assert done.returncode == 0, done.stdout + done.stderr
+    scene = load_scene(path)
+    free = [cell for cell in arrangement(scene).cells if cell.depth == 0]
+    assert len(free_space(boundary(scene))) == len(free)
 
 
 def test_repr_and_types() -> None:

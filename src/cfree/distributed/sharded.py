@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path as FilePath
@@ -15,12 +15,13 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.distributed.planning import Surroundings, plan_among
+from cfree.distributed.questions import free_task, groups, plan_task
 from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, read_json, read_shard
 from cfree.distributed.tasks import TRIMMED, Work
 from cfree.distributed.verifying import summary, verify_task
 from cfree.errors import FormatError
-from cfree.exact.pose import PoseLike
+from cfree.exact.pose import PoseLike, Poses, to_pose
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.separation import Separated
@@ -178,6 +179,63 @@ class Sharded(Value):
         answer = plan_among(known, *ends, improve=improve, objective=objective, preferences=preferences)
         self.tiles_read = len(known.read)
         return answer
+
+    @checked
+    def plan_many(
+        self,
+        queries: Iterable[tuple[PoseLike, PoseLike]],
+        *,
+        improve: float | None = None,
+        objective: Objective = "balanced",
+        preferences: Preferences | None = None,
+        client: Any = None,
+    ) -> list[Path | Separated]:
+        """Answers to many questions, each as of `plan`, in their order.
+
+        Parameters
+        ----------
+        queries : pairs (start, goal) of Pose or (x, y, theta)
+        improve, objective, preferences
+            As of `cfree.plan`.
+        client : distributed.Client, optional
+            As of `boundary`.
+        """
+        check_client(client)
+        wishes = {"improve": improve, "objective": objective, "preferences": preferences}
+        asked = [
+            (k, (str(self.folder), self.work.stamp, to_pose(start, f"start {k}"), to_pose(goal, f"goal {k}"), wishes))
+            for k, (start, goal) in enumerate(queries)
+        ]
+        found = dict(run(plan_task, asked, client))
+        return [found[k] for k in range(len(asked))]
+
+    @checked
+    def is_free(self, poses: Poses | Iterable[PoseLike], *, client: Any = None) -> NDArray[np.bool_]:
+        """Whether poses are free, exactly, as of `cfree.is_free`.
+
+        Parameters
+        ----------
+        poses : Poses, or sequence of Pose or (x, y, theta)
+            The latter are rounded to doubles.
+        client : distributed.Client, optional
+            As of `boundary`.
+
+        Returns
+        -------
+        (n,) bool
+        """
+        check_client(client)
+        if not isinstance(poses, Poses):
+            poses = Poses.from_poses([to_pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)])
+        parts = groups(self.work, poses)
+        asked = [
+            (k, (str(self.folder), self.work.stamp, Poses(poses.xy[part], poses.theta[part])))
+            for k, part in enumerate(parts)
+        ]
+        result = np.zeros(len(poses), np.bool_)
+        for k, free in run(free_task, asked, client):
+            result[parts[k]] = free
+        return result
 
     @checked
     def scene_near(self, path: Path) -> Scene:

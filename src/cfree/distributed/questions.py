@@ -1,0 +1,40 @@
+"""Many questions to a folder, here or on a cluster."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cfree.collision.pose_checker import PoseChecker
+from cfree.distributed.planning import Surroundings, plan_among
+from cfree.distributed.tasks import Work, opened
+from cfree.exact.pose import Pose, Poses
+from cfree.paths.path import Path
+from cfree.planning.separation import Separated
+
+
+def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Separated:
+    """One question, as of `Sharded.plan`."""
+    return plan_among(Surroundings(opened(folder, stamp)), start, goal, **wishes)
+
+
+def free_task(folder: str, stamp: str, poses: Poses) -> NDArray[np.bool_]:
+    """Which poses are free among the obstacles near them."""
+    known = Surroundings(opened(folder, stamp))
+    for spans in (False, True):
+        known.numbers |= set(known.around(poses.xy, known.radius, spans=spans).tolist())
+    return np.asarray(PoseChecker(known.scene).is_free(poses), np.bool_)
+
+
+def groups(work: Work, poses: Poses, most: int = 100_000) -> list[NDArray[np.int64]]:
+    """Poses by the first tile that they are in, so that those of one task need few tiles."""
+    boxes, xy = work.division.boxes, poses.xy
+    tile = np.full(len(xy), len(boxes))
+    for k in range(len(boxes) - 1, -1, -1):
+        x0, y0, x1, y1 = boxes[k]
+        tile[(xy[:, 0] >= x0) & (xy[:, 0] <= x1) & (xy[:, 1] >= y0) & (xy[:, 1] <= y1)] = k
+    order = np.argsort(tile, kind="stable")
+    cuts = set(np.flatnonzero(np.diff(tile[order])) + 1) | set(range(most, len(order), most))
+    return [part for part in np.split(order, sorted(cuts)) if len(part)]
