@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from cfree.distributed.shard import read_shard, write_shard
 from cfree.distributed.store import SceneStore
-from cfree.distributed.tiles import BoxIndex, divide, merged
+from cfree.distributed.tiles import BoxIndex, divide, grown_by, merged
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -108,7 +108,7 @@ def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Divis
     lists: dict[str, list[Ints]] = {"obstacles": [], "neighbours": []}
     for tile in range(count):
         own = features.boxes(np.sort(sorted_features[starts[tile] : starts[tile + 1]]))
-        boxes[tile] = [*(own[:, :2].min(axis=0) - radius), *(own[:, 2:].max(axis=0) + radius)]
+        boxes[tile] = grown_by(np.concatenate([own[:, :2].min(axis=0), own[:, 2:].max(axis=0)]), radius)
         edges.append(merged(own))
         near = obstacles.near(edges[-1], store.reach)
         lists["obstacles"].append(near)

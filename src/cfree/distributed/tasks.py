@@ -23,6 +23,7 @@ from cfree.distributed.part import Part
 from cfree.distributed.rows import Rows, gathered
 from cfree.distributed.shard import Shard, is_sound, key_of, read_json, read_shard, write_shard
 from cfree.distributed.store import SceneStore, rounding
+from cfree.distributed.tiles import BoxIndex
 from cfree.distributed.trim import digest, trim_tile
 
 TRIMMED, REGULAR, GLUED = "trim", "regular", "glue"
@@ -76,14 +77,14 @@ class Work:
             shard = self.shard(stage, tile)
             return gathered(self.store, [(tile, shard, np.ones(len(shard["feature"]), bool))], obstacles)
         features = Features(self.store)
-        reach = self.store.reach * np.array([-1, -1, 1, 1])
-        own = features.boxes(self.division.listed("features", tile)) + reach
+        own = features.boxes(self.division.listed("features", tile))
         shards = []
         for other in self.division.listed("neighbours", tile).tolist():
             shard = self.shard(stage, other)
             chosen = np.ones(len(shard["feature"]), bool)
             if other != tile:
-                chosen = _meet(features.boxes(shard["feature"]), own)
+                chosen[:] = False
+                chosen[BoxIndex(features.boxes(shard["feature"])).near(own, self.store.reach)] = True
             shards.append((other, shard, chosen))
         return gathered(self.store, shards, obstacles)
 
@@ -174,13 +175,3 @@ def measure_task(
 def surfaces_in(joined: JoinedSurfaces, tile: int) -> np.ndarray[Any, Any]:
     """Of each component of a tile the closed surface."""
     return joined.surface[joined.first[tile] : joined.first[tile + 1]]
-
-
-def _meet(boxes: np.ndarray[Any, Any], others: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
-    """Which boxes meet one of some others."""
-    import shapely
-
-    tree = shapely.STRtree(shapely.box(*others.T))
-    found = np.zeros(len(boxes), bool)
-    found[tree.query(shapely.box(*boxes.T))[0]] = True
-    return found

@@ -35,6 +35,13 @@ def divide(points: Floats, tiles: int) -> NDArray[np.int32]:
     return number
 
 
+def grown_by(boxes: Floats, reach: float) -> Floats:
+    """Boxes with a rim, wide enough for what rounding has done to their coordinates."""
+    finite = np.abs(boxes[np.isfinite(boxes)])
+    rim = reach + 16 * float(np.spacing(finite.max(initial=0.0)))
+    return np.asarray(boxes + np.array([-rim, -rim, rim, rim]), np.float64)
+
+
 class BoxIndex:
     """Which of many boxes meet others."""
 
@@ -42,8 +49,8 @@ class BoxIndex:
         self._tree = shapely.STRtree(shapely.box(*boxes.T) if len(boxes) else [])
 
     def near(self, boxes: Floats, reach: float) -> Ints:
-        """Numbers of the boxes within a distance of others along both axes, in order."""
-        grown = boxes + np.array([-reach, -reach, reach, reach])
+        """Numbers of the boxes within a distance of others along both axes, in order; rounding adds some."""
+        grown = grown_by(boxes, reach)
         if not len(grown) or not len(self._tree):
             return np.zeros(0, np.int64)
         return np.unique(self._tree.query(shapely.box(*grown.T))[1]).astype(np.int64)
