@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from click.testing import CliRunner
 
 import cfree
@@ -91,6 +92,30 @@ def test_obstacles_come_from_many_files(made: Sharded, tmp_path: Path) -> None:
         file.write('{"type": "Feature", "geometry": {"type": "Polygon", "coordinates": [[[0, 0], [1, "x"]]]}}\n')
     with pytest.raises(FormatError, match=r"a\.geojsonl:11:"):
         boundary([tmp_path / "head.json", tmp_path / "tiles"], folder=tmp_path / "y")
+
+
+def test_obstacles_come_from_geoparquet(made: Sharded, tmp_path: Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed: GeoParquet was not read")
+    parquet = pytest.importorskip("pyarrow.parquet")
+    head = cfree.Scene(ROBOT, bounds=SCENE.bounds, start=SCENE.start, goal=SCENE.goal)
+    cfree.save(head, tmp_path / "head.json")
+
+    def read(name: str, **columns: list[Any]) -> Sharded:
+        parquet.write_table(pyarrow.table(columns), tmp_path / f"{name}.parquet", row_group_size=5)
+        return boundary([tmp_path / "head.json", tmp_path / f"{name}.parquet"], folder=tmp_path / name, tiles=3)
+
+    shapes = [shapely.to_wkb(shapely.Polygon(ring)) for ring in stones(4)]
+    assert read("stones", geometry=[*shapes, None]).digest == made.digest
+    for name, columns, said in (
+        ("broken", {"geometry": [shapes[0], b"xx"]}, "row 2: "),
+        ("points", {"geometry": [shapely.to_wkb(shapely.Point(1, 2))]}, "row 1: a Point; give polygons"),
+        ("none", {"shape": [b""]}, 'no column "geometry" among shape'),
+    ):
+        with pytest.raises(FormatError, match=said):
+            read(name, **columns)
+    (tmp_path / "text.parquet").write_text("nonsense")
+    with pytest.raises(FormatError, match=r"text\.parquet"):
+        boundary([tmp_path / "head.json", tmp_path / "text.parquet"], folder=tmp_path / "text")
 
 
 def test_plans_read_what_is_near(made: Sharded) -> None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from cfree.collector import collection_paused
 from cfree.distributed.shard import key_of
-from cfree.errors import FormatError
+from cfree.errors import FormatError, InvalidPolygonError
 from cfree.formats.findings import Findings
 from cfree.formats.geojson import geojson_shapes
 from cfree.formats.json_text import read_json
@@ -97,15 +97,28 @@ def _in_lines(path: Path) -> Iterator[Polygon]:
 def _in_table(path: Path) -> Iterator[Polygon]:
     """The column ``geometry`` of a table, as WKB; a group of rows at a time."""
     try:
+        import pyarrow
         from pyarrow.parquet import ParquetFile
     except ImportError as error:
-        message = "GeoParquet needs pyarrow; install it: pip install pyarrow"
+        message = "GeoParquet needs pyarrow; install it: pip install 'cfree[parquet]'"
         raise ImportError(message, name="pyarrow") from error
     import shapely
 
-    with ParquetFile(path) as table:
-        for batch in table.iter_batches(columns=["geometry"]):
-            for value in batch.column(0).to_pylist():
-                if value is not None:
-                    for part in shapely.get_parts(shapely.from_wkb(value)):
+    row = 0
+    try:
+        with ParquetFile(path) as table:
+            if "geometry" not in table.schema_arrow.names:
+                raise _fault(path, f'no column "geometry" among {", ".join(table.schema_arrow.names)}')
+            for batch in table.iter_batches(columns=["geometry"]):
+                for value in batch.column(0).to_pylist():
+                    row += 1
+                    for part in shapely.get_parts(shapely.from_wkb(value)) if value is not None else ():
+                        if part.geom_type != "Polygon":
+                            raise _fault(path, f"row {row}: a {part.geom_type}; give polygons")
                         yield Polygon(part.exterior.coords[:], [ring.coords[:] for ring in part.interiors])
+    except (pyarrow.ArrowException, shapely.errors.ShapelyError, TypeError, InvalidPolygonError) as error:
+        raise _fault(path, f"row {row}: {error}" if row else str(error)) from error
+
+
+def _fault(path: Path, message: str) -> FormatError:
+    return FormatError(f"{path}: {message}", path=str(path))
