@@ -83,7 +83,7 @@ def boundary(
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     found = boundary(scene, folder=folder, tile=3)
     ...     again = boundary(scene, folder=f"{folder}/whole")
-    >>> found.tiles, again.tiles, found.digest == again.digest, len(found.cells)
+    ...     found.tiles, again.tiles, found.digest == again.digest, len(found.cells)
     (2, 1, True, 1)
     """
     check_client(client)

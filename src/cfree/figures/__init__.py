@@ -104,10 +104,10 @@ def draw_all(
 
     Examples
     --------
-    >>> draw_all("never", only=[14])
+    >>> draw_all("never", only=[15])
     Traceback (most recent call last):
         ...
-    ValueError: figure 14: there are the figures 1 to 13
+    ValueError: figure 15: there are the figures 1 to 14
     """
     folder, chosen, suffixes = (
         Path(directory),
