@@ -20,7 +20,7 @@ from compared import scene_of
 from shapes import KINDS, random_scene
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
-LARGE = ("benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin", "benchmr_parking1", "flat")
+QUICK = ("comb_hook", "degenerate_bounds_on_walls", "degenerate_island")
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 
 
@@ -54,7 +54,7 @@ def check_tiles(scene: cfree.Scene, folder: Path, counts: tuple[int, ...] = (1, 
 @pytest.mark.parametrize(
     "path",
     [
-        pytest.param(path, marks=pytest.mark.slow if path.stem in LARGE else ())
+        pytest.param(path, marks=() if path.stem in QUICK else pytest.mark.slow)
         for path in sorted(SCENES.glob("*.json"))
         if path.stem not in ("benchmr_warehouse", "nest_swim", "street_Berlin")
     ],
@@ -64,6 +64,7 @@ def test_example_scenes_are_the_same_in_any_tiles(path: Path, tmp_path: Path) ->
     check_tiles(cfree.load_scene(path), tmp_path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", sorted(KINDS))
 def test_random_scenes_are_the_same_in_any_tiles(kind: str, tmp_path: Path) -> None:
     check_tiles(scene_of(random_scene(11, kind)), tmp_path, (1, 5))
