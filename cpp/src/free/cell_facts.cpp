@@ -74,7 +74,7 @@ private:
     // the ellipse around it whose axes are (rho + 1 / rho) / 2 and (rho - 1 / rho) / 2 times as long.
     double remainder(double from, double to) const {
         const double half = 0.5 * (to - from), middle = 0.5 * (from + to);
-        double least = std::numeric_limits<double>::infinity();
+        double least = (to - from) * size * size;  // twice what is between ends that are within `size` of the point
         for (const double rho : {2.0, 4.0, 8.0, 16.0, 64.0, 1024.0}) {
             const double wide = 0.5 * half * (rho + 1 / rho), beyond = 0.5 * half * (rho - 1 / rho);
             if (beyond > 4) break;
