@@ -41,6 +41,9 @@ Box = tuple[float, float, float, float]
 
 KITE = np.array([(-0.9, -0.35), (0.7, -0.55), (1.0, 0.3), (-0.6, 0.6)])
 HOOK = np.array([(-1, -4), (2, -4), (2, -2), (1, -2), (1, -3), (0, -3), (0, 2), (-1, 2)]) / 4
+CAR = np.array([(-2.25, -0.6), (-1.95, -0.9), (1.95, -0.9), (2.25, -0.6), (2.25, 0.6), (1.95, 0.9), (-1.95, 0.9),
+                (-2.25, 0.6)])  # fmt: skip
+BLOCK = 74.0
 BAR = np.array([(-0.6, -0.2), (0.6, -0.2), (0.6, 0.2), (-0.6, 0.2)])
 SEEDS = range(10)
 SIZES = {
@@ -167,39 +170,45 @@ def city(blocks: int, seed: int = 0) -> SceneArrays:
 
     A block is 60 wide, its streets 14, its courtyard 36, its door 3, the car 4.5 by 1.8.
     """
-    rng = np.random.default_rng(seed)
     side = max(1, round(blocks**0.5))
-    x, y = (74.0 * c.ravel() for c in np.meshgrid(np.arange(side), np.arange(side)))
-    count = len(x)
-    facade = np.empty((count, 24, 2))
+    rows = [city_row(side, row, seed) for row in range(side)]
+    facades, sheds = (np.concatenate(parts) for parts in zip(*rows, strict=True))
+    sizes = np.concatenate([np.full(len(facades), 24), np.full(4 * len(facades), 4)])
+    return SceneArrays(CAR, np.concatenate([facades.reshape(-1, 2), sheds.reshape(-1, 2)]), _offsets(sizes))
+
+
+def city_row(side: int, row: int, seed: int) -> tuple[Floats, Floats]:
+    """Facades, (side, 24, 2), and sheds, (side, 4, 4, 2), of one row of blocks; the same whatever else there is.
+
+    Of a facade the vertices 1 to 16 are the outside, 19 to 22 the courtyard, the others those of the door.
+    """
+    rng = np.random.default_rng([seed, row])
+    facade = np.empty((side, 24, 2))
     facade[:] = [(33, 0), (60, 0)] + 4 * [(60, 0)] + [(60, 60)] + 4 * [(0, 60)] + [(0, 60)] + 4 * [(0, 0)] + [
         (0, 0), (30, 0), (30, 12), (12, 12), (12, 48), (48, 48), (48, 12), (33, 12)
     ]  # fmt: skip
-    facade[:, [0, 17, 18, 23], 0] += rng.integers(-17, 15, count)[:, None]  # the door
+    facade[:, [0, 17, 18, 23], 0] += rng.integers(-17, 15, side)[:, None]  # the door
     for niche, along, sign in ((2, 1, 1), (7, 0, -1), (12, 1, -1)):  # one in each other side
-        start, width, depth = rng.integers(5, 35, count), rng.integers(4, 16, count), rng.integers(2, 9, count)
+        start, width, depth = rng.integers(5, 35, side), rng.integers(4, 16, side), rng.integers(2, 9, side)
         first = np.stack([start, start, start + width, start + width], axis=1)
         facade[:, niche : niche + 4, along] = first if sign > 0 else 60 - first
         facade[:, [niche + 1, niche + 2], 1 - along] += np.where(niche == 12, 1, -1) * depth[:, None]
-    sheds = np.stack([_boxes(u + rng.uniform(0, 4, count), v + rng.uniform(0, 4, count), rng.uniform(2, 5, count), 3.0)
+    sheds = np.stack([_boxes(u + rng.uniform(0, 4, side), v + rng.uniform(0, 4, side), rng.uniform(2, 5, side), 3.0)
                       for u in (15, 35) for v in (18, 36)], axis=1)  # fmt: skip
     middle = np.array([30.0, 30.0])
-    quarter = rng.integers(0, 4, count)
-    turn = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])[quarter]
-    angle = np.where(np.arange(count) % 2 == 0, 0.0, rng.uniform(-0.05, 0.05, count))
+    turn = np.array([(1, 0), (0, 1), (-1, 0), (0, -1)])[rng.integers(0, 4, side)]
+    angle = np.where((np.arange(side) + row * side) % 2 == 0, 0.0, rng.uniform(-0.05, 0.05, side))
+    places = BLOCK * np.column_stack([np.arange(side), np.full(side, row)])
 
     def placed(corners: Floats) -> Floats:
         c, s = (turn.T[k].reshape(-1, *[1] * (corners.ndim - 2)) for k in (0, 1))
         u, v = np.moveaxis(corners - middle, -1, 0)
         u, v = c * u - s * v, s * u + c * v
         c, s = (f(angle).reshape(c.shape) for f in (np.cos, np.sin))
-        at = np.column_stack([x, y]).reshape(count, *[1] * (corners.ndim - 2), 2)
+        at = places.reshape(side, *[1] * (corners.ndim - 2), 2)
         return np.stack([c * u - s * v, s * u + c * v], axis=-1) + middle + at
 
-    sizes = np.concatenate([np.full(count, 24), np.full(4 * count, 4)])
-    vertices = np.concatenate([placed(facade).reshape(-1, 2), placed(sheds).reshape(-1, 2)])
-    chamfered = np.array([(-2.25, -0.6), (-1.95, -0.9), (1.95, -0.9), (2.25, -0.6)])
-    return SceneArrays(np.concatenate([chamfered, -chamfered]), vertices, _offsets(sizes))
+    return placed(facade), placed(sheds)
 
 
 FAMILIES: dict[str, Callable[[int], SceneArrays]] = {

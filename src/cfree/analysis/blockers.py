@@ -11,7 +11,7 @@ from cfree.exact.pose import PoseLike
 from cfree.paths.path import Path
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
-from cfree.scene.scene import Scene, required
+from cfree.scene.scene import Scene, required, with_obstacles
 
 
 @checked
@@ -105,6 +105,4 @@ def _possible(proof: Separated, numbers: range | list[int]) -> set[int]:
 def _without(scene: Scene, k: int) -> Scene:
     obstacles, names = list(scene.obstacles), list(scene.obstacle_names)
     del obstacles[k], names[k]
-    return Scene(
-        scene.robot, obstacles, obstacle_names=names, bounds=scene.bounds, workspace=scene.workspace, units=scene.units
-    )
+    return with_obstacles(scene, obstacles, names)

@@ -277,10 +277,7 @@ class Arrangement(Value):
         return len(set.intersection(*sets))
 
     def _place(self, pose: PoseLike) -> tuple[int, list[int]]:
-        pose = to_pose(pose, "pose")
-        (chart, tau), scale = pose.chart, self.features.scale
-        x, y, unit = pose.integers
-        return self.core.locate((x * scale, y * scale, unit, tau.numerator, tau.denominator), chart)
+        return self.core.locate(*self.features.in_chart(to_pose(pose, "pose")))
 
     @checked
     def slice(self, theta: Angle) -> Slice:

@@ -42,14 +42,6 @@ def main() -> None:
         app(prog_name="cfree")
 
 
-def _print_version(context: click.Context, _: click.Parameter, wanted: bool) -> None:
-    if wanted:
-        from importlib.metadata import version
-
-        print(f"cfree {version('cfree')}")
-        context.exit()
-
-
 @click.group(
     no_args_is_help=True,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -58,10 +50,7 @@ def _print_version(context: click.Context, _: click.Parameter, wanted: bool) -> 
         'eval "$(_CFREE_COMPLETE=bash_source cfree)"  # completion; also zsh_source, fish_source',
     ),
 )
-@click.option(
-    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version,
-    help="Print the version and exit.",
-)  # fmt: skip
+@click.version_option(package_name="cfree", message="cfree %(version)s", help="Print the version and exit.")
 def app() -> None:
     """The exact configuration space of a planar robot that translates and rotates among polygons."""
 
@@ -279,13 +268,7 @@ def plan(
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
-        planner: Any
-        if scene.is_dir():
-            from cfree.cli.folders import FolderPlanner
-
-            planner = FolderPlanner(scene, read_preferences(prefer))
-        else:
-            planner = planner_of(scene, max_seconds, read_preferences(prefer))
+        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer))
         found = Answering.of(planner, ends, written, options)
         if output:
             found.write(output, poses)
@@ -420,20 +403,13 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
 @options.scene
 @click.argument("file", type=FILE, required=False)
 @click.option(
-    "--sample",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Of a boundary: check N trapezoids, no sides.",
+    "--sample", type=click.IntRange(min=0), metavar="N", help="Of a boundary: check N trapezoids, no sides.",
     show_default="all",
-)
+)  # fmt: skip
 @click.option(
-    "--slices",
-    type=click.IntRange(min=0),
-    metavar="N",
-    help="Of a boundary: orientations to redo.",
-    default=12,
-    show_default=True,
-)
+    "--slices", type=click.IntRange(min=0), metavar="N", help="Of a boundary: orientations to redo.",
+    default=12, show_default=True,
+)  # fmt: skip
 @click.option("--seed", type=int, metavar="N", help="Of the random choices.", default=0, show_default=True)
 @options.workers
 @options.scheduler

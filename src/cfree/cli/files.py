@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import errno
-import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cfree.cli.terminal import status
 from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
+    from cfree.cli.folders import FolderPlanner
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.preferences import Preferences
     from cfree.planning.planner import Planner
@@ -34,11 +35,15 @@ def boundary_of(
         return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
 
 
-def planner_of(source: Path, max_seconds: float | None, preferences: Preferences) -> Planner:
-    """For the scene in a file, with its free space if the file is a boundary."""
+def planner_of(source: Path, max_seconds: float | None, preferences: Preferences) -> Planner | FolderPlanner:
+    """For the scene in a file, with its free space if the file is a boundary; or for a folder."""
     from cfree.formats.scene_file import load_scene
     from cfree.planning.planner import Planner
 
+    if source.is_dir():
+        from cfree.cli.folders import FolderPlanner
+
+        return FolderPlanner(source, preferences)
     if is_archive(source):
         from cfree.formats.boundary_file import load_boundary
         from cfree.free.space import free_space
@@ -54,18 +59,12 @@ def planner_of(source: Path, max_seconds: float | None, preferences: Preferences
 @contextmanager
 def bar(name: str) -> Iterator[Callable[[float], object] | None]:
     """What to call with the share that is done: on a terminal a line says it, and what is being done."""
-    if not sys.stderr.isatty():
-        yield None
-        return
-
-    def say(text: str) -> None:
-        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
-
-    say(f"{name} ...")
-    try:
-        yield lambda share: say(f"{name} {share:.0%}")
-    finally:
-        say("")
+    with status() as say:
+        if say is None:
+            yield None
+        else:
+            say(f"{name} ...")
+            yield lambda share: say(f"{name} {share:.0%}")
 
 
 def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from cfree.cli.terminal import status
 
 if TYPE_CHECKING:
     from cfree.distributed.sharded import Sharded
@@ -81,22 +82,17 @@ def cluster(workers: int | None, scheduler: str | None) -> Iterator[Any]:
 @contextmanager
 def stages() -> Iterator[Callable[[str, int, int], None] | None]:
     """On a terminal a line says which tiles are done, how fast, and how long the rest may take."""
-    if not sys.stderr.isatty():
-        yield None
-        return
     began: dict[str, float] = {}
 
-    def say(stage: str, done: int, of: int) -> None:
+    def tell(say: Callable[[str], None], stage: str, done: int, of: int) -> None:
         seconds = time.monotonic() - began.setdefault(stage, time.monotonic())
         text = f"{stage} {done:,} of {of:,} tiles"
         if 0 < done < of and seconds > SECOND:
             text += f", {MINUTE * done / seconds:.3g} a minute, {_duration(seconds * (of - done) / done)} left"
-        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+        say(text)
 
-    try:
-        yield say
-    finally:
-        print("\r\x1b[K", end="", file=sys.stderr, flush=True)
+    with status() as say:
+        yield None if say is None else partial(tell, say)
 
 
 def _duration(seconds: float) -> str:

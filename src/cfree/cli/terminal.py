@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import sys
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from typing import Any
 
 OBEYED = {"Cc", "Cs", "Zl", "Zp"}  # Unicode's categories: controls, halves of characters, ends of lines
@@ -20,6 +22,22 @@ def printable(text: str) -> str:
     bench\\x1b[2J, Stühle
     """
     return text if text.isprintable() else "".join(c if _is_seen(c) else repr(c)[1:-1] for c in text)
+
+
+@contextmanager
+def status() -> Iterator[Callable[[str], None] | None]:
+    """What to call with what is being done: one line of a terminal, empty at the end; nothing to call elsewhere."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+
+    def say(text: str) -> None:
+        print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
+
+    try:
+        yield say
+    finally:
+        say("")
 
 
 def columns(rows: Sequence[Sequence[str]], sides: str) -> list[str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -17,7 +17,7 @@ from cfree.distributed.joining import JoinedSurfaces, join
 from cfree.distributed.nesting import Answer, Nesting, Questions, nest
 from cfree.distributed.reading import read_source, source_key
 from cfree.distributed.running import check_client, run
-from cfree.distributed.shard import VERSION, is_sound, key_of, read_json, write_json, write_shard
+from cfree.distributed.shard import VERSION, key_of, read_json, write_json, write_shard
 from cfree.distributed.sharded import Sharded
 from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_scene
 from cfree.distributed.trim import MODULUS
@@ -139,10 +139,11 @@ class _Build:
 
     def _divided(self, store: SceneStore) -> Division:
         place = self.folder / "tiles"
-        if is_sound(place / "division.npz", self.key):
-            return Division.open(place)
-        tiles = self.tiles or max(1, -(-store.vertices // self.vertices_a_tile))
-        return divide_scene(store, tiles, place, self.key)
+        try:
+            return Division.open(place, self.key)
+        except FormatError:
+            tiles = self.tiles or max(1, -(-store.vertices // self.vertices_a_tile))
+            return divide_scene(store, tiles, place, self.key)
 
     def _describe(self, store: SceneStore, division: Division) -> None:
         """What tasks need to know of all obstacles."""
@@ -158,15 +159,16 @@ class _Build:
 
     def _each(self, task: Any, stage: str, tiles: Iterable[int], *more: Any) -> Any:
         """Results of a task for all tiles."""
-        waiting = list(tiles)
-        self.progress(stage, 0, len(waiting))
-        arguments = [(k, (str(self.folder), self._stamp(), k, *more)) for k in waiting]
-        for done, (number, result) in enumerate(run(task, arguments, self.client), 1):
-            self.progress(stage, done, len(waiting))
+        asked = {tile: more for tile in tiles}
+        self.progress(stage, 0, len(asked))
+        for done, (number, result) in enumerate(self._run(task, asked), 1):
+            self.progress(stage, done, len(asked))
             yield number, result
 
-    def _stamp(self) -> str:
-        return (self.folder / "plan.json").read_text(encoding="utf-8")
+    def _run(self, task: Any, asked: Mapping[int, tuple[Any, ...]]) -> Iterator[tuple[int, Any]]:
+        """Results of a task for some tiles, each with what it is told beside its number."""
+        stamp = tasks.stamp_of(self.folder)
+        return run(task, [(tile, (str(self.folder), stamp, tile, *more)) for tile, more in asked.items()], self.client)
 
     def _trim(self, division: Division) -> dict[str, Any]:
         tiles = range(len(division))
@@ -203,14 +205,11 @@ class _Build:
 
         def ask(questions: Questions) -> Iterable[Answer]:
             self.progress("nest", 0, 1)
-            asked = [
-                (tile, (str(self.folder), self._stamp(), tile, tasks.surfaces_in(joined, tile), lines))
-                for tile, lines in sorted(questions.items())
-            ]
-            for _, answers in run(tasks.nest_task, asked, self.client):
+            asked = {tile: (tasks.surfaces_in(joined, tile), lines) for tile, lines in sorted(questions.items())}
+            for _, answers in self._run(tasks.nest_task, asked):
                 yield from answers
 
-        features = work.store.features([])
+        features = work.store.rest
         nesting = nest(joined, present, division.boxes, ask, features.rim is not None, float(features.scale))
         return joined, nesting, self._measure(store, joined, present, len(joined))
 
@@ -221,13 +220,10 @@ class _Build:
         obstacles bound it."""
         values, errors, foreign = [Fraction(0)] * count, [Fraction(0)] * count, [False] * count
         features = Features(store)
-        x, y, *_ = store.features([]).frame
+        x, y, *_ = store.rest.frame
         near = features.points(joined.lead) - np.array([x, y])
-        asked = [
-            (tile, (str(self.folder), self._stamp(), tile, tasks.surfaces_in(joined, tile), near[surfaces]))
-            for tile, surfaces in present.items()
-        ]
-        for done, (_, found) in enumerate(run(tasks.measure_task, asked, self.client), 1):
+        asked = {tile: (tasks.surfaces_in(joined, tile), near[surfaces]) for tile, surfaces in present.items()}
+        for done, (_, found) in enumerate(self._run(tasks.measure_task, asked), 1):
             self.progress("volumes", done, len(asked))
             for surface, (value, error, others) in found.items():
                 values[surface] += value
@@ -244,7 +240,7 @@ class _Build:
         nesting: Nesting,
         measured: tuple[list[Fraction], list[Fraction], list[bool]],
     ) -> None:
-        outside = -1 if store.features([]).rim is not None else 0
+        outside = -1 if store.rest.rim is not None else 0
         own = outside + np.cumsum(nesting.free_inside)
         around = np.where(nesting.parent >= 0, own[nesting.parent], outside) if len(own) else own
         cell_of = np.where(nesting.free_inside, own, around).astype(np.int64)

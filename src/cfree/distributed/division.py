@@ -49,9 +49,15 @@ class Division:
         return np.array(np.memmap(self.folder / f"{name}.bin", np.int64, "r", 8 * begin, (end - begin,)))
 
     @classmethod
-    def open(cls, folder: Path) -> Division:
-        """As `divide_scene` has written it."""
-        table = read_shard(folder / "division.npz")
+    def open(cls, folder: Path, key: str) -> Division:
+        """As `divide_scene` has written it.
+
+        Raises
+        ------
+        FormatError
+            If there is none of that key.
+        """
+        table = read_shard(folder / "division.npz", key)
         return cls(folder, {name: table[name] for name in LISTS}, table["boxes"], table["spans"])
 
 
@@ -62,7 +68,7 @@ class Features:
     """
 
     def __init__(self, store: SceneStore) -> None:
-        rest = store.features([]).obstacles
+        rest = store.rest.obstacles
         self._rings, self._emit = len(rest.previous), np.flatnonzero(rest.core.emit)
         self._count = store.vertices
         self._parts = (
@@ -101,14 +107,13 @@ def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Divis
     order = np.argsort(number, kind="stable")
     sorted_features = numbers[order]
     starts = np.searchsorted(number[order], np.arange(count + 1))
-    radius = float(np.hypot(*store.features([]).robot.xy.T).max()) * (1 + 1e-9)
     obstacles, edges = BoxIndex(store.column("box")), []
     boxes, spans = np.empty((count, 4)), np.empty((count, 4))
     box = store.column("box")
     lists: dict[str, list[Ints]] = {"obstacles": [], "neighbours": []}
     for tile in range(count):
         own = features.boxes(np.sort(sorted_features[starts[tile] : starts[tile + 1]]))
-        boxes[tile] = grown_by(np.concatenate([own[:, :2].min(axis=0), own[:, 2:].max(axis=0)]), radius)
+        boxes[tile] = grown_by(np.concatenate([own[:, :2].min(axis=0), own[:, 2:].max(axis=0)]), store.radius)
         edges.append(merged(own))
         near = obstacles.near(edges[-1], store.reach)
         lists["obstacles"].append(near)
@@ -123,4 +128,4 @@ def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Divis
         first[name] = np.cumsum([0, *map(len, parts)]).astype(np.int64)
         np.concatenate([np.zeros(0, np.int64), *parts]).astype(np.int64).tofile(folder / f"{name}.bin")
     write_shard(folder / "division.npz", first | {"boxes": boxes, "spans": spans}, key)
-    return Division.open(folder)
+    return Division.open(folder, key)

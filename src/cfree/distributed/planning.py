@@ -44,12 +44,6 @@ class Surroundings:
     read: set[int] = field(default_factory=set)
 
     @property
-    def radius(self) -> float:
-        """No point of the robot is farther from its reference point."""
-        xy = self.work.store.features([]).robot.xy
-        return float(np.hypot(*xy.T).max()) * (1 + 1e-9)
-
-    @property
     def scene(self) -> Scene:
         """The scene with what is known."""
         return self.work.store.scene(sorted(self.numbers))
@@ -67,7 +61,7 @@ class Surroundings:
     def add_around(self, path: Path, margin: float = 0.0) -> bool:
         """Add what the robot may touch on a path, and what is within a margin of that; False if all of it was known."""
         ends = np.array([[float(q.x), float(q.y)] for q in (path.start, path.goal)])
-        points, radius = path.sample(self.radius).xy, self.radius
+        points, radius = path.sample(self.work.store.radius).xy, self.work.store.radius
         near = set(self.around(points, 2 * radius).tolist()) | set(self.around(ends, radius, spans=True).tolist())
         if near <= self.numbers:
             return False
@@ -77,7 +71,7 @@ class Surroundings:
 
 def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated:
     """A path or a proof, whose scene has the obstacles that it is about; `wishes` as of `cfree.plan`."""
-    margin = MARGIN * known.radius
+    margin = MARGIN * known.work.store.radius
     for end in (start, goal):
         known.add_around(Path(end, []), margin)
     for wish in ({"improve": 0.0}, wishes):

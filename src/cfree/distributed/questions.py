@@ -24,7 +24,7 @@ def free_task(folder: str, stamp: str, poses: Poses) -> NDArray[np.bool_]:
     """Which poses are free among the obstacles near them."""
     known = Surroundings(opened(folder, stamp))
     for spans in (False, True):
-        known.numbers |= set(known.around(poses.xy, known.radius, spans=spans).tolist())
+        known.numbers |= set(known.around(poses.xy, known.work.store.radius, spans=spans).tolist())
     return np.asarray(PoseChecker(known.scene).is_free(poses), np.bool_)
 
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import zipfile
-import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -14,16 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import FormatError
+from cfree.formats.archive import FAULTS, signed
 from cfree.formats.atomic import replacing
 
 Shard = dict[str, NDArray[Any]]
 VERSION = 1
-_FAULTS = (ValueError, KeyError, EOFError, OSError, zipfile.BadZipFile, zlib.error)
 
 
 def write_shard(path: Path, arrays: Mapping[str, NDArray[Any]], key: str) -> None:
     """Write columns with the key of what they were computed from, and a checksum; all of it or nothing."""
-    header = json.dumps({"version": VERSION, "key": key, "sha256": _checksum(arrays)})
+    header = json.dumps(signed({"version": VERSION, "key": key}, arrays))
     with replacing(path) as unfinished, unfinished.open("wb") as file:
         np.savez(file, header=np.frombuffer(header.encode(), np.uint8), **dict[str, Any](arrays))
 
@@ -44,22 +42,13 @@ def read_shard(path: Path, key: str | None = None) -> Shard:
             raise FormatError(f"{path}: version {header['version']}; this cfree reads {VERSION}", path=str(path))
         if key is not None and header["key"] != key:
             raise FormatError(f"{path}: computed from something else", path=str(path))
-        if header["sha256"] != _checksum(arrays):
+        if signed(header, arrays) != header:
             raise FormatError(f"{path}: damaged", path=str(path))
     except FormatError:
         raise
-    except _FAULTS as error:
+    except (OSError, *FAULTS) as error:
         raise FormatError(f"{path}: {error or 'damaged'}", path=str(path)) from error
     return arrays
-
-
-def is_sound(path: Path, key: str) -> bool:
-    """Is a shard there that was computed from the same, as it was written?"""
-    try:
-        read_shard(path, key)
-    except FormatError:
-        return False
-    return True
 
 
 def write_json(path: Path, value: object) -> None:
@@ -87,12 +76,3 @@ def read_json(path: Path) -> dict[str, Any]:
 def key_of(*parts: object) -> str:
     """One short text for what something is computed from."""
     return hashlib.sha256(json.dumps(parts).encode()).hexdigest()[:32]
-
-
-def _checksum(arrays: Mapping[str, NDArray[Any]]) -> str:
-    digest = hashlib.sha256()
-    for name in sorted(arrays):
-        array = np.ascontiguousarray(arrays[name])
-        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
-        digest.update(array.data)
-    return digest.hexdigest()

@@ -24,7 +24,7 @@ from cfree.formats.scene_file import load_scene, save_scene
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.core_shapes import core_shapes
 from cfree.scene.features import SceneFeatures
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, with_obstacles
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -98,27 +98,24 @@ class SceneStore:
         robot, obstacles, workspace, bounds = core_shapes(head.robot, polygons, head.workspace, head.bounds)
         return SceneFeatures.of(_core.SceneFeatures(robot, obstacles, workspace, bounds, whole))
 
+    @cached_property
+    def rest(self) -> SceneFeatures:
+        """Features of robot, workspace and bounds."""
+        return self.features([])
+
     def scene(self, numbers: Sequence[int] | Ints) -> Scene:
         """The scene with some of its obstacles, which are named by their numbers."""
-        head, names = self.head, [f"obstacle {number}" for number in numbers]
-        return Scene(
-            head.robot,
-            self.polygons(numbers),
-            obstacle_names=names,
-            bounds=head.bounds,
-            workspace=head.workspace,
-            start=head.start,
-            goal=head.goal,
-            goals=head.goals,
-            units=head.units,
-        )
+        return with_obstacles(self.head, self.polygons(numbers), [f"obstacle {number}" for number in numbers])
 
     @cached_property
     def reach(self) -> float:
         """No obstacle farther from a feature than that changes its patches."""
-        xy = self.features([]).robot.xy
-        size = xy.max(axis=0) - xy.min(axis=0)
-        return float(np.hypot(*size)) * (1 + 1e-9)
+        return float(np.hypot(*np.ptp(self.rest.robot.xy, axis=0))) * (1 + 1e-9)
+
+    @cached_property
+    def radius(self) -> float:
+        """No point of the robot is farther from its reference point."""
+        return float(np.hypot(*self.rest.robot.xy.T).max()) * (1 + 1e-9)
 
 
 def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> SceneStore:
@@ -154,7 +151,7 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> Scen
     finally:
         for file in files.values():
             file.close()
-    save_scene(_without_obstacles(head), folder / "scene.json")
+    save_scene(with_obstacles(head, []), folder / "scene.json")
     write_json(folder / "facts.json", counts | {"scale": whole.scale, "box": whole.box})
     return SceneStore(folder)
 
@@ -166,7 +163,7 @@ def rounding(store: SceneStore, numbers: Ints) -> tuple[bool, ...]:
 
 def is_small(store: SceneStore) -> bool:
     """Are all coordinates, times the common denominator, surely doubles?"""
-    made = store.features([])
+    made = store.rest
     widest = max((abs(c) for c in store.facts["box"] or ()), default=0)
     return widest < 2**52 and made.core.shift == 0 and not any(made.made.rounded)
 
@@ -177,16 +174,3 @@ def _line(polygon: Polygon) -> bytes:
     points = [f"[{x},{y}]" if d == 1 else f'["{x}/{d}","{y}/{d}"]' for x, y in polygon.numerators]
     rings = (f"[{','.join(points[i:j])}]" for i, j in pairwise(polygon.ring_offsets))
     return f"[{','.join(rings)}]\n".encode("ascii")
-
-
-def _without_obstacles(scene: Scene) -> Scene:
-    return Scene(
-        scene.robot,
-        bounds=scene.bounds,
-        workspace=scene.workspace,
-        start=scene.start,
-        goal=scene.goal,
-        goals=scene.goals,
-        units=scene.units,
-        name=scene.name,
-    )

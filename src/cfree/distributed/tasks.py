@@ -21,10 +21,11 @@ from cfree.distributed.joining import JoinedSurfaces
 from cfree.distributed.nesting import Crossing, Line, TileLines
 from cfree.distributed.part import Part
 from cfree.distributed.rows import Rows, gathered
-from cfree.distributed.shard import Shard, is_sound, key_of, read_json, read_shard, write_shard
+from cfree.distributed.shard import Shard, key_of, read_json, read_shard, write_shard
 from cfree.distributed.store import SceneStore, rounding
 from cfree.distributed.tiles import BoxIndex
 from cfree.distributed.trim import digest, trim_tile
+from cfree.errors import FormatError
 
 TRIMMED, REGULAR, GLUED = "trim", "regular", "glue"
 
@@ -42,12 +43,12 @@ class Work:
         self.folder = folder
         self.plan = read_json(folder / "plan.json")
         self.store = SceneStore(folder / "scene", self.plan["rounded"])
-        self.division = Division.open(folder / "tiles")
+        self.division = Division.open(folder / "tiles", self.plan["key"])
 
     @property
     def stamp(self) -> str:
         """Another one once more is known of all obstacles."""
-        return (self.folder / "plan.json").read_text(encoding="utf-8")
+        return stamp_of(self.folder)
 
     def path(self, stage: str, tile: int) -> Path:
         return self.folder / stage / f"{tile:06d}.npz"
@@ -59,12 +60,15 @@ class Work:
     def shard(self, stage: str, tile: int) -> Shard:
         return read_shard(self.path(stage, tile), self.key(stage, tile))
 
-    def make(self, stage: str, tile: int, compute: Callable[[], Shard]) -> None:
-        """A shard, unless it is there."""
-        path, key = self.path(stage, tile), self.key(stage, tile)
-        if not is_sound(path, key):
+    def make(self, stage: str, tile: int, compute: Callable[[], Shard]) -> Shard:
+        """The shard that is there, or else one that is computed and written."""
+        try:
+            return self.shard(stage, tile)
+        except FormatError:
+            shard, path = compute(), self.path(stage, tile)
             path.parent.mkdir(exist_ok=True)
-            write_shard(path, compute(), key)
+            write_shard(path, shard, self.key(stage, tile))
+            return shard
 
     @property
     def surfaces(self) -> str:
@@ -81,12 +85,16 @@ class Work:
         shards = []
         for other in self.division.listed("neighbours", tile).tolist():
             shard = self.shard(stage, other)
-            chosen = np.ones(len(shard["feature"]), bool)
+            chosen = np.full(len(shard["feature"]), other == tile)
             if other != tile:
-                chosen[:] = False
                 chosen[BoxIndex(features.boxes(shard["feature"])).near(own, self.store.reach)] = True
             shards.append((other, shard, chosen))
         return gathered(self.store, shards, obstacles)
+
+
+def stamp_of(folder: Path) -> str:
+    """What is known of all obstacles, as a text."""
+    return (folder / "plan.json").read_text(encoding="utf-8")
 
 
 @lru_cache(maxsize=2)
@@ -120,8 +128,7 @@ def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> 
         slits = _core.may_have_slits(part.features.core)
         return shard | {"digest": np.frombuffer(total, np.uint8), "slits": np.array([slits])}
 
-    work.make(stage, tile, compute)
-    shard = work.shard(stage, tile)
+    shard = work.make(stage, tile, compute)
     return {
         "trapezoids": len(shard["kind"]),
         "digest": shard["digest"].tobytes().hex(),
@@ -132,8 +139,8 @@ def trim_task(folder: str, stamp: str, tile: int, regularized: bool = False) -> 
 def glue_task(folder: str, stamp: str, tile: int) -> int:
     """Glue a tile's trapezoids to each other and to those around them; the number of its components."""
     work = opened(folder, stamp)
-    work.make(GLUED, tile, lambda: glue_tile(work.rows(tile, work.surfaces, around=True), tile))
-    return len(work.shard(GLUED, tile)["faces"])
+    glued = work.make(GLUED, tile, lambda: glue_tile(work.rows(tile, work.surfaces, around=True), tile))
+    return len(glued["faces"])
 
 
 def nest_task(

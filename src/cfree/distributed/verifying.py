@@ -5,15 +5,15 @@ from __future__ import annotations
 import random
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from cfree.distributed.tasks import TRIMMED, Work, opened
 from cfree.distributed.trim import MODULUS, digest
 from cfree.errors import FormatError
 from cfree.forbidden.boundary import boundary_of
-from cfree.verify.driver import ANGLES, CLOSED, DOMAINS, FREE, trapezoid_findings
+from cfree.verify.driver import CLOSED, refuted, trapezoid_checks, trapezoid_findings
 from cfree.verify.matching import matched
-from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
+from cfree.verify.result import PROVED, SKIPPED, Check, Finding, Verification
 from cfree.verify.trapezoids import Reader, Side
 
 SHARDS = "shards"
@@ -80,15 +80,9 @@ def summary(checks: Sequence[TileCheck], expected: str, begin: float) -> Verific
     if total != expected:
         findings.append(Finding(SHARDS, "the manifest", f"digest {expected}, but of the shards it is {total}"))
     count, looked_at = (sum(getattr(check, name) for check in checks) for name in ("trapezoids", "checked"))
-    is_all = count == looked_at
-    how, of = (PROVED, f"{count:,}") if is_all else (SAMPLED, f"{looked_at:,} of {count:,}")
-    lines = [
-        Check(SHARDS, PROVED, f"{len(checks):,} shards are as they were written; their digest is that of the manifest"),
-        Check(ANGLES, how, f"{of} trapezoids: both angles are isolated roots of what they are named by, in order"),
-        Check(DOMAINS, how, f"{of} trapezoids: contact in range and 0 <= lower <= upper <= 1"),
-        Check(FREE, SAMPLED, f"{of} trapezoids: nothing covers any of it at one exact angle each"),
-        Check(CLOSED, how if is_all else SKIPPED, "all sides have partners" if is_all else "needs every trapezoid"),
-    ]
-    refuted = {finding.kind for finding in findings}
-    lines = [replace(line, how=REFUTED) if line.name in refuted else line for line in lines]
-    return Verification(tuple(lines), tuple(findings), (), time.perf_counter() - begin)
+    closed = Check(CLOSED, SKIPPED, "needs every trapezoid")
+    if looked_at == count:
+        closed = Check(CLOSED, PROVED, "all sides have partners")
+    shards = f"{len(checks):,} shards are as they were written; their digest is that of the manifest"
+    lines = (Check(SHARDS, PROVED, shards), *trapezoid_checks(looked_at, count), closed)
+    return Verification(refuted(lines, findings), tuple(findings), (), time.perf_counter() - begin)

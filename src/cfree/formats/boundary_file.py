@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 import os
-import zipfile
-import zlib
 from collections.abc import Mapping
 from dataclasses import asdict
 from typing import Any
@@ -21,6 +18,7 @@ from cfree.errors import FormatError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 from cfree.forbidden.record import Stats
+from cfree.formats.archive import FAULTS, signed
 from cfree.formats.atomic import checked_suffix, replacing
 from cfree.free.space import FreeSpace
 from cfree.scene.features import SceneFeatures, scene_features, unpacked
@@ -28,11 +26,6 @@ from cfree.scene.features import SceneFeatures, scene_features, unpacked
 CELL_COLUMNS = ("component", "parent", "free_inside", "turns", "lift")
 PATCH_COLUMNS = ("contact_kind", "contact_robot", "contact_obstacle", "trimmed")
 FORMAT, VERSION = "cfree-boundary", 3
-FAULTS = (
-    ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError, MemoryError,
-    zipfile.BadZipFile, zlib.error,
-)  # fmt: skip
-"""What reading a damaged archive raises."""
 MOST_DEFLATED = 1032
 """No deflated byte stands for more."""
 
@@ -58,17 +51,6 @@ def save_boundary(
 def check_boundary_path(path: str | os.PathLike[str]) -> str:
     """Suffix of a file that `save_boundary` can write."""
     return checked_suffix(path, "boundary", (".npz",))
-
-
-def signed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> dict[str, Any]:
-    """The header with a digest of all else that is in it, and of the arrays."""
-    rest = {key: value for key, value in header.items() if key != "digest"}
-    digest = hashlib.sha256(json.dumps(rest).encode())
-    for name in sorted(arrays):
-        array = np.ascontiguousarray(arrays[name])
-        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
-        digest.update(array.data)
-    return rest | {"digest": digest.hexdigest()}
 
 
 @checked

@@ -294,20 +294,14 @@ class FreeSpace(Value, Shown):
     def _locate(self, pose: Pose) -> int:
         if not self.boundary.checker.is_free(pose):
             return FORBIDDEN
-        cell = self.core.locate_exactly(*self._place(pose))
+        cell = self.core.locate_exactly(*self.boundary.features.in_chart(pose))
         return NO_CELL if cell == FORBIDDEN else cell
-
-    def _place(self, pose: Pose) -> tuple[tuple[int, ...], int]:
-        """A pose as the core takes it, and its chart."""
-        (chart, tau), scale = pose.chart, self.boundary.features.scale
-        x, y, unit = pose.integers
-        return (x * scale, y * scale, unit, tau.numerator, tau.denominator), chart
 
     @checked
     def nearby(self, pose: PoseLike) -> Nearby:
         """The trapezoids of `surfaces` that hold a pose, and those that a ray from it crosses; exactly."""
         pose = to_pose(pose, "pose")
-        return Nearby(*self.core.nearby(*self._place(pose)))
+        return Nearby(*self.core.nearby(*self.boundary.features.in_chart(pose)))
 
     @checked
     def common_cell(self, start: PoseLike, goal: PoseLike) -> int | None:
@@ -319,7 +313,7 @@ class FreeSpace(Value, Shown):
         """The cell that a pose is in, or those on whose boundary it is."""
         if not self.boundary.checker.is_free(pose):
             return set()
-        return set(self.core.cells_at(*self._place(pose))) - {FORBIDDEN}
+        return set(self.core.cells_at(*self.boundary.features.in_chart(pose))) - {FORBIDDEN}
 
     @checked
     def angle(self, face: int, last: bool, bits: int) -> tuple[Fraction, Fraction]:

@@ -16,7 +16,7 @@ from cfree.arguments import checked
 from cfree.exact.number import finite
 from cfree.forbidden.boundary import Boundary
 from cfree.geometry.development import distance_across
-from cfree.geometry.ruled import Floats, along_rulings, check_scale, read_ruled
+from cfree.geometry.ruled import Floats, along_rulings, check_scale, read_ruled, read_width
 
 
 @checked
@@ -60,9 +60,7 @@ def patch_areas(ruled: ArrayLike, phi_min: ArrayLike, phi_range: ArrayLike, *, a
     """
     w = check_scale(angle_scale)
     rows = read_ruled(ruled)
-    start, width = finite("phi_min", phi_min), finite("phi_range", phi_range)
-    if np.any(width < 0):
-        raise ValueError(f"phi_range: {width.min()} is negative; give the width of the range in radians")
+    start, width = finite("phi_min", phi_min), read_width(phi_range)
     swept = width * along_rulings(_core.ruling_areas, ruled, start, w)
     unrolled = rows.L * distance_across(rows, start, start + width, w)
     return np.where(rows.is_edge_vertex, swept, unrolled)

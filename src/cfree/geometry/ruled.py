@@ -92,6 +92,14 @@ def along_rulings(
     return integral(flat, np.ascontiguousarray(np.broadcast_to(phi, shape).reshape(-1)), w).reshape(shape)
 
 
+def read_width(phi_range: ArrayLike) -> Floats:
+    """Widths of contact ranges, finite and not negative."""
+    width = finite("phi_range", phi_range)
+    if np.any(width < 0):
+        raise ValueError(f"phi_range: {width.min()} is negative; give the width of the range in radians")
+    return width
+
+
 def check_scale(angle_scale: float) -> float:
     """The length of a radian, finite and positive."""
     if not 0 < angle_scale < math.inf:

@@ -11,9 +11,8 @@ from numpy.typing import ArrayLike
 
 import cfree._core as _core
 from cfree.arguments import checked
-from cfree.exact.number import finite
 from cfree.forbidden.boundary import Boundary
-from cfree.geometry.ruled import Floats, along_rulings, check_scale
+from cfree.geometry.ruled import Floats, along_rulings, check_scale, read_width
 
 
 @checked
@@ -53,9 +52,7 @@ def patch_curvatures(ruled: ArrayLike, phi_range: ArrayLike, *, angle_scale: flo
     >>> float(patch_curvatures(S.ruled, Phi.phi_range) / (-np.pi / np.sqrt(2)))
     1.0
     """
-    w, width = check_scale(angle_scale), finite("phi_range", phi_range)
-    if np.any(width < 0):
-        raise ValueError(f"phi_range: {width.min()} is negative; give the width of the range in radians")
+    w, width = check_scale(angle_scale), read_width(phi_range)
     return width * along_rulings(_core.ruling_curvatures, ruled, np.zeros_like(width), w)
 
 

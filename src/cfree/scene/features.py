@@ -22,6 +22,7 @@ from cfree.errors import UnsupportedError
 from cfree.scene.core_shapes import core_shapes
 
 if TYPE_CHECKING:
+    from cfree.exact.pose import Pose
     from cfree.scene.scene import Scene
 
 Point = tuple[int, int]
@@ -121,6 +122,11 @@ class SceneFeatures:
         x, y, a, b = self.frame if frame is None else np.asarray(frame, float)
         c, s = np.cos(theta), np.sin(theta)
         return np.stack([x - (c * a - s * b), y - (s * a + c * b)], axis=-1)
+
+    def in_chart(self, pose: Pose) -> tuple[tuple[int, ...], int]:
+        """A pose as the core locates it: integers x, y, their unit, numerator and denominator of tau; and the chart."""
+        (chart, tau), (x, y, unit) = pose.chart, pose.integers
+        return (x * self.scale, y * self.scale, unit, tau.numerator, tau.denominator), chart
 
     @property
     def patches(self) -> int:

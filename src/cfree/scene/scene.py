@@ -295,6 +295,22 @@ def _rectangle(bounds: Sequence[Number]) -> Bounds:
     return xmin, ymin, xmax, ymax
 
 
+def with_obstacles(scene: Scene, obstacles: Sequence[Polygon], names: Sequence[str] | None = None) -> Scene:
+    """The scene with these obstacles, and no others."""
+    return Scene(
+        scene.robot,
+        obstacles,
+        obstacle_names=names,
+        bounds=scene.bounds,
+        workspace=scene.workspace,
+        start=scene.start,
+        goal=scene.goal,
+        goals=scene.goals,
+        units=scene.units,
+        name=scene.name,
+    )
+
+
 def required(scene: Scene, start: PoseLike | None, goal: PoseLike | None) -> tuple[Pose, Pose]:
     """Start and goal, the scene's where none is given.
 

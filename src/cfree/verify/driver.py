@@ -6,7 +6,7 @@ import os
 import random
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 from cfree.arguments import checked
@@ -114,10 +114,8 @@ def boundary(
         ]
     report(1.0)
     checks = _checks(reader, matching, len(chosen), f"{slices} exact slices, {places:,} free contacts")
-    refuted = {finding.kind for finding in findings}
-    checks = tuple(replace(check, how=REFUTED) if check.name in refuted else check for check in checks)
     euler = tuple(matching.euler) if matching is not None else ()
-    return Verification(checks, tuple(findings), euler, time.perf_counter() - begin)
+    return Verification(refuted(checks, findings), tuple(findings), euler, time.perf_counter() - begin)
 
 
 def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:
@@ -176,11 +174,26 @@ def _place(reader: Reader, numbers: Sequence[int]) -> str:
     return f"trapezoid {listed}{' ...' if len(numbers) > 4 else ''}"
 
 
+def trapezoid_checks(count: int, total: int) -> tuple[Check, ...]:
+    """What `trapezoid_findings` looks at, if nothing is wrong with so many trapezoids."""
+    every = f"{count:,} trapezoids" if count == total else f"{count:,} of {total:,} trapezoids"
+    proved = PROVED if count == total else SAMPLED
+    return (
+        Check(ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order"),
+        Check(DOMAINS, proved, f"{every}: contact in range and 0 <= lower <= upper <= 1 from first to second angle"),
+        Check(FREE, SAMPLED, f"{every}: nothing covers any of it at one exact angle each"),
+    )
+
+
+def refuted(checks: Iterable[Check], findings: Iterable[Finding]) -> tuple[Check, ...]:
+    """The same checks, those refuted of which something has been found."""
+    kinds = {finding.kind for finding in findings}
+    return tuple(replace(check, how=REFUTED) if check.name in kinds else check for check in checks)
+
+
 def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) -> tuple[Check, ...]:
     """What was looked at, if nothing is wrong."""
     world, total, parts = reader.world, len(reader.table), reader.isolated
-    every = f"{count:,} trapezoids" if count == total else f"{count:,} of {total:,} trapezoids"
-    proved = PROVED if count == total else SAMPLED
     closed = Check(CLOSED, SKIPPED, "needs every trapezoid")
     if matching is not None:
         numbers = ", ".join(f"{times:,} of {euler}" for euler, times in sorted(Counter(matching.euler).items()))
@@ -193,9 +206,7 @@ def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) 
         Check(
             PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them"
         ),
-        Check(ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order"),
-        Check(DOMAINS, proved, f"{every}: contact in range and 0 <= lower <= upper <= 1 from first to second angle"),
-        Check(FREE, SAMPLED, f"{every}: nothing covers any of it at one exact angle each"),
+        *trapezoid_checks(count, total),
         closed,
         Check(ISOLATED, SAMPLED if curves else PROVED, f"{len(parts):,} parts: free, no width, on no trapezoid{at}"),
         Check(MISSING, SAMPLED, f"{slices}: computed anew, and the same"),
