@@ -24,7 +24,7 @@ from PIL import Image
 
 import cfree
 from cfree.cli.app import app
-from cfree.plot.path import LIMIT, UNWANTED
+from cfree.palette import BARRIER, MARK
 
 SCENES = Path("examples/scenes")
 PARKING, SWIM, CONVEX = (str(SCENES / f"{name}.json") for name in ("benchmr_parking1", "nest_swim", "five_convex"))
@@ -47,7 +47,7 @@ def test_a_path_is_written_drawn_and_verified(run: Run, tmp_path: Path, monkeypa
     with Image.open(picture) as drawn, Image.open(film) as shown:
         seen = np.asarray(drawn.convert("RGB"), float) / 255
         assert shown.n_frames == 4  # type: ignore[attr-defined]
-    assert (np.abs(seen - to_rgb(LIMIT)).max(axis=-1) < 0.05).sum() > 100  # the least clearance is marked
+    assert (np.abs(seen - to_rgb(BARRIER)).max(axis=-1) < 0.05).sum() > 100  # the least clearance is marked
     data = json.loads(answer.read_text())
     scene = cfree.load_scene(CONVEX)
     assert data["answer"] == "path" and scene.start and scene.goal
@@ -198,7 +198,7 @@ def test_a_path_says_where_it_does_what_is_dear(run: Run, tmp_path: Path) -> Non
     result = run("plan", scene, "--prefer", "sideways=5,turning=2", "--picture", marked)
     assert "7 m sideways in motion 0" in result.stdout
     run("plan", scene, "--picture", plain)
-    assert UNWANTED in marked.read_text() and UNWANTED not in plain.read_text()
+    assert MARK in marked.read_text() and MARK not in plain.read_text()
     facts = json.loads(run("plan", scene, "--prefer", "sideways=5", "--json").stdout)
     assert facts["rather not"] == [{"kind": "sideways", "amount": 7.0, "first": 0, "last": 0}]
     assert json.loads(run("plan", scene, "--prefer", "turning=5", "--json").stdout)["rather not"] == []

@@ -16,7 +16,7 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon as Outline
 
-from cfree import Polygon, Pose
+from cfree import Polygon, Pose, palette
 from cfree.contact import (
     EdgeEdge,
     EdgeVertex,
@@ -32,7 +32,7 @@ from cfree.contact import (
     is_forbidden,
 )
 from cfree.figures import curvature, curves, draw, plane, poses, ranges, scenes, surfaces
-from cfree.figures.style import GREY, PAPER, styled
+from cfree.figures.style import styled
 from cfree.forbidden.boundary import boundary
 from cfree.plot.depth_sort import Painting
 from cfree.plot.pieces import CURVE, ON_TOP, SURFACE, Pieces
@@ -86,8 +86,8 @@ def strokes(number: int, colour: str, k: int = 0) -> np.ndarray:
 
 def test_figure_1_obeys_the_papers_conventions() -> None:
     ax = axes(1)
-    rest, moved = outlines(ax, PAPER.robot)
-    (obstacle,) = outlines(ax, PAPER.obstacle)
+    rest, moved = outlines(ax, palette.ROBOT)
+    (obstacle,) = outlines(ax, palette.OBSTACLE)
     angles = np.mod(np.arctan2(*rest[:, ::-1].T), 2 * math.pi)
     assert (np.diff(angles) > 0).all() and Polygon(rest).is_convex
     assert Polygon(rest).to_shapely().contains(shapely.Point(0, 0))
@@ -102,8 +102,8 @@ def test_figure_1_obeys_the_papers_conventions() -> None:
 
 def test_figure_2_has_the_contacts_of_its_caption() -> None:
     ax, q = axes(2), poses.POSE
-    first, second, third = outlines(ax, PAPER.obstacle)
-    (robot,) = outlines(ax, PAPER.robot)
+    first, second, third = outlines(ax, palette.OBSTACLE)
+    (robot,) = outlines(ax, palette.ROBOT)
     shapes = poses.O1, poses.O2, poses.O3
     assert robot == pytest.approx(q.apply(poses.FIVE.vertices))
     for drawn, shape in zip((first, second, third), shapes, strict=True):
@@ -115,7 +115,7 @@ def test_figure_2_has_the_contacts_of_its_caption() -> None:
     ]  # fmt: skip
     assert [is_contact(poses.FIVE, shape, q) for shape in shapes] == [True, False, True]
     assert is_forbidden(poses.FIVE, poses.O2, q)
-    (yellow,) = lines(ax, PAPER.edge_edge)
+    (yellow,) = lines(ax, palette.EDGE_EDGE)
     assert yellow == pytest.approx(third[:2])
     (hatched,) = [patch for patch in ax.patches if patch.get_hatch()]
     both = shapely.intersection(shapely.Polygon(robot), shapely.Polygon(second))
@@ -137,8 +137,8 @@ def test_figures_3_and_4_show_contacts_between_their_angles_and_none_beyond(
 ) -> None:
     found, S = angle_range(robot, obstacle, contact), contact_surface(robot, obstacle, contact)
     ax = axes(3 if isinstance(contact, VertexEdge) else 4)
-    assert outlines(ax, PAPER.obstacle)[0] == pytest.approx(obstacle.vertices)
-    for phi, drawn in zip((found.phi_min, found.phi_max), outlines(ax, PAPER.robot), strict=True):
+    assert outlines(ax, palette.OBSTACLE)[0] == pytest.approx(obstacle.vertices)
+    for phi, drawn in zip((found.phi_min, found.phi_max), outlines(ax, palette.ROBOT), strict=True):
         assert drawn == pytest.approx(plane.placed(robot.vertices, S(t, phi)))
     inside = np.linspace(found.phi_min + 0.01, found.phi_max - 0.01, 7).tolist()
     for phi in inside:
@@ -146,15 +146,15 @@ def test_figures_3_and_4_show_contacts_between_their_angles_and_none_beyond(
     for phi in (found.phi_min - 0.01, found.phi_max + 0.01):
         assert is_forbidden(robot, obstacle, S.pose(Fraction(t), phi))
     # the way of the reference point between both: dotted, about the point of contact
-    (way,) = [points for points in lines(ax, GREY) if len(points) > 2]
+    (way,) = [points for points in lines(ax, palette.GREY) if len(points) > 2]
     on_it = np.array([S(t, phi)[:2] for phi in np.linspace(found.phi_min, found.phi_max, 400)])
     assert max(np.hypot(*(on_it - point).T).min() for point in way) < 0.02
 
 
 def test_figure_3_shows_the_neighbours_on_the_line_of_the_edge() -> None:
     ax = axes(3)
-    first, last = outlines(ax, PAPER.robot)
-    (ground,) = outlines(ax, PAPER.obstacle)
+    first, last = outlines(ax, palette.ROBOT)
+    (ground,) = outlines(ax, palette.OBSTACLE)
     b, E = ground[0], ground[1] - ground[0]
     for corners, on_line, off in ((first, 1, 3), (last, 3, 1)):
         a = corners - b
@@ -168,8 +168,8 @@ def test_figure_3_shows_the_neighbours_on_the_line_of_the_edge() -> None:
 
 def test_figure_4_shows_the_ends_of_the_edge_on_the_lines_of_the_neighbours() -> None:
     ax = axes(4)
-    first, last = outlines(ax, PAPER.robot)
-    (b,) = outlines(ax, PAPER.obstacle)
+    first, last = outlines(ax, palette.ROBOT)
+    (b,) = outlines(ax, palette.OBSTACLE)
     for corners, k, end in ((first, 1, b[3]), (last, 0, b[1])):
         a = corners[k] - b[0]
         assert a[0] * end[1] - a[1] * end[0] == pytest.approx(0, abs=1e-12) and a @ end > 0
@@ -186,8 +186,8 @@ def test_figure_5_keeps_two_vertices_together() -> None:
         assert contact_features(curves.ROBOT, curves.CORNER, C.pose(phi)) == (contact,)
         assert is_contact(curves.ROBOT, curves.CORNER, C.pose(phi))
     ax = axes(5)
-    (corner,) = outlines(ax, PAPER.obstacle)
-    for phi, drawn in zip((found.phi_min, found.phi_max), outlines(ax, PAPER.robot), strict=True):
+    (corner,) = outlines(ax, palette.OBSTACLE)
+    for phi, drawn in zip((found.phi_min, found.phi_max), outlines(ax, palette.ROBOT), strict=True):
         assert drawn[0] == pytest.approx(corner[0])
         assert drawn == pytest.approx(plane.placed(curves.ROBOT.vertices, C(phi)))
     (arc,) = [line.get_xydata() for line in ax.lines if line.get_linewidth() == 1.8]
@@ -211,9 +211,9 @@ def test_figure_6_keeps_edges_together_beyond_t_1() -> None:
         assert kinds <= set(contact_features(robot, obstacle, q))
     assert not contact_features(robot, obstacle, C.surface.pose(end + Fraction(1, 100), 0, beyond=True))
     ax = axes(6)
-    for t, drawn in zip((0.0, 1.0, float(end)), outlines(ax, PAPER.robot), strict=True):
+    for t, drawn in zip((0.0, 1.0, float(end)), outlines(ax, palette.ROBOT), strict=True):
         assert drawn == pytest.approx(plane.placed(robot.vertices, C(t)))
-    solid, dashed = (line for line in ax.lines if to_hex(line.get_color()) == to_hex(PAPER.edge_edge))
+    solid, dashed = (line for line in ax.lines if to_hex(line.get_color()) == to_hex(palette.EDGE_EDGE))
     assert solid.get_xydata() == pytest.approx(C([0, 1])[:, :2]) and not solid.is_dashed()
     assert dashed.get_xydata() == pytest.approx(C([1, float(end)])[:, :2]) and dashed.is_dashed()
 
@@ -223,7 +223,7 @@ def test_figure_6_keeps_edges_together_beyond_t_1() -> None:
 
 @pytest.mark.parametrize(
     ("number", "contact", "colour"),
-    [(7, VertexEdge(1, 0), PAPER.vertex_edge), (8, EdgeVertex(0, 1), PAPER.edge_vertex)],
+    [(7, VertexEdge(1, 0), palette.VERTEX_EDGE), (8, EdgeVertex(0, 1), palette.EDGE_VERTEX)],
 )
 def test_figures_7_and_8_draw_a_surface_its_helices_and_its_rulings(number: int, contact: Any, colour: str) -> None:
     S = contact_surface(surfaces.ROBOT, surfaces.OBSTACLE, contact)
@@ -241,7 +241,7 @@ def test_figures_7_and_8_draw_a_surface_its_helices_and_its_rulings(number: int,
     assert np.unique(ends.round(9)).tolist() == [0, 0.25, 0.5, 0.75, 1]
     assert np.ptp(black[..., 2], axis=1).sum() == pytest.approx(5 * 360)
     # rulings: level, and as long as the edge
-    yellow = strokes(number, PAPER.edge_edge)
+    yellow = strokes(number, palette.EDGE_EDGE)
     edge = math.hypot(*S.ruled[2:4], *S.ruled[6:8])
     assert np.ptp(yellow[..., 2], axis=1).max() < 1e-9
     assert np.hypot(*(yellow[:, 1] - yellow[:, 0])[:, :2].T).sum() == pytest.approx(25 * edge)
@@ -261,10 +261,10 @@ def on_surface(S: Surface, points: np.ndarray) -> np.ndarray:
 def test_figure_9_draws_all_patches_helices_and_segments_of_two_triangles() -> None:
     A, O = surfaces.ROBOT, surfaces.OBSTACLE
     # each curve is painted with both patches beside it
-    yellow = strokes(9, PAPER.edge_edge)
+    yellow = strokes(9, palette.EDGE_EDGE)
     lengths = np.add.outer(*(np.hypot(*shape.edges.T) for shape in (A, O)))
     assert np.hypot(*(yellow[:, 1] - yellow[:, 0])[:, :2].T).sum() == pytest.approx(2 * lengths.sum())
-    heights = np.ptp(strokes(9, PAPER.helix)[..., 2], axis=1).sum()
+    heights = np.ptp(strokes(9, palette.HELIX)[..., 2], axis=1).sum()
     angles = np.add.outer(A.interior_angles, O.interior_angles)
     assert heights == pytest.approx(2 * np.degrees(2 * math.pi - angles).sum())
     # the robot touches the obstacle at the middle of every face
@@ -297,7 +297,7 @@ def test_figure_10_draws_the_directions_at_its_point() -> None:
             along /= np.linalg.norm(along)
             assert along @ N == pytest.approx(0, abs=1e-9)
             found.setdefault(colour, []).append((along, curving(along)))
-    asymptotic, principal = found[to_hex(PAPER.asymptotic)], found[to_hex(PAPER.principal)]
+    asymptotic, principal = found[to_hex(palette.FRAME)], found[to_hex(palette.VERTEX_EDGE)]
     assert [k for _, k in asymptotic] == pytest.approx([0, 0], abs=1e-4)
     (u, k1), (v, k2) = principal
     assert u @ v == pytest.approx(0, abs=1e-9)
@@ -342,13 +342,13 @@ def test_figure_11_draws_k_and_h_of_section_4() -> None:
 
 def test_figure_12_draws_five_obstacles_and_both_poses() -> None:
     plan, space = figure(12).axes
-    drawn = outlines(plan, PAPER.obstacle)
+    drawn = outlines(plan, palette.OBSTACLE)
     assert len(drawn) == 5
     for corners, obstacle in zip(drawn, scenes.FIVE.obstacles, strict=True):
         assert corners == pytest.approx(obstacle.vertices)
-    for corners, pose in zip(outlines(plan, PAPER.robot), (scenes.FIVE.start, scenes.FIVE.goal), strict=True):
+    for corners, pose in zip(outlines(plan, palette.ROBOT), (scenes.FIVE.start, scenes.FIVE.goal), strict=True):
         assert pose is not None and corners == pytest.approx(pose.apply(scenes.FIVE.robot[0].vertices))
-    assert space.get_zlim() == (0, 360) and len(strokes(12, PAPER.helix, 1)) > 100
+    assert space.get_zlim() == (0, 360) and len(strokes(12, palette.HELIX, 1)) > 100
 
 
 def test_figure_13_draws_slices_at_equal_steps() -> None:
@@ -360,7 +360,7 @@ def test_figure_13_draws_slices_at_equal_steps() -> None:
 
 def test_slices_are_drawn_at_their_height_with_closed_rims() -> None:
     found = boundary(Scene(robot=surfaces.ROBOT, obstacles=surfaces.OBSTACLE), threads=1)
-    inside, *rim = scenes.slice_pieces(found, 70.0, PAPER)
+    inside, *rim = scenes.slice_pieces(found, 70.0)
     assert (inside.sort == SURFACE).all() and len(rim) == 6  # a hexagon
     points = np.concatenate([part.corners for part in rim])
     assert (points[..., 2] == 70).all() and all((part.sort == ON_TOP).all() for part in rim)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
 from itertools import combinations
@@ -12,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 from mpl_toolkits.mplot3d import proj3d
@@ -21,7 +19,7 @@ from PIL import Image
 
 from cfree import load_scene
 from cfree.figures import FIGURES, draw, draw_all, scenes, surfaces
-from cfree.figures.style import FORMATS, PAPER, SAFE, Palette, styled, write
+from cfree.figures.style import FORMATS, styled, write
 
 NUMBERS = [entry.number for entry in FIGURES]
 
@@ -121,43 +119,6 @@ def texts(figure: Figure) -> Iterator[Text]:
         on_axes = text.axes is not None and not text.axes.axison and text not in text.axes.texts
         if text.get_text() and text.get_visible() and not on_axes:
             yield text
-
-
-@pytest.mark.parametrize("deficiency", ["protanopia", "deuteranopia"])
-def test_safe_colours_stay_apart_for_eyes_that_lack_a_cone(deficiency: str) -> None:
-    groups = [
-        ("vertex_edge", "edge_vertex", "helix", "edge_edge"), ("robot", "obstacle", "frame"),
-        ("robot_moved", "obstacle"), ("asymptotic", "principal"),
-    ]  # fmt: skip
-
-    def least(palette: Palette) -> float:
-        return min(
-            math.dist(seen(getattr(palette, one), deficiency), seen(getattr(palette, other), deficiency))
-            for group in groups
-            for one, other in combinations(group, 2)
-        )
-
-    assert least(SAFE) > 25
-    assert least(SAFE) > least(PAPER)
-
-
-def seen(colour: str, deficiency: str) -> tuple[float, float, float]:
-    """L*a*b* of a colour as simulated by the matrices of Machado, Oliveira and Fernandes (2009), severity 1."""
-    matrices = {
-        "protanopia": [
-            [0.152286, 1.052583, -0.204868], [0.114503, 0.786281, 0.099216], [-0.003882, -0.048116, 1.051998],
-        ],
-        "deuteranopia": [
-            [0.367322, 0.860646, -0.227968], [0.280085, 0.672501, 0.047413], [-0.011820, 0.042940, 0.968881],
-        ],
-    }  # fmt: skip
-    rgb = np.array(to_rgb(colour))
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    linear = (np.array(matrices[deficiency]) @ linear).clip(0, 1)
-    to_xyz = [[0.4124, 0.3576, 0.1805], [0.2126, 0.7152, 0.0722], [0.0193, 0.1192, 0.9505]]
-    ratio = (np.array(to_xyz) @ linear) / (0.9505, 1.0, 1.089)
-    f = np.where(ratio > 0.008856, np.cbrt(ratio), 7.787 * ratio + 16 / 116)
-    return float(116 * f[1] - 16), float(500 * (f[0] - f[1])), float(200 * (f[1] - f[2]))
 
 
 def test_the_triangles_and_the_five_obstacles_are_those_of_the_examples() -> None:

@@ -25,12 +25,13 @@ from cfree.film.frame import caption
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.patch import Contact, Place
 from cfree.formats.scene_file import load_scene
+from cfree.palette import BARRIER
 from cfree.paths.path import Path
 from cfree.plot import unrolled as slab
 from cfree.plot.answer import picture, plot_path_space, surface_of
 from cfree.plot.boundary import plot_overview, save_figure
 from cfree.plot.depth_sort import Painting
-from cfree.plot.path import GHOSTS, LIMIT, Track, plot_path, quantity
+from cfree.plot.path import GHOSTS, Track, plot_path, quantity
 from cfree.plot.pieces import CURVE, ON_TOP, OVER, WALL, patches_of
 from cfree.plot.strips import strips
 from cfree.scene.scene import Scene
@@ -68,7 +69,7 @@ def test_the_examples_of_the_documentation_draw_what_it_shows(
     for name in ("path.png", "separation.png"):  # with what limits the path, or bars it
         with Image.open(tmp_path / name) as image:
             seen = np.asarray(image.convert("RGB")) / 255
-        assert (np.abs(seen - to_rgb(LIMIT)).max(axis=-1) < 0.05).sum() > 100
+        assert (np.abs(seen - to_rgb(BARRIER)).max(axis=-1) < 0.05).sum() > 100
 
 
 # the plane
@@ -115,7 +116,7 @@ def test_the_least_clearance_is_marked_with_what_limits_it() -> None:
     assert ax.get_title() == "1 motion, length 5 m, turning 0°, clearance 0.125 m (≥ 0.124 proved)"
     bar = ax.figure.axes[-1]
     assert bar.get_ylabel() == "clearance (m)"
-    assert any(line.get_ydata()[0] == pytest.approx(0.125) for line in bar.lines if line.get_color() == LIMIT)
+    assert any(line.get_ydata()[0] == pytest.approx(0.125) for line in bar.lines if line.get_color() == BARRIER)
 
 
 def test_colours_are_those_of_the_clearance() -> None:
@@ -196,9 +197,9 @@ def test_found_paths_are_drawn_in_every_format(name: str, tmp_path: FilePath) ->
         save_figure(figure, tmp_path / f"way{suffix}")
     with Image.open(tmp_path / "way.png") as image:
         seen = np.asarray(image.convert("RGB")) / 255
-    assert (np.abs(seen - to_rgb(LIMIT)).max(axis=-1) < 0.05).sum() > 100  # the least clearance
+    assert (np.abs(seen - to_rgb(BARRIER)).max(axis=-1) < 0.05).sum() > 100  # the least clearance
     root = ElementTree.parse(tmp_path / "way.svg").getroot()
-    assert any(to_hex(LIMIT) in element.get("style", "").lower() for element in root.iter())
+    assert any(to_hex(BARRIER) in element.get("style", "").lower() for element in root.iter())
     assert (tmp_path / "way.svg").stat().st_size < 3_000_000
     pdf = (tmp_path / "way.pdf").read_bytes()
     assert pdf.startswith(b"%PDF") and pdf.rstrip().endswith(b"%%EOF")
@@ -345,11 +346,11 @@ def test_separations_by_bounds_and_workspace_are_marked() -> None:
     figure = picture(replace(answer, of="interior", robot=(), bounds=None), scene)
     assert figure.texts[0].get_text() == "no path of positive clearance from start to goal"
     names = artists(picture(answer, scene).axes[0])
-    assert {"barrier", "bounds"} <= set(names) and to_rgb(names["bounds"].get_edgecolor()) == to_rgb(LIMIT)
+    assert {"barrier", "bounds"} <= set(names) and to_rgb(names["bounds"].get_edgecolor()) == to_rgb(BARRIER)
     scene = Scene(robot=BOX, obstacles=wall, workspace=hall, name="hall")
     answer = cfree.plan(scene, Pose(0, 0), Pose(8, 0))
     figure = picture(answer, scene)
-    assert to_rgb(artists(figure.axes[0])["workspace"].get_edgecolor()) == to_rgb(LIMIT)
+    assert to_rgb(artists(figure.axes[0])["workspace"].get_edgecolor()) == to_rgb(BARRIER)
     assert [text.get_text() for text in figure.texts] == [
         "hall: no path from start to goal", "parted by workspace, obstacle 0",
     ]  # fmt: skip

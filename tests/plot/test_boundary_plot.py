@@ -12,16 +12,17 @@ from typing import Any
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.colors import to_rgb
+from matplotlib.colors import rgb_to_hsv, to_rgb
 from matplotlib.figure import Figure
 from PIL import Image
 
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary, boundary
-from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
+from cfree.forbidden.isolated import isolated_at, isolated_lines
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.formats.scene_file import load_scene
+from cfree.palette import EDGE_EDGE, EDGE_VERTEX, HELIX, MARK, VERTEX_EDGE
 from cfree.plot import depth_sort, pieces
 from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
 from cfree.scene.scene import Scene
@@ -59,15 +60,14 @@ def test_axes_are_labelled_and_the_legend_names_every_colour(fig9: Boundary) -> 
 
 
 @pytest.mark.slow
-def test_the_papers_colours_are_seen(fig9: Boundary) -> None:
+def test_the_palettes_colours_are_seen(fig9: Boundary) -> None:
     ax = plot_boundary(fig9)
     ax.get_legend().remove()
-    image = pixels(ax.figure)
-    red, green, blue = image[..., 0], image[..., 1], image[..., 2]
-    assert np.count_nonzero((red > 2 * green) & (red > 2 * blue)) > 10_000
-    assert np.count_nonzero((green > 1.4 * red) & (green > 1.4 * blue)) > 10_000
-    assert np.count_nonzero((blue > 2 * red) & (blue > 1.5 * green)) > 200
-    assert np.count_nonzero((red > 0.8) & (green > 0.6) & (blue < 0.3)) > 200
+    seen = rgb_to_hsv(pixels(ax.figure))
+    for colour, least in ((VERTEX_EDGE, 10_000), (EDGE_VERTEX, 10_000), (HELIX, 200), (EDGE_EDGE, 200)):
+        hue, _, value = rgb_to_hsv(to_rgb(colour))
+        near = (np.abs(seen[..., 0] - hue) < 0.03) & (seen[..., 1] > 0.45) & (np.abs(seen[..., 2] - value) < 0.3)
+        assert np.count_nonzero(near) > least, colour
 
 
 def test_units_are_in_the_labels() -> None:
@@ -251,7 +251,7 @@ def test_no_global_state_of_pyplot_is_touched() -> None:
 # exact fits
 
 
-MAGENTA = to_rgb(ISOLATED_COLOUR)
+MAGENTA = to_rgb(MARK)
 
 # three vertices stay on three walls while the robot turns: free is one point at each angle
 HALF, THIRD = Fraction(1, 2), Fraction(1, 3)

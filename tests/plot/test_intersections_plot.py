@@ -15,6 +15,7 @@ from cfree import Polygon
 from cfree.arrangements import intersection, triple
 from cfree.contact import EdgeVertex, Surface, VertexEdge, contact_surface
 from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.palette import INK
 from cfree.plot import plot_intersection
 from cfree.plot.pieces import Colours
 from cfree.rational import rational_surface
@@ -88,7 +89,7 @@ def test_poses_on_three_surfaces_are_dots() -> None:
     assert data(drawn["three contacts"]) == pytest.approx(
         np.array([(0, 0, 0), (0.8, 0, 2 * math.degrees(math.atan(0.5)))])
     )
-    assert "three, edges as lines" not in drawn and drawn["three contacts"].get_markerfacecolor() == "black"
+    assert "three, edges as lines" not in drawn and drawn["three contacts"].get_markerfacecolor() == INK
     names = [text.get_text() for text in ax.get_legend().get_texts()]
     assert names == ["v-e", "edges as lines", "curve on both", "three contacts"]
     others = triple(*PAIR, contact_surface(ROBOT, FAR, VertexEdge(2, 2)))

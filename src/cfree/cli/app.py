@@ -459,15 +459,14 @@ def _print_verified(result: Verification, file: Path, as_json: bool) -> None:
         raise click.exceptions.Exit(REFUTED)
 
 
-@app.command(epilog=examples("cfree figures -o pictures", "cfree figures -o pictures --only 7,9 --format svg --safe"))
+@app.command(epilog=examples("cfree figures -o pictures", "cfree figures -o pictures --only 7,9 --format svg"))
 @file_option("--output", "-o", metavar="DIR", help="Where to write, made if missing.", required=True)
 @click.option("--only", metavar="NUMBERS", help='Some of them: "7" or "7,9".', show_default="all")
 @click.option(
     "--format", "formats", metavar="FORMATS", help="Of svg, pdf and png.", default="svg,pdf,png", show_default=True
 )
-@click.option("--safe", is_flag=True, help="Colours for readers who do not tell red from green.")
 @options.as_json
-def figures(output: Path, only: str | None, formats: str, safe: bool, as_json: bool) -> None:
+def figures(output: Path, only: str | None, formats: str, as_json: bool) -> None:
     """Draw the figures of the paper from computed data.
 
     And three more.
@@ -477,7 +476,7 @@ def figures(output: Path, only: str | None, formats: str, safe: bool, as_json: b
 
         numbers = None if only is None else read_numbers(only)
         with bar("figures") as progress:
-            files = draw_all(output, only=numbers, formats=formats.split(","), safe=safe, progress=progress)
+            files = draw_all(output, only=numbers, formats=formats.split(","), progress=progress)
         if as_json:
             print_json({"files": [str(file) for file in files]})
         else:

@@ -16,7 +16,7 @@ from matplotlib.figure import Figure
 
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
-from cfree.figures.style import FORMATS, PAPER, SAFE, styled, write
+from cfree.figures.style import FORMATS, styled, write
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +55,7 @@ FIGURES = (
 
 
 @checked
-def draw(number: int, *, safe: bool = False) -> Figure:
+def draw(number: int) -> Figure:
     """One figure, to be shown or written within `styled`.
 
     Examples
@@ -65,14 +65,14 @@ def draw(number: int, *, safe: bool = False) -> Figure:
     [7.2, 5.7]
     """
     module, function = _entry(number).drawn_by.split(".")
-    figure: Figure = getattr(import_module(f"cfree.figures.{module}"), function)(SAFE if safe else PAPER)
+    figure: Figure = getattr(import_module(f"cfree.figures.{module}"), function)()
     return figure
 
 
 @checked
 def draw_all(
     directory: str | PathLike[str], *, only: Iterable[int] | None = None, formats: Iterable[str] = FORMATS,
-    safe: bool = False, progress: Callable[[float], object] | None = None,
+    progress: Callable[[float], object] | None = None,
 ) -> list[Path]:  # fmt: skip
     """Write the figures into a directory, which is made if missing; each file whole or not at all.
 
@@ -83,8 +83,6 @@ def draw_all(
         All if not given.
     formats : of "svg", "pdf", "png"
         Surfaces in space, and the curves on them, are pixels in all three; other lines and letters are not.
-    safe : bool
-        Colours after Okabe and Ito instead of red and green.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
@@ -126,7 +124,7 @@ def draw_all(
         if progress is not None:
             progress(done / len(entries))
         with styled():
-            figure = draw(entry.number, safe=safe)
+            figure = draw(entry.number)
             for suffix in dict.fromkeys(suffixes):
                 files.append(folder / f"{entry.stem}.{suffix}")
                 write(figure, files[-1])

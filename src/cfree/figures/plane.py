@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree.figures.style import INK, new_figure
+from cfree import palette
+from cfree.figures.style import new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,26 +36,30 @@ def shape(ax: Axes, points: ArrayLike, colour: str, inside: str = "", *, alpha: 
     ax.add_patch(Outline(corners, fill=False, edgecolor=colour, linewidth=1.4, joinstyle="round", zorder=2.1))
 
 
-def line(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = INK, *, width: float = 1, dashes: bool = False) -> None:
+def line(
+    ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = palette.INK, *, width: float = 1, dashes: bool = False
+) -> None:
     """A segment, above shapes."""
     (x0, y0), (x1, y1) = np.asarray(p), np.asarray(q)
     ax.plot([x0, x1], [y0, y1], color=colour, linewidth=width, linestyle=(0, (4, 3)) if dashes else "-", zorder=4)
 
 
-def arrow(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = INK, *, width: float = 1.4) -> None:
+def arrow(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = palette.INK, *, width: float = 1.4) -> None:
     """An arrow from p to q."""
     (x0, y0), (x1, y1) = np.asarray(p, float).tolist(), np.asarray(q, float).tolist()
     look = {"arrowstyle": "-|>,head_width=0.22,head_length=0.5", "color": colour, "linewidth": width}
     ax.annotate("", (x1, y1), (x0, y0), arrowprops={**look, "shrinkA": 0, "shrinkB": 0, "joinstyle": "miter"}, zorder=5)
 
 
-def dot(ax: Axes, p: ArrayLike, colour: str = INK, size: float = 4.5) -> None:
+def dot(ax: Axes, p: ArrayLike, colour: str = palette.INK, size: float = 4.5) -> None:
     """A point with a white rim."""
     x, y = np.asarray(p)
     ax.plot(x, y, "o", color=colour, markersize=size, markeredgecolor="white", markeredgewidth=0.8, zorder=7)
 
 
-def label(ax: Axes, p: ArrayLike, text: str, way: ArrayLike = (0, 0), colour: str = INK, size: float = 13) -> None:
+def label(
+    ax: Axes, p: ArrayLike, text: str, way: ArrayLike = (0, 0), colour: str = palette.INK, size: float = 13
+) -> None:
     """Text at a point, moved by (dx, dy) typographic points, with a white halo."""
     from matplotlib.patheffects import withStroke
 
@@ -93,7 +98,7 @@ def frame(ax: Axes, q: ArrayLike, length: float, colour: str) -> None:
 
 
 def arc(
-    ax: Axes, centre: ArrayLike, radius: float, span: tuple[float, float], colour: str = INK, *,
+    ax: Axes, centre: ArrayLike, radius: float, span: tuple[float, float], colour: str = palette.INK, *,
     tip: bool = False, fill: bool = True, width: float = 1.2, dotted: bool = False,
 ) -> None:  # fmt: skip
     """An arc of a circle over a span of angles in radians, its sector tinted, with an arrow at its end if asked for."""

@@ -6,6 +6,7 @@ import math
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from cfree import palette
 from cfree.exact.pose import Pose
 from cfree.figures.plane import (
     arc,
@@ -21,7 +22,6 @@ from cfree.figures.plane import (
     placed,
     shape,
 )  # fmt: skip
-from cfree.figures.style import GREY, INK, Palette
 from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
@@ -32,13 +32,13 @@ OBSTACLE = Polygon([(2.5, -1.6), (4.6, -1.9), (5.3, -0.75), (3.2, 0.05)])
 MOVED = (4.35, 2.1, math.radians(50))
 
 
-def rest_and_moved(palette: Palette) -> Figure:
+def rest_and_moved() -> Figure:
     """Figure 1: the robot at rest and in a pose q = (r, theta), its local frame, one obstacle."""
     ax = new_plane((-1.9, -2.4, 6.2, 4.0))
     a, b, q = ROBOT.vertices, OBSTACLE.vertices, placed(ROBOT.vertices, MOVED)
-    shape(ax, a, palette.robot, alpha=0.55)
-    shape(ax, q, palette.robot, palette.robot_moved, alpha=0.55)
-    shape(ax, b, palette.obstacle)
+    shape(ax, a, palette.ROBOT, alpha=0.55)
+    shape(ax, q, palette.ROBOT, palette.GHOST, alpha=0.55)
+    shape(ax, b, palette.OBSTACLE)
     corner_labels(ax, a, ["$a_1$", "$a_2$", "$a_3$", "$a_4$", "$a_5$"])
     corner_labels(ax, q, [rf"$a_{k}(\mathbf{{q}})$" for k in range(1, 6)], 18)
     corner_labels(ax, b, ["$b_1$", "$b_2$", "$b_3$", "$b_4$"])
@@ -58,18 +58,18 @@ def rest_and_moved(palette: Palette) -> Figure:
     label(ax, 0.75 * a[1], "$r_2$", (10, -3), size=12)
     # the pose
     x, y, theta = MOVED
-    arrow(ax, (0, 0), (x, y), GREY)
+    arrow(ax, (0, 0), (x, y), palette.GREY)
     label(ax, (0.52 * x, 0.52 * y), r"$\vec r$", (-6, 9))
-    line(ax, (x, y), (x + 1.15, y), GREY, dashes=True)
-    arc(ax, (x, y), 0.62, (0, theta), palette.frame, tip=True)
-    label(ax, on_arc((x, y), 0.84, theta / 2), r"$\theta$", colour=palette.frame)
-    frame(ax, (0, 0, 0), 1.0, palette.frame)
-    frame(ax, MOVED, 1.0, palette.frame)
-    label(ax, (0, 0), "$R_0$", (-11, -8), palette.frame)
-    label(ax, (x, y), r"$R_0(\mathbf{q})$", (17, -11), palette.frame)
-    label(ax, (0.45, -0.55), r"$A(\mathbf{0})$", size=16, colour=palette.robot)
-    label(ax, (4.3, 1.4), r"$A(\mathbf{q})$", size=16, colour=palette.robot)
-    label(ax, (4.05, -1.05), "$O_1$", size=16, colour=palette.obstacle)
+    line(ax, (x, y), (x + 1.15, y), palette.GREY, dashes=True)
+    arc(ax, (x, y), 0.62, (0, theta), palette.FRAME, tip=True)
+    label(ax, on_arc((x, y), 0.84, theta / 2), r"$\theta$", colour=palette.FRAME)
+    frame(ax, (0, 0, 0), 1.0, palette.FRAME)
+    frame(ax, MOVED, 1.0, palette.FRAME)
+    label(ax, (0, 0), "$R_0$", (-11, -8), palette.FRAME)
+    label(ax, (x, y), r"$R_0(\mathbf{q})$", (17, -11), palette.FRAME)
+    label(ax, (0.45, -0.55), r"$A(\mathbf{0})$", size=16, colour=palette.ROBOT)
+    label(ax, (4.3, 1.4), r"$A(\mathbf{q})$", size=16, colour=palette.ROBOT)
+    label(ax, (4.05, -1.05), "$O_1$", size=16, colour=palette.OBSTACLE)
     return ax.figure.figure
 
 
@@ -81,7 +81,7 @@ O2 = Polygon([("-0.4", "2.7"), ("-2.5", "0.7"), ("0.2", "1.3")])
 O3 = Polygon([("1.3", "1.2"), ("1.7", "-0.5"), ("3.3", "-0.4"), ("3.1", "1.5")])
 
 
-def contacts(palette: Palette) -> Figure:
+def contacts() -> Figure:
     """Figure 2: one contact with O1, a pseudo contact with O2, and three contacts with O3, at once."""
     import shapely
 
@@ -89,10 +89,10 @@ def contacts(palette: Palette) -> Figure:
     q = POSE.apply(FIVE.vertices)
     b1, b2, b3 = O1.vertices, O2.vertices, O3.vertices
     for b in (b1, b2, b3):
-        shape(ax, b, palette.obstacle)
-    shape(ax, q, palette.robot, palette.robot_moved, alpha=0.6)
+        shape(ax, b, palette.OBSTACLE)
+    shape(ax, q, palette.ROBOT, palette.GHOST, alpha=0.6)
     common = shapely.get_coordinates(shapely.intersection(shapely.Polygon(q), shapely.Polygon(b2)))
-    ax.fill(*common.T, facecolor="none", edgecolor=INK, hatch="////", linewidth=0, alpha=0.5, zorder=3)
+    ax.fill(*common.T, facecolor="none", edgecolor=palette.INK, hatch="////", linewidth=0, alpha=0.5, zorder=3)
     corner_labels(ax, q, ["$a_1$", "$a_2$", "", "", ""])
     for point, name, way in (
         (q[2], "$a_3$", (-12, 3)), (q[3], "$a_4$", (-10, -8)), (q[4], "$a_5$", (10, -10)),
@@ -101,22 +101,22 @@ def contacts(palette: Palette) -> Figure:
     ):  # fmt: skip
         label(ax, point, name, way)
     for point in (q[1], b2[2], b3[0], b3[1]):
-        dot(ax, point, INK, 6.5)
-    line(ax, b3[0], b3[1], palette.edge_edge, width=4)
-    frame(ax, (float(POSE.x), float(POSE.y), POSE.theta), 0.7, palette.frame)
-    label(ax, (float(POSE.x), float(POSE.y)), r"$R_0(\mathbf{q})$", (-4, -13), palette.frame)
+        dot(ax, point, palette.INK, 6.5)
+    line(ax, b3[0], b3[1], palette.EDGE_EDGE, width=4)
+    frame(ax, (float(POSE.x), float(POSE.y), POSE.theta), 0.7, palette.FRAME)
+    label(ax, (float(POSE.x), float(POSE.y)), r"$R_0(\mathbf{q})$", (-4, -13), palette.FRAME)
     for place, name in (((0.2, -2.35), "$O_1$"), ((-0.85, 1.95), "$O_2$"), ((2.55, 0.75), "$O_3$")):
-        label(ax, place, name, size=16, colour=palette.obstacle)
-    label(ax, (-0.75, -0.3), r"$A(\mathbf{q})$", size=16, colour=palette.robot)
+        label(ax, place, name, size=16, colour=palette.OBSTACLE)
+    label(ax, (-0.75, -0.3), r"$A(\mathbf{q})$", size=16, colour=palette.ROBOT)
     notes = (
         ((3.05, -1.2), "contact", ["($v_2$-$e_3$)"], (2.4, -1.4), q[1]),
         ((1.15, 2.75), "pseudo contact", ["($e_4$-$v_3$)"], (0.75, 2.3), b2[2]),
         ((4.05, 0.95), "contacts", ["($v_4$-$v_1$)", "($e_3$-$e_1$)", "($v_3$-$v_2$)"], None, None),
     )
     for place, title, types, start, target in notes:
-        label(ax, place, title, colour=GREY, size=11)
+        label(ax, place, title, colour=palette.GREY, size=11)
         for k, text in enumerate(types):
             label(ax, place, text, (0, -16 - 17 * k), size=14)
         if start is not None and target is not None:
-            line(ax, start, target, GREY)
+            line(ax, start, target, palette.GREY)
     return ax.figure.figure

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from cfree import palette
 from cfree.contact.contact import AngleRange, EdgeVertex, VertexEdge, angle_range
 from cfree.contact.surface import contact_surface
 from cfree.figures.plane import Floats, arc, dot, edge_label, frame, label, line, new_plane, on_arc, placed, shape
-from cfree.figures.style import GREY, INK, Palette
 from cfree.polygons.polygon import Polygon
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ CORNER = Polygon([(0, 0), (0.8, -2.2), (2.9, -1.7), (3.2, 0.25)])
 T0_VERTEX_EDGE, T0_EDGE_VERTEX = 0.5, 0.22
 
 
-def vertex_edge(palette: Palette) -> Figure:
+def vertex_edge() -> Figure:
     """Figure 3: a_i stays at P on E_j while the robot turns from phi_min to phi_max."""
     contact = VertexEdge(0, 0)
     found, S = angle_range(ROBOT, GROUND, contact), contact_surface(ROBOT, GROUND, contact)
@@ -33,16 +33,16 @@ def vertex_edge(palette: Palette) -> Figure:
     low, high = S(T0_VERTEX_EDGE, found.phi_min), S(T0_VERTEX_EDGE, found.phi_max)
     first, last = placed(ROBOT.vertices, low), placed(ROBOT.vertices, high)
     b, P = GROUND.vertices, first[0]
-    shape(ax, b, palette.obstacle)
-    _two_poses(ax, palette, first, last)
+    shape(ax, b, palette.OBSTACLE)
+    _two_poses(ax, first, last)
     along = math.atan2(*(b[0] - b[1])[::-1])  # of -E_j
     line(ax, on_arc(P, -3.7, along), on_arc(P, 3.7, along), dashes=True)
-    _range_at(ax, P, 0.7, along, found.phi_range, palette)
+    _range_at(ax, P, 0.7, along, found.phi_range)
     inner = (along + found.phi_range, along + math.pi)
     arc(ax, P, 0.85, inner)
     label(ax, on_arc(P, 1.08, sum(inner) / 2), r"$\rho_i$")
-    _turn(ax, palette, P, low, high, found)
-    dot(ax, P, INK, 6.5)
+    _turn(ax, P, low, high, found)
+    dot(ax, P, palette.INK, 6.5)
     label(ax, P, r"$P = a_i$", (4, -13))
     for corners, k, name, way in (
         (first, 1, r"$a_{i+1}$", (2, -13)), (first, 3, r"$a_{i-1}$", (7, -11)),
@@ -51,12 +51,12 @@ def vertex_edge(palette: Palette) -> Figure:
     ):  # fmt: skip
         label(ax, corners[k], name, way)
     label(ax, 0.82 * b[1] + 0.18 * b[0], "$E_j^O$", (-2, -15))
-    label(ax, (0.3, -0.85), "$O$", size=16, colour=palette.obstacle)
-    _names(ax, palette, (3.0, 1.35), (-3.0, 1.95))
+    label(ax, (0.3, -0.85), "$O$", size=16, colour=palette.OBSTACLE)
+    _names(ax, (3.0, 1.35), (-3.0, 1.95))
     return ax.figure.figure
 
 
-def edge_vertex(palette: Palette) -> Figure:
+def edge_vertex() -> Figure:
     """Figure 4: a point of E_i stays at b_j while the robot turns from phi_min to phi_max."""
     contact = EdgeVertex(0, 0)
     found, S = angle_range(LEVER, CORNER, contact), contact_surface(LEVER, CORNER, contact)
@@ -64,17 +64,17 @@ def edge_vertex(palette: Palette) -> Figure:
     low, high = S(T0_EDGE_VERTEX, found.phi_min), S(T0_EDGE_VERTEX, found.phi_max)
     first, last = placed(LEVER.vertices, low), placed(LEVER.vertices, high)
     b = CORNER.vertices
-    shape(ax, b, palette.obstacle)
-    _two_poses(ax, palette, first, last)
+    shape(ax, b, palette.OBSTACLE)
+    _two_poses(ax, first, last)
     along = math.atan2(*(b[-1] - b[0])[::-1])  # of -E_{j-1}
     line(ax, on_arc(b[0], 2.2, along + math.pi), b[0], dashes=True)
     line(ax, on_arc(b[0], 2.3, along + found.phi_range), b[0], dashes=True)
-    _range_at(ax, b[0], 0.5, along, found.phi_range, palette)
+    _range_at(ax, b[0], 0.5, along, found.phi_range)
     inner = (along + found.phi_range - math.pi, along)
     arc(ax, b[0], 0.5, inner)
     label(ax, on_arc(b[0], 0.75, sum(inner) / 2), r"$\omega_j$")
-    _turn(ax, palette, b[0], low, high, found)
-    dot(ax, b[0], INK, 6.5)
+    _turn(ax, b[0], low, high, found)
+    dot(ax, b[0], palette.INK, 6.5)
     for corners, k, name, way in (
         (first, 0, "$a_i$", (-11, -2)), (first, 1, r"$a_{i+1}$", (6, -13)),
         (last, 0, "$a_i$", (-11, -4)), (last, 1, r"$a_{i+1}$", (16, 4)), (b, 0, "$b_j$", (-11, -9)),
@@ -83,36 +83,36 @@ def edge_vertex(palette: Palette) -> Figure:
         label(ax, corners[k], name, way)
     edge_label(ax, b[3], b[0], "$E_{j-1}^O$", -16, at=0.2)
     edge_label(ax, b[0], b[1], "$E_j^O$", 16, at=0.75)
-    label(ax, (2.0, -1.0), "$O$", size=16, colour=palette.obstacle)
-    _names(ax, palette, (3.0, 1.35), (-2.2, 1.8))
+    label(ax, (2.0, -1.0), "$O$", size=16, colour=palette.OBSTACLE)
+    _names(ax, (3.0, 1.35), (-2.2, 1.8))
     return ax.figure.figure
 
 
-def _names(ax: Axes, palette: Palette, first: tuple[float, float], last: tuple[float, float]) -> None:
+def _names(ax: Axes, first: tuple[float, float], last: tuple[float, float]) -> None:
     """Names of the two poses."""
     for place, end in ((first, "min"), (last, "max")):
-        label(ax, place, rf"$A(\mathbf{{q}}_i(\phi_{{\{end}}}))$", size=14, colour=palette.robot)
+        label(ax, place, rf"$A(\mathbf{{q}}_i(\phi_{{\{end}}}))$", size=14, colour=palette.ROBOT)
 
 
-def _two_poses(ax: Axes, palette: Palette, first: Floats, last: Floats) -> None:
-    shape(ax, first, palette.robot, alpha=0.5)
-    shape(ax, last, palette.robot, palette.robot_moved, alpha=0.5)
+def _two_poses(ax: Axes, first: Floats, last: Floats) -> None:
+    shape(ax, first, palette.ROBOT, alpha=0.5)
+    shape(ax, last, palette.ROBOT, palette.GHOST, alpha=0.5)
 
 
-def _range_at(ax: Axes, centre: Floats, radius: float, along: float, width: float, palette: Palette) -> None:
-    arc(ax, centre, radius, (along, along + width), palette.frame, tip=True, width=1.6)
-    label(ax, on_arc(centre, radius + 0.28, along + 0.5 * width), r"$\phi_{\mathrm{range}}$", colour=palette.frame)
+def _range_at(ax: Axes, centre: Floats, radius: float, along: float, width: float) -> None:
+    arc(ax, centre, radius, (along, along + width), palette.FRAME, tip=True, width=1.6)
+    label(ax, on_arc(centre, radius + 0.28, along + 0.5 * width), r"$\phi_{\mathrm{range}}$", colour=palette.FRAME)
 
 
-def _turn(ax: Axes, palette: Palette, centre: Floats, low: Floats, high: Floats, found: AngleRange) -> None:
+def _turn(ax: Axes, centre: Floats, low: Floats, high: Floats, found: AngleRange) -> None:
     """The reference point's way about the centre, and phi_min and phi_max at its ends."""
     offset = low[:2] - centre
     start = math.atan2(offset[1], offset[0])
     radius = float(np.hypot(*offset))
-    arc(ax, centre, radius, (start, start + found.phi_range), GREY, fill=False, tip=True, dotted=True)
+    arc(ax, centre, radius, (start, start + found.phi_range), palette.GREY, fill=False, tip=True, dotted=True)
     for q, name in ((low, r"$\phi_{\min}$"), (high, r"$\phi_{\max}$")):
         turn = float(q[2]) % math.tau
-        line(ax, q[:2], np.add(q[:2], (0.75, 0)), GREY, dashes=True)
-        frame(ax, q, 0.55, palette.frame)
-        arc(ax, q[:2], 0.38, (0, turn), palette.frame)
-        label(ax, on_arc(q[:2], 0.85 if turn < 1 else 0.58, turn / 2), name, colour=palette.frame, size=12)
+        line(ax, q[:2], np.add(q[:2], (0.75, 0)), palette.GREY, dashes=True)
+        frame(ax, q, 0.55, palette.FRAME)
+        arc(ax, q[:2], 0.38, (0, turn), palette.FRAME)
+        label(ax, on_arc(q[:2], 0.85 if turn < 1 else 0.58, turn / 2), name, colour=palette.FRAME, size=12)

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.colors import to_rgb
 from numpy.typing import NDArray
 
-from cfree.figures.style import FAINT, GREY
+from cfree import palette
 from cfree.plot.depth_sort import Painting
 from cfree.plot.pieces import SURFACE, Pieces, joined, of_line, shaded
 
@@ -34,7 +34,7 @@ def new_space(
     ax: Any = figure.add_axes(place, projection="3d", computed_zorder=False)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees)
     ax.set_box_aspect((x1 - x0, y1 - y0, angle_scale * math.radians(degrees[1] - degrees[0])), zoom=zoom)
-    ax.set_proj_type("persp", focal_length=1.8)
+    ax.set_proj_type("persp", focal_length=palette.FOCAL_LENGTH)
     ax.view_init(*view)
     ax.set_axis_off()
     return ax
@@ -51,7 +51,9 @@ def draw_frame(ax: Any, ticks: Sequence[float]) -> None:
         [(x0, y1, z0), (x1, y1, z0), (x1, y1, z1), (x0, y1, z1)],
     ]
     ax.add_collection3d(
-        Poly3DCollection(walls, facecolor="#f6f7f9", edgecolor=FAINT, linewidth=0.7, zorder=-2, clip_on=False)
+        Poly3DCollection(
+            walls, facecolor=palette.WALL, edgecolor=palette.FAINT, linewidth=0.7, zorder=-2, clip_on=False
+        )
     )
     xs, ys = ([t for t in ticks if low < t < high] for low, high in ((x0, x1), (y0, y1)))
     zs = [z for z in TURNS if z0 < z < z1]
@@ -60,9 +62,9 @@ def draw_frame(ax: Any, ticks: Sequence[float]) -> None:
         *([(x1, y, z0), (x0, y, z0), (x0, y, z1)] for y in ys),
         *([(x0, y0, z), (x0, y1, z), (x1, y1, z)] for z in zs),
     ]
-    ax.add_collection3d(Line3DCollection(grid, colors=FAINT, linewidths=0.6, zorder=-1, clip_on=False))
+    ax.add_collection3d(Line3DCollection(grid, colors=palette.FAINT, linewidths=0.6, zorder=-1, clip_on=False))
     dx, dy = 0.05 * (x1 - x0), 0.05 * (y1 - y0)
-    center: Any = {"ha": "center", "va": "center", "fontsize": 11, "color": GREY}
+    center: Any = {"ha": "center", "va": "center", "fontsize": 11, "color": palette.GREY}
     for x in xs:
         ax.text(x, y0 - dy, z0, f"{x:g}", **center)
     for y in ys:

@@ -15,9 +15,9 @@ from cfree.film.box import INK
 from cfree.film.moves import Moment, shape_of
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.patch import Contact, Place
-from cfree.plot.boundary import FORBIDDEN
+from cfree.palette import FORBIDDEN, GREY, OBSTACLE, ROBOT
 from cfree.plot.pieces import Colours
-from cfree.plot.workspace import BOUNDS, OBSTACLE, ROBOT, Window, path_of, rings_of, rings_of_geometry
+from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import robot_radius
 
@@ -71,7 +71,7 @@ class Plane:
         shape(rings_of(scene.obstacles), facecolor=OBSTACLE, edgecolor="#3c434d", lw=0.6, zorder=2)
         if scene.bounds is not None:
             left, bottom, right, top = map(float, scene.bounds)
-            dashed: Any = {"fill": False, "edgecolor": BOUNDS, "linestyle": (0, (5, 3)), "zorder": 2.1}
+            dashed: Any = {"fill": False, "edgecolor": GREY, "linestyle": (0, (5, 3)), "zorder": 2.1}
             ax.add_patch(Rectangle((left, bottom), right - left, top - bottom, **dashed))
         (self.tail,) = ax.plot([], [], lw=1.6, zorder=3, solid_capstyle="round")
         self.target = shape([], fill=False, edgecolor=ROBOT, lw=1.1, ls="--", zorder=3.5)

@@ -19,9 +19,10 @@ from cfree.film.box import INK
 from cfree.film.eye import Eye
 from cfree.film.frame import GREY, INCHES, MONO
 from cfree.film.space import Space
+from cfree.palette import BARRIER, ROBOT
 from cfree.plot.boundary import extent, plain, set_window, with_unit
-from cfree.plot.path import LIMIT, Track, poses_of, quantity, statement
-from cfree.plot.workspace import ROBOT, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.plot.path import Track, poses_of, quantity, statement
+from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
@@ -87,7 +88,7 @@ class PathStage:
         self.body = ax.add_patch(PathPatch(path_of([]), facecolor=ROBOT, alpha=0.8, linewidth=0, zorder=5))
         self.rim = ax.add_patch(PathPatch(path_of([]), fill=False, edgecolor="#1b4a80", linewidth=1.2, zorder=5.1))
         (self.origin,) = ax.plot([], [], "o", ms=5, color=INK, mec="white", mew=1.2, zorder=6)
-        (self.gap,) = ax.plot([], [], "o-", ms=3.5, lw=1.8, color=LIMIT, zorder=7)
+        (self.gap,) = ax.plot([], [], "o-", ms=3.5, lw=1.8, color=BARRIER, zorder=7)
         set_window(ax, track.window, track.scene.units)
         ax.tick_params(length=3, labelsize=9)
 
@@ -100,7 +101,7 @@ class PathStage:
         ax.set(yticks=[], xlim=(0, most))
         ax.tick_params(length=2, labelsize=8)
         assert track.least is not None
-        ax.axvline(track.least.found, color=LIMIT, linewidth=2)
+        ax.axvline(track.least.found, color=BARRIER, linewidth=2)
         (self.pointer,) = ax.plot([], [], "v", color=INK, ms=8, clip_on=False, zorder=5)
         left, bottom, width, height = GAUGE
         self.value = figure.text(left + width + 0.015, bottom + height / 2, "", fontsize=12, color=INK, va="center")

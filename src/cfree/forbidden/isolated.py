@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-ISOLATED_COLOUR = "#d6008f"
 STEP = math.radians(2)
 SAME = 1e-9  # radians; for the eye only
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from enum import IntEnum
 
 from cfree.contact.kind import Kind
+from cfree.palette import BOUND, EDGE_VERTEX, VERTEX_EDGE
 
 
 class PatchKind(IntEnum):
@@ -16,5 +17,4 @@ class PatchKind(IntEnum):
 
 
 KINDS = {PatchKind.VERTEX_EDGE: "v-e", PatchKind.EDGE_VERTEX: "e-v", PatchKind.BOUND: "bound"}
-COLOURS = {PatchKind.VERTEX_EDGE: "#d7301f", PatchKind.EDGE_VERTEX: "#3a9a3a", PatchKind.BOUND: "#b4b9c1"}
-"""Colour of each kind of patch: the paper's red and green, and light grey for the bounds."""
+COLOURS = {PatchKind.VERTEX_EDGE: VERTEX_EDGE, PatchKind.EDGE_VERTEX: EDGE_VERTEX, PatchKind.BOUND: BOUND}

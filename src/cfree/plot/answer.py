@@ -14,12 +14,13 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
+from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, PATH, VERTEX_EDGE, paler
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.separation import Separated
 from cfree.plot.boundary import around, new_figure, new_space, plain, set_window, with_unit
 from cfree.plot.depth_sort import Painting
-from cfree.plot.path import LIMIT, Track, draw_track, statement
+from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.strips import strips
 from cfree.plot.unrolled import Range, distances, slab
@@ -29,10 +30,8 @@ from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 
-# paler than the paper's, so that the path is seen, and told apart by readers who do not tell red from green
-PALE = Colours("#f3c7a1", "#a9cdea", "#6b7fa8", "#c9b458")
-BARRIER = Colours("#e98d5b", "#f0b48e", "#8f3d00", "#b86f3f")
-INK, GREY, FLOOR, PATH = "#20242b", "#8a92a0", "#dcdfe5", "#31688e"
+# pale, so that the path is seen
+PALE = Colours(*(paler(colour, 0.6) for colour in (VERTEX_EDGE, EDGE_VERTEX, HELIX, EDGE_EDGE)))
 MARGIN, LEAST = 15.0, 90.0  # degrees above and below a path, and shown at least
 NEAR = 2.0  # robot's radii: patches farther from a path are left out
 DASH = 8  # steps of the path
@@ -160,8 +159,8 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene) -> N
     surface = surface_of(answer, scene)
     box = _around_surface(surface)
     space = _right(figure)
-    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, BARRIER))
-    _legend(space, {"v-e contacts": BARRIER.vertex_edge, "e-v contacts": BARRIER.edge_vertex}, [])
+    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box))
+    _legend(space, {"v-e contacts": VERTEX_EDGE, "e-v contacts": EDGE_VERTEX}, [])
     _frame(ax, box)
     for pose, name in ((answer.start, "start"), (answer.goal, "goal")):
         x, y = float(pose.x), float(pose.y)
@@ -215,8 +214,8 @@ def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
     from matplotlib.patches import PathPatch, Rectangle
 
     shapes = path_of(rings_of([scene.obstacles[k] for k in numbers if k >= 0]))
-    style: Any = {"edgecolor": LIMIT, "linewidth": 1.6, "zorder": 2.5}
-    ax.add_patch(PathPatch(shapes, facecolor="#b5663a", label="barrier", **style))
+    style: Any = {"edgecolor": BARRIER, "linewidth": 1.6, "zorder": 2.5}
+    ax.add_patch(PathPatch(shapes, facecolor=paler(BARRIER, 0.7), label="barrier", **style))
     if WORKSPACE in numbers and scene.workspace is not None:
         ax.add_patch(PathPatch(path_of(rings_of([scene.workspace])), fill=False, label="workspace", **style))
     if BOUNDS in numbers and scene.bounds is not None:
@@ -267,7 +266,7 @@ def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, p
     ax.add_collection(painting, autolim=False)
     obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in boundary.scene.obstacles])
     floor = level(shapely.intersection(obstacles, shapely.box(*window)), low)[:, :3]
-    shadow = Poly3DCollection(floor, facecolor=FLOOR, edgecolor=FLOOR, linewidth=0.3, zorder=0.2)
+    shadow = Poly3DCollection(floor, facecolor=FORBIDDEN, edgecolor=FORBIDDEN, linewidth=0.3, zorder=0.2)
     ax.add_collection(shadow, autolim=False)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees, zlabel="θ")
     height = side * min(1.0, max(0.4, 0.75 * (high - low) / 360))

@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 
 from cfree.analysis.blockers import Blocker
 from cfree.arguments import checked
+from cfree.palette import BARRIER
 from cfree.paths.preferences import NONE, Preferences
 from cfree.plot.boundary import new_figure, plain
-from cfree.plot.path import LIMIT, Track, draw_track, statement
+from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.workspace import path_of, rings_of
 from cfree.scene.scene import Scene
 
@@ -61,7 +62,9 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
         ax = figure.add_subplot(down, across, k + 1)
         draw_track(ax, track, preferences or NONE)
         gone = path_of(rings_of([scene.obstacles[blocker.obstacle]]))
-        ax.add_patch(PathPatch(gone, fill=False, edgecolor=LIMIT, hatch="///", linewidth=1.4, zorder=2.6, label="gone"))
+        ax.add_patch(
+            PathPatch(gone, fill=False, edgecolor=BARRIER, hatch="///", linewidth=1.4, zorder=2.6, label="gone")
+        )
         ax.set_title(f"without {plain(scene.obstacle_names[blocker.obstacle])}\n{statement(track)}", fontsize=10)
     figure.tight_layout()
     return figure

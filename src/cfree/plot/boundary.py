@@ -20,16 +20,15 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
-from cfree.forbidden.isolated import ISOLATED_COLOUR, isolated_at, isolated_lines
+from cfree.forbidden.isolated import isolated_at, isolated_lines
 from cfree.forbidden.kinds import COLOURS, KINDS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
 from cfree.formats.atomic import checked_suffix, replacing
+from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT
 from cfree.plot.strips import THIN, strips
-from cfree.plot.workspace import BOUNDS, ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
+from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.scene.scene import Scene
-
-FORBIDDEN = "#e4e4e9"
 
 
 @checked
@@ -59,7 +58,7 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     for name, pose in (poses or {"at rest": Pose(0, 0)}).items():
         boxes.append(draw_robot(ax, scene, pose, name, faint=name != "start"))
     for x, y in (goal for goal in scene.goals if not isinstance(goal, Pose)):
-        ax.plot(float(x), float(y), "*", color="#20242b", markersize=12, label="goal, any theta")
+        ax.plot(float(x), float(y), "*", color=INK, markersize=12, label="goal, any theta")
         boxes.append((float(x), float(y), float(x), float(y)))
     set_window(ax, around(boxes), scene.units)
     ax.set_title("workspace")
@@ -107,7 +106,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
 
 @checked
 def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
-    """Contact patches in (x, y, theta), in the paper's colours; see `cfree.plot.depth_sort` for how they are drawn.
+    """Contact patches in (x, y, theta), v-e orange, e-v blue; see `cfree.plot.depth_sort` for how they are drawn.
 
     Parameters
     ----------
@@ -123,7 +122,7 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     from matplotlib.ticker import MaxNLocator
 
     from cfree.plot.depth_sort import Painting
-    from cfree.plot.pieces import CUT, SECTION_COLOUR, Colours, pieces_of
+    from cfree.plot.pieces import Colours, pieces_of
 
     if ax is None:
         ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
@@ -145,11 +144,11 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
         *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX)),
         Line2D([], [], color=Colours.helix, label="v-v helix"),
         Line2D([], [], color=Colours.edge_edge, label="e-e line"),
-        Patch(facecolor=COLOURS[PatchKind.BOUND], edgecolor=CUT, alpha=0.4, label="bounds"),
-        Patch(facecolor=SECTION_COLOUR, edgecolor=CUT, label="section at 360°"),
+        Patch(facecolor=COLOURS[PatchKind.BOUND], edgecolor=GREY, alpha=0.4, label="bounds"),
+        Patch(facecolor=FORBIDDEN, edgecolor=GREY, label="section at 360°"),
     ]
     if len(boundary.isolated):
-        handles.append(Line2D([], [], color=ISOLATED_COLOUR, label="exact fit"))
+        handles.append(Line2D([], [], color=MARK, label="exact fit"))
     space.legend(
         handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=6 if len(handles) <= 6 else 4,
         frameon=False, handlelength=1.4, columnspacing=1.4,
@@ -235,7 +234,7 @@ def new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3
     import mpl_toolkits.mplot3d  # noqa: F401  registers the projection
     from matplotlib import rc_context
 
-    with rc_context({"grid.color": "#dfe1e6", "grid.linewidth": 0.6}):
+    with rc_context({"grid.color": FAINT, "grid.linewidth": 0.6}):
         return figure.add_axes(place, projection="3d")
 
 
@@ -270,14 +269,14 @@ def plain(text: str) -> str:
 
 
 def _line_colour(kind: PatchKind) -> str:
-    return BOUNDS if kind == PatchKind.BOUND else COLOURS[kind]
+    return GREY if kind == PatchKind.BOUND else COLOURS[kind]
 
 
 def _draw_fits(ax: Any, lines: list[NDArray[np.float64]]) -> None:
     """Exact fits, above all else: those without length are dots."""
     for points in lines:
         is_dot = bool(np.ptp(points, axis=0).max() < THIN)
-        ax.plot(*points.T, "o" if is_dot else "-", color=ISOLATED_COLOUR, markersize=5, linewidth=2.2, zorder=20)
+        ax.plot(*points.T, "o" if is_dot else "-", color=MARK, markersize=5, linewidth=2.2, zorder=20)
 
 
 def _legend(ax: Axes) -> None:

@@ -14,13 +14,12 @@ from cfree.arguments import checked
 from cfree.arrangements.arranged import Arrangement
 from cfree.arrangements.regions import planar_cells
 from cfree.exact.half_angle import Angle
+from cfree.palette import INK, SEQUENTIAL
 from cfree.plot.boundary import around, new_axes, new_figure, new_space, set_window, with_unit
 from cfree.plot.pieces import FINE, SURFACE, Pieces, faces_of, shaded
 from cfree.plot.strips import step_for, strips
 from cfree.plot.workspace import path_of, rings_of_geometry
 from cfree.scene.scene import robot_radius
-
-COLOURS = "YlGnBu"
 
 
 @checked
@@ -46,12 +45,12 @@ def plot_depths(whole: Arrangement, theta: Angle, ax: Axes | None = None) -> Axe
     depths = [int(whole.cell_depth[cell]) for _, cell in cells]
     for (region, _), depth in zip(cells, depths, strict=True):
         ax.add_patch(PathPatch(path_of(rings_of_geometry(region)), facecolor=colours[depth], edgecolor="none"))
-    ax.add_collection(LineCollection(list(cut.segments), colors="#20242b", linewidths=0.6))
+    ax.add_collection(LineCollection(list(cut.segments), colors=INK, linewidths=0.6))
     if len(cut.segments):
         low, high = cut.segments.min(axis=(0, 1)).tolist(), cut.segments.max(axis=(0, 1)).tolist()
         set_window(ax, around([(*low, *high)]), whole.scene.units)
     ax.set_title(f"depth at θ = {math.degrees(cut.theta):.4g}°")
-    handles = [Patch(facecolor=colours[depth], edgecolor="#20242b", label=str(depth)) for depth in sorted(set(depths))]
+    handles = [Patch(facecolor=colours[depth], edgecolor=INK, label=str(depth)) for depth in sorted(set(depths))]
     ax.legend(handles=handles, title="pairs that overlap", loc="upper right", frameon=False)
     return ax
 
@@ -102,7 +101,7 @@ def depth_colours(whole: Arrangement) -> NDArray[np.float64]:
     from matplotlib import colormaps
 
     most = int(whole.cell_depth.max())
-    colours: NDArray[np.float64] = colormaps[COLOURS](np.linspace(0.15, 0.95, most + 1))[:, :3]
+    colours: NDArray[np.float64] = colormaps[SEQUENTIAL](np.linspace(0.97, 0.1, most + 1))[:, :3]
     return colours
 
 

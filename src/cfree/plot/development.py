@@ -12,6 +12,7 @@ from cfree.contact.contact import VertexEdge, angle_range
 from cfree.contact.surface import contact_surface
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.geometry.development import develop
+from cfree.palette import EDGE_EDGE, INK
 from cfree.polygons.polygon import Polygon
 
 HELICES, RULINGS, POINTS = 9, 13, 241  # lines drawn, and points of a curve
@@ -61,9 +62,9 @@ def plot_development(
     ax = ax or Figure(figsize=(8, 5), facecolor="white", layout="constrained").add_subplot()
     rim = np.concatenate([helices[0], helices[-1, ::-1]])
     ax.fill(*rim.T, facecolor=COLOURS[PatchKind.VERTEX_EDGE], alpha=0.25, linewidth=0)
-    ax.add_collection(LineCollection(list(rulings), colors="#e0a800", linewidths=1.2))
-    ax.add_collection(LineCollection(list(helices[1:-1]), colors="black", linewidths=0.6))
-    ax.add_collection(LineCollection([*helices[[0, -1]], *rulings[[0, -1]]], colors="black", linewidths=1.5))
+    ax.add_collection(LineCollection(list(rulings), colors=EDGE_EDGE, linewidths=1.2))
+    ax.add_collection(LineCollection(list(helices[1:-1]), colors=INK, linewidths=0.6))
+    ax.add_collection(LineCollection([*helices[[0, -1]], *rulings[[0, -1]]], colors=INK, linewidths=1.5))
     for name, angle, ruling, side in (("min", Phi.phi_min, rulings[0], -1), ("max", Phi.phi_max, rulings[-1], 1)):
         text = rf"$\phi_{{\{name}}}$ = {math.degrees(angle) % 360:.4g}°"
         ax.annotate(

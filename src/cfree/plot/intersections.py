@@ -18,14 +18,15 @@ from cfree.contact.contact import VertexEdge
 from cfree.exact.angle_interval import AngleInterval
 from cfree.exact.orientation import Location
 from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.palette import EDGE_EDGE, INK
 from cfree.plot.boundary import new_figure, new_space
-from cfree.plot.pieces import Colours, shaded
+from cfree.plot.pieces import shaded
 from cfree.rational.model import RationalSurface
 
 Floats = NDArray[np.float64]
 
 ROWS, CELLS, POINTS = 121, 13, 721  # of a surface over a full turn, across it, of a curve
-CURVE, LINE, SEEN_THROUGH = "black", Colours.edge_edge, 0.55
+SEEN_THROUGH = 0.55
 NAMES = {PatchKind.VERTEX_EDGE: "v-e", PatchKind.EDGE_VERTEX: "e-v"}
 
 
@@ -44,8 +45,9 @@ def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) ->
 
     Notes
     -----
-    Surfaces are in the paper's colours; of a `RationalSurface` its patch is drawn. Curves are black where they are on
-    both surfaces, and thin where edges count as lines. Poses on three are dots, hollow if an edge or patch ends before.
+    v-e surfaces are orange, e-v surfaces blue; of a `RationalSurface` its patch is drawn. Curves are black where they
+    are on both surfaces, and thin where edges count as lines. Poses on three are dots, hollow if an edge or patch ends
+    before.
     """
     from matplotlib.ticker import MaxNLocator
 
@@ -135,15 +137,15 @@ def _draw_pair(space: Any, pair: Intersection, window: tuple[Floats, Floats]) ->
         points = pair.curve(np.linspace(0, math.tau, POINTS))
         outside = ((points[:, :2] < window[0]) | (points[:, :2] > window[1])).any(axis=1)
         points[outside, :2] = np.nan
-        draw(points, "edges as lines", color=CURVE, linewidth=0.7, linestyle=(0, (4, 3)), zorder=2)
+        draw(points, "edges as lines", color=INK, linewidth=0.7, linestyle=(0, (4, 3)), zorder=2)
         for part in pair.ranges:
             for low, high in _within_a_turn(part):
-                draw(pair.curve(np.linspace(low, high, POINTS)), "curve on both", color=CURVE, linewidth=2.4, zorder=3)
+                draw(pair.curve(np.linspace(low, high, POINTS)), "curve on both", color=INK, linewidth=2.4, zorder=3)
     for line in pair.lines:
         if line.t_range is not None:
             surface = pair.surfaces[0]
             S = surface.surface if isinstance(surface, RationalSurface) else surface
-            draw(S(line.t_range, line.angle.theta), "shared line", color=LINE, linewidth=2.4, zorder=4)
+            draw(S(line.t_range, line.angle.theta), "shared line", color=EDGE_EDGE, linewidth=2.4, zorder=4)
 
 
 def _within_a_turn(part: AngleInterval) -> list[tuple[float, float]]:
@@ -152,10 +154,10 @@ def _within_a_turn(part: AngleInterval) -> list[tuple[float, float]]:
 
 
 def _draw_poses(space: Any, found: Triple) -> None:
-    for is_contact, name, fill in ((True, "three contacts", CURVE), (False, "three, edges as lines", "white")):
+    for is_contact, name, fill in ((True, "three contacts", INK), (False, "three, edges as lines", "white")):
         chosen = [pose for pose in found.poses if (pose.location is not Location.OUTSIDE) == is_contact]
         if chosen:
             points = np.array([(*pose.xy, math.degrees(pose.angle.theta)) for pose in chosen])
             space.plot(
-                *points.T, "o", color=CURVE, markerfacecolor=fill, markersize=7, label=name, zorder=5, linestyle="none"
+                *points.T, "o", color=INK, markerfacecolor=fill, markersize=7, label=name, zorder=5, linestyle="none"
             )

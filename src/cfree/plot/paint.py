@@ -13,6 +13,7 @@ from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.mesh import Floats, Mesh
 from cfree.free.space import FreeSpace
 from cfree.geometry.local import LocalGeometry, local_geometry
+from cfree.palette import CATEGORIES, DIVERGING, SEQUENTIAL
 
 
 @checked
@@ -26,7 +27,7 @@ def painted(mesh: Mesh, space: FreeSpace, by: Literal["K", "H", "contact", "cell
     space : FreeSpace
     by : "K", "H", "contact" or "cell"
         The Gaussian curvature, from dark blue where it is least to yellow where it is 0; the mean curvature, from blue
-        below 0 over grey to red above; the contact type; or the cell that the surface bounds, ten colours in turn.
+        below 0 over grey to red above; the contact type; or the cell that the surface bounds, eight colours in turn.
 
     Returns
     -------
@@ -56,14 +57,14 @@ def painted(mesh: Mesh, space: FreeSpace, by: Literal["K", "H", "contact", "cell
     if by == "contact":
         return replace(mesh, paint=None)
     if by == "cell":
-        return replace(mesh, paint=_mapped("tab10", space.cell_of[space.component[mesh.trapezoid]] % 10))
+        return replace(mesh, paint=_categories()[space.cell_of[space.component[mesh.trapezoid]] % len(CATEGORIES)])
     at = _middles(mesh, space.surfaces)
     if by == "K":
         K = at.gaussian_curvature
-        return replace(mesh, paint=_mapped("viridis", 1 - K / min(float(K.min(initial=0.0)), -1e-300)))
+        return replace(mesh, paint=_mapped(SEQUENTIAL, 1 - K / min(float(K.min(initial=0.0)), -1e-300)))
     H = at.mean_curvature
     most = max(float(np.abs(H).max(initial=0.0)), 1e-300)
-    return replace(mesh, paint=_mapped("coolwarm", (1 + H / most) / 2))
+    return replace(mesh, paint=_mapped(DIVERGING, (1 + H / most) / 2))
 
 
 def _middles(mesh: Mesh, boundary: Boundary) -> LocalGeometry:
@@ -83,8 +84,15 @@ def _turned(vectors: Floats, phi: Floats) -> Floats:
 
 
 def _mapped(name: str, values: NDArray[np.generic]) -> NDArray[np.uint8]:
-    """Colours of values from 0 to 1, or of numbers of colours."""
+    """Colours of values from 0 to 1."""
     import matplotlib
 
     colours: NDArray[np.uint8] = matplotlib.colormaps[name](values, bytes=True)
     return colours.reshape(-1, 4)
+
+
+def _categories() -> NDArray[np.uint8]:
+    from matplotlib.colors import to_rgba_array
+
+    colours: NDArray[np.uint8] = np.rint(255 * to_rgba_array(CATEGORIES)).astype(np.uint8)
+    return colours

@@ -15,20 +15,18 @@ from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
+from cfree.palette import BARRIER, MARK, ROBOT, SEQUENTIAL
 from cfree.paths.clearance import Clearance, distances_beside, least_clearance
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import Travel
 from cfree.plot.boundary import around, new_axes, plain, set_window, with_unit
-from cfree.plot.workspace import ROBOT, Window, draw_robot, draw_surroundings, path_of, rings_of
+from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 
-UNWANTED = "#aa3377"  # purple
-LIMIT = "#d55e00"  # vermilion: what the clearance ends at
-SCALE = "viridis"  # perceptually uniform, and fit for readers who do not tell red from green
 GHOSTS, APART = 48, 0.45  # so many at most, and no closer than this part of the robot's radius
 TRACE = 600
 LABEL = 30  # typographic points from a place to its label
@@ -88,7 +86,7 @@ class Track:
         farthest = float(np.nanmax(distance, initial=0.0))
         # beyond the robot's own size, clearances need not be told apart
         most = min(farthest, 2 * distances.radius) if farthest > SAME * distances.radius else distances.radius
-        colours = ScalarMappable(Normalize(0.0, most), colormaps[SCALE])
+        colours = ScalarMappable(Normalize(0.0, most), colormaps[SEQUENTIAL])
         return cls(path, scene, travel, steps, rows, distance, least, closest, _window(scene, edges), most, colours)
 
     def colour(self, distance: Floats) -> Floats:
@@ -196,12 +194,10 @@ def _draw_unwanted(ax: Any, path: Path, part: Unwanted) -> None:
     ends = zip(path.poses[part.first : part.last + 1], path.motions[part.first : part.last + 1], strict=True)
     xy = np.concatenate([motion.sample(pose, shares).xy for pose, motion in ends])
     is_spot = part.kind == "turning"
-    ax.plot(*xy.T, "s" if is_spot else "--", color=UNWANTED, linewidth=2.0, markersize=7, zorder=4.5, label=part.kind)
+    ax.plot(*xy.T, "s" if is_spot else "--", color=MARK, linewidth=2.0, markersize=7, zorder=4.5, label=part.kind)
     text = f"{math.degrees(part.amount):.0f}°" if is_spot else part.kind
     halo = [withStroke(linewidth=2.5, foreground="white")]
-    ax.annotate(
-        text, xy[len(xy) // 2], (6, -12), textcoords="offset points", color=UNWANTED, zorder=9, path_effects=halo
-    )
+    ax.annotate(text, xy[len(xy) // 2], (6, -12), textcoords="offset points", color=MARK, zorder=9, path_effects=halo)
 
 
 def _draw_scale(ax: Any, track: Track) -> None:
@@ -213,7 +209,7 @@ def _draw_scale(ax: Any, track: Track) -> None:
     ax.figure.colorbar(track.colours, cax=beside, extend="max" if above else "neither")
     beside.set_ylabel(with_unit("clearance", track.scene.units))
     if track.least is not None:
-        beside.axhline(track.least.found, color=LIMIT, linewidth=2)
+        beside.axhline(track.least.found, color=BARRIER, linewidth=2)
 
 
 def statement(track: Track) -> str:
@@ -248,18 +244,20 @@ def _draw_least(ax: Any, track: Track) -> None:
     assert least is not None
     pose = _pose_of_least(track.path, least)
     shape = path_of(pose.apply(ring) for ring in rings_of(scene.robot))
-    ax.add_patch(PathPatch(shape, fill=False, edgecolor=LIMIT, linewidth=1.6, zorder=5, label="least clearance"))
+    ax.add_patch(PathPatch(shape, fill=False, edgecolor=BARRIER, linewidth=1.6, zorder=5, label="least clearance"))
     limits = path_of(rings_of(_limiting(scene, pose, NEAR * least.found)))
-    ax.add_patch(PathPatch(limits, fill=False, edgecolor=LIMIT, linewidth=1.8, zorder=2.5, label="limiting obstacles"))
-    ax.plot(*track.closest.T, "-", color=LIMIT, linewidth=2, zorder=6, solid_capstyle="butt")
+    ax.add_patch(
+        PathPatch(limits, fill=False, edgecolor=BARRIER, linewidth=1.8, zorder=2.5, label="limiting obstacles")
+    )
+    ax.plot(*track.closest.T, "-", color=BARRIER, linewidth=2, zorder=6, solid_capstyle="butt")
     middle = track.closest.mean(axis=0)
-    ax.plot(*middle, "o", markersize=11, markerfacecolor="none", color=LIMIT, markeredgewidth=1.6, zorder=6)
+    ax.plot(*middle, "o", markersize=11, markerfacecolor="none", color=BARRIER, markeredgewidth=1.6, zorder=6)
     halo = [withStroke(linewidth=3, foreground="white")]
     dx, dy = LABEL * _aside(ax, pose, middle)
     ax.annotate(
         quantity(least.found, scene.units), middle, (dx, dy), textcoords="offset points", zorder=9, path_effects=halo,
-        color=LIMIT, weight="bold", ha="left" if dx > 0 else "right", va="center",
-        arrowprops={"arrowstyle": "-", "color": LIMIT, "shrinkA": 1, "shrinkB": 6, "zorder": 9},
+        color=BARRIER, weight="bold", ha="left" if dx > 0 else "right", va="center",
+        arrowprops={"arrowstyle": "-", "color": BARRIER, "shrinkA": 1, "shrinkB": 6, "zorder": 9},
     )  # fmt: skip
 
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from cfree.contact.kind import Kind
 from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.palette import EDGE_EDGE, FORBIDDEN, GREY, HELIX, LIGHT
 from cfree.plot.strips import Strips, step_for, strips
 from cfree.scene.scene import robot_radius
 
@@ -26,8 +27,6 @@ Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 CROWDED = 100_000  # curves of more trapezoids would hide the patches
-SECTION_COLOUR, CUT = "#d9d9de", "#7a808c"
-LIGHT = np.array([-0.55, -0.65, 0.52])
 SURFACE, WALL, SECTION, CURVE, ON_TOP, OVER = 0, 1, 2, 3, 4, 5
 
 
@@ -55,12 +54,12 @@ FINE = Detail(25_000, (math.radians(1.5), math.radians(15)), 100)
 
 @dataclass(frozen=True)
 class Colours:
-    """Colours of patches and curves: the paper's unless others are given."""
+    """Colours of patches and curves: the palette's unless others are given."""
 
     vertex_edge: str = COLOURS[PatchKind.VERTEX_EDGE]
     edge_vertex: str = COLOURS[PatchKind.EDGE_VERTEX]
-    helix: str = "#1f3fbf"
-    edge_edge: str = "#f5c518"
+    helix: str = HELIX
+    edge_edge: str = EDGE_EDGE
 
 
 @dataclass(frozen=True)
@@ -186,7 +185,7 @@ def _section(boundary: Boundary, window: Window, first: int) -> Pieces:
 
     region = shapely.intersection(boundary.slice(-1e-6).forbidden, shapely.box(*window))
     corners = level(region, 360.0)
-    return of_one_colour(corners, SECTION_COLOUR, SECTION, first + np.arange(len(corners)))
+    return of_one_colour(corners, FORBIDDEN, SECTION, first + np.arange(len(corners)))
 
 
 def level(region: BaseGeometry, degrees: float) -> Floats:
@@ -224,7 +223,7 @@ def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours) -> 
             ((curve[of] != Kind.VERTEX_VERTEX) & on_bounds).nonzero()[0],
         )
         add(helix, here, after, colours.helix, first[helix])
-        add(cut, here, after, CUT, np.full(len(cut), -1))
+        add(cut, here, after, GREY, np.full(len(cut), -1))
     phi_min, phi_max = boundary.phi_min, boundary.phi_min + boundary.phi_range
     for row, angle, phi in ((rows.joined, table.theta_from, phi_min), (rows.joined + 1, table.theta_to, phi_max)):
         own_end = (kind != PatchKind.BOUND) & _same_angle(angle, phi[table.patch])
@@ -255,7 +254,7 @@ def shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
     scaled = corners * (1.0, 1.0, math.radians(angle_scale))
     normal = np.cross(scaled[:, 2] - scaled[:, 0], scaled[:, 3] - scaled[:, 1])
     length = np.linalg.norm(normal, axis=1)
-    lit = normal @ (LIGHT / np.linalg.norm(LIGHT)) / np.where(length > 0, length, 1.0)
+    lit = normal @ (np.array(LIGHT) / np.linalg.norm(LIGHT)) / np.where(length > 0, length, 1.0)
     shade = (0.78 + 0.34 * lit)[:, None]
     shaded: Floats = np.where(shade < 1, rgb * shade, 1 - (1 - rgb) * (2 - shade))
     return shaded.clip(0, 1)

@@ -19,6 +19,7 @@ from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.surface import Surface, contact_surface
 from cfree.exact.orientation import Location
 from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.palette import FAINT, INK, LIGHT, RIM
 from cfree.polygons.polygon import Polygon
 from cfree.rational.model import RationalRange, rational_range, to_rational
 
@@ -27,8 +28,6 @@ Floats = NDArray[np.float64]
 SHOWN = 4  # the rational model is drawn for |tau| <= SHOWN
 TICKS = (-4, -2, -1, 0, 1, 2, 4)
 STEP, HELICES, SIDE = 10, 8, 6  # degrees between rulings, strips between helices, points on a side of a cell
-PSEUDO, GRID = "#ccd1d9", "#30343b"
-LIGHT = np.array([0.35, -0.75, 0.55])
 
 
 @checked
@@ -58,19 +57,19 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
 
     S, Phi = contact_surface(robot, obstacle, contact), rational_range(robot, obstacle, contact)
     figure = Figure(figsize=(11, 5.8), facecolor="white")
-    with rc_context({"grid.color": "#dfe1e6", "grid.linewidth": 0.6}):
+    with rc_context({"grid.color": FAINT, "grid.linewidth": 0.6}):
         geometrical: Any = figure.add_axes((0.01, 0.09, 0.46, 0.85), projection="3d")
         rational: Any = figure.add_axes((0.48, 0.09, 0.46, 0.85), projection="3d")
     colour = COLOURS[PatchKind.VERTEX_EDGE if isinstance(contact, VertexEdge) else PatchKind.EDGE_VERTEX]
 
     corners, on_patch = cells(S, Phi, 180)
-    _draw(geometrical, corners * (1, 1, 180 / math.pi), np.where(on_patch, colour, PSEUDO), 180)
+    _draw(geometrical, corners * (1, 1, 180 / math.pi), np.where(on_patch, colour, RIM), 180)
     geometrical.set_zticks(range(-180, 181, 90), labels=[f"{angle}°" for angle in range(-180, 181, 90)])
     geometrical.tick_params(axis="z", pad=7)
     geometrical.set_zlabel("θ", labelpad=10)
 
     corners, on_patch = cells(S, Phi, math.degrees(2 * math.atan(SHOWN)))
-    _draw(rational, to_rational(corners), np.where(on_patch, colour, PSEUDO), SHOWN)
+    _draw(rational, to_rational(corners), np.where(on_patch, colour, RIM), SHOWN)
     rational.set_zticks(TICKS, labels=[f"{tau} ({math.degrees(2 * math.atan(tau)):.0f}°)" for tau in TICKS])
     rational.tick_params(axis="z", pad=15)
     rational.set_zlabel("τ = tan(θ/2)", labelpad=26)
@@ -78,7 +77,7 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
     figure.text(0.24, 0.95, "geometrical model: even, not exact", ha="center", fontsize=12)
     figure.text(0.71, 0.95, "rational model: exact, not even", ha="center", fontsize=12)
     kind = "v-e" if isinstance(contact, VertexEdge) else "e-v"
-    names = {colour: f"patch: {kind} contacts, angle in Φ", PSEUDO: "the rest of the surface: pseudo contacts"}
+    names = {colour: f"patch: {kind} contacts, angle in Φ", RIM: "the rest of the surface: pseudo contacts"}
     handles = [Patch(color=shade, label=name) for shade, name in names.items()]
     figure.legend(handles=handles, loc="lower center", ncols=2, frameon=False)
     return figure
@@ -110,9 +109,9 @@ def _draw(space: Any, outlines: Floats, colours: NDArray[np.str_], height: float
     tall = 1.25 * max(width, depth)
     scaled = outlines * (1, 1, tall / (2 * height))
     normal = np.cross(scaled[:, SIDE] - scaled[:, 0], scaled[:, -1] - scaled[:, SIDE - 1])
-    lit = np.abs(normal @ LIGHT) / (np.linalg.norm(normal, axis=1) * np.linalg.norm(LIGHT) + 1e-300)
+    lit = np.abs(normal @ np.array(LIGHT)) / (np.linalg.norm(normal, axis=1) * np.linalg.norm(LIGHT) + 1e-300)
     rgb = to_rgba_array(colours)[:, :3] * (0.7 + 0.3 * lit)[:, None]
-    space.add_collection3d(Poly3DCollection(outlines, facecolors=rgb, edgecolors=GRID, linewidths=0.35))
+    space.add_collection3d(Poly3DCollection(outlines, facecolors=rgb, edgecolors=INK, linewidths=0.35))
     (x0, y0), (x1, y1) = low[:2] - margin, high[:2] + margin
     space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(-height, height), xlabel="x", ylabel="y")
     space.set_box_aspect((width, depth, tall), zoom=0.92)

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.palette import GHOST, GREY, OBSTACLE, OBSTACLE_RIM, ROBOT
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.path import Path
@@ -17,8 +19,6 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 Window = tuple[float, float, float, float]
-
-ROBOT, FAINT, OBSTACLE, BOUNDS = "#2b6cb0", "#cfdeef", "#5b6470", "#8a92a0"
 
 
 def draw_surroundings(ax: Axes, scene: Scene) -> list[Window]:
@@ -32,10 +32,10 @@ def draw_surroundings(ax: Axes, scene: Scene) -> list[Window]:
         ax.add_patch(PathPatch(inside, facecolor="white", edgecolor=OBSTACLE, linewidth=0.8))
         boxes.append(scene.workspace.bounds)
     obstacles = path_of(rings_of(scene.obstacles))
-    ax.add_patch(PathPatch(obstacles, facecolor=OBSTACLE, edgecolor="#3c434d", linewidth=0.5, label="obstacles"))
+    ax.add_patch(PathPatch(obstacles, facecolor=OBSTACLE, edgecolor=OBSTACLE_RIM, linewidth=0.5, label="obstacles"))
     if scene.bounds is not None:
         x0, y0, x1, y1 = map(float, scene.bounds)
-        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=BOUNDS, linestyle=(0, (5, 3))))
+        ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=GREY, linestyle=(0, (5, 3))))
         boxes.append((x0, y0, x1, y1))
     return boxes
 
@@ -45,7 +45,7 @@ def draw_robot(ax: Axes, scene: Scene, pose: Pose, name: str, *, faint: bool) ->
     from matplotlib.patches import PathPatch
 
     rings = [pose.apply(ring) for ring in rings_of(scene.robot)]
-    fill, style = (FAINT, "--") if faint else (ROBOT, "-")
+    fill, style = (GHOST, "--") if faint else (ROBOT, "-")
     shape = path_of(rings)
     ax.add_patch(PathPatch(shape, facecolor=fill, alpha=0.85, linewidth=0, zorder=3))
     ax.add_patch(PathPatch(shape, fill=False, edgecolor=ROBOT, linewidth=1.2, linestyle=style, zorder=3))
