@@ -153,6 +153,4 @@ def _clipped(cut: Slice, window: Window) -> list[Floats]:
     """Rings of the forbidden region within the window."""
     import shapely
 
-    inside = shapely.intersection(cut.forbidden, shapely.box(*window))
-    parts = [part for part in shapely.get_parts(inside) if part.geom_type == "Polygon" and part.area > 0]
-    return rings_of_geometry(shapely.MultiPolygon(parts)) if parts else []
+    return rings_of_geometry(shapely.intersection(cut.forbidden, shapely.box(*window)))

@@ -81,7 +81,7 @@ class PathStage:
         track = self.track
         ax: Any = figure.add_axes(ALONE if self.boundary is None else BESIDE)
         draw_surroundings(ax, track.scene)
-        draw_robot(ax, track.scene, track.path.goal, "goal", faint=True)
+        draw_robot(ax, track.scene, track.path.goal, faint=True)
         ax.plot(*track.rows[:, :2].T, color="#b9bec8", linewidth=1.0, linestyle=(0, (4, 3)), zorder=3.5)
         self.ghosts = ax.add_collection(PathCollection([], linewidths=0.7, zorder=2), autolim=False)
         self.trace = ax.add_collection(LineCollection([], linewidths=2.4, capstyle="round", zorder=4), autolim=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,12 +15,13 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
-from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, PATH, VERTEX_EDGE, paler
+from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, VERTEX_EDGE, VIEW, paler
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.separation import Separated
-from cfree.plot.boundary import around, new_figure, new_space, plain, set_window, with_unit
+from cfree.plot.boundary import around, new_figure, new_space, plain, roomy, set_window, with_unit
 from cfree.plot.depth_sort import Painting
+from cfree.plot.labels import BODY, Labels, name_in_space
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.strips import strips
@@ -33,8 +35,11 @@ Floats = NDArray[np.float64]
 # pale, so that the path is seen
 PALE = Colours(*(paler(colour, 0.6) for colour in (VERTEX_EDGE, EDGE_VERTEX, HELIX, EDGE_EDGE)))
 MARGIN, LEAST = 15.0, 90.0  # degrees above and below a path, and shown at least
-NEAR = 2.0  # robot's radii: patches farther from a path are left out
+NEAR = 1.6  # robot's radii, or twice the least clearance: patches farther from a path are left out
+FADE = 0.5  # share of that from which on patches are fainter
+TINY = 0.03  # of the window: patches narrower or lower have no lines around them
 DASH = 8  # steps of the path
+CORNER = 0.9  # of an axis has numbers
 STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
@@ -53,8 +58,9 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
     -------
     matplotlib axes with three dimensions
         Theta is unrolled: it begins at the start's and goes on beyond full turns. The path is dashed where patches hide
-        it. Patches are left out that are farther from the path than twice the robot's radius, a radian being as long
-        as the radius. On the floor are the obstacles, and the way of the reference point.
+        it. Patches are fainter with their distance from the path, and left out beyond 1.6 times the robot's radius, or
+        twice the least clearance; a radian is as long as the radius. On the floor are the obstacles, and the way of the
+        reference point.
 
     Raises
     ------
@@ -141,11 +147,17 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     figure, ax = _new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, scene)
     _draw_barrier(ax, scene, answer.obstacles)
-    draw_robot(ax, scene, answer.start, "start", faint=False)
-    draw_robot(ax, scene, answer.goal, "goal", faint=True)
+    ends = {"start": answer.start, "goal": answer.goal}
+    for name, pose in ends.items():
+        draw_robot(ax, scene, pose, faint=name == "goal")
     set_window(ax, window, scene.units)
+    labels = Labels(ax, scene)
+    labels.avoid_robot(scene, ends.values(), BODY)
+    for name, pose in ends.items():
+        labels.name_robot(scene, pose, name)
     if len(answer.pieces):
-        _draw_surface(figure, ax, answer, scene)
+        _draw_surface(figure, ax, answer, scene, labels)
+    labels.name_bounds(scene)
     without = "path" if answer.of == "closed" else "path of positive clearance"
     named = [NAMES.get(k) or plain(scene.obstacle_names[k]) for k in answer.obstacles]
     named[6:] = ["..."] * (len(named) > 6)
@@ -154,18 +166,19 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     return figure
 
 
-def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene) -> None:
+def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels) -> None:
     """The surface between start and goal, and what is seen of them beside it."""
     surface = surface_of(answer, scene)
     box = _around_surface(surface)
     space = _right(figure)
-    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box))
+    _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, tiny=TINY))
     _legend(space, {"v-e contacts": VERTEX_EDGE, "e-v contacts": EDGE_VERTEX}, [])
-    _frame(ax, box)
-    for pose, name in ((answer.start, "start"), (answer.goal, "goal")):
-        x, y = float(pose.x), float(pose.y)
-        if box[0] <= x <= box[2] and box[1] <= y <= box[3]:
-            _mark(space, np.array([x, y, math.degrees(pose.theta)]), name)
+    _frame(ax, box, labels)
+    rows = [
+        (np.array([float(pose.x), float(pose.y), math.degrees(pose.theta)]), name)
+        for pose, name in ((answer.start, "start"), (answer.goal, "goal"))
+    ]
+    _mark(space, [(row, name) for row, name in rows if box[0] <= row[0] <= box[2] and box[1] <= row[1] <= box[3]])
 
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
@@ -206,7 +219,7 @@ def _window(answer: Separated, scene: Scene) -> Window:
     if scene.bounds is not None:
         x0, y0, x1, y1 = map(float, scene.bounds)
         boxes.append((x0, y0, x1, y1))
-    return around(boxes)
+    return roomy(around(boxes))
 
 
 def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
@@ -223,7 +236,7 @@ def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
         ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, linestyle=(0, (5, 3)), label="bounds", **style))
 
 
-def _frame(ax: Any, box: Window) -> None:
+def _frame(ax: Any, box: Window, labels: Labels) -> None:
     """A frame around the part of the workspace that is shown in space, if not all of it is."""
     from matplotlib.patches import Rectangle
 
@@ -233,6 +246,7 @@ def _frame(ax: Any, box: Window) -> None:
         return
     style: Any = {"edgecolor": INK, "linewidth": 0.8, "zorder": 6, "label": "seen beside"}
     ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, **style))
+    labels.put("seen beside", [(x0, y1), (x1, y1), (x0, y0), (x1, y0)], needed=False, color=INK, fontsize=9)
 
 
 # space
@@ -242,18 +256,26 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     """A path among the patches near it, on axes."""
     rows = track.rows * (1, 1, 180 / math.pi)
     degrees, radius = _range(rows[:, 2]), robot_radius(track.scene)
-    patches = slab(patches_of(boundary, track.window, PALE), track.window, degrees)
-    near = distances(patches, rows[:: max(1, len(rows) // 80)], radius) < NEAR * radius
-    _draw_patches(ax, boundary, track.window, degrees, joined([patches.chosen(near), _line(track, rows)]))
+    reach = max(NEAR * radius, 2 * track.least.found if track.least else 0.0)
+    window = _around(rows[:, :2], reach)
+    patches = slab(patches_of(boundary, window, PALE, tiny=TINY), window, degrees)
+    distance = distances(patches, rows[:: max(1, len(rows) // 80)], radius) / reach
+    distance = np.where(patches.owner < 0, distance, np.maximum(distance, distance[patches.owner]))
+    near, line = patches.chosen(distance < 1), _line(track, rows)
+    fading = np.clip((1 - distance[distance < 1]) / (1 - FADE), 0, 1)
+    opacity = np.concatenate((fading, np.ones(len(line.corners))))
+    _draw_patches(ax, boundary, window, degrees, joined([near, line]), opacity)
     names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
-    _legend(ax, names, [("path", "-"), ("hidden", (0, (2, 1.5)))])
+    middle = track.colour(np.array([track.most / 2]))[0]
+    _legend(ax, names, [("path, coloured as beside", middle, "-"), ("hidden", middle, (0, (2, 1.5)))])
     shadow = np.full(len(rows), degrees[0])
     ax.plot(*rows[:, :2].T, shadow, color=GREY, linewidth=1.2, zorder=0.5, label="reference point")
-    for row, name in ((rows[0], "start"), (rows[-1], "goal")):
-        _mark(ax, row, name)
+    _mark(ax, [(rows[0], "start"), (rows[-1], "goal")], rows)
 
 
-def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, pieces: Pieces) -> None:
+def _draw_patches(
+    ax: Any, boundary: Boundary, window: Window, degrees: Range, pieces: Pieces, opacity: Floats | float = 1.0
+) -> None:
     """Pieces above the obstacles; axes with ticks and names."""
     import shapely
     from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
@@ -261,7 +283,7 @@ def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, p
 
     (low, high), (x0, y0, x1, y1), units = degrees, window, boundary.scene.units
     side = max(x1 - x0, y1 - y0)
-    painting = Painting(pieces)
+    painting = Painting(pieces, opacity=opacity)
     painting.set(zorder=1, rasterized=True)  # thousands of faces are slow as vectors, and have seams
     ax.add_collection(painting, autolim=False)
     obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in boundary.scene.obstacles])
@@ -270,42 +292,51 @@ def _draw_patches(ax: Any, boundary: Boundary, window: Window, degrees: Range, p
     ax.add_collection(shadow, autolim=False)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees, zlabel="θ")
     height = side * min(1.0, max(0.4, 0.75 * (high - low) / 360))
-    ax.set_box_aspect((x1 - x0, y1 - y0, height), zoom=0.95)
-    ax.view_init(38, -60)
+    ax.set_box_aspect((x1 - x0, y1 - y0, height), zoom=1.06)
+    ax.view_init(*VIEW)
     ax.zaxis.set_major_locator(MultipleLocator(next((s for s in STEPS if (high - low) / s <= 6), STEPS[-1])))
     ax.zaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}°".replace("-", "−")))
     for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
-        axis.set_major_locator(MaxNLocator(1 + round(5 * length / side)))
+        low, high = axis.get_view_interval()
+        ticks = MaxNLocator(1 + round(5 * length / side)).tick_values(low, high)
+        # clear of the corners, where two axes meet
+        ticks = ticks[np.abs(ticks - (low + high) / 2) < CORNER * (high - low) / 2]
+        axis.set_ticks(ticks, [f"{tick:g}".replace("-", "−") for tick in ticks.tolist()])
         axis.set_label_text(with_unit(name, units))
         axis.labelpad = 9
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
 
 
-def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any]]) -> None:
+def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any, Any]]) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
     handles: list[Any] = [Patch(color=colour, label=name) for name, colour in patches.items()]
-    handles += [Line2D([], [], color=PATH, linewidth=2.2, linestyle=style, label=name) for name, style in lines]
-    ax.legend(handles=handles, loc="lower left", bbox_to_anchor=(0.0, 0.0), frameon=False, fontsize=9, handlelength=1.6)
+    handles += [
+        Line2D([], [], color=colour, linewidth=2.2, linestyle=style, label=name) for name, colour, style in lines
+    ]
+    ax.legend(
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, 0.0), frameon=False, fontsize=9, handlelength=1.6,
+        ncols=len(handles), columnspacing=1.4,
+    )  # fmt: skip
 
 
 def _around_surface(surface: Boundary) -> Window:
     """A surface, and as much around it as to see the obstacles it belongs to."""
-    points = strips(surface, math.radians(5)).points.reshape(-1, 2)
-    low, high, margin = points.min(axis=0), points.max(axis=0), 1.2 * robot_radius(surface.scene)
-    (x0, y0), (x1, y1) = (low - margin).tolist(), (high + margin).tolist()
+    return _around(strips(surface, math.radians(5)).points.reshape(-1, 2), robot_radius(surface.scene))
+
+
+def _around(points: Floats, margin: float) -> Window:
+    (x0, y0), (x1, y1) = (points.min(axis=0) - margin).tolist(), (points.max(axis=0) + margin).tolist()
     return x0, y0, x1, y1
 
 
-def _mark(ax: Any, row: Floats, name: str) -> None:
-    """A configuration x, y, degrees, and its name."""
-    from matplotlib.patheffects import withStroke
-
-    x, y, theta = row.tolist()
-    ax.plot([x], [y], [theta], "o", color=INK, markersize=6, markeredgecolor="white", zorder=21)
-    ax.text(x, y, theta, f"  {name}", zorder=22, path_effects=[withStroke(linewidth=2.5, foreground="white")])
+def _mark(ax: Any, rows: Sequence[tuple[Floats, str]], line: Floats | None = None) -> None:
+    """Configurations x, y, degrees, and their names."""
+    for row, _ in rows:
+        ax.plot(*row[:, None], "o", color=INK, markersize=6, markeredgecolor="white", zorder=21)
+    name_in_space(ax, rows, line)
 
 
 def _range(degrees: Floats) -> Range:
@@ -329,7 +360,7 @@ def _line(track: Track, rows: Floats) -> Pieces:
 
 def _space(ax: Axes3D | None) -> Any:
     if ax is None:
-        ax = new_space(new_figure((8, 7)), (0.02, 0.04, 0.94, 0.94))
+        ax = new_space(new_figure((8, 7)), (0.02, 0.09, 0.94, 0.89))
     ax.computed_zorder = False
     return ax
 
@@ -347,7 +378,7 @@ def _new_picture(window: Window, with_space: bool) -> tuple[Figure, Any]:
 
 
 def _right(figure: Figure) -> Any:
-    return _space(new_space(figure, (0.5, 0.02, 0.49, 0.88)))
+    return _space(new_space(figure, (0.48, 0.09, 0.5, 0.79)))
 
 
 def _head(figure: Figure, scene: Scene, headline: str, details: str) -> None:

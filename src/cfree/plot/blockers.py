@@ -57,7 +57,12 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
     across, down = min(ACROSS, len(found)), math.ceil(len(found) / ACROSS)
     tracks = [Track.of(blocker.path, blocker.path.scene or scene) for blocker in found]
     x0, y0, x1, y1 = tracks[0].window
-    figure = new_figure((7 * across, down * float(np.clip(1.3 + 6 * (y1 - y0) / (x1 - x0), 3, 9))))
+    width, height = 7 * across, down * float(np.clip(1.6 + 6 * (y1 - y0) / (x1 - x0), 3.3, 9.3))
+    figure = new_figure((width, height))
+    figure.subplots_adjust(
+        left=0.8 / width, right=1 - 0.9 / width, bottom=0.7 / height, top=1 - 0.7 / height,
+        wspace=1.6 / (width / across - 1.6), hspace=1.4 / (height / down - 1.4),
+    )  # fmt: skip
     for k, (blocker, track) in enumerate(zip(found, tracks, strict=True)):
         ax = figure.add_subplot(down, across, k + 1)
         draw_track(ax, track, preferences or NONE)
@@ -66,5 +71,4 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
             PathPatch(gone, fill=False, edgecolor=BARRIER, hatch="///", linewidth=1.4, zorder=2.6, label="gone")
         )
         ax.set_title(f"without {plain(scene.obstacle_names[blocker.obstacle])}\n{statement(track)}", fontsize=10)
-    figure.tight_layout()
     return figure

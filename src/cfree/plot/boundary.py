@@ -26,9 +26,12 @@ from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
 from cfree.formats.atomic import checked_suffix, replacing
 from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT
+from cfree.plot.labels import BODY, GHOST, Labels
 from cfree.plot.strips import THIN, strips
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
 from cfree.scene.scene import Scene
+
+SLIMMEST = 0.4  # of a window's longer side, the other
 
 
 @checked
@@ -55,19 +58,27 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
     ends = {"start": scene.start, "goal": scene.goal}
     ends |= {f"goal {k}": goal for k, goal in enumerate(scene.goals) if isinstance(goal, Pose)}
     poses = {name: pose for name, pose in ends.items() if pose is not None}
-    for name, pose in (poses or {"at rest": Pose(0, 0)}).items():
-        boxes.append(draw_robot(ax, scene, pose, name, faint=name != "start"))
+    poses = poses or {"at rest": Pose(0, 0)}
+    for name, pose in poses.items():
+        boxes.append(draw_robot(ax, scene, pose, faint=name != "start"))
     for x, y in (goal for goal in scene.goals if not isinstance(goal, Pose)):
         ax.plot(float(x), float(y), "*", color=INK, markersize=12, label="goal, any theta")
         boxes.append((float(x), float(y), float(x), float(y)))
-    set_window(ax, around(boxes), scene.units)
+    set_window(ax, roomy(around(boxes)), scene.units)
+    labels = Labels(ax, scene)
+    labels.avoid_robot(scene, poses.values(), BODY)
+    for name, pose in poses.items():
+        labels.name_robot(scene, pose, name)
+    labels.name_bounds(scene)
     ax.set_title("workspace")
     return ax
 
 
 @checked
 def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
-    """Where the reference point may not be at one orientation, and what it touches there.
+    """Where the reference point may not be at one orientation, and what it touches there, over the obstacles.
+
+    The robot is drawn in that orientation where it has most room.
 
     Parameters
     ----------
@@ -78,13 +89,24 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     -------
     matplotlib axes
     """
+    ax = ax or new_axes((7, 6))
+    _draw_slice(cut, ax)
+    _draw_inside(ax, cut, extent(cut.boundary))
+    _legend(ax)
+    return ax
+
+
+def _draw_slice(cut: Slice, ax: Axes) -> None:
+    """The forbidden region among the obstacles, and the contacts around it."""
     from matplotlib.collections import LineCollection
     from matplotlib.patches import PathPatch
 
-    ax = ax or new_axes((7, 6))
     boundary = cut.boundary
-    region = path_of(rings_of_geometry(cut.forbidden))
-    ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", label="forbidden"))
+    workspace = boundary.scene.workspace
+    inside = cut.forbidden if workspace is None else cut.forbidden.intersection(workspace.to_shapely())
+    region = path_of(rings_of_geometry(inside))
+    draw_surroundings(ax, boundary.scene, frame=False)
+    ax.add_patch(PathPatch(region, facecolor=FORBIDDEN, edgecolor="none", zorder=0.6, label="forbidden"))
     kinds = boundary.patch_kind[cut.patches]
     width = min(1.2, max(0.3, math.sqrt(2000 / max(1, len(kinds)))))
     for kind, name in KINDS.items():
@@ -100,8 +122,25 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
         ax.lines[-1].set_label("exact fit")
     set_window(ax, extent(boundary), boundary.scene.units)
     ax.set_title(f"slice at θ = {math.degrees(cut.theta):.4g}°")
-    _legend(ax)
-    return ax
+
+
+def _draw_inside(ax: Axes, cut: Slice, window: Window) -> None:
+    """The robot where its reference point has most room, and what that means."""
+    import shapely
+
+    scene = cut.boundary.scene
+    free = shapely.box(*window).difference(cut.forbidden)
+    labels = Labels(ax, scene)
+    labels.avoid([cut.forbidden], GHOST)
+    if free.area <= 0:
+        x0, y0, x1, y1 = window
+        labels.put("the reference point may be nowhere", ((x0 + x1) / 2, (y0 + y1) / 2), needed=False)
+        return
+    x, y = shapely.maximum_inscribed_circle(free, 1e-3 * math.sqrt(free.area)).coords[0]
+    pose = Pose(x, y, cut.theta)
+    draw_robot(ax, scene, pose, faint=True)
+    labels.avoid_robot(scene, [pose], BODY)
+    labels.put("the reference point may be here", (x, y), needed=False, ring=3.0)
 
 
 @checked
@@ -167,8 +206,8 @@ def plot_overview(boundary: Boundary) -> Figure:
     grid = figure.add_gridspec(2, 2, left=0.045, right=0.45, bottom=0.09, top=0.86, height_ratios=(2, 1), hspace=0.3)
     plot_workspace(scene, figure.add_subplot(grid[0, :]))
     for k, (theta, pose) in enumerate(_chosen_angles(scene)):
-        ax: Any = plot_slice(boundary.slice(theta), figure.add_subplot(grid[1, k]))
-        ax.get_legend().remove()
+        ax = figure.add_subplot(grid[1, k])
+        _draw_slice(boundary.slice(theta), ax)
         ax.set_ylabel("")
         if pose is not None:
             ax.plot(float(pose.x), float(pose.y), "o", color=ROBOT, markersize=5)
@@ -244,10 +283,16 @@ def new_axes(size: tuple[float, float], place: tuple[float, float, float, float]
 
 
 def set_window(ax: Axes, window: Window, units: str) -> None:
-    """Limits with a margin, and the names of the axes."""
+    """Limits with a margin, few enough numbers to have room, and the names of the axes."""
+    from matplotlib.ticker import MaxNLocator
+
     x0, y0, x1, y1 = window
     margin = 0.03 * max(x1 - x0, y1 - y0)
     ax.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - margin, y1 + margin), aspect="equal")
+    ax.apply_aspect()
+    box, inch = ax.get_window_extent(), ax.figure.dpi
+    for axis, inches in ((ax.xaxis, box.width / 0.8 / inch), (ax.yaxis, box.height / 0.4 / inch)):
+        axis.set_major_locator(MaxNLocator(int(np.clip(inches, 2, 6))))
     ax.set_xlabel(with_unit("x", units))
     ax.set_ylabel(with_unit("y", units))
 
@@ -294,6 +339,20 @@ def around(boxes: Iterable[Window]) -> Window:
     x0, y0 = corners[:, :2].min(axis=0).tolist()
     x1, y1 = corners[:, 2:].max(axis=0).tolist()
     return x0, y0, x1, y1
+
+
+def roomy(window: Window) -> Window:
+    """The same rectangle, or a higher or wider one around it that has room for words.
+
+    Examples
+    --------
+    >>> roomy((0, 0, 10, 1))
+    (0.0, -1.5, 10.0, 2.5)
+    """
+    low, high = np.array(window, dtype=np.float64).reshape(2, 2)
+    more = np.maximum(0.0, SLIMMEST * (high - low).max() - (high - low)) / 2
+    (left, bottom), (right, top) = (low - more).tolist(), (high + more).tolist()
+    return left, bottom, right, top
 
 
 def _chosen_angles(scene: Scene) -> list[tuple[float, Pose | None]]:

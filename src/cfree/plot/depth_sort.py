@@ -28,12 +28,15 @@ class Painting(PolyCollection):
     pieces : Pieces
     ghost : float
         Opacity of the side of a face that is turned away.
+    opacity : float or (n,) float64
+        Of all pieces, or of each.
     """
 
-    def __init__(self, pieces: Pieces, ghost: float = GHOST) -> None:
+    def __init__(self, pieces: Pieces, ghost: float = GHOST, opacity: Floats | float = 1.0) -> None:
         super().__init__([], closed=True, joinstyle="round")
         self._pieces = pieces
         self._ghost = ghost
+        self._opacity = opacity
 
     def do_3d_projection(self) -> float:
         """Project, choose what is seen, sort by depth; called before each drawing."""
@@ -43,13 +46,13 @@ class Painting(PolyCollection):
         x, y, z = proj3d.proj_transform(*corners.reshape(-1, 3).T, axes.M)
         flat, depth = np.stack((x, y), axis=-1).reshape(-1, 4, 2), np.asarray(z).reshape(-1, 4).mean(axis=1)
         span = float(depth.min()), float(depth.max())
-        paint(self, self._pieces, flat, depth, span, ghost=self._ghost)
+        paint(self, self._pieces, flat, depth, span, ghost=self._ghost, opacity=self._opacity)
         return span[0]
 
 
 def paint(
     onto: PolyCollection, pieces: Pieces, flat: Floats, depth: Floats, span: tuple[float, float], *,
-    ghost: float, opacity: float = 1.0,
+    ghost: float, opacity: Floats | float = 1.0,
 ) -> None:  # fmt: skip
     """Put pieces into a collection, from back to front.
 
@@ -65,8 +68,8 @@ def paint(
         Nearest and farthest depth of all there may be.
     ghost : float
         Opacity of the side of a face that is turned away.
-    opacity : float
-        Of all; curves that are always seen are not fainter than `DIMMEST`.
+    opacity : float or (n,) float64
+        Of all, or of each; curves that are always seen are not fainter than `DIMMEST`.
     """
     near, far = span
     p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
@@ -80,7 +83,8 @@ def paint(
     alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)
     alpha[(pieces.sort == CURVE) & ~front] = 0
     alpha *= opacity
-    alpha[is_curve & (pieces.owner < 0)] = max(opacity, DIMMEST)
+    free = is_curve & (pieces.owner < 0)
+    alpha[free] = np.broadcast_to(np.maximum(opacity, DIMMEST), len(alpha))[free]
     rank = depth - AHEAD * (far - near) * (is_curve + 1.0 * (pieces.sort == OVER))
     rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
     rank[pieces.sort == ON_TOP] -= 20 * (far - near)
@@ -88,8 +92,10 @@ def paint(
     order = order[alpha[order] > 0]
 
     fill, rim = (np.column_stack((rgb, part)) for part in (np.where(is_curve, 0, alpha), alpha))
-    rim[(alpha < SOLID) & ~is_curve, 3] = 0  # where faces are seen through, their rims would be twice as dark
+    glass = (alpha < SOLID) & ~is_curve
+    rim[glass, 3] = 0  # where faces are seen through, their rims would be twice as dark
     onto.set_verts(flat[order], closed=True)  # type: ignore[arg-type]
     onto.set_facecolor(fill[order])  # type: ignore[arg-type]
     onto.set_edgecolor(rim[order])  # type: ignore[arg-type]
+    onto.set_antialiased((~glass)[order].tolist())  # smoothed on both sides a common edge of glass would be seen
     onto.set_linewidth(np.where(is_curve, pieces.width, 0.4)[order].tolist())

@@ -20,16 +20,17 @@ from cfree.paths.clearance import Clearance, distances_beside, least_clearance
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import Travel
-from cfree.plot.boundary import around, new_axes, plain, set_window, with_unit
+from cfree.plot.boundary import around, new_axes, plain, roomy, set_window, with_unit
+from cfree.plot.labels import BODY, GHOST, LINE, Labels
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 
-GHOSTS, APART = 48, 0.45  # so many at most, and no closer than this part of the robot's radius
+GHOSTS, APART = 15, 0.6  # so many at most, and no closer than this part of the robot's radius
 TRACE = 600
-LABEL = 30  # typographic points from a place to its label
+RING = 5.5  # typographic points: radius of the mark where the clearance is least
 SAME = 1e-9  # of the robot's radius: less is touching, for the eye
 NEAR = 2.0  # obstacles within so many times the least clearance limit it
 
@@ -99,10 +100,20 @@ class Track:
 
     @property
     def ghosts(self) -> NDArray[np.int64]:
-        """Rows between start and goal at which the robot is drawn."""
-        apart = APART * robot_radius(self.scene)
-        count = int(min(GHOSTS, max(2, self.travel.total / apart))) if self.travel.total else 0
-        return np.rint(np.linspace(0, TRACE - 1, count + 1)[1:-1]).astype(np.int64)
+        """Rows between start and goal at which the robot is drawn: at even steps, turns in place not counted.
+
+        It turns in place where its reference point or its centroid stays.
+        """
+        import shapely
+
+        centroid = shapely.multipolygons([part.to_shapely() for part in self.scene.robot]).centroid
+        x, y, theta = self.rows.T
+        turned = np.exp(1j * theta) * complex(centroid.x, centroid.y)
+        steps = np.abs(np.diff([x + 1j * y, x + 1j * y + turned], axis=1)).min(axis=0)
+        radius = robot_radius(self.scene)
+        until = np.concatenate(([0.0], np.cumsum(np.where(steps > SAME * radius, steps, 0.0))))
+        count = int(min(GHOSTS, until[-1] / (APART * radius)))
+        return np.searchsorted(until, np.linspace(0, until[-1], count + 2)[1:-1])
 
 
 @checked
@@ -156,6 +167,7 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
 
 def draw_track(ax: Any, track: Track, preferences: Preferences) -> None:
     """The path among the obstacles, on axes."""
+    import shapely
     from matplotlib.collections import LineCollection, PathCollection
 
     scene, path = track.scene, track.path
@@ -176,28 +188,34 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> None:
         line = LineCollection(list(ends), colors=colour, linewidths=width, capstyle="round", zorder=4)
         ax.add_collection(line, autolim=False)
     ax.collections[-1].set_label("trace")
-    draw_robot(ax, scene, path.start, "start", faint=False)
-    draw_robot(ax, scene, path.goal, "goal", faint=True)
+    rests = {"start": path.start, "goal": path.goal}
+    for name, pose in rests.items():
+        draw_robot(ax, scene, pose, faint=name == "goal")
     set_window(ax, track.window, scene.units)
-    for part in unwanted(path, scene, preferences):
-        _draw_unwanted(ax, path, part)
     if track.least is not None:
-        _draw_least(ax, track)
         _draw_scale(ax, track)
+    labels = Labels(ax, scene)
+    labels.avoid_robot(scene, poses_of(track.rows[at]), GHOST)
+    labels.avoid([shapely.LineString(xy)], LINE)
+    labels.avoid_robot(scene, rests.values(), BODY)
+    if track.least is not None:
+        _draw_least(ax, track, labels)
+    for name, pose in rests.items():
+        labels.name_robot(scene, pose, name)
+    for part in unwanted(path, scene, preferences):
+        _draw_unwanted(ax, path, part, labels)
+    labels.name_bounds(scene)
 
 
-def _draw_unwanted(ax: Any, path: Path, part: Unwanted) -> None:
+def _draw_unwanted(ax: Any, path: Path, part: Unwanted, labels: Labels) -> None:
     """Motions that do what is dear, and which; or the spot that is turned on."""
-    from matplotlib.patheffects import withStroke
-
     shares = np.linspace(0, 1, 20)
     ends = zip(path.poses[part.first : part.last + 1], path.motions[part.first : part.last + 1], strict=True)
     xy = np.concatenate([motion.sample(pose, shares).xy for pose, motion in ends])
     is_spot = part.kind == "turning"
     ax.plot(*xy.T, "s" if is_spot else "--", color=MARK, linewidth=2.0, markersize=7, zorder=4.5, label=part.kind)
     text = f"{math.degrees(part.amount):.0f}°" if is_spot else part.kind
-    halo = [withStroke(linewidth=2.5, foreground="white")]
-    ax.annotate(text, xy[len(xy) // 2], (6, -12), textcoords="offset points", color=MARK, zorder=9, path_effects=halo)
+    labels.put(text, xy[len(xy) // 2], color=MARK)
 
 
 def _draw_scale(ax: Any, track: Track) -> None:
@@ -235,10 +253,9 @@ def quantity(value: float, units: str) -> str:
     return f"{number} {plain(units)}" if 0 < len(units) <= 4 else number
 
 
-def _draw_least(ax: Any, track: Track) -> None:
+def _draw_least(ax: Any, track: Track, labels: Labels) -> None:
     """The robot where it is closest to something, what that is, and how far."""
     from matplotlib.patches import PathPatch
-    from matplotlib.patheffects import withStroke
 
     scene, least = track.scene, track.least
     assert least is not None
@@ -251,22 +268,9 @@ def _draw_least(ax: Any, track: Track) -> None:
     )
     ax.plot(*track.closest.T, "-", color=BARRIER, linewidth=2, zorder=6, solid_capstyle="butt")
     middle = track.closest.mean(axis=0)
-    ax.plot(*middle, "o", markersize=11, markerfacecolor="none", color=BARRIER, markeredgewidth=1.6, zorder=6)
-    halo = [withStroke(linewidth=3, foreground="white")]
-    dx, dy = LABEL * _aside(ax, pose, middle)
-    ax.annotate(
-        quantity(least.found, scene.units), middle, (dx, dy), textcoords="offset points", zorder=9, path_effects=halo,
-        color=BARRIER, weight="bold", ha="left" if dx > 0 else "right", va="center",
-        arrowprops={"arrowstyle": "-", "color": BARRIER, "shrinkA": 1, "shrinkB": 6, "zorder": 9},
-    )  # fmt: skip
-
-
-def _aside(ax: Any, pose: Pose, point: Floats) -> Floats:
-    """A direction away from the robot, but towards the middle of the axes at their left and right edges."""
-    x, y = point - (float(pose.x), float(pose.y))
-    share = (point[0] - ax.get_xlim()[0]) / np.diff(ax.get_xlim())[0]
-    x = -1.0 if share > 0.8 else 1.0 if share < 0.2 else x or 1.0
-    return np.array([math.copysign(0.8, x), math.copysign(0.6, y)])
+    ax.plot(*middle, "o", markersize=2 * RING, markerfacecolor="none", color=BARRIER, markeredgewidth=1.6, zorder=6)
+    labels.avoid_robot(scene, [pose], BODY)
+    labels.put(quantity(least.found, scene.units), middle, ring=RING, color=BARRIER, weight="bold")
 
 
 def _window(scene: Scene, placed: Floats) -> Window:
@@ -283,7 +287,7 @@ def _window(scene: Scene, placed: Floats) -> Window:
     margin = 0.4 * float((near[2:] - near[:2]).max()) + 2 * robot_radius(scene)
     x0, y0 = np.maximum(near[:2] - margin, everything[:2]).tolist()
     x1, y1 = np.minimum(near[2:] + margin, everything[2:]).tolist()
-    return x0, y0, x1, y1
+    return roomy((x0, y0, x1, y1))
 
 
 def _limiting(scene: Scene, pose: Pose, reach: float) -> list[Polygon]:

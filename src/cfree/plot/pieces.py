@@ -118,11 +118,13 @@ def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None
 
 
 def patches_of(
-    boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3, detail: Detail = FINE
-) -> Pieces:
+    boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3, detail: Detail = FINE,
+    tiny: float = 0.0,
+) -> Pieces:  # fmt: skip
     """Patches, helices and e-e segments of a boundary.
 
-    Curves are `line` points wide, or less where there are so many that they would hide the patches.
+    Curves are `line` points wide, or less where there are so many that they would hide the patches. Patches that are
+    narrower than the share `tiny` of the window, or lower than that of a turn, have none.
     """
     colours = colours or Colours()
     rows = strips(boundary, step_for(boundary, detail.rows, detail.steps))
@@ -136,7 +138,8 @@ def patches_of(
     n = len(corners)
     part = rows.part[rows.joined][strip]
     faces = Pieces(corners, rgb, np.where(kind == PatchKind.BOUND, WALL, SURFACE), np.arange(n), np.zeros(n), part)
-    curves = _curves(boundary, rows, first, colours) if len(boundary.trapezoids) <= CROWDED else []
+    lined = _lined(boundary, rows, tiny * max(window[2] - window[0], window[3] - window[1]), tiny * 360)
+    curves = _curves(boundary, rows, first, colours, lined) if len(boundary.trapezoids) <= CROWDED else []
     thinner = min(1.0, max(0.25, math.sqrt(3000 / max(1, sum(len(part.corners) for part in curves)))))
     split = [_split(replace(part, width=part.width + line * thinner), widest) for part in curves]
     return joined([faces, *split])
@@ -204,14 +207,32 @@ def level(region: BaseGeometry, degrees: float) -> Floats:
     return corners
 
 
-def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours) -> list[Pieces]:
-    """Sides of trapezoids: v-v helices, e-e lines at the patches' own ends, and where the bounds cut the patches."""
+def _lined(boundary: Boundary, rows: Strips, width: float, degrees: float) -> Mask:
+    """Strips of patches that are as wide and as high at least, in the mean."""
+    patch = boundary.trapezoids.patch[rows.trapezoid[rows.joined]]
+    below, above = (np.degrees(rows.theta[rows.joined + k]) for k in (0, 1))
+    ends = rows.points[rows.joined]
+    across = np.hypot(*(ends[:, 1] - ends[:, 0]).T)
+    low, high = np.full(len(boundary.patch_kind), np.inf), np.full(len(boundary.patch_kind), -np.inf)
+    np.minimum.at(low, patch, below)
+    np.maximum.at(high, patch, above)
+    height, area = (high - low)[patch], np.bincount(patch, across * (above - below), len(low))[patch]
+    found: Mask = (height >= degrees) & (area >= width * height)
+    return found
+
+
+def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours, lined: Mask) -> list[Pieces]:
+    """Sides of trapezoids: v-v helices, e-e lines at the patches' own ends, and where the bounds cut the patches.
+
+    Only of those strips that are lined.
+    """
     ends, of = _with_degrees(rows.points, rows.theta), rows.trapezoid[rows.joined]
     table = boundary.trapezoids
     kind = boundary.patch_kind[table.patch]
     found = []
 
     def add(strip: Ints, start: Floats, stop: Floats, colour: str, owner: Ints) -> None:
+        strip, owner = strip[lined[strip]], owner[lined[strip]]
         corners = np.stack((start[strip], stop[strip], stop[strip], start[strip]), axis=1)
         part = rows.part[rows.joined[strip]]
         found.append(replace(of_one_colour(corners, colour, CURVE, owner), part=part))

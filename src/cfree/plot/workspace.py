@@ -21,27 +21,27 @@ Floats = NDArray[np.float64]
 Window = tuple[float, float, float, float]
 
 
-def draw_surroundings(ax: Axes, scene: Scene) -> list[Window]:
-    """Obstacles, bounds and workspace; the rectangles they fill."""
+def draw_surroundings(ax: Axes, scene: Scene, *, frame: bool = True) -> list[Window]:
+    """Obstacles, workspace, and the frame of the bounds; the rectangles they fill."""
     from matplotlib.patches import PathPatch, Rectangle
 
     boxes: list[Window] = [polygon.bounds for polygon in scene.obstacles]
     if scene.workspace is not None:
         ax.set_facecolor(OBSTACLE)
         inside = path_of(rings_of([scene.workspace]))
-        ax.add_patch(PathPatch(inside, facecolor="white", edgecolor=OBSTACLE, linewidth=0.8))
+        ax.add_patch(PathPatch(inside, facecolor="white", edgecolor=OBSTACLE, linewidth=0.8, zorder=0.5))
         boxes.append(scene.workspace.bounds)
     obstacles = path_of(rings_of(scene.obstacles))
     ax.add_patch(PathPatch(obstacles, facecolor=OBSTACLE, edgecolor=OBSTACLE_RIM, linewidth=0.5, label="obstacles"))
-    if scene.bounds is not None:
+    if frame and scene.bounds is not None:
         x0, y0, x1, y1 = map(float, scene.bounds)
         ax.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=GREY, linestyle=(0, (5, 3))))
         boxes.append((x0, y0, x1, y1))
     return boxes
 
 
-def draw_robot(ax: Axes, scene: Scene, pose: Pose, name: str, *, faint: bool) -> Window:
-    """The robot in a pose, its name below; the rectangle it fills."""
+def draw_robot(ax: Axes, scene: Scene, pose: Pose, *, faint: bool) -> Window:
+    """The robot in a pose, its reference point and its first axis; the rectangle it fills."""
     from matplotlib.patches import PathPatch
 
     rings = [pose.apply(ring) for ring in rings_of(scene.robot)]
@@ -49,13 +49,13 @@ def draw_robot(ax: Axes, scene: Scene, pose: Pose, name: str, *, faint: bool) ->
     shape = path_of(rings)
     ax.add_patch(PathPatch(shape, facecolor=fill, alpha=0.85, linewidth=0, zorder=3))
     ax.add_patch(PathPatch(shape, fill=False, edgecolor=ROBOT, linewidth=1.2, linestyle=style, zorder=3))
-    _mark(ax, pose, name, rings)
+    _mark(ax, pose, rings)
     points = np.concatenate(rings)
     return (*points.min(axis=0).tolist(), *points.max(axis=0).tolist())
 
 
-def _mark(ax: Axes, pose: Pose, name: str, rings: list[Floats]) -> None:
-    """The reference point, the robot's first axis, and a name below."""
+def _mark(ax: Axes, pose: Pose, rings: list[Floats]) -> None:
+    """The reference point, and the robot's first axis."""
     from matplotlib.patheffects import withStroke
 
     points = np.concatenate(rings)
@@ -65,8 +65,6 @@ def _mark(ax: Axes, pose: Pose, name: str, rings: list[Floats]) -> None:
     arrow = {"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0, "zorder": 7}
     ax.annotate("", xy=(x + dx, y + dy), xytext=(x, y), arrowprops=arrow, zorder=7)
     ax.plot(x, y, "o", color="black", markersize=4, path_effects=halo, zorder=7)
-    below: Any = {"textcoords": "offset points", "ha": "center", "va": "top", "path_effects": halo, "zorder": 8}
-    ax.annotate(name, (x, float(points[:, 1].min())), (0, -2), **below)
 
 
 def rings_of(polygons: Iterable[Any]) -> list[Floats]:
@@ -75,11 +73,11 @@ def rings_of(polygons: Iterable[Any]) -> list[Floats]:
 
 
 def rings_of_geometry(geometry: Any) -> list[Floats]:
-    """Rings of a shapely geometry, the interior on the left."""
+    """Rings of the polygons of a shapely geometry, the interior on the left."""
     import shapely
 
-    parts = shapely.get_parts(shapely.orient_polygons(geometry))
-    rings = [ring for part in parts for ring in shapely.get_rings(part)]
+    parts = [part for part in shapely.get_parts(geometry) if part.geom_type == "Polygon" and part.area > 0]
+    rings = [ring for part in shapely.orient_polygons(parts) for ring in shapely.get_rings(part)]
     return [shapely.get_coordinates(ring)[:-1] for ring in rings]
 
 
