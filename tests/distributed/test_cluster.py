@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import signal
 import socket
@@ -27,19 +28,19 @@ def client() -> Iterator[Any]:
         yield found
 
 
-def ends_its_process(folder: str) -> None:
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def area_of(scene: cfree.Scene) -> Any:
-    return scene.obstacles[0].exact_area
-
-
 def test_functions_are_mapped_over_scenes(client: Any) -> None:
     scenes = [cfree.Scene([(0, 0), (1, 0), (0, 1)], [[(k, 3), (k + 1, 3), (k, 4)]]) for k in range(2, 6)]
-    areas = [scene.obstacles[0].exact_area for scene in scenes]
-    assert list(cfree.distributed.map(area_of, scenes, client=client)) == areas
-    assert list(cfree.distributed.map(area_of, scenes)) == areas
+    found = [made.stats.trapezoids for made in cfree.distributed.map(cfree.boundary, scenes, client=client)]
+    assert found == [made.stats.trapezoids for made in cfree.distributed.map(cfree.boundary, scenes)]
+
+
+def test_a_function_that_workers_cannot_import_is_said_so(client: Any, tmp_path: Path, monkeypatch: Any) -> None:
+    (tmp_path / "only_here.py").write_text("def twice(x): return 2 * x")
+    monkeypatch.syspath_prepend(tmp_path)
+    only_here = importlib.import_module("only_here")
+    with pytest.raises(ImportError, match="only_here"):
+        cfree.distributed.map(only_here.twice, [1, 2], client=client)
+    assert cfree.distributed.map(only_here.twice, [1, 2]) == [2, 4]
 
 
 def test_a_cluster_gives_the_same_bytes_when_workers_are_killed(client: Any, tmp_path: Path) -> None:
@@ -73,5 +74,5 @@ def test_nobody_else_can_reach_the_cluster(client: Any) -> None:
 
 def test_a_tile_that_ends_its_workers_is_named(client: Any) -> None:
     with pytest.raises(TaskError, match="tile 7") as caught:
-        list(run(ends_its_process, [(7, ("",))], client))
+        list(run(os._exit, [(7, (1,))], client))
     assert caught.value.tile == 7

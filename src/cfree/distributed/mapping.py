@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Iterable
 from typing import Any, TypeVar
 
@@ -41,6 +42,8 @@ def map(
     ------
     TaskError
         If one call ends every worker that begins it; `tile` is its number.
+    ImportError
+        If a worker cannot import the function, or what its argument is made of.
 
     Examples
     --------
@@ -52,8 +55,21 @@ def map(
     check_client(client)
     given = list(items)
     found: dict[int, Any] = {}
-    for number, result in run(function, [(k, (item,)) for k, item in enumerate(given)], client):
+    calls = [(k, (item,)) for k, item in enumerate(given)]
+    task: Callable[..., Any] = function
+    if client is not None:
+        import cloudpickle
+
+        # in bytes, so that it is the call that fails where a worker cannot import something, and not the worker
+        task, calls = _call, [(k, (cloudpickle.dumps((function, item)),)) for k, item in enumerate(given)]
+    for number, result in run(task, calls, client):
         found[number] = result
         if progress is not None:
             progress(len(found), len(given))
     return [found[k] for k in range(len(given))]
+
+
+def _call(given: bytes) -> Any:
+    """A function and its argument, as the client has packed them."""
+    function, item = pickle.loads(given)
+    return function(item)

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import FormatError
-from cfree.formats.archive import FAULTS, signed
 from cfree.formats.atomic import replacing
+from cfree.formats.header import FAULTS, signed
 
 Shard = dict[str, NDArray[Any]]
 VERSION = 1

@@ -1,23 +1,8 @@
-"""What archives of NumPy arrays have in common: how they begin, a header with a digest, and how damage shows."""
+"""Which files are archives of arrays, as boundaries are written."""
 
 from __future__ import annotations
 
-import hashlib
-import json
-import zipfile
-import zlib
-from collections.abc import Mapping
 from os import PathLike
-from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
-
-FAULTS = (
-    ValueError, KeyError, TypeError, AttributeError, EOFError, RuntimeError, MemoryError,
-    zipfile.BadZipFile, zlib.error,
-)  # fmt: skip
-"""What reading a damaged archive raises."""
 
 
 def is_archive(path: str | PathLike[str]) -> bool:
@@ -27,14 +12,3 @@ def is_archive(path: str | PathLike[str]) -> bool:
             return file.read(2) == b"PK"
     except OSError:
         return False
-
-
-def signed(header: Mapping[str, Any], arrays: Mapping[str, NDArray[Any]]) -> dict[str, Any]:
-    """The header with a digest of all else that is in it, and of the arrays."""
-    rest = {key: value for key, value in header.items() if key != "digest"}
-    digest = hashlib.sha256(json.dumps(rest).encode())
-    for name in sorted(arrays):
-        array = np.ascontiguousarray(arrays[name])
-        digest.update(f"{name} {array.dtype.str} {array.shape}".encode())
-        digest.update(array.data)
-    return rest | {"digest": digest.hexdigest()}

@@ -18,8 +18,8 @@ from cfree.errors import FormatError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 from cfree.forbidden.record import Stats
-from cfree.formats.archive import FAULTS, signed
 from cfree.formats.atomic import checked_suffix, replacing
+from cfree.formats.header import FAULTS, signed
 from cfree.free.space import FreeSpace
 from cfree.scene.features import SceneFeatures, scene_features, unpacked
 
