@@ -57,5 +57,8 @@ def test_amounts_grow_lighter_and_signs_lie_apart(deficiency: str) -> None:
 
 def test_figures_and_pictures_name_no_colours_of_their_own() -> None:
     source = Path(palette.__file__).parent
-    for path in [*source.glob("figures/*.py"), *source.glob("plot/*.py"), *source.glob("forbidden/*.py")]:
+    drawn = [
+        path for folder in ("figures", "plot", "film", "forbidden", "viewer") for path in source.glob(f"{folder}/*.py")
+    ]
+    for path in drawn:
         assert not re.findall(r"#[0-9a-fA-F]{6}", path.read_text()), path.name

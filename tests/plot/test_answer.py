@@ -27,11 +27,12 @@ from cfree.forbidden.patch import Contact, Place
 from cfree.formats.scene_file import load_scene
 from cfree.palette import BARRIER
 from cfree.paths.path import Path
+from cfree.paths.travel import GHOSTS
 from cfree.plot import unrolled as slab
 from cfree.plot.answer import picture, plot_path_space, surface_of
 from cfree.plot.boundary import plot_overview, save_figure
 from cfree.plot.depth_sort import Painting
-from cfree.plot.path import GHOSTS, Track, plot_path, quantity
+from cfree.plot.path import Track, plot_path, quantity
 from cfree.plot.pieces import CURVE, ON_TOP, OVER, WALL, patches_of
 from cfree.plot.strips import strips
 from cfree.scene.scene import Scene

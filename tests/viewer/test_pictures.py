@@ -97,3 +97,20 @@ def test_what_is_not_known_is_not_drawn(
     assert drawn(cfree.Path(cfree.Pose(0, 0), [cfree.Translation((1, 1))])._repr_svg_() or "")
     monkeypatch.setattr(cfree.Boundary, "complete", False)
     assert values["Boundary"]._repr_svg_() is None and values["FreeSpace"]._repr_svg_() is None
+
+
+def test_paths_have_few_ghosts_and_slices_say_where_the_reference_point_may_be(values: dict[str, Any]) -> None:
+    far = cfree.Path(cfree.Pose(0, 0), [cfree.Translation((900, 0))], scene=cfree.Scene(ROBOT))
+    for path in (values["Path"], far):
+        ghosts = re.findall('fill-opacity=".3"', str(path._repr_svg_()))
+        assert 0 < len(ghosts) <= 15
+    assert len(ghosts) == 15
+    assert "the reference point may be here" in str(values["Slice"]._repr_svg_())
+
+
+def test_names_beside_one_robot_do_not_touch() -> None:
+    svg = str(scene_of(start=(1, 3, 0), goal=(1, 3, 0))._repr_svg_())
+    start, goal = (
+        (float(e.get("x", "")), float(e.get("y", ""))) for e in drawn(svg) if (e.text or "") in ("start", "goal")
+    )
+    assert abs(start[0] - goal[0]) > 300 or abs(start[1] - goal[1]) > 150  # tenths of a pixel

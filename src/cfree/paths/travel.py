@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
+GHOSTS, APART = 15, 0.6  # so many poses of a path in a picture, and no closer than this part of the robot's radius
+SAME = 1e-9  # of the robot's radius: less is no motion, for the eye
+
 
 class Travel:
     """Places on a path by the travel of the robot: in each motion how far its farthest moving point goes.
@@ -70,3 +73,22 @@ class Travel:
             chosen = motion == k
             rows[chosen, :2] = self._motions[k].sample(self._poses[k], share[chosen]).xy
         return rows
+
+
+def ghosts(rows: Floats, scene: Scene) -> Ints:
+    """Rows x, y, theta of a path at which to draw the robot: at even steps, turns in place not counted.
+
+    It turns in place where its reference point or its centroid stays.
+    """
+    import shapely
+
+    from cfree.scene.scene import robot_radius
+
+    centroid = shapely.multipolygons([part.to_shapely() for part in scene.robot]).centroid
+    x, y, theta = rows.T
+    turned = np.exp(1j * theta) * complex(centroid.x, centroid.y)
+    steps = np.abs(np.diff([x + 1j * y, x + 1j * y + turned], axis=1)).min(axis=0)
+    radius = robot_radius(scene)
+    until = np.concatenate(([0.0], np.cumsum(np.where(steps > SAME * radius, steps, 0.0))))
+    count = int(min(GHOSTS, until[-1] / (APART * radius)))
+    return np.searchsorted(until, np.linspace(0, until[-1], count + 2)[1:-1])

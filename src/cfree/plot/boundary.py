@@ -26,9 +26,9 @@ from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
 from cfree.formats.atomic import checked_suffix, replacing
 from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT
-from cfree.plot.labels import BODY, GHOST, Labels
+from cfree.plot.labels import BODY, GHOST, MAY, Labels
 from cfree.plot.strips import THIN, strips
-from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry
+from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry, roomiest
 from cfree.scene.scene import Scene
 
 SLIMMEST = 0.4  # of a window's longer side, the other
@@ -129,18 +129,16 @@ def _draw_inside(ax: Axes, cut: Slice, window: Window) -> None:
     import shapely
 
     scene = cut.boundary.scene
-    free = shapely.box(*window).difference(cut.forbidden)
     labels = Labels(ax, scene)
-    labels.avoid([cut.forbidden], GHOST)
-    if free.area <= 0:
+    labels.avoid(shapely.get_parts(cut.forbidden), GHOST)
+    pose = roomiest(cut, window)
+    if pose is None:
         x0, y0, x1, y1 = window
-        labels.put("the reference point may be nowhere", ((x0 + x1) / 2, (y0 + y1) / 2), needed=False)
+        labels.put(f"{MAY} nowhere", ((x0 + x1) / 2, (y0 + y1) / 2), needed=False)
         return
-    x, y = shapely.maximum_inscribed_circle(free, 1e-3 * math.sqrt(free.area)).coords[0]
-    pose = Pose(x, y, cut.theta)
     draw_robot(ax, scene, pose, faint=True)
     labels.avoid_robot(scene, [pose], BODY)
-    labels.put("the reference point may be here", (x, y), needed=False, ring=3.0)
+    labels.put(f"{MAY} here", (float(pose.x), float(pose.y)), needed=False, ring=3.0)
 
 
 @checked

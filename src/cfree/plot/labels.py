@@ -41,11 +41,11 @@ LABEL, WALL, BODY, LINE, GHOST = 1000.0, 40.0, 25.0, 8.0, 5.0
 FARTHEST = 40.0  # points from the numbers of an axis to its name
 FAR = 0.08  # what a point of distance costs
 CORNERS = 12  # of a robot, any of which its name may be beside
-FRAME = "reference point stays inside"
+FRAME, MAY = "reference point stays inside", "the reference point may be"
 
 
 @dataclass(frozen=True, slots=True)
-class _Place:
+class Place:
     """Where a label is written, in pixels: its anchor, its middle, and half its size.
 
     Does it cover an obstacle or a robot at rest? Is it free of other labels, and within the frame?
@@ -63,7 +63,7 @@ class _Place:
 
 
 @dataclass
-class _Room:
+class Room:
     """Where there is room for labels, in pixels.
 
     Attributes
@@ -72,21 +72,22 @@ class _Room:
         Left, bottom, right, top.
     point : float
         Pixels of a typographic point.
-    kept : list of (geometry, float)
+    kept : list of (tree of geometries, float)
         What is to be kept clear, and what it costs not to.
     """
 
     frame: Window
     point: float
-    kept: list[tuple[BaseGeometry, float]] = field(default_factory=list)
+    kept: list[tuple[shapely.STRtree, float]] = field(default_factory=list)
 
-    def keep(self, shape: BaseGeometry, cost: float) -> None:
-        shape = shapely.clip_by_rect(shape, *self.frame) if cost != LABEL else shape
-        if not shape.is_empty:
-            shapely.prepare(shape)
-            self.kept.append((shape, cost))
+    def keep(self, shapes: Iterable[BaseGeometry], cost: float) -> None:
+        """Keep clear of shapes; those that are not valid count as the rectangles around them."""
+        found = np.array([*shapes], dtype=np.object_)
+        found = np.where(shapely.is_valid(found), found, shapely.envelope(found))
+        if len(found):
+            self.kept.append((shapely.STRtree(found), cost))
 
-    def best(self, anchors: Floats, half: Floats, ways: Iterable[float], gaps: Iterable[float]) -> _Place:
+    def best(self, anchors: Floats, half: Floats, ways: Iterable[float], gaps: Iterable[float]) -> Place:
         """The place that costs least for a label of half this size, near any one of some anchors."""
         x0, y0, x1, y1 = self.frame
         half = half + PAD * self.point
@@ -102,15 +103,17 @@ class _Room:
         cost += np.where(outside > 0, 10 * LABEL + outside, 0)
         boxes, leaders = _boxes(centres, half), shapely.linestrings(np.stack((anchors, centres), axis=1))
         covers = np.zeros(len(boxes), dtype=bool)
-        for shape, price in self.kept:
-            hit = np.flatnonzero(shapely.intersects(shape, boxes))
-            share = shapely.area(shapely.intersection(shape, boxes[hit])) / shapely.area(boxes[hit])
-            cost[hit] += price * (0.3 + share)
+        for tree, price in self.kept:
+            box, shape = tree.query(boxes, predicate="intersects")
+            share = np.zeros(len(boxes))
+            np.add.at(share, box, shapely.area(shapely.intersection(boxes[box], tree.geometries[shape])))
+            hit = np.unique(box)
+            cost[hit] += price * (0.3 + np.minimum(1.0, share[hit] / shapely.area(boxes[hit])))
             covers[hit] |= price in (WALL, BODY)
             if price == LABEL:
-                cost[shapely.intersects(shape, leaders)] += LABEL / 2
+                cost[np.unique(tree.query(leaders, predicate="intersects")[0])] += LABEL / 2
         k = int(cost.argmin())
-        return _Place(anchors[k], centres[k], half, bool(covers[k]), bool(cost[k] < LABEL / 2))
+        return Place(anchors[k], centres[k], half, bool(covers[k]), bool(cost[k] < LABEL / 2))
 
 
 class Labels:
@@ -128,7 +131,7 @@ class Labels:
         locator: Any = ax.get_axes_locator()
         self._ax.apply_aspect(locator(ax, None) if locator else None)
         box = ax.get_window_extent()
-        self._room = _Room((box.x0, box.y0, box.x1, box.y1), self._ax.figure.dpi / 72)
+        self._room = Room((box.x0, box.y0, box.x1, box.y1), self._ax.figure.dpi / 72)
         walls = [obstacle.to_shapely() for obstacle in scene.obstacles]
         if scene.workspace is not None:
             (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
@@ -137,7 +140,7 @@ class Labels:
 
     def avoid(self, shapes: Iterable[BaseGeometry], cost: float) -> None:
         """Keep clear of shapes of the plane, if there is room elsewhere."""
-        self._room.keep(shapely.transform(shapely.union_all(list(shapes)), self._ax.transData.transform), cost)
+        self._room.keep(shapely.transform(np.array([*shapes]), self._ax.transData.transform), cost)
 
     def avoid_robot(self, scene: Scene, poses: Iterable[Pose], cost: float) -> None:
         """Keep clear of the robot in some poses."""
@@ -190,7 +193,7 @@ class Labels:
         if leader and (ring or shapely.distance(taken, shapely.Point(place.anchor)) > SEEN * self._room.point):
             self._lead(place, note.get_color(), ring)
             taken = shapely.union(taken, shapely.LineString([place.anchor, place.centre]))
-        self._room.keep(taken, LABEL)
+        self._room.keep([taken], LABEL)
 
     def name_robot(self, scene: Scene, pose: Pose, name: str) -> None:
         """Write a name beside the robot in a pose."""
@@ -211,7 +214,7 @@ class Labels:
         if ((anchors >= (left, bottom)) & (anchors <= (right, top))).all(axis=1).any():
             self.put(FRAME, anchors, ways=ACROSS, leader=False, needed=False, color=GREY, fontsize=9)
 
-    def _lead(self, place: _Place, colour: Any, ring: float) -> None:
+    def _lead(self, place: Place, colour: Any, ring: float) -> None:
         """A line from an anchor to its label, seen on any ground."""
         from matplotlib.patheffects import Normal, withStroke
 
@@ -247,18 +250,17 @@ def name_in_space(ax: Axes3D, names: Iterable[tuple[Floats, str]], line: Floats 
         return np.asarray(axes.transData.transform(np.column_stack((x, y))))
 
     box, point = axes.get_window_extent(), figure.dpi / 72
-    room = _Room((box.x0, box.y0, box.x1, box.y1), point)
-    for _, shape in written:
-        room.keep(shape, LABEL)
+    room = Room((box.x0, box.y0, box.x1, box.y1), point)
+    room.keep((shape for _, shape in written), LABEL)
     if line is not None:
-        room.keep(shapely.LineString(pixels(line)), LINE)
+        room.keep([shapely.LineString(pixels(line))], LINE)
     halo = [withStroke(linewidth=2.5, foreground="white")]
     for where, name in names:
         text = axes.text(*where.tolist(), name, ha="center", va="center", zorder=22, path_effects=halo)
         place = room.best(pixels(where), _half(text), ALL_AROUND, GAPS[:6])
         dx, dy = ((place.centre - place.anchor) / point / 72).tolist()
         text.set_transform(axes.transData + ScaledTranslation(dx, dy, figure.dpi_scale_trans))
-        room.keep(place.box, LABEL)
+        room.keep([place.box], LABEL)
 
 
 def _written(figure: Figure) -> list[tuple[Any, BaseGeometry]]:

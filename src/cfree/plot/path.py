@@ -19,7 +19,7 @@ from cfree.palette import BARRIER, MARK, ROBOT, SEQUENTIAL
 from cfree.paths.clearance import Clearance, distances_beside, least_clearance
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
-from cfree.paths.travel import Travel
+from cfree.paths.travel import SAME, Travel, ghosts
 from cfree.plot.boundary import around, new_axes, plain, roomy, set_window, with_unit
 from cfree.plot.labels import BODY, GHOST, LINE, Labels
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
@@ -28,10 +28,8 @@ from cfree.scene.scene import Scene, robot_radius
 
 Floats = NDArray[np.float64]
 
-GHOSTS, APART = 15, 0.6  # so many at most, and no closer than this part of the robot's radius
 TRACE = 600
 RING = 5.5  # typographic points: radius of the mark where the clearance is least
-SAME = 1e-9  # of the robot's radius: less is touching, for the eye
 NEAR = 2.0  # obstacles within so many times the least clearance limit it
 
 
@@ -100,20 +98,8 @@ class Track:
 
     @property
     def ghosts(self) -> NDArray[np.int64]:
-        """Rows between start and goal at which the robot is drawn: at even steps, turns in place not counted.
-
-        It turns in place where its reference point or its centroid stays.
-        """
-        import shapely
-
-        centroid = shapely.multipolygons([part.to_shapely() for part in self.scene.robot]).centroid
-        x, y, theta = self.rows.T
-        turned = np.exp(1j * theta) * complex(centroid.x, centroid.y)
-        steps = np.abs(np.diff([x + 1j * y, x + 1j * y + turned], axis=1)).min(axis=0)
-        radius = robot_radius(self.scene)
-        until = np.concatenate(([0.0], np.cumsum(np.where(steps > SAME * radius, steps, 0.0))))
-        count = int(min(GHOSTS, until[-1] / (APART * radius)))
-        return np.searchsorted(until, np.linspace(0, until[-1], count + 2)[1:-1])
+        """Rows between start and goal at which the robot is drawn."""
+        return ghosts(self.rows, self.scene)
 
 
 @checked

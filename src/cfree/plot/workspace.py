@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.path import Path
 
     from cfree.exact.pose import Pose
+    from cfree.forbidden.slice import Slice
     from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -65,6 +67,19 @@ def _mark(ax: Axes, pose: Pose, rings: list[Floats]) -> None:
     arrow = {"arrowstyle": "->", "shrinkA": 0, "shrinkB": 0, "zorder": 7}
     ax.annotate("", xy=(x + dx, y + dy), xytext=(x, y), arrowprops=arrow, zorder=7)
     ax.plot(x, y, "o", color="black", markersize=4, path_effects=halo, zorder=7)
+
+
+def roomiest(cut: Slice, window: Window) -> Pose | None:
+    """The pose of a slice with most room around its reference point within a window; None if none is free."""
+    import shapely
+
+    from cfree.exact.pose import Pose
+
+    free = shapely.box(*window).difference(cut.forbidden)
+    if free.area <= 0:
+        return None
+    x, y = shapely.maximum_inscribed_circle(free, 1e-2 * math.sqrt(free.area)).coords[0]
+    return Pose(x, y, cut.theta)
 
 
 def rings_of(polygons: Iterable[Any]) -> list[Floats]:

@@ -8,18 +8,23 @@ from io import BytesIO
 from itertools import pairwise
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
+from cfree import palette
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
-from cfree.forbidden.kinds import PatchKind
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.mesh import Mesh
 from cfree.forbidden.slice import Slice
 from cfree.free.space import Cell, FreeSpace
+from cfree.palette import paler
 from cfree.paths.path import Path
-from cfree.paths.travel import Travel
+from cfree.paths.travel import Travel, ghosts
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
+from cfree.plot.labels import BODY, CORNERS, LINE, MAY, WALL
+from cfree.plot.workspace import roomiest
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
 from cfree.scene.scene import Bounds, Scene, robot_radius
@@ -27,21 +32,20 @@ from cfree.viewer.svg import Floats, Panel, Window, drawing, text
 
 WIDTH, HEIGHT = 640.0, 400.0
 PANELS = (0, 60, 120, 180, 240, 300)  # degrees
-GHOSTS, APART = 60, 0.35  # robots along a path at most, and how far apart in robot's radii
 FINEST, SHARP = 2_000, 2  # triangles drawn as such, of more an image with so many dots a pixel
 
-OBSTACLE = 'fill="#59626f" stroke="#2e343d" stroke-width="8"'
-OUTLINE = 'fill="none" stroke="#5a6472" stroke-width="10" stroke-dasharray="50 40"'
-ROBOT = 'fill="#00966d" fill-opacity=".5" stroke="#00966d" stroke-width="16"'
-END = 'fill="#a23b88" fill-opacity=".12" stroke="#a23b88" stroke-width="14" stroke-dasharray="50 30"'
-GHOST = 'fill="#a23b88" fill-opacity=".06" stroke="#a23b88" stroke-opacity=".35" stroke-width="7"'
-TRACE = 'stroke="#a23b88" stroke-width="24"'
-BARRIER = 'fill="#d9572b" fill-opacity=".8" stroke="#8a2c0d" stroke-width="14"'
-BARRIER_LINE = 'fill="none" stroke="#d9572b" stroke-width="30"'
-FORBIDDEN = 'fill="#8a94a5" fill-opacity=".28"'
-INK = 'fill="#1b2028" font-weight="600"'
-KINDS = {PatchKind.VERTEX_EDGE: "#d55e00", PatchKind.EDGE_VERTEX: "#2b8cd6", PatchKind.BOUND: "#8a92a0"}
-CELLS = ("#00845f", "#a23b88", "#c99700", "#5a4fcf", "#c3201f", "#1b8aa5", "#7a5c3e", "#5f7d1c")
+OBSTACLE = f'fill="{palette.OBSTACLE}" stroke="{palette.OBSTACLE_RIM}" stroke-width="8"'
+OUTLINE = f'fill="none" stroke="{palette.GREY}" stroke-width="10" stroke-dasharray="50 40"'
+ROBOT = f'fill="{palette.ROBOT}" fill-opacity=".85" stroke="{palette.ROBOT}" stroke-width="16"'
+END = f'fill="{palette.GHOST}" fill-opacity=".85" stroke="{palette.ROBOT}" stroke-width="14" stroke-dasharray="50 30"'
+GHOST = f'fill="{palette.GHOST}" fill-opacity=".3" stroke="{palette.ROBOT}" stroke-opacity=".6" stroke-width="8"'
+TRACE = f'stroke="{palette.PATH}" stroke-width="24"'
+BARRIER = f'fill="{paler(palette.BARRIER, 0.7)}" stroke="{palette.BARRIER}" stroke-width="16"'
+BARRIER_LINE = f'fill="none" stroke="{palette.BARRIER}" stroke-width="30"'
+FORBIDDEN = f'fill="{palette.FORBIDDEN}" fill-opacity=".8"'
+INK = f'fill="{palette.INK}" font-weight="600"'
+POINT = f'fill="#fff" stroke="{palette.INK}" stroke-width="12"'
+CELLS = palette.CATEGORIES
 EAST, UP = math.radians(32), math.radians(24)  # from where a mesh is seen
 
 
@@ -57,6 +61,7 @@ def picture(value: object) -> str | None:
         case Slice():
             panel = _plane(value.boundary.scene, WIDTH, HEIGHT)
             _draw_slice(panel, value)
+            _draw_inside(panel, value, words=True)
             return drawing([panel], WIDTH, HEIGHT, repr(value))
         case Boundary():
             return _slices(value, None, repr(value))
@@ -98,16 +103,12 @@ def _rectangle(bounds: Bounds) -> Floats:
 
 
 def _plane(scene: Scene, width: float, height: float, left: float = 0.0, top: float = 0.0) -> Panel:
-    """Obstacles, bounds and workspace, faint: positions of the reference point are what matters."""
+    """A panel for slices of a scene."""
     r = robot_radius(scene)
     seen = _box(scene) or [np.array([(-r, -r), (r, r)])]
     if scene.bounds is None and scene.workspace is None:  # contacts are around the obstacles
         seen = [ring + by for ring in seen for by in (-r, r)]
-    panel = Panel(_around(seen), width, height, left, top)
-    panel.shapes(_rings(scene.obstacles), 'fill="#59626f" fill-opacity=".75"')
-    if scene.workspace is not None:
-        panel.shapes(scene.workspace.rings, OUTLINE)
-    return panel
+    return Panel(_around(seen), width, height, left, top)
 
 
 def _workspace(
@@ -141,12 +142,14 @@ def _workspace(
     panel.shapes(aside, ROBOT)
     for rings, pose, name in reversed(placed):
         panel.shapes(rings, ROBOT if name == "start" else END)
-        panel.dot(pose.apply(np.zeros((1, 2))), 3, 'fill="#fff" stroke="#1b2028" stroke-width="12"')
+        panel.dot(pose.apply(np.zeros((1, 2))), 3, POINT)
     for place in places:
         panel.dot(place, 6, END)
+    panel.avoid(_rings(scene.obstacles), WALL)
+    panel.avoid((ring for rings, _, _ in placed for ring in rings), BODY)
     for rings, _, name in placed:
         points = np.concatenate(rings)
-        panel.label(name, np.array([(points[:, 0].min() + points[:, 0].max()) / 2, points[:, 1].max()]), INK)
+        panel.label(name, points[:: 1 + len(points) // CORNERS], INK)
     return drawing([panel], WIDTH, HEIGHT, caption)
 
 
@@ -161,15 +164,11 @@ def _aside(robot: list[Floats], seen: list[Floats]) -> list[Floats]:
 
 def _draw_way(panel: Panel, scene: Scene, robot: list[Floats], rows: Floats) -> None:
     """The robot at even steps of its way, and the line of its reference point."""
-    r = robot_radius(scene)
-    steps = np.hypot(*np.diff(rows[:, :2], axis=0).T) + 0.6 * r * np.abs(np.diff(rows[:, 2]))
-    until = np.concatenate([[0.0], np.cumsum(steps)])
-    count = int(min(GHOSTS, until[-1] / (APART * r)))
-    for k in np.searchsorted(until, np.linspace(0, until[-1], count + 2)[1:-1]).tolist():
-        x, y, theta = rows[k].tolist()
+    for x, y, theta in rows[ghosts(rows, scene)].tolist():
         pose = Pose(x, y, theta)
         panel.shapes([pose.apply(ring) for ring in robot], GHOST)
     panel.line(rows[:, :2], TRACE)
+    panel.room.keep([shapely.LineString(panel.pixels(rows[:, :2]))], LINE)
 
 
 def _path(path: Path) -> str:
@@ -181,7 +180,7 @@ def _path(path: Path) -> str:
         panel.line(way, TRACE)
         for name, end in (("start", way[0]), ("goal", way[-1])):
             panel.dot(end, 5, END)
-            panel.label(name, end, INK)
+            panel.label(name, end[None], INK)
         return drawing([panel], WIDTH, HEIGHT, caption)
     travel = Travel(path, scene)
     rows = travel.at(np.linspace(0, travel.total, 600))
@@ -203,15 +202,35 @@ def _draw_slice(panel: Panel, cut: Slice, colour_of: NDArray[np.int64] | None = 
     points = xy.reshape(-1, 2)
     rings = [points[i:j] for i, j in pairwise(start)]
     panel.shapes(rings, FORBIDDEN, frame=bool((shell == -1).any()))
+    scene = cut.boundary.scene
+    panel.shapes(_rings(scene.obstacles), OBSTACLE)
+    if scene.workspace is not None:
+        panel.shapes(scene.workspace.rings, OUTLINE)
     if colour_of is None:
         kinds = cut.boundary.patch_kind[cut.patches]
-        for kind, colour in KINDS.items():
+        for kind, colour in COLOURS.items():
             panel.segments(cut.segments[kinds == kind], f'stroke="{colour}" stroke-width="14"')
     else:
         cells = colour_of[cut.trapezoids]
         for cell in np.unique(cells[cells >= 0]).tolist():
             style = f'stroke="{CELLS[cell % len(CELLS)]}" stroke-width="18"'
             panel.segments(cut.segments[cells == cell], style)
+
+
+def _draw_inside(panel: Panel, cut: Slice, *, words: bool) -> None:
+    """The robot where its reference point has most room in a slice, unless that takes long to find."""
+    pose = roomiest(cut, panel.window) if len(cut.segments) <= FINEST else None
+    if pose is None:
+        return
+    scene = cut.boundary.scene
+    rings = [pose.apply(ring) for ring in _rings(scene.robot)]
+    panel.shapes(rings, END)
+    place = pose.apply(np.zeros((1, 2)))
+    panel.dot(place, 3, POINT)
+    if words:
+        panel.avoid(_rings(scene.obstacles), WALL)
+        panel.avoid(rings, BODY)
+        panel.label(f"{MAY} here", place, INK)
 
 
 def _slices(boundary: Boundary, space: FreeSpace | None, caption: str, only: int | None = None) -> str | None:
@@ -224,7 +243,9 @@ def _slices(boundary: Boundary, space: FreeSpace | None, caption: str, only: int
     width, height, panels = WIDTH / 3, 190.0, []
     for k, angle in enumerate(PANELS):
         panel = _plane(boundary.scene, width - 8, height - 24, k % 3 * width + 4, k // 3 * height + 20)
-        _draw_slice(panel, boundary.slice(f"{angle}deg"), cells)
+        cut = boundary.slice(f"{angle}deg")
+        _draw_slice(panel, cut, cells)
+        _draw_inside(panel, cut, words=False)
         x, y = panel.corner.tolist()
         panel.parts.append(
             text(f"θ = {angle}°", x + 6, y + 14, f'{INK} paint-order="stroke" stroke="#fff" stroke-width="30"')
@@ -249,7 +270,7 @@ def _mesh(mesh: Mesh) -> str:
     order = facing[np.argsort((a + b + c)[facing, 2], kind="stable")]
     shade = np.rint(4 * (normal[order] @ (-0.3, 0.5, 0.81)) / length[order]).clip(0, 4).astype(int) / 4
     panel = Panel(_around([seen[:, :2]]), WIDTH, HEIGHT)
-    colours = [_shaded(KINDS[PatchKind(k)], s) for k, s in zip(kind[order].tolist(), shade.tolist(), strict=True)]
+    colours = [_shaded(COLOURS[PatchKind(k)], s) for k, s in zip(kind[order].tolist(), shade.tolist(), strict=True)]
     if len(order) > FINEST:
         panel.image(_painted(SHARP * panel.pixels(seen[corners[order], :2].reshape(-1, 2)), colours))
     else:
@@ -267,12 +288,12 @@ def _painted(corners: Floats, colours: Sequence[str]) -> bytes:
     """Triangles one over the other, as PNG."""
     from PIL import Image, ImageDraw
 
-    palette = {colour: k for k, colour in enumerate(["#ffffff", *dict.fromkeys(colours)])}
+    places = {colour: k for k, colour in enumerate(["white", *dict.fromkeys(colours)])}
     image = Image.new("P", (round(SHARP * WIDTH), round(SHARP * HEIGHT)))
-    image.putpalette(bytes.fromhex("".join(palette).replace("#", "")))
+    image.putpalette(b"\xff\xff\xff" + bytes.fromhex("".join(places).removeprefix("white").replace("#", "")))
     brush = ImageDraw.Draw(image)
     for triangle, colour in zip(corners.reshape(-1, 6).tolist(), colours, strict=True):
-        brush.polygon(triangle, fill=palette[colour])
+        brush.polygon(triangle, fill=places[colour])
     file = BytesIO()
     image.save(file, "PNG")
     return file.getvalue()

@@ -9,7 +9,11 @@ from html import escape
 from itertools import pairwise
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
+
+from cfree.palette import INK
+from cfree.plot.labels import ALL_AROUND, GAPS, LABEL, SEEN, Room
 
 Floats = NDArray[np.float64]
 Window = tuple[float, float, float, float]
@@ -17,6 +21,7 @@ Window = tuple[float, float, float, float]
 UNIT = 10  # coordinates in the file are whole tenths of a pixel
 MANY = 20_000  # points of one drawing, above which they are whole pixels
 MOST = 60_000  # above which not all points of a ring are drawn
+SIZE = 12.5  # pixels of letters
 FAR = 20_000  # pixels from the middle: what is farther is drawn there
 FONT = "system-ui,-apple-system,'Segoe UI',Roboto,Arial,sans-serif"
 
@@ -36,10 +41,12 @@ class Panel:
 
     def __init__(self, window: Window, width: float, height: float, left: float = 0.0, top: float = 0.0) -> None:
         x0, y0, x1, y1 = window
+        self.window = window
         self.scale = min(width / (x1 - x0), height / (y1 - y0))
         self.middle = np.array([x0 + (x1 - x0) / 2, y0 + (y1 - y0) / 2])
         self.size, self.corner = np.array([width, height]), np.array([left, top])
         self.parts: list[str] = []
+        self.room = Room((left, top, left + width, top + height), 1.0)
 
     def pixels(self, points: Floats) -> Floats:
         """Where points (n, 2) are seen."""
@@ -91,15 +98,27 @@ class Panel:
         data = b64encode(png).decode()
         self.parts.append(f'<image x="{x}" y="{y}" width="{w}" height="{h}" href="data:image/png;base64,{data}"/>')
 
-    def label(self, words: str, point: Floats, style: str) -> None:
-        """Words above a point."""
-        ((x, y),) = self.pixels(point.reshape(1, 2)).tolist()
-        self.parts.append(text(words, x, y - 4, f'text-anchor="middle" {style}'))
+    def avoid(self, rings: Iterable[Floats], cost: float) -> None:
+        """Keep words clear of shapes of the plane, if there is room elsewhere."""
+        self.room.keep([shapely.Polygon(self.pixels(ring)) for ring in rings], cost)
+
+    def label(self, words: str, points: Floats, style: str) -> None:
+        """Words beside one of some points, where they touch no others."""
+        half = np.array([0.29 * SIZE * len(words), 0.6 * SIZE])
+        place = self.room.best(self.pixels(points), half, ALL_AROUND, GAPS)
+        (x, y), (u, v) = place.centre.tolist(), place.anchor.tolist()
+        self.room.keep([place.box], LABEL)
+        if shapely.distance(place.box, shapely.Point(u, v)) > SEEN:
+            ends = f'd="M{u * UNIT:.0f} {v * UNIT:.0f}L{x * UNIT:.0f} {y * UNIT:.0f}"'
+            for colour, width in (("#fff", 36), (INK, 13)):
+                self.parts.append(f'<path {ends} stroke="{colour}" stroke-width="{width}"/>')
+        halo = 'paint-order="stroke" stroke="#fff" stroke-width="40"'
+        self.parts.append(text(words, x, y + 0.35 * SIZE, f'text-anchor="middle" {halo} {style}'))
 
 
 def drawing(panels: Iterable[Panel], width: float, height: float, caption: str) -> str:
     """Panels, and a caption below them, as one SVG."""
-    line = text(caption, 10, height + 17, 'fill="#1b2028"')
+    line = text(caption, 10, height + 17, f'fill="{INK}"')
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.0f}" height="{height + 26:.0f}" '
         f'viewBox="0 0 {width * UNIT:.0f} {(height + 26) * UNIT:.0f}" role="img" aria-label="{plain(caption, 400)}" '
@@ -115,7 +134,7 @@ def drawing(panels: Iterable[Panel], width: float, height: float, caption: str) 
 def text(words: str, x: float, y: float, style: str) -> str:
     """Words at a place in pixels."""
     return (
-        f'<text x="{x * UNIT:.0f}" y="{y * UNIT:.0f}" font-family="{FONT}" font-size="{12.5 * UNIT:.0f}" {style}>'
+        f'<text x="{x * UNIT:.0f}" y="{y * UNIT:.0f}" font-family="{FONT}" font-size="{SIZE * UNIT:.0f}" {style}>'
         f"{plain(words, 100)}</text>"
     )
 
