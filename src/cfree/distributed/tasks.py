@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 import cfree._core as _core
 from cfree.distributed.division import Division, Features
+from cfree.distributed.exact_sums import exact_sums
 from cfree.distributed.glue import glue_tile
 from cfree.distributed.joining import JoinedSurfaces
 from cfree.distributed.nesting import Crossing, Line, TileLines
@@ -168,15 +169,13 @@ def measure_task(
     work = opened(folder, stamp)
     rows = work.rows(tile, work.surfaces, around=False)
     of = surface[work.shard(GLUED, tile)["component"]]
-    known = np.unique(of, return_inverse=True)[1].reshape(-1)
+    surfaces, known = np.unique(of, return_inverse=True)
+    known = known.reshape(-1)
     values, errors = _core.fluxes(rows.core, np.ascontiguousarray(origins[known]))
-    foreign = rows.feature >= work.store.vertices
-    found = {}
-    for k, number in enumerate(np.unique(of).tolist()):
-        mine = known == k
-        value, error = (sum(map(Fraction, column[mine].tolist()), Fraction(0)) for column in (values, errors))
-        found[number] = Fraction(value), Fraction(error), bool(foreign[mine].any())
-    return found  # exact sums, so that tiles do not matter
+    foreign = np.zeros(len(surfaces), bool)
+    foreign[known[rows.feature >= work.store.vertices]] = True
+    sums = (exact_sums(column, known, len(surfaces)) for column in (values, errors))
+    return dict(zip(surfaces.tolist(), zip(*sums, foreign.tolist(), strict=True), strict=True))
 
 
 def surfaces_in(joined: JoinedSurfaces, tile: int) -> np.ndarray[Any, Any]:
