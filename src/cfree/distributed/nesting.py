@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +21,14 @@ from cfree.distributed.joining import JoinedSurfaces
 from cfree.errors import InvariantError
 
 Ints = NDArray[np.int64]
+Place = tuple[float, Fraction]
 ATTEMPTS = 64
 NONE = -1
+
+
+def place_at(numerator: int, denominator: int) -> Place:
+    """A place on a line; of two the fractions are looked at only if the doubles, correctly rounded, are equal."""
+    return numerator / denominator, Fraction(numerator, denominator)
 
 
 @dataclass(frozen=True)
@@ -33,19 +41,19 @@ class Line:
     row: int
     """The trapezoid that the pose is on, in the tile that gave it."""
 
-    @property
-    def x(self) -> Fraction:
-        return Fraction(self.pose[0], self.pose[2])
+    @cached_property
+    def x(self) -> Place:
+        return place_at(self.pose[0], self.pose[2])
 
     @property
-    def y(self) -> Fraction:
-        return Fraction(self.pose[1], self.pose[2])
+    def y(self) -> float:
+        return self.pose[1] / self.pose[2]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Crossing:
     surface: int
-    x: Fraction
+    x: Place
     is_free_before: bool
 
 
@@ -78,7 +86,7 @@ class TileLines:
         found = self._location.passages(line.pose, line.chart, line.row if is_its_own else NONE)
         if found is None:
             return None
-        return [Crossing(int(self._surface[row]), Fraction(n, d), free) for row, n, d, free in found]
+        return [Crossing(int(self._surface[row]), place_at(n, d), free) for row, n, d, free in found]
 
 
 Questions = dict[int, list[tuple[int, int, Line | None]]]
@@ -155,8 +163,7 @@ def nest(
         for surface, line, crossed in ask(questions) if questions else ():
             search = searches[surface]
             known = search.crossed + (crossed or [])
-            places = [crossing.x for crossing in known]
-            if line is None or crossed is None or len(set(places)) < len(places) or line.x in places:
+            if line is None or crossed is None or not _are_apart([line.x, *(crossing.x for crossing in known)]):
                 if search.attempt == ATTEMPTS * len(tiles_of[surface]):
                     raise InvariantError(f"no line from closed surface {surface} in general position")
                 searches[surface] = _Search(search.attempt + 1)
@@ -168,20 +175,25 @@ def nest(
 def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float64], scale: float) -> int | None:
     """The tile to ask next: one that the surface is in, or that may hold something nearer than what is known."""
     assert search.line is not None
-    y, x = float(search.line.y) / scale, float(search.line.x) / scale
+    y, x = search.line.y / scale, search.line.x[0] / scale
     last, beyond = _ends(search, surface)
     low, high = boxes[:, 1] <= y, boxes[:, 3] >= y
     near = low & high & (boxes[:, 0] <= x)
     near[list(search.done)] = False
-    edge = float(last.x) / scale
+    edge = last.x[0] / scale
     mine = [tile for tile in own if near[tile] and boxes[tile, 0] <= edge]
     if mine:
         return max(mine, key=lambda t: (boxes[t, 2], t))
     if beyond is not None:
-        near &= boxes[:, 2] >= float(beyond.x) / scale
+        near &= boxes[:, 2] >= beyond.x[0] / scale
     near &= boxes[:, 0] <= edge
     others = np.flatnonzero(near)
     return int(others[np.argmax(boxes[others, 2])]) if len(others) else None
+
+
+def _are_apart(places: list[Place]) -> bool:
+    places.sort()
+    return all(one != other for one, other in pairwise(places))
 
 
 def _ends(search: _Search, surface: int) -> tuple[Crossing, Crossing | None]:

@@ -75,19 +75,25 @@ class Part:
         there, on_vertex = kind != 0, np.isin(kind, ON_VERTEX)
         obstacle[on_vertex] = self.local(v[on_vertex])
         on_edge = there & ~on_vertex
-        obstacle[on_edge] = self._edge_numbers(np.stack([v[on_edge], w[on_edge]], axis=1))
+        obstacle[on_edge] = self._edge_numbers(v[on_edge], w[on_edge])
         packed = kind.astype(np.uint64) << np.uint64(61) | robot.astype(np.uint64) << np.uint64(31)
         return np.where(there, packed | obstacle.astype(np.uint64), 0).astype(np.uint64)
 
-    def _edge_numbers(self, ends: NDArray[np.int64]) -> Ints:
+    def _edge_numbers(self, v: Ints, w: Ints) -> Ints:
         """Edges of the part by their ends."""
-        edges = self.edges
-        order = np.lexsort((edges[:, 1], edges[:, 0]))
-        sought, at = np.unique(ends, axis=0, return_inverse=True)
-        table = edges[order]
-        both = np.concatenate([table, sought])
-        rank = np.unique(both, axis=0, return_inverse=True)[1].reshape(-1)
-        place = np.searchsorted(rank[: len(table)], rank[len(table) :])
-        if np.any(place == len(table)) or np.any(table[np.minimum(place, len(table) - 1)] != sought):
+        keys = self._edge_keys(self.local(v), self.local(w))
+        order, sorted_keys = self._edges_by_ends
+        place = np.minimum(np.searchsorted(sorted_keys, keys), len(order) - 1)
+        if np.any(sorted_keys[place] != keys):
             raise KeyError("an edge that is not in this part")
-        return order[place][at.reshape(-1)]
+        return order[place]
+
+    @cached_property
+    def _edges_by_ends(self) -> tuple[Ints, Ints]:
+        keys = self._edge_keys(self.features.obstacles.v, self.features.obstacles.w)
+        order = np.argsort(keys)
+        return order, keys[order]
+
+    def _edge_keys(self, v: NDArray[np.int32], w: NDArray[np.int32]) -> Ints:
+        """One number for both ends, by their numbers in the part."""
+        return v.astype(np.int64) * len(self.vertices) + w
