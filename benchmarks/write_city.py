@@ -34,8 +34,8 @@ def polygons_of(side: int, row: int, seed: int) -> Iterator[list[Ring]]:
         yield from ([shed.tolist()] for shed in four)
 
 
-def main() -> None:
-    folder, blocks, seed = Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 0
+def write_city(folder: Path, blocks: int, seed: int = 0) -> int:
+    """Write it; the number of blocks along a side."""
     side = max(1, round(blocks**0.5))
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "robot.json").write_text(json.dumps({"robot": {"outer": CAR.tolist()}, "obstacles": []}))
@@ -50,7 +50,8 @@ def main() -> None:
         kind = "closed" if is_closed(row, column) else "open"
         places[kind].append([BLOCK * column + 30, BLOCK * row + 30, 0])
     (folder / "places.json").write_text(json.dumps({name: found[:100] for name, found in places.items()}))
+    return side
 
 
 if __name__ == "__main__":
-    main()
+    write_city(Path(sys.argv[1]), int(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 0)

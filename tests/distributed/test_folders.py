@@ -15,9 +15,10 @@ from click.testing import CliRunner
 import cfree
 from cfree import Pose
 from cfree.cli.app import app
-from cfree.distributed import Sharded, boundary
+from cfree.distributed import Sharded, boundary, reading
 from cfree.distributed.tasks import Work
 from cfree.errors import FormatError
+from cfree.formats.geojson import geojson_shapes
 from stones import ROBOT, SCENE, stones
 
 
@@ -193,3 +194,17 @@ def test_the_command_makes_asks_and_checks_folders(tmp_path: Path) -> None:
     ):
         refused = run(*words)
         assert refused.exit_code == 2 and said in refused.output, refused.output
+
+
+def test_a_polygon_larger_than_memory_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(findings: Any, value: Any) -> Any:
+        if "9" in findings.text:
+            raise MemoryError
+        return geojson_shapes(findings, value)
+
+    monkeypatch.setattr(reading, "geojson_shapes", full)
+    triangle = '{"type": "Polygon", "coordinates": [[[0, 0], [1, 0], [0, %d], [0, 0]]]}\n'
+    (tmp_path / "city.geojsonl").write_text(triangle % 1 + triangle % 9)
+    (tmp_path / "robot.json").write_text('{"robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "obstacles": []}')
+    with pytest.raises(FormatError, match=r"city.geojsonl: line 2: too large for memory"):
+        boundary([tmp_path / "robot.json", tmp_path / "city.geojsonl"], folder=tmp_path / "folder")

@@ -22,8 +22,8 @@ from cfree.scene.scene import Scene
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
-MARGIN = 2.0
-"""How far around a path obstacles are added, in reaches of the robot."""
+MARGIN, WIDER = 2.0, 4.0
+"""How far around a path obstacles are added, in reaches of the robot; so many times as far when some were missing."""
 
 
 @dataclass
@@ -71,10 +71,10 @@ class Surroundings:
 
 def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> Path | Separated:
     """A path or a proof, whose scene has the obstacles that it is about; `wishes` as of `cfree.plan`."""
-    margin = MARGIN * known.work.store.radius
     for end in (start, goal):
-        known.add_around(Path(end, []), margin)
+        known.add_around(Path(end, []), MARGIN * known.work.store.radius)
     for wish in ({"improve": 0.0}, wishes):
+        margin = MARGIN * known.work.store.radius
         while True:
             answer = plan(known.scene, start, goal, **wishes | wish)
             if isinstance(answer, Separated):
@@ -82,4 +82,5 @@ def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> P
             assert isinstance(answer, Path)
             if not known.add_around(answer, margin):
                 break
+            margin *= WIDER
     return answer

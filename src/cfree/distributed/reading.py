@@ -82,16 +82,19 @@ def _polygons(path: Path) -> Iterator[Polygon]:
 
 def _in_lines(path: Path) -> Iterator[Polygon]:
     """One GeoJSON object a line; what is wrong is said with the line it is in."""
-    with path.open(encoding="utf-8") as file, collection_paused():
-        for number, line in enumerate(file, 1):
-            text = line.strip("\x1e \t\r\n")
-            if not text:
-                continue
-            findings = Findings(f"{path}:{number}", text)
-            shapes = geojson_shapes(findings, read_json(findings))
-            findings.fail_if_any()
-            for shape in shapes:
-                yield shape.polygon
+    number = 1
+    try:
+        with path.open(encoding="utf-8") as file, collection_paused():
+            while line := file.readline():
+                if text := line.strip("\x1e \t\r\n"):
+                    findings = Findings(f"{path}:{number}", text)
+                    shapes = geojson_shapes(findings, read_json(findings))
+                    findings.fail_if_any()
+                    for shape in shapes:
+                        yield shape.polygon
+                number += 1
+    except MemoryError as error:
+        raise _fault(path, f"line {number}: too large for memory; cut the polygon into several") from error
 
 
 def _in_table(path: Path) -> Iterator[Polygon]:
