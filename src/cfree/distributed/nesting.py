@@ -9,9 +9,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,14 +21,29 @@ from cfree.distributed.joining import JoinedSurfaces
 from cfree.errors import InvariantError
 
 Ints = NDArray[np.int64]
-Place = tuple[float, Fraction]
-ATTEMPTS = 64
+ATTEMPTS, TRIES = 8, 8  # to find a line: in how many tasks of each tile, and in each of these
 NONE = -1
 
 
-def place_at(numerator: int, denominator: int) -> Place:
-    """A place on a line; of two the fractions are looked at only if the doubles, correctly rounded, are equal."""
-    return numerator / denominator, Fraction(numerator, denominator)
+class Place(NamedTuple):
+    """A place on a line, n / d with d > 0; the double next to it decides, and the fraction between equal doubles."""
+
+    near: float
+    n: int
+    d: int
+
+    @classmethod
+    def of(cls, n: int, d: int) -> Place:
+        return cls(n / d, n, d)
+
+    def __lt__(self, other: Place) -> bool:  # type: ignore[override]
+        return self.near < other.near or (self.near == other.near and self.n * other.d < other.n * self.d)
+
+    def __gt__(self, other: Place) -> bool:  # type: ignore[override]
+        return other < self
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Place) and self.near == other.near and self.n * other.d == other.n * self.d
 
 
 @dataclass(frozen=True)
@@ -43,7 +58,7 @@ class Line:
 
     @cached_property
     def x(self) -> Place:
-        return place_at(self.pose[0], self.pose[2])
+        return Place.of(self.pose[0], self.pose[2])
 
     @property
     def y(self) -> float:
@@ -73,20 +88,27 @@ class TileLines:
         rows = boundary.trapezoids
         self._width = rows.to_lo - rows.from_hi
 
-    def line(self, surface: int, attempt: int) -> Line | None:
-        """From a pose of a surface that is in the tile; other ones for other attempts."""
+    def begin(self, surface: int, attempt: int) -> tuple[Line | None, list[Crossing] | None]:
+        """A line from a surface that is in the tile, and what it crosses here; other ones for other attempts."""
+        for k in range(TRIES * attempt, TRIES * (attempt + 1)):
+            line = self._line(surface, k)
+            if line is not None and (crossed := self.crossings(line, is_its_own=True)) is not None:
+                return line, crossed
+        return None, None
+
+    def _line(self, surface: int, attempt: int) -> Line | None:
         own = np.flatnonzero(self._surface == surface)
         order = own[np.argsort(-self._width[own], kind="stable")]
         row = int(order[attempt % len(order)])
         found = self._location.pose_on(row, attempt)
         return None if found is None else Line(*found, row)
 
-    def crossings(self, line: Line, is_its_own: bool) -> list[Crossing] | None:
-        """What the line crosses here; nothing if that cannot be told for this line."""
+    def crossings(self, line: Line, is_its_own: bool = False) -> list[Crossing] | None:
+        """What a line crosses here; nothing if that cannot be told for this line."""
         found = self._location.passages(line.pose, line.chart, line.row if is_its_own else NONE)
         if found is None:
             return None
-        return [Crossing(int(self._surface[row]), place_at(n, d), free) for row, n, d, free in found]
+        return [Crossing(int(self._surface[row]), Place.of(n, d), free) for row, n, d, free in found]
 
 
 Questions = dict[int, list[tuple[int, int, Line | None]]]
@@ -175,17 +197,17 @@ def nest(
 def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float64], scale: float) -> int | None:
     """The tile to ask next: one that the surface is in, or that may hold something nearer than what is known."""
     assert search.line is not None
-    y, x = search.line.y / scale, search.line.x[0] / scale
+    y, x = search.line.y / scale, search.line.x.near / scale
     last, beyond = _ends(search, surface)
     low, high = boxes[:, 1] <= y, boxes[:, 3] >= y
     near = low & high & (boxes[:, 0] <= x)
     near[list(search.done)] = False
-    edge = last.x[0] / scale
+    edge = last.x.near / scale
     mine = [tile for tile in own if near[tile] and boxes[tile, 0] <= edge]
     if mine:
         return max(mine, key=lambda t: (boxes[t, 2], t))
     if beyond is not None:
-        near &= boxes[:, 2] >= beyond.x[0] / scale
+        near &= boxes[:, 2] >= beyond.x.near / scale
     near &= boxes[:, 0] <= edge
     others = np.flatnonzero(near)
     return int(others[np.argmax(boxes[others, 2])]) if len(others) else None

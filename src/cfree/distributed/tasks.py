@@ -153,9 +153,8 @@ def nest_task(
     lines = TileLines(work.rows(tile, work.surfaces, around=False).core, surface[component])
     answers = []
     for number, attempt, line in asked:
-        is_own = line is None
-        line = lines.line(number, attempt) if line is None else line
-        answers.append((number, line, None if line is None else lines.crossings(line, is_own)))
+        found = lines.begin(number, attempt) if line is None else (line, lines.crossings(line))
+        answers.append((number, *found))
     return answers
 
 
