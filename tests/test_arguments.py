@@ -9,6 +9,7 @@ from typing import Any, get_type_hints
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 import cfree
 import cfree.figures
@@ -48,8 +49,9 @@ def callables() -> Iterator[tuple[str, Callable[..., Any]]]:
                     function = getattr(method, "__func__", method)
                     if inspect.isfunction(function) and not member.startswith("_"):
                         yield f"{prefix}{name}.{member}", function
-    yield "figures.draw", cfree.figures.draw
-    yield "figures.draw_all", cfree.figures.draw_all
+    for name in cfree.figures.__all__:
+        if inspect.isfunction(value := getattr(cfree.figures, name)):
+            yield f"figures.{name}", value
 
 
 PARAMETERS = [
@@ -78,6 +80,7 @@ def pool() -> list[Any]:
         cfree.MotionChecker(SCENE), boundary.slice(0), boundary.trapezoids, triangle.to_shapely(), Fraction(1),
         cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
+        Figure().add_subplot(), Figure().add_subplot(projection="3d"),
     ]  # fmt: skip
 
 

@@ -33,6 +33,7 @@ from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
+    from cfree.plot.solid import Renderer
     from cfree.verify.result import Verification
 
 
@@ -465,18 +466,25 @@ def _print_verified(result: Verification, file: Path, as_json: bool) -> None:
 @click.option(
     "--format", "formats", metavar="FORMATS", help="Of svg, pdf and png.", default="svg,pdf,png", show_default=True
 )
+@click.option(
+    "--renderer",
+    type=click.Choice(["matplotlib", "pyvista"]),
+    help="Who draws surfaces: matplotlib as vectors, PyVista as pixels in true depth order.",
+    show_default="the best",
+)
 @options.as_json
-def figures(output: Path, only: str | None, formats: str, as_json: bool) -> None:
+def figures(output: Path, only: str | None, formats: str, renderer: Renderer | None, as_json: bool) -> None:
     """Draw the figures of the paper from computed data.
 
-    And three more.
+    And ten more.
     """
     with one_line_faults():
         from cfree.figures import FIGURES, draw_all
+        from cfree.plot.solid import MISSING, best_renderer
 
         numbers = None if only is None else read_numbers(only)
         with bar("figures") as progress:
-            files = draw_all(output, only=numbers, formats=formats.split(","), progress=progress)
+            files = draw_all(output, only=numbers, formats=formats.split(","), renderer=renderer, progress=progress)
         if as_json:
             print_json({"files": [str(file) for file in files]})
         else:
@@ -484,6 +492,8 @@ def figures(output: Path, only: str | None, formats: str, as_json: bool) -> None
                 written = [str(file) for file in files if file.stem == entry.stem]
                 if written:
                     print(printable(f"figure {entry.number}: {entry.caption} {' '.join(written)}"))
+        if renderer is None and best_renderer() == "matplotlib":
+            print(f"drawn by matplotlib; {MISSING}", file=sys.stderr)
 
 
 def print_result(title: str, source: Path, rows: dict[str, Any], files: dict[str, str], as_json: bool) -> None:

@@ -1,140 +1,71 @@
-"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and four that go on from there.
+"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and ten that go on from there.
 
-Indices count from 1 in the figures, as in the paper. `draw_all` writes them, as ``cfree figures`` does.
+Indices count from 1 in the figures, as in the paper. `draw_all` writes them, as ``cfree figures`` does. The other
+functions draw a part of one on axes that are given.
 """
 
-from __future__ import annotations
+from typing import TYPE_CHECKING
 
-import errno
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from importlib import import_module
-from os import PathLike
-from pathlib import Path
+from cfree.lazy import lazy_names
 
-from matplotlib.figure import Figure
+if TYPE_CHECKING:
+    from cfree.figures.curvature import curvature_along as curvature_along
+    from cfree.figures.curvature import directions as directions
+    from cfree.figures.curvature import gaussian_curvature as gaussian_curvature
+    from cfree.figures.curvature import indicatrix as indicatrix
+    from cfree.figures.curvature_sum import gauss_and_bonnet as gauss_and_bonnet
+    from cfree.figures.curves import edge_edge as edge_edge
+    from cfree.figures.curves import vertex_vertex as vertex_vertex
+    from cfree.figures.depth import depth_in_a_slice as depth_in_a_slice
+    from cfree.figures.depth import three_obstacles as three_obstacles
+    from cfree.figures.gallery import FIGURES as FIGURES
+    from cfree.figures.gallery import draw as draw
+    from cfree.figures.gallery import draw_all as draw_all
+    from cfree.figures.helices import helices_through_a_pose as helices_through_a_pose
+    from cfree.figures.helices import turns_about_points as turns_about_points
+    from cfree.figures.lines import asymptotic_lines as asymptotic_lines
+    from cfree.figures.lines import lines_of_curvature as lines_of_curvature
+    from cfree.figures.minimal import edge_beside as edge_beside
+    from cfree.figures.minimal import edge_through as edge_through
+    from cfree.figures.minimal import generic as generic
+    from cfree.figures.minimal import helicoid as helicoid
+    from cfree.figures.pillars import congruent_kite as congruent_kite
+    from cfree.figures.pillars import congruent_squares as congruent_squares
+    from cfree.figures.pillars import kite_and_square as kite_and_square
+    from cfree.figures.pillars import pillar as pillar
+    from cfree.figures.pillars import pillar_from_behind as pillar_from_behind
+    from cfree.figures.pillars import pillar_workspace as pillar_workspace
+    from cfree.figures.pillars import squares as squares
+    from cfree.figures.poses import contacts as contacts
+    from cfree.figures.poses import rest_and_moved as rest_and_moved
+    from cfree.figures.ranges import edge_vertex_range as edge_vertex_range
+    from cfree.figures.ranges import vertex_edge_range as vertex_edge_range
+    from cfree.figures.scenes import five_obstacles as five_obstacles
+    from cfree.figures.scenes import five_pillars as five_pillars
+    from cfree.figures.scenes import slice_source as slice_source
+    from cfree.figures.scenes import slice_stack as slice_stack
+    from cfree.figures.surfaces import edge_vertex_surface as edge_vertex_surface
+    from cfree.figures.surfaces import vertex_edge_surface as vertex_edge_surface
+    from cfree.figures.unrolled import patch_in_space as patch_in_space
+    from cfree.figures.unrolled import patch_unrolled as patch_unrolled
 
-from cfree.arguments import checked
-from cfree.errors import UnsupportedError
-from cfree.figures.style import FORMATS, styled, write
-
-
-@dataclass(frozen=True, slots=True)
-class Entry:
-    """A figure: its number, what it shows (the stem of its file), its caption, and who draws it."""
-
-    number: int
-    name: str
-    caption: str
-    drawn_by: str
-
-    @property
-    def stem(self) -> str:
-        """Name of its files, without suffix."""
-        return f"{self.number:02}-{self.name}"
-
-
-FIGURES = (
-    Entry(
-        1, "rest-and-moved", "The robot at rest and in a pose q = (r, theta), and an obstacle.", "poses.rest_and_moved"
-    ),
-    Entry(2, "contacts", "A contact with O1, a pseudo contact with O2, three contacts with O3.", "poses.contacts"),
-    Entry(3, "vertex-edge-range", "The orientations of a v-e contact.", "ranges.vertex_edge"),
-    Entry(4, "edge-vertex-range", "The orientations of an e-v contact.", "ranges.edge_vertex"),
-    Entry(5, "vertex-vertex", "A v-v contact: C(phi).", "curves.vertex_vertex"),
-    Entry(6, "edge-edge", "An e-e contact: C(t), which goes on beyond t = 1.", "curves.edge_edge"),
-    Entry(7, "vertex-edge-surface", "A v-e contact surface.", "surfaces.vertex_edge"),
-    Entry(8, "edge-vertex-surface", "An e-v contact surface.", "surfaces.edge_vertex"),
-    Entry(9, "pillar", "All contact patches of two triangles.", "surfaces.pillar"),
-    Entry(10, "directions", "Asymptotic and principal directions on an e-v surface.", "curvature.directions"),
-    Entry(11, "curvature", "Gaussian curvature of an e-v surface.", "curvature.gaussian"),
-    Entry(12, "five-obstacles", "The boundary among five obstacles.", "scenes.five_obstacles"),
-    Entry(13, "slices", "A stack of slices, and the surface they are cut from.", "scenes.slices"),
-    Entry(14, "gauss-bonnet", "Where a closed surface has its curvature.", "curvature_sum.gauss_and_bonnet"),
+__getattr__, __dir__, __all__ = lazy_names(
+    __name__,
+    {
+        "gallery": "FIGURES draw draw_all",
+        "curvature": "directions indicatrix gaussian_curvature curvature_along",
+        "curvature_sum": "gauss_and_bonnet",
+        "curves": "vertex_vertex edge_edge",
+        "depth": "three_obstacles depth_in_a_slice",
+        "helices": "turns_about_points helices_through_a_pose",
+        "lines": "lines_of_curvature asymptotic_lines",
+        "minimal": "edge_through edge_beside helicoid generic",
+        "pillars": "pillar pillar_workspace pillar_from_behind squares "
+        "kite_and_square congruent_squares congruent_kite",
+        "poses": "rest_and_moved contacts",
+        "ranges": "vertex_edge_range edge_vertex_range",
+        "scenes": "five_obstacles five_pillars slice_stack slice_source",
+        "surfaces": "vertex_edge_surface edge_vertex_surface",
+        "unrolled": "patch_in_space patch_unrolled",
+    },
 )
-
-
-@checked
-def draw(number: int) -> Figure:
-    """One figure, to be shown or written within `styled`.
-
-    Examples
-    --------
-    >>> with styled():
-    ...     draw(1).get_size_inches().round(1).tolist()
-    [7.2, 5.7]
-    """
-    module, function = _entry(number).drawn_by.split(".")
-    figure: Figure = getattr(import_module(f"cfree.figures.{module}"), function)()
-    return figure
-
-
-@checked
-def draw_all(
-    directory: str | PathLike[str], *, only: Iterable[int] | None = None, formats: Iterable[str] = FORMATS,
-    progress: Callable[[float], object] | None = None,
-) -> list[Path]:  # fmt: skip
-    """Write the figures into a directory, which is made if missing; each file whole or not at all.
-
-    Parameters
-    ----------
-    directory : path
-    only : numbers of figures, optional
-        All if not given.
-    formats : of "svg", "pdf", "png"
-        Surfaces in space, and the curves on them, are pixels in all three; other lines and letters are not.
-    progress : callable, optional
-        Called with the share that is done, from 0 to 1.
-
-    Returns
-    -------
-    list of Path
-        The files, in the order of the figures.
-
-    Raises
-    ------
-    ValueError
-        If there is no such figure.
-    UnsupportedError
-        If there is no such format.
-    NotADirectoryError
-        If `directory` is a file.
-
-    Examples
-    --------
-    >>> draw_all("never", only=[15])
-    Traceback (most recent call last):
-        ...
-    ValueError: figure 15: there are the figures 1 to 14
-    """
-    folder, chosen, suffixes = (
-        Path(directory),
-        [e.number for e in FIGURES] if only is None else list(only),
-        list(formats),
-    )
-    entries = [_entry(number) for number in dict.fromkeys(chosen)]
-    for suffix in suffixes:
-        if suffix not in FORMATS:
-            raise UnsupportedError(f"format {suffix!r}: figures are written as {', '.join(FORMATS)}")
-    if folder.exists() and not folder.is_dir():
-        raise NotADirectoryError(errno.ENOTDIR, "is a file; give a directory", str(folder))
-    folder.mkdir(parents=True, exist_ok=True)
-    files = []
-    for done, entry in enumerate(entries):
-        if progress is not None:
-            progress(done / len(entries))
-        with styled():
-            figure = draw(entry.number)
-            for suffix in dict.fromkeys(suffixes):
-                files.append(folder / f"{entry.stem}.{suffix}")
-                write(figure, files[-1])
-    if progress is not None:
-        progress(1.0)
-    return files
-
-
-def _entry(number: int) -> Entry:
-    for entry in FIGURES:
-        if entry.number == number:
-            return entry
-    raise ValueError(f"figure {number}: there are the figures 1 to {FIGURES[-1].number}")

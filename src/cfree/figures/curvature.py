@@ -1,4 +1,4 @@
-"""Figures 10 and 11: asymptotic and principal directions of an e-v surface, and its curvature as a colour.
+"""Figures 10 and 11: directions at a point of an e-v surface and a normal section; its curvature as a colour.
 
 The formulas of section 4, in the metric dx^2 + dy^2 + dtheta^2: a radian is as long as the unit.
 """
@@ -6,100 +6,158 @@ The formulas of section 4, in the metric dx^2 + dy^2 + dtheta^2: a radian is as 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 from matplotlib import colormaps
+from matplotlib.axes import Axes
+from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-from cfree import palette
+from cfree.arguments import checked
 from cfree.contact.contact import EdgeVertex
 from cfree.contact.surface import contact_surface
-from cfree.figures.space import curve, draw_frame, new_space, paint, sheet
-from cfree.figures.style import new_figure
-from cfree.geometry.local import local_geometry
+from cfree.figures.plane import dot, label, line, set_plane
+from cfree.figures.space import DEGREES, Floats, around, curve, draw_frame, grid, mark, note, paint, set_space, sheet
+from cfree.geometry.local import LocalGeometry, local_geometry
 from cfree.geometry.rulings import striction_parameter
+from cfree.palette import FAINT, FRAME, GREY, INK, PATH, SEQUENTIAL, VERTEX_EDGE
 from cfree.polygons.polygon import Polygon
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 ROBOT = Polygon([(-1, "-0.6"), ("1.4", "-0.4"), ("-0.3", 1)])
 OBSTACLE = Polygon([(0, 0), (2, 1), (1, 2)])
-CONTACT = EdgeVertex(0, 0)
-SURFACE = contact_surface(ROBOT, OBSTACLE, CONTACT)
-
-
+SURFACE = contact_surface(ROBOT, OBSTACLE, EdgeVertex(0, 0))
 POINT = (0.5, math.radians(40))
+AT = local_geometry(SURFACE.ruled, *POINT)
 REACH = 0.5
 """Length of the directions drawn, on both sides of the point."""
+NAMES = (r"$\xi = 0$", r"$\xi = \arctan\frac{2v}{F}$"), (r"$\xi_1$", r"$\xi_2$")
 
 
-def directions() -> Figure:
-    """Figure 10: asymptotic and principal directions at a point of an e-v surface."""
-    from matplotlib.patheffects import withStroke
+# figure 10
 
-    t0, phi0 = POINT
-    t, phi = np.linspace(0.15, 0.85, 71), phi0 + np.linspace(-0.62, 0.62, 71)
-    points = SURFACE(t[None, :], phi[:, None])
-    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
-    figure = new_figure(6.4, 4.2)
-    window = (low[0], low[1], high[0], high[1])
-    degrees = (math.degrees(low[2]), math.degrees(high[2]))
-    ax = new_space(
-        figure, (-0.03, -0.4, 1.06, 1.46), window, angle_scale=1.0, view=(30.0, -75.0), degrees=degrees, zoom=1.22
-    )
-    at = local_geometry(SURFACE.ruled, t0, phi0)
-    parts = [sheet(points, palette.FAINT, 1.0)]
-    parts += [curve(SURFACE(s, phi), palette.GREY, 0.7) for s in np.linspace(t[0], t[-1], 9)]
-    parts += [curve(SURFACE(t, angle), palette.GREY, 0.7) for angle in np.linspace(phi[0], phi[-1], 9)]
-    paint(ax, parts)
-    p = SURFACE(t0, phi0)
-    for xis, colour, names in (
-        (at.asymptotic_directions, palette.FRAME, (r"$\xi = 0$", r"$\xi = \arctan\frac{2v}{F}$")),
-        (at.principal_directions, palette.VERTEX_EDGE, (r"$\xi_1$", r"$\xi_2$")),
+
+@checked
+def directions(ax: Axes3D) -> Axes3D:
+    """Figure 10: asymptotic and principal directions at a point of an e-v surface, its normal and a normal section."""
+    t, phi = np.linspace(0.12, 0.88, 39), POINT[1] + np.linspace(-0.62, 0.62, 39)
+    points = grid(SURFACE, t, phi)
+    degrees = math.degrees(phi[0]), math.degrees(phi[-1])
+    set_space(ax, around(points, 0.0), angle_scale=1.0, view=(26.0, 100.0), degrees=degrees, zoom=1.1)
+    net = [curve(SURFACE(s, phi), GREY, 0.5) for s in t[::6]]
+    net += [curve(SURFACE(t, angle), GREY, 0.5) for angle in phi[::6]]
+    p, section = SURFACE(*POINT), normal_section()
+    paint(ax, [sheet(points, FAINT, 1.0), *net, curve(section, PATH, 2.4)])
+    _draw_normal_plane(ax, section)
+    for xis, colour, names in zip(
+        (AT.asymptotic_directions, AT.principal_directions), (FRAME, VERTEX_EDGE), NAMES, strict=True
     ):
         for xi, name in zip(xis, names, strict=True):
-            along = at.tangent(xi)
-            ends = np.stack((p - REACH * along, p + REACH * along)) * (1, 1, 180 / math.pi)
+            along = AT.tangent(xi)
+            ends = np.stack((p - REACH * along, p + REACH * along)) * DEGREES
             ax.plot(*ends.T, color=colour, linewidth=2.6, zorder=10, solid_capstyle="round")
-            x, y, z = (p + 1.2 * REACH * along) * (1, 1, 180 / math.pi)
-            halo = [withStroke(linewidth=3, foreground="white", alpha=0.8)]
-            ax.text(x, y, z, name, color=colour, fontsize=15, ha="center", va="center", zorder=12, path_effects=halo)
-    ax.plot(
-        *(p * (1, 1, 180 / math.pi))[:, None], "o", color=palette.INK, markersize=6, zorder=11, markeredgecolor="white"
-    )
-    return figure
+            note(ax, p + 1.22 * REACH * along, name, colour, 15)
+    top = p + REACH * AT.normal
+    ax.plot(*(np.stack((p, top)) * DEGREES).T, color=INK, linewidth=2.0, zorder=10)
+    note(ax, p + 1.15 * REACH * AT.normal, "$N$", size=15)
+    note(ax, section[0] + 0.1 * AT.normal, "normal section", PATH, 12)
+    mark(ax, p)
+    return ax
 
 
-def gaussian() -> Figure:
-    """Figure 11: the Gaussian curvature of an e-v patch as a colour, and K and H over t."""
+def normal_section() -> Floats:
+    """Points in which the plane of the normal and the second principal direction cuts the surface, near the point."""
+    p, across = SURFACE(*POINT), AT.tangent(AT.principal_directions[0])
+    phi = POINT[1] + np.linspace(-0.6, 0.6, 241)
+    # a ruling is straight: it meets the plane once
+    start, along = SURFACE(0, phi), SURFACE(1, phi) - SURFACE(0, phi)
+    t = ((p - start) @ across) / (along @ across)
+    points: Floats = start + t[:, None] * along
+    kept: Floats = points[(np.abs(points - p).max(axis=1) < 1.1 * REACH) & (t > 0.12) & (t < 0.88)]
+    return kept
+
+
+def _draw_normal_plane(ax: Any, section: Floats) -> None:
+    """The part of the plane above the surface."""
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    p, along = SURFACE(*POINT), AT.tangent(AT.principal_directions[1])
+    top = p + np.outer((section - p) @ along, along) + 0.9 * REACH * AT.normal
+    outline = np.concatenate((section, top[::-1])) * DEGREES
+    ax.add_collection3d(Poly3DCollection([outline], facecolor=PATH, alpha=0.13, edgecolor="none", zorder=5))
+
+
+@checked
+def indicatrix(ax: Axes) -> Axes:
+    """Figure 10: Dupin's indicatrix in the tangent plane: in each direction, 1 / sqrt(abs(normal curvature))."""
+    reach = 2.3 * float(AT.dupin_radius(AT.principal_directions).min())
+    set_plane(ax, (-1.25 * reach, -1.25 * reach, 1.25 * reach, 1.25 * reach))
+    asymptotic, principal = AT.asymptotic_directions, AT.principal_directions
+    for xis, colour, names, way in ((asymptotic, FRAME, NAMES[0], 1.0), (principal, VERTEX_EDGE, NAMES[1], 1.0)):
+        for xi, name in zip(xis.tolist(), names, strict=True):
+            end = reach * np.array([math.cos(xi), math.sin(xi)])
+            line(ax, -end, end, colour, width=1.8)
+            label(ax, 1.13 * way * end, name if name != NAMES[0][1] else r"$\xi = \arctan\frac{2v}{F}$", colour=colour)
+    for points, is_positive in conics(AT, reach):
+        at = points[len(points) // 7]
+        name = r"$\kappa_N = 1$" if is_positive else r"$\kappa_N = -1$"
+        label(ax, at, name, 26 * points[len(points) // 2] / np.hypot(*points[len(points) // 2]), PATH, 12)
+        ax.plot(*points.T, color=PATH, linewidth=2.2, linestyle="-" if is_positive else (0, (4, 2)), zorder=5)
+    dot(ax, (0, 0), size=6)
+    return ax
+
+
+def conics(at: LocalGeometry, reach: float) -> list[tuple[Floats, bool]]:
+    """The four branches of the indicatrix within a radius, each with whether the normal curvature is positive there."""
+    first, second = at.asymptotic_directions.tolist()
+    found = []
+    for low, high in ((first, second), (second, first + math.pi)):
+        xi = np.linspace(low, high, 2001)[1:-1]
+        radius = at.dupin_radius(xi)
+        xi, radius = xi[radius < reach], radius[radius < reach]
+        branch = radius[:, None] * np.column_stack((np.cos(xi), np.sin(xi)))
+        is_positive = bool(at.normal_curvature((low + high) / 2) > 0)
+        found += [(branch, is_positive), (-branch, is_positive)]
+    return found
+
+
+# figure 11
+
+
+@checked
+def gaussian_curvature(ax: Axes3D) -> Axes3D:
+    """Figure 11: the Gaussian curvature of an e-v surface as a colour; the striction curve is white."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
-    t, phi = np.linspace(0, 1, 61), np.linspace(0, math.tau, 301)
-    points = SURFACE(t[None, :], phi[:, None])
-    low, high = points.min(axis=(0, 1)) - 0.2, points.max(axis=(0, 1)) + 0.2
-    figure = new_figure(9.4, 5.6)
-    window = (low[0], low[1], high[0], high[1])
-    ax = new_space(figure, (-0.02, 0.0, 0.6, 1.0), window, angle_scale=0.7, view=palette.VIEW, zoom=1.0)
-    draw_frame(ax, range(-5, 6))
-    middle = (t[1:] + t[:-1]) / 2
-    K = local_geometry(SURFACE.ruled, middle, 0).gaussian_curvature
-    norm, scale = Normalize(-1, 0), colormaps[palette.SEQUENTIAL]
+    t, phi = np.linspace(0, 1, 25), np.linspace(0, math.tau, 181)
+    points = grid(SURFACE, t, phi)
+    set_space(ax, around(points, 0.2), angle_scale=0.7)
+    draw_frame(ax)
+    K = local_geometry(SURFACE.ruled, (t[1:] + t[:-1]) / 2, 0).gaussian_curvature
+    norm, scale = Normalize(-1, 0), colormaps[SEQUENTIAL]
     colours = np.tile(scale(norm(K))[:, :3], (len(phi) - 1, 1, 1))
-    star = float(striction_parameter(SURFACE) or 0)
-    rim = [curve(SURFACE(s, phi), palette.INK, 1.0) for s in (0.0, 1.0)]
-    paint(ax, [sheet(points, colours, 0.7), *rim, curve(SURFACE(star, phi), "white", 2.2)])
-    bar = figure.colorbar(ScalarMappable(norm, scale), cax=figure.add_axes((0.6, 0.2, 0.015, 0.6)))
-    bar.ax.set_title("$K$", fontsize=13)
-    graph = figure.add_axes((0.74, 0.2, 0.23, 0.6))
-    fine = np.linspace(0, 1, 401)
-    at = local_geometry(SURFACE.ruled, fine, 0)
-    graph.plot(fine, at.gaussian_curvature, color=palette.INK, label="$K(t)$")
-    graph.plot(fine, at.mean_curvature, color=palette.INK, linestyle="--", label="$H(t)$")
-    graph.axvline(star, color=palette.GREY, linewidth=0.8, linestyle=":")
-    graph.text(star, 1.02, "$t_*$", ha="center", va="bottom", transform=graph.get_xaxis_transform())
-    graph.set(xlabel="$t$", xlim=(0, 1), ylim=(-1.05, 0.32), yticks=np.arange(-1, 0.3, 0.2))
-    graph.spines[["top", "right"]].set_visible(False)
-    graph.legend(loc="best")
-    return figure
+    rim = [curve(SURFACE(s, phi), INK, 1.0) for s in (0.0, 1.0)]
+    paint(ax, [sheet(points, colours, 0.7), *rim, curve(SURFACE(_star(), phi), "white", 2.4)])
+    bar: Any = ax.figure.colorbar(ScalarMappable(norm, scale), ax=ax, shrink=0.55, aspect=28, pad=0.03)
+    bar.ax.set_title("$K$", fontsize=13, pad=8)
+    bar.outline.set_visible(False)
+    return ax
+
+
+@checked
+def curvature_along(ax: Axes) -> Axes:
+    """Figure 11: K and H along a ruling; K is least where the striction curve crosses it."""
+    t, star = np.linspace(0, 1, 401), _star()
+    at = local_geometry(SURFACE.ruled, t, 0)
+    ax.plot(t, at.gaussian_curvature, color=INK, label="$K(t)$")
+    ax.plot(t, at.mean_curvature, color=INK, linestyle="--", label="$H(t)$")
+    ax.axvline(star, color=GREY, linewidth=0.8, linestyle=":")
+    ax.text(star, 1.02, "$t_*$", ha="center", va="bottom", transform=ax.get_xaxis_transform())
+    ax.set(xlabel="$t$", xlim=(0, 1), ylim=(-1.05, 0.32), yticks=np.arange(-1, 0.3, 0.2))
+    ax.spines[["top", "right"]].set_visible(False)
+    ax.legend(loc="best", frameon=False)
+    return ax
+
+
+def _star() -> float:
+    return float(striction_parameter(SURFACE) or 0)

@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
 
 from cfree import palette
+from cfree.arguments import checked
 from cfree.contact.contact import EdgeEdge, VertexVertex, angle_range
 from cfree.contact.surface import contact_helix, contact_segment
-from cfree.figures.plane import arc, arrow, dot, label, line, new_plane, on_arc, placed, shape
+from cfree.figures.plane import arc, arrow, dot, label, line, on_arc, placed, set_plane, shape
 from cfree.polygons.polygon import Polygon
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 ROBOT = Polygon([(-1.3, 0.05), (1.14, -0.84), (0.98, 0.18), (-0.3, 0.6)])
 CORNER = Polygon([(0, 0), (-1.5, -1.9), (0.9, -2.5), (2.5, -1.3)])
@@ -20,11 +19,12 @@ SLIDER = Polygon([(-0.75, -0.5), (0.85, -0.5), (0.6, 0.45), (-0.35, 0.75)])
 GROUND = Polygon([(3.0, 0), (0.0, 0), (0.25, -0.9), (2.8, -0.9)])
 
 
-def vertex_vertex() -> Figure:
+@checked
+def vertex_vertex(ax: Axes) -> Axes:
     """Figure 5: a_i stays at b_j while the robot turns from phi_min to phi_max."""
     contact = VertexVertex(0, 0)
     found, C = angle_range(ROBOT, CORNER, contact), contact_helix(ROBOT, CORNER, contact)
-    ax = new_plane((-3.4, -2.75, 3.7, 2.2))
+    set_plane(ax, (-3.4, -2.75, 3.7, 2.2))
     low, high = C(found.phi_min), C(found.phi_max)
     first, last = placed(ROBOT.vertices, low), placed(ROBOT.vertices, high)
     b = CORNER.vertices
@@ -53,14 +53,15 @@ def vertex_vertex() -> Figure:
     ):  # fmt: skip
         label(ax, corners[k], name, point)
     label(ax, (0.5, -1.6), "$O$", size=16, colour=palette.OBSTACLE)
-    return ax.figure.figure
+    return ax
 
 
-def edge_edge() -> Figure:
+@checked
+def edge_edge(ax: Axes) -> Axes:
     """Figure 6: E_i slides along E_j; at t = 1 the vertex a_i has reached its end, and the contact goes on."""
     C = contact_segment(SLIDER, GROUND, EdgeEdge(0, 0))
     end = C.t_range[1]
-    ax = new_plane((-2.6, -1.9, 4.9, 1.85))
+    set_plane(ax, (-2.6, -1.9, 4.9, 1.85))
     b, E = GROUND.vertices, GROUND.edge(0)
     shape(ax, b, palette.OBSTACLE)
     for t, name in ((0.0, "$C(0)$"), (1.0, "$C(1)$"), (end, "")):
@@ -87,4 +88,4 @@ def edge_edge() -> Figure:
         label(ax, 0.5 * (start + stop), name, (0, -13), size=12)
     for t in (0.0, 1.0, end):
         line(ax, b[0] + t * E - (0, 0.12), b[0] + t * E - (0, 1.4), palette.GREY, width=0.7, dashes=True)
-    return ax.figure.figure
+    return ax

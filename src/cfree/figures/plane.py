@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cfree import palette
-from cfree.figures.style import new_figure
+from cfree.palette import GHOST, INK, ROBOT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -18,13 +17,11 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 
 
-def new_plane(window: tuple[float, float, float, float], width: float = 7.2) -> Axes:
-    """Bare axes of (x0, y0, x1, y1), as wide as given, in inches."""
+def set_plane(ax: Axes, window: tuple[float, float, float, float]) -> None:
+    """Let axes show x0, y0, x1, y1, and nothing of themselves."""
     x0, y0, x1, y1 = window
-    ax = new_figure(width, width * (y1 - y0) / (x1 - x0)).add_axes((0, 0, 1, 1))
     ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
     ax.set_axis_off()
-    return ax
 
 
 def shape(ax: Axes, points: ArrayLike, colour: str, inside: str = "", *, alpha: float = 0.35) -> None:
@@ -36,30 +33,34 @@ def shape(ax: Axes, points: ArrayLike, colour: str, inside: str = "", *, alpha: 
     ax.add_patch(Outline(corners, fill=False, edgecolor=colour, linewidth=1.4, joinstyle="round", zorder=2.1))
 
 
-def line(
-    ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = palette.INK, *, width: float = 1, dashes: bool = False
-) -> None:
+def ghost(ax: Axes, points: ArrayLike) -> None:
+    """The robot in a pose between others: its outline, dashed."""
+    from matplotlib.patches import Polygon as Outline
+
+    look: Any = {"facecolor": GHOST, "edgecolor": ROBOT, "linewidth": 1.1, "linestyle": (0, (4, 3))}
+    ax.add_patch(Outline(np.asarray(points), alpha=0.4, zorder=1.8, label="ghost", **look))
+
+
+def line(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = INK, *, width: float = 1, dashes: bool = False) -> None:
     """A segment, above shapes."""
     (x0, y0), (x1, y1) = np.asarray(p), np.asarray(q)
     ax.plot([x0, x1], [y0, y1], color=colour, linewidth=width, linestyle=(0, (4, 3)) if dashes else "-", zorder=4)
 
 
-def arrow(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = palette.INK, *, width: float = 1.4) -> None:
+def arrow(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = INK, *, width: float = 1.4) -> None:
     """An arrow from p to q."""
     (x0, y0), (x1, y1) = np.asarray(p, float).tolist(), np.asarray(q, float).tolist()
     look = {"arrowstyle": "-|>,head_width=0.22,head_length=0.5", "color": colour, "linewidth": width}
     ax.annotate("", (x1, y1), (x0, y0), arrowprops={**look, "shrinkA": 0, "shrinkB": 0, "joinstyle": "miter"}, zorder=5)
 
 
-def dot(ax: Axes, p: ArrayLike, colour: str = palette.INK, size: float = 4.5) -> None:
+def dot(ax: Axes, p: ArrayLike, colour: str = INK, size: float = 4.5) -> None:
     """A point with a white rim."""
     x, y = np.asarray(p)
     ax.plot(x, y, "o", color=colour, markersize=size, markeredgecolor="white", markeredgewidth=0.8, zorder=7)
 
 
-def label(
-    ax: Axes, p: ArrayLike, text: str, way: ArrayLike = (0, 0), colour: str = palette.INK, size: float = 13
-) -> None:
+def label(ax: Axes, p: ArrayLike, text: str, way: ArrayLike = (0, 0), colour: str = INK, size: float = 13) -> None:
     """Text at a point, moved by (dx, dy) typographic points, with a white halo."""
     from matplotlib.patheffects import withStroke
 
@@ -98,7 +99,7 @@ def frame(ax: Axes, q: ArrayLike, length: float, colour: str) -> None:
 
 
 def arc(
-    ax: Axes, centre: ArrayLike, radius: float, span: tuple[float, float], colour: str = palette.INK, *,
+    ax: Axes, centre: ArrayLike, radius: float, span: tuple[float, float], colour: str = INK, *,
     tip: bool = False, fill: bool = True, width: float = 1.2, dotted: bool = False,
 ) -> None:  # fmt: skip
     """An arc of a circle over a span of angles in radians, its sector tinted, with an arrow at its end if asked for."""

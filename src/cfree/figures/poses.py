@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from fractions import Fraction
-from typing import TYPE_CHECKING
+
+from matplotlib.axes import Axes
 
 from cfree import palette
+from cfree.arguments import checked
 from cfree.exact.pose import Pose
 from cfree.figures.plane import (
     arc,
@@ -17,24 +19,22 @@ from cfree.figures.plane import (
     frame,
     label,
     line,
-    new_plane,
     on_arc,
     placed,
+    set_plane,
     shape,
 )  # fmt: skip
 from cfree.polygons.polygon import Polygon
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 ROBOT = Polygon([(1.6, 0.25), (0.5, 1.3), (-1.0, 0.85), (-1.15, -0.65), (0.55, -1.05)])
 OBSTACLE = Polygon([(2.5, -1.6), (4.6, -1.9), (5.3, -0.75), (3.2, 0.05)])
 MOVED = (4.35, 2.1, math.radians(50))
 
 
-def rest_and_moved() -> Figure:
+@checked
+def rest_and_moved(ax: Axes) -> Axes:
     """Figure 1: the robot at rest and in a pose q = (r, theta), its local frame, one obstacle."""
-    ax = new_plane((-1.9, -2.4, 6.2, 4.0))
+    set_plane(ax, (-1.9, -2.4, 6.2, 4.0))
     a, b, q = ROBOT.vertices, OBSTACLE.vertices, placed(ROBOT.vertices, MOVED)
     shape(ax, a, palette.ROBOT, alpha=0.55)
     shape(ax, q, palette.ROBOT, palette.GHOST, alpha=0.55)
@@ -70,7 +70,7 @@ def rest_and_moved() -> Figure:
     label(ax, (0.45, -0.55), r"$A(\mathbf{0})$", size=16, colour=palette.ROBOT)
     label(ax, (4.3, 1.4), r"$A(\mathbf{q})$", size=16, colour=palette.ROBOT)
     label(ax, (4.05, -1.05), "$O_1$", size=16, colour=palette.OBSTACLE)
-    return ax.figure.figure
+    return ax
 
 
 POSE = Pose(Fraction(1, 5), Fraction(1, 10), {"tau": "1/3"})
@@ -81,11 +81,12 @@ O2 = Polygon([("-0.4", "2.7"), ("-2.5", "0.7"), ("0.2", "1.3")])
 O3 = Polygon([("1.3", "1.2"), ("1.7", "-0.5"), ("3.3", "-0.4"), ("3.1", "1.5")])
 
 
-def contacts() -> Figure:
+@checked
+def contacts(ax: Axes) -> Axes:
     """Figure 2: one contact with O1, a pseudo contact with O2, and three contacts with O3, at once."""
     import shapely
 
-    ax = new_plane((-2.9, -3.2, 4.7, 3.1))
+    set_plane(ax, (-2.9, -3.2, 4.7, 3.1))
     q = POSE.apply(FIVE.vertices)
     b1, b2, b3 = O1.vertices, O2.vertices, O3.vertices
     for b in (b1, b2, b3):
@@ -119,4 +120,4 @@ def contacts() -> Figure:
             label(ax, place, text, (0, -16 - 17 * k), size=14)
         if start is not None and target is not None:
             line(ax, start, target, palette.GREY)
-    return ax.figure.figure
+    return ax

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from cfree import palette
+from cfree.arguments import checked
 from cfree.contact.contact import AngleRange, EdgeVertex, VertexEdge, angle_range
 from cfree.contact.surface import contact_surface
-from cfree.figures.plane import Floats, arc, dot, edge_label, frame, label, line, new_plane, on_arc, placed, shape
+from cfree.figures.plane import (
+    Floats,
+    arc,
+    dot,
+    edge_label,
+    frame,
+    ghost,
+    label,
+    line,
+    on_arc,
+    placed,
+    set_plane,
+    shape,
+)
 from cfree.polygons.polygon import Polygon
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 # the contact of both figures is that of feature 0 with feature 0
 ROBOT = Polygon([(-1.3, 0.05), (1.14, -0.84), (0.98, 0.18), (-0.3, 0.6)])
@@ -25,16 +35,18 @@ CORNER = Polygon([(0, 0), (0.8, -2.2), (2.9, -1.7), (3.2, 0.25)])
 T0_VERTEX_EDGE, T0_EDGE_VERTEX = 0.5, 0.22
 
 
-def vertex_edge() -> Figure:
+@checked
+def vertex_edge_range(ax: Axes) -> Axes:
     """Figure 3: a_i stays at P on E_j while the robot turns from phi_min to phi_max."""
     contact = VertexEdge(0, 0)
     found, S = angle_range(ROBOT, GROUND, contact), contact_surface(ROBOT, GROUND, contact)
-    ax = new_plane((-3.8, -1.55, 3.8, 2.7))
+    set_plane(ax, (-3.8, -1.55, 3.8, 2.7))
     low, high = S(T0_VERTEX_EDGE, found.phi_min), S(T0_VERTEX_EDGE, found.phi_max)
+    middle = S(T0_VERTEX_EDGE, found.phi_min + found.phi_range / 2)
     first, last = placed(ROBOT.vertices, low), placed(ROBOT.vertices, high)
     b, P = GROUND.vertices, first[0]
     shape(ax, b, palette.OBSTACLE)
-    _two_poses(ax, first, last)
+    _poses(ax, first, placed(ROBOT.vertices, middle), last)
     along = math.atan2(*(b[0] - b[1])[::-1])  # of -E_j
     line(ax, on_arc(P, -3.7, along), on_arc(P, 3.7, along), dashes=True)
     _range_at(ax, P, 0.7, along, found.phi_range)
@@ -53,19 +65,21 @@ def vertex_edge() -> Figure:
     label(ax, 0.82 * b[1] + 0.18 * b[0], "$E_j^O$", (-2, -15))
     label(ax, (0.3, -0.85), "$O$", size=16, colour=palette.OBSTACLE)
     _names(ax, (3.0, 1.35), (-3.0, 1.95))
-    return ax.figure.figure
+    return ax
 
 
-def edge_vertex() -> Figure:
+@checked
+def edge_vertex_range(ax: Axes) -> Axes:
     """Figure 4: a point of E_i stays at b_j while the robot turns from phi_min to phi_max."""
     contact = EdgeVertex(0, 0)
     found, S = angle_range(LEVER, CORNER, contact), contact_surface(LEVER, CORNER, contact)
-    ax = new_plane((-3.1, -2.6, 3.9, 2.3))
+    set_plane(ax, (-3.1, -2.6, 3.9, 2.3))
     low, high = S(T0_EDGE_VERTEX, found.phi_min), S(T0_EDGE_VERTEX, found.phi_max)
+    middle = S(T0_EDGE_VERTEX, found.phi_min + found.phi_range / 2)
     first, last = placed(LEVER.vertices, low), placed(LEVER.vertices, high)
     b = CORNER.vertices
     shape(ax, b, palette.OBSTACLE)
-    _two_poses(ax, first, last)
+    _poses(ax, first, placed(LEVER.vertices, middle), last)
     along = math.atan2(*(b[-1] - b[0])[::-1])  # of -E_{j-1}
     line(ax, on_arc(b[0], 2.2, along + math.pi), b[0], dashes=True)
     line(ax, on_arc(b[0], 2.3, along + found.phi_range), b[0], dashes=True)
@@ -85,18 +99,20 @@ def edge_vertex() -> Figure:
     edge_label(ax, b[0], b[1], "$E_j^O$", 16, at=0.75)
     label(ax, (2.0, -1.0), "$O$", size=16, colour=palette.OBSTACLE)
     _names(ax, (3.0, 1.35), (-2.2, 1.8))
-    return ax.figure.figure
+    return ax
 
 
 def _names(ax: Axes, first: tuple[float, float], last: tuple[float, float]) -> None:
-    """Names of the two poses."""
+    """Names of the first and the last pose."""
     for place, end in ((first, "min"), (last, "max")):
         label(ax, place, rf"$A(\mathbf{{q}}_i(\phi_{{\{end}}}))$", size=14, colour=palette.ROBOT)
 
 
-def _two_poses(ax: Axes, first: Floats, last: Floats) -> None:
-    shape(ax, first, palette.ROBOT, alpha=0.5)
-    shape(ax, last, palette.ROBOT, palette.GHOST, alpha=0.5)
+def _poses(ax: Axes, first: Floats, middle: Floats, last: Floats) -> None:
+    """The first pose dark, the last one light, and between them a ghost in the middle of the range."""
+    ghost(ax, middle)
+    shape(ax, first, palette.ROBOT, alpha=0.55)
+    shape(ax, last, palette.ROBOT, palette.GHOST, alpha=0.6)
 
 
 def _range_at(ax: Axes, centre: Floats, radius: float, along: float, width: float) -> None:

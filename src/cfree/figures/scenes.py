@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from functools import cache
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-from cfree import palette
-from cfree.figures.plane import label, placed, shape
-from cfree.figures.space import draw_frame, new_space, paint
-from cfree.figures.style import new_figure
-from cfree.figures.surfaces import OBSTACLE, ROBOT, colours_of, patch_legend
+from cfree.arguments import checked
+from cfree.figures.pillars import LEGEND, SCALE, WINDOW, pillar_boundary
+from cfree.figures.plane import label, placed, set_plane, shape
+from cfree.figures.space import DETAIL, draw_frame, legend, paint, set_space
 from cfree.forbidden.boundary import Boundary, boundary
-from cfree.plot.pieces import ON_TOP, SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
+from cfree.palette import EDGE_VERTEX, FORBIDDEN, GREY, OBSTACLE, ROBOT, VERTEX_EDGE
+from cfree.plot.pieces import SURFACE, Pieces, level, of_line, of_one_colour, pieces_of
 from cfree.scene.scene import Scene
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 FIVE = Scene(
     robot=[("-0.7", "-0.5"), ("0.9", "-0.4"), ("-0.2", "0.9")],
@@ -31,58 +31,75 @@ FIVE = Scene(
     goal=(11, "4.3", "120deg"),
 )
 """`examples/scenes/five_convex.json`, which is not installed, without its bounds."""
+AROUND = (-0.6, -0.8, 12.6, 9.6)
+TURNED = (33.0, -118.0)
+"""A camera that sees where the pillars of O_3 and O_4 meet."""
 SLICES = 37
 
 
-def five_obstacles() -> Figure:
-    """Figure 12: five obstacles in the plane, and all of the boundary they make without bounds."""
-    found = boundary(FIVE, threads=1)
-    figure = new_figure(10.4, 5.8)
-    plane = figure.add_axes((0.01, 0.17, 0.35, 0.76))
-    plane.set(xlim=(0, 12), ylim=(-0.2, 9), aspect="equal")
-    plane.set_axis_off()
+@cache
+def five_boundary() -> Boundary:
+    """The boundary of figures 12 and 14."""
+    return boundary(FIVE, threads=1)
+
+
+@checked
+def five_obstacles(ax: Axes) -> Axes:
+    """Figure 12: five obstacles in the plane, the robot at its start and goal."""
+    set_plane(ax, (-0.3, -0.3, 12.2, 9))
     for k, obstacle in enumerate(FIVE.obstacles):
-        shape(plane, obstacle.vertices, palette.OBSTACLE)
-        label(plane, obstacle.vertices.mean(axis=0), f"$O_{k + 1}$", colour=palette.OBSTACLE)
+        shape(ax, obstacle.vertices, OBSTACLE)
+        label(ax, obstacle.vertices.mean(axis=0), f"$O_{k + 1}$", colour=OBSTACLE, size=14)
     for pose, name, tint in ((FIVE.start, "start", 0.6), (FIVE.goal, "goal", 0.3)):
         if pose is not None:
-            q = (float(pose.x), float(pose.y), pose.theta)
-            shape(plane, placed(FIVE.robot[0].vertices, q), palette.ROBOT, alpha=tint)
-            label(plane, q[:2], name, (0, -26), palette.GREY, 11)
-    window = (-0.6, -0.8, 12.6, 9.6)
-    ax = new_space(figure, (0.36, 0.06, 0.64, 0.94), window, angle_scale=1.3, view=(36.0, -62.0), zoom=1.08)
-    draw_frame(ax, range(0, 13, 3))
-    paint(ax, [pieces_of(found, window, colours_of(), 1.6)])
-    patch_legend(figure)
-    return figure
+            corners = placed(FIVE.robot[0].vertices, (float(pose.x), float(pose.y), pose.theta))
+            shape(ax, corners, ROBOT, alpha=tint)
+            label(ax, (float(pose.x), corners[:, 1].min()), name, (0, -10), GREY, 12)
+    return ax
 
 
-def slices() -> Figure:
-    """Figure 13: slices at equal steps of theta, and the surface they are cut from."""
-    found = boundary(Scene(robot=ROBOT, obstacles=OBSTACLE), threads=1)
-    figure = new_figure(10.4, 5.6)
-    window = (-3.2, -2.8, 3.2, 3.0)
-    axes: list[Any] = [
-        new_space(figure, (left, 0.06, 0.48, 0.94), window, angle_scale=1.1, view=palette.VIEW, zoom=1.0)
-        for left in (0.025, 0.515)
-    ]
-    for ax in axes:
-        draw_frame(ax, range(-5, 6))
+@checked
+def five_pillars(ax: Axes3D) -> Axes3D:
+    """Figure 12: all of the boundary they make; where pillars meet, the patches are trimmed by each other."""
+    set_space(ax, AROUND, angle_scale=1.3, view=TURNED, zoom=1.02)
+    draw_frame(ax, 3)
+    paint(ax, [pieces_of(five_boundary(), AROUND, line=1.6, detail=DETAIL)])
+    for k, obstacle in enumerate(FIVE.obstacles):
+        top: Any = (*obstacle.vertices.mean(axis=0), 360)
+        ax.text(*top, f"$O_{k + 1}$", ha="center", va="center", zorder=12, fontsize=14, color=OBSTACLE)
+    legend(ax, LEGEND)
+    return ax
+
+
+@checked
+def slice_stack(ax: Axes3D) -> Axes3D:
+    """Figure 13: slices at equal steps of theta."""
+    set_space(ax, WINDOW, angle_scale=SCALE)
+    draw_frame(ax)
     # seen from above, no slice hides one above it
     for k, degrees in enumerate(np.linspace(0, 360, SLICES).tolist()):
-        paint(axes[0], slice_pieces(found, degrees), 1 + k)
-    paint(axes[1], [pieces_of(found, window, colours_of(), 2.4)])
-    patch_legend(figure)
-    return figure
+        paint(ax, slice_pieces(pillar_boundary(), degrees), 1 + k, "matplotlib")
+    legend(ax, [("-" + VERTEX_EDGE, "v-e contacts"), ("-" + EDGE_VERTEX, "e-v contacts")])
+    return ax
+
+
+@checked
+def slice_source(ax: Axes3D) -> Axes3D:
+    """Figure 13: the surface that the slices are cut from."""
+    set_space(ax, WINDOW, angle_scale=SCALE)
+    draw_frame(ax)
+    paint(ax, [pieces_of(pillar_boundary(), WINDOW, line=2.0, detail=DETAIL)])
+    legend(ax, LEGEND, columns=2)
+    return ax
 
 
 def slice_pieces(found: Boundary, degrees: float) -> list[Pieces]:
     """The forbidden region at one orientation, and its rim in the colours of its contacts."""
     cut = found.slice(f"{degrees}deg")
     inside = level(cut.forbidden, degrees)
-    colours = {1: palette.VERTEX_EDGE, 2: palette.EDGE_VERTEX}
+    colours = {1: VERTEX_EDGE, 2: EDGE_VERTEX}
     rim = [
-        of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 1.5, ON_TOP)
+        of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 1.5)
         for segment, kind in zip(cut.segments, found.patch_kind[cut.patches].tolist(), strict=True)
     ]
-    return [of_one_colour(inside, palette.FORBIDDEN, SURFACE, np.full(len(inside), -1)), *rim]
+    return [of_one_colour(inside, FORBIDDEN, SURFACE, np.full(len(inside), -1)), *rim]

@@ -3,90 +3,102 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import numpy as np
 from matplotlib.colors import to_rgb
-from numpy.typing import NDArray
+from mpl_toolkits.mplot3d import proj3d
+from numpy.typing import ArrayLike, NDArray
 
-from cfree import palette
-from cfree.plot.depth_sort import Painting
-from cfree.plot.pieces import SURFACE, Pieces, joined, of_line, shaded
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from cfree.contact.surface import Surface
+from cfree.palette import FAINT, FOCAL_LENGTH, GREY, INK, VIEW, WALL
+from cfree.plot.pieces import SURFACE, Detail, Pieces, joined, of_line, shaded
+from cfree.plot.solid import Renderer, Solid
 
 Floats = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 
-TURNS = {0: "0", 90: r"$\frac{\pi}{2}$", 180: r"$\pi$", 270: r"$\frac{3\pi}{2}$", 360: r"$2\pi$"}
+DETAIL = Detail(4_000, (math.radians(3), math.radians(15)), 36)
+"""Of boundaries: fine enough to be smooth, and few enough faces to be vectors."""
+TURNS = {0: "0", 90: r"$\pi/2$", 180: r"$\pi$", 270: r"$3\pi/2$", 360: r"$2\pi$"}
+DEGREES = np.array([1.0, 1.0, 180 / math.pi])
 
 
-def new_space(
-    figure: Figure, place: Box, window: Box, *, angle_scale: float, view: tuple[float, float],
+def set_space(
+    ax: Any, window: Box, *, angle_scale: float, view: tuple[float, float] = VIEW,
     degrees: tuple[float, float] = (0, 360), zoom: float = 1.0,
-) -> Any:  # fmt: skip
-    """Axes of a rectangle of the plane and a range of theta, a radian as long as `angle_scale`, with no frame yet."""
-    import mpl_toolkits.mplot3d  # noqa: F401  registers the projection
-
+) -> None:  # fmt: skip
+    """Let axes show a rectangle of the plane and a range of theta, a radian as long as `angle_scale`, with no frame."""
     x0, y0, x1, y1 = window
-    ax: Any = figure.add_axes(place, projection="3d", computed_zorder=False)
+    ax.computed_zorder = False
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees)
     ax.set_box_aspect((x1 - x0, y1 - y0, angle_scale * math.radians(degrees[1] - degrees[0])), zoom=zoom)
-    ax.set_proj_type("persp", focal_length=palette.FOCAL_LENGTH)
+    ax.set_proj_type("persp", focal_length=FOCAL_LENGTH)
     ax.view_init(*view)
     ax.set_axis_off()
-    return ax
+    ax.patch.set_alpha(0)
 
 
-def draw_frame(ax: Any, ticks: Sequence[float]) -> None:
-    """Floor and two back walls with a faint grid, and numbers along three edges; for views from -90 to 0 degrees."""
+def draw_frame(ax: Any, step: float = 1) -> None:
+    """Floor and two back walls with a faint grid; numbers along the near edges, of theta along the left one."""
     from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
-    (x0, x1), (y0, y1), (z0, z1) = ax.get_xlim(), ax.get_ylim(), ax.get_zlim()
-    walls = [
-        [(x0, y0, z0), (x1, y0, z0), (x1, y1, z0), (x0, y1, z0)],
-        [(x0, y0, z0), (x0, y1, z0), (x0, y1, z1), (x0, y0, z1)],
-        [(x0, y1, z0), (x1, y1, z0), (x1, y1, z1), (x0, y1, z1)],
-    ]
-    ax.add_collection3d(
-        Poly3DCollection(
-            walls, facecolor=palette.WALL, edgecolor=palette.FAINT, linewidth=0.7, zorder=-2, clip_on=False
-        )
-    )
-    xs, ys = ([t for t in ticks if low < t < high] for low, high in ((x0, x1), (y0, y1)))
+    azimuth = math.radians(ax.azim)
+    right = np.array([-math.sin(azimuth), math.cos(azimuth)])
+    limits = np.array([ax.get_xlim(), ax.get_ylim()])
+    z0, z1 = ax.get_zlim()
+    # the corner towards the camera, and the one behind it
+    near = np.array([limits[0, int(math.cos(azimuth) > 0)], limits[1, int(math.sin(azimuth) > 0)]])
+    far = limits.sum(axis=1) - near
+    floor = [(near[0], near[1]), (far[0], near[1]), (far[0], far[1]), (near[0], far[1])]
+    walls = [[(x, y, z0) for x, y in floor]]
+    walls += [[(*p, z0), (*q, z0), (*q, z1), (*p, z1)] for p, q in ((floor[1], floor[2]), (floor[2], floor[3]))]
+    style: Any = {"facecolor": WALL, "edgecolor": FAINT, "linewidth": 0.7, "zorder": -2, "clip_on": False}
+    ax.add_collection3d(Poly3DCollection(walls, **style))
+    # a number at the very end of an edge would touch the first of the next one
+    xs, ys = (_multiples(low, high, step) for low, high in limits)
     zs = [z for z in TURNS if z0 < z < z1]
     grid = [
-        *([(x, y0, z0), (x, y1, z0), (x, y1, z1)] for x in xs),
-        *([(x1, y, z0), (x0, y, z0), (x0, y, z1)] for y in ys),
-        *([(x0, y0, z), (x0, y1, z), (x1, y1, z)] for z in zs),
+        *([(x, near[1], z0), (x, far[1], z0), (x, far[1], z1)] for x in xs),
+        *([(near[0], y, z0), (far[0], y, z0), (far[0], y, z1)] for y in ys),
+        *([(near[0], far[1], z), (*far, z), (far[0], near[1], z)] for z in zs),
     ]
-    ax.add_collection3d(Line3DCollection(grid, colors=palette.FAINT, linewidths=0.6, zorder=-1, clip_on=False))
-    dx, dy = 0.05 * (x1 - x0), 0.05 * (y1 - y0)
-    center: Any = {"ha": "center", "va": "center", "fontsize": 11, "color": palette.GREY}
+    ax.add_collection3d(Line3DCollection(grid, colors=FAINT, linewidths=0.6, zorder=-1, clip_on=False))
+
+    gap = 0.06 * float(np.ptp(limits, axis=1).max())
+    out = np.sign(near - far) * gap
+    number: Any = {"ha": "center", "va": "center", "fontsize": 11, "color": GREY}
+    name: Any = {**number, "fontsize": 15, "color": INK}
     for x in xs:
-        ax.text(x, y0 - dy, z0, f"{x:g}", **center)
+        ax.text(x, near[1] + out[1], z0, f"{x:g}".replace("-", "\N{MINUS SIGN}"), **number)
     for y in ys:
-        ax.text(x1 + dx, y, z0, f"{y:g}", **center)
-    for z, name in TURNS.items():
+        ax.text(near[0] + out[0], y, z0, f"{y:g}".replace("-", "\N{MINUS SIGN}"), **number)
+    middle = limits.mean(axis=1)
+    ax.text(middle[0], near[1] + 3.4 * out[1], z0, "$x$", **name)
+    ax.text(near[0] + 3.4 * out[0], middle[1], z0, "$y$", **name)
+    left = min((np.array([near[0], far[1]]), np.array([far[0], near[1]])), key=lambda p: float(p @ right))
+    for z, turn in TURNS.items():
         if z0 <= z <= z1:
-            ax.text(x0 - dx, y0 - dy, z, name, **{**center, "fontsize": 13})
-    named = {**center, "fontsize": 15, "color": "black"}
-    ax.text((x0 + x1) / 2, y0 - 3.6 * dy, z0, "$x$", **named)
-    ax.text(x1 + 3.6 * dx, (y0 + y1) / 2, z0, "$y$", **named)
-    ax.text(x0 - 2.2 * dx, y0 - 2.2 * dy, (z0 + z1) / 2, r"$\theta$", **named)
+            ax.text(*(left - 1.3 * gap * right), z, turn, **{**number, "fontsize": 12})
+    ax.text(*(left - 2.9 * gap * right), (z0 + z1) / 2, r"$\theta$", **name)
 
 
-def paint(ax: Any, parts: list[Pieces], z: float = 1) -> None:
-    """Pieces from back to front; as pixels in vector formats, where thousands of faces are slow and have seams."""
-    painting = Painting(joined(parts), ghost=0)
-    painting.set(rasterized=True, zorder=z, clip_on=False)
-    ax.add_collection(painting, autolim=False)
+def _multiples(low: float, high: float, step: float) -> list[float]:
+    margin = 0.07 * (high - low)
+    return [step * k for k in range(math.ceil((low + margin) / step), math.floor((high - margin) / step) + 1)]
 
 
-def legend(figure: Figure, names: Sequence[tuple[str, str]], height: float = 0.035) -> None:
-    """A row of colours and what they mean, below; lines are named by a colour that begins with a dash."""
+def paint(ax: Any, parts: Iterable[Pieces], z: float = 1, renderer: Renderer | None = None) -> Solid:
+    """Put pieces on axes, those in front hiding those behind."""
+    solid = Solid(joined(list(parts)), renderer)
+    solid.set_zorder(z)
+    ax.add_collection(solid, autolim=False)
+    return solid
+
+
+def legend(ax: Any, names: Sequence[tuple[str, str]], *, below: float = 0.03, columns: int = 4) -> None:
+    """Colours and what they mean, below axes; lines are named by a colour that begins with a dash."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
@@ -96,10 +108,33 @@ def legend(figure: Figure, names: Sequence[tuple[str, str]], height: float = 0.0
         else Patch(color=colour, label=name)
         for colour, name in names
     ]
-    figure.legend(
-        handles=handles, loc="center", bbox_to_anchor=(0.5, height), ncols=len(handles), handlelength=1.3,
-        columnspacing=1.6, fontsize=12,
+    ax.legend(
+        handles=handles, loc="upper center", bbox_to_anchor=(0.5, below), ncols=min(columns, len(handles)),
+        handlelength=1.3, columnspacing=1.6, fontsize=12, frameon=False,
     )  # fmt: skip
+
+
+def note(ax: Any, point: ArrayLike, text: str, colour: str = INK, size: float = 13, **options: Any) -> None:
+    """Text at a point, theta in radians, with a white halo."""
+    from matplotlib.patheffects import withStroke
+
+    halo = [withStroke(linewidth=2.5, foreground="white", alpha=0.85)]
+    x, y, z = (np.asarray(point) * DEGREES).tolist()
+    place: Any = {"ha": "center", "va": "center"} | options
+    ax.text(x, y, z, text, color=colour, fontsize=size, zorder=12, path_effects=halo, **place)
+
+
+def mark(ax: Any, point: ArrayLike, colour: str = INK, size: float = 7) -> None:
+    """A dot at a point, theta in radians, that nothing hides."""
+    x, y, z = (np.asarray(point) * DEGREES).tolist()
+    ax.plot([x], [y], [z], "o", color=colour, markersize=size, markeredgecolor="white", zorder=11, clip_on=False)
+
+
+def seen(ax: Any, solid: Solid, points: Floats) -> NDArray[np.bool_]:
+    """Which of the points (n, 3), theta in radians, nothing that is painted hides from the camera."""
+    ax.M = ax.get_proj()
+    solid.do_3d_projection()
+    return solid.shows(np.column_stack(proj3d.proj_transform(*(points * DEGREES).T, ax.M)))
 
 
 def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
@@ -107,15 +142,28 @@ def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
 
     Each side is a face of its own, lit from its own side, so that the one turned away need not be drawn.
     """
-    p = points * (1, 1, 180 / math.pi)
+    p = points * DEGREES
     corners = np.stack((p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]), axis=2).reshape(-1, 4, 3)
     n = len(corners)
     rgb = np.tile(to_rgb(colour), (n, 1)) if isinstance(colour, str) else colour.reshape(-1, 3)
     both = np.concatenate((corners, corners[:, ::-1]))
     lit = shaded(np.concatenate((rgb, rgb)), both, angle_scale)
-    return Pieces(both, lit, np.full(2 * n, SURFACE), np.arange(2 * n), np.zeros(2 * n), np.full(2 * n, -1))
+    return Pieces(both, lit, np.full(2 * n, SURFACE), np.full(2 * n, -1), np.zeros(2 * n), np.full(2 * n, -1))
 
 
 def curve(points: Floats, colour: str, width: float) -> Pieces:
     """A curve of points (k, 3), theta in radians."""
-    return of_line(points * (1, 1, 180 / math.pi), colour, width)
+    return of_line(points * DEGREES, colour, width)
+
+
+def around(points: Floats, margin: float) -> Box:
+    """The rectangle of the plane around points (..., 3)."""
+    flat = points.reshape(-1, 3)[:, :2]
+    (x0, y0), (x1, y1) = (flat.min(axis=0) - margin).tolist(), (flat.max(axis=0) + margin).tolist()
+    return x0, y0, x1, y1
+
+
+def grid(S: Surface, t: Floats, phi: Floats) -> Floats:
+    """Points (angles, t, 3) of a surface."""
+    points: Floats = S(t[None, :], phi[:, None])
+    return points

@@ -20,23 +20,10 @@ def styled() -> Iterator[None]:
     """Settings of matplotlib that hold while a figure is made and written."""
     from matplotlib import rc_context
 
-    settings: Any = {
-        **LETTERS,
-        "pdf.fonttype": 42,
-        "svg.hashsalt": "cfree",  # the same bytes each time
-    }
+    # fonts that can be searched, and the same bytes each time
+    settings: Any = {**LETTERS, "pdf.fonttype": 42, "svg.hashsalt": "cfree"}
     with rc_context(settings):
         yield
-
-
-def new_figure(width: float, height: float) -> Figure:
-    """A white figure without a window; inches."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(width, height), facecolor="white")
-    FigureCanvasAgg(figure)
-    return figure
 
 
 def write(figure: Figure, path: Path) -> None:

@@ -1,77 +1,78 @@
-"""Figures 7 to 9: whole contact surfaces of both kinds, and all contact patches of two triangles."""
+"""Figures 7 and 8: whole contact surfaces of both kinds, and in full colour the part that is contact."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
+from mpl_toolkits.mplot3d.axes3d import Axes3D
 
-from cfree import palette
-from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.arguments import checked
+from cfree.contact.contact import AngleRange, EdgeVertex, VertexEdge, angle_range
 from cfree.contact.surface import Surface, contact_surface
-from cfree.figures.space import curve, draw_frame, legend, new_space, paint, sheet
-from cfree.figures.style import new_figure
-from cfree.forbidden.boundary import boundary
-from cfree.plot.pieces import Colours, pieces_of
+from cfree.figures.space import Floats, around, curve, draw_frame, grid, legend, note, paint, set_space, sheet
+from cfree.palette import EDGE_EDGE, EDGE_VERTEX, INK, VERTEX_EDGE, VIEW, paler
+from cfree.plot.pieces import Pieces
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import Scene
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-ROBOT = Polygon([(-1, "-0.6"), ("1.2", "-0.4"), ("-0.3", 1)])
-OBSTACLE = Polygon([("-1.5", -1), ("1.6", "-0.7"), ("0.2", "1.4")])
-
-
-def vertex_edge() -> Figure:
-    """Figure 7: a v-e contact surface; its helices are congruent."""
-    return _surface(contact_surface(ROBOT, OBSTACLE, VertexEdge(1, 0)), palette.VERTEX_EDGE)
+TRIANGLE = Polygon([(-1, "-0.6"), ("1.2", "-0.4"), ("-0.3", 1)])
+OTHER = Polygon([("-1.5", -1), ("1.6", "-0.7"), ("0.2", "1.4")])
+"""The robot and the obstacle of figures 7 to 9."""
+REST = 0.62
+"""Share of white in the part of a surface where contacts are pseudo contacts."""
 
 
-def edge_vertex() -> Figure:
-    """Figure 8: an e-v contact surface; its helices have different radii."""
-    return _surface(contact_surface(ROBOT, OBSTACLE, EdgeVertex(0, 1)), palette.EDGE_VERTEX)
+@checked
+def vertex_edge_surface(ax: Axes3D) -> Axes3D:
+    """Figure 7: a v-e contact surface, its patch brighter; its helices are congruent."""
+    return _surface(ax, VertexEdge(1, 0), VERTEX_EDGE)
 
 
-def _surface(S: Surface, colour: str) -> Figure:
-    t, phi = np.linspace(0, 1, 41), np.linspace(0, math.tau, 301)
-    points = S(t[None, :], phi[:, None])
-    (x0, y0), (x1, y1) = points[..., :2].min(axis=(0, 1)) - 0.3, points[..., :2].max(axis=(0, 1)) + 0.3
-    figure = new_figure(6.2, 6.4)
-    scale = 0.16 * (x1 - x0 + y1 - y0) / 2
-    ax = new_space(figure, (0.02, 0.05, 0.96, 0.95), (x0, y0, x1, y1), angle_scale=scale, view=palette.VIEW, zoom=0.98)
-    draw_frame(ax, range(-5, 6))
-    helices = [curve(S(s, phi), "black", 1.4) for s in np.linspace(0, 1, 5)]
-    rulings = [curve(S(t, angle), palette.EDGE_EDGE, 1.6) for angle in np.linspace(0, math.tau, 25)]
-    paint(ax, [sheet(points, colour, scale), *rulings, *helices])
-    names = (
-        ("-black", r"helices $\phi \mapsto S(t, \phi)$"),
-        ("-" + palette.EDGE_EDGE, r"rulings $t \mapsto S(t, \phi)$"),
-    )
-    legend(figure, names)
-    return figure
+@checked
+def edge_vertex_surface(ax: Axes3D) -> Axes3D:
+    """Figure 8: an e-v contact surface, its patch brighter; its helices have different radii."""
+    return _surface(ax, EdgeVertex(0, 1), EDGE_VERTEX)
 
 
-def pillar() -> Figure:
-    """Figure 9: all contact patches of two triangles, v-v helices and e-e segments."""
-    found = boundary(Scene(robot=ROBOT, obstacles=OBSTACLE), threads=1)
-    window = (-3.2, -2.8, 3.2, 3.0)
-    figure = new_figure(6.2, 7)
-    ax = new_space(figure, (0.02, 0.05, 0.96, 0.95), window, angle_scale=1.1, view=palette.VIEW, zoom=1.02)
-    draw_frame(ax, range(-5, 6))
-    paint(ax, [pieces_of(found, window, colours_of(), 3.0)])
-    patch_legend(figure)
-    return figure
+def _surface(ax: Axes3D, contact: VertexEdge | EdgeVertex, colour: str) -> Axes3D:
+    S, Phi = contact_surface(TRIANGLE, OTHER, contact), angle_range(TRIANGLE, OTHER, contact)
+    window = around(grid(S, np.linspace(0, 1, 9), np.linspace(0, math.tau, 73)), 0.3)
+    scale = 0.08 * (window[2] - window[0] + window[3] - window[1])
+    set_space(ax, window, angle_scale=scale, zoom=0.94)
+    draw_frame(ax)
+    t = np.linspace(0, 1, 41)
+    helices = [curve(S(s, np.linspace(0, math.tau, 181)), INK, 1.2) for s in np.linspace(0, 1, 5)]
+    rulings = [curve(S(t, angle), EDGE_EDGE, 1.2) for angle in np.linspace(0, math.tau, 25)]
+    ends = [Phi.phi_min % math.tau, Phi.phi_max % math.tau]
+    rims = [curve(S(t, angle), EDGE_EDGE, 3.2) for angle in ends]
+    paint(ax, [surface_with_patch(S, Phi, colour, scale), *rulings, *helices, *rims])
+    right = np.array([-math.sin(math.radians(VIEW[1])), math.cos(math.radians(VIEW[1])), 0])
+    for angle, name in zip(ends, ("min", "max"), strict=True):
+        end = max(S(np.array([0.0, 1.0]), angle), key=lambda point: float(point @ right))
+        note(ax, end + 0.28 * right, rf"$\phi_{{\{name}}}$", size=14, ha="left")
+    rest = paler(colour, REST)
+    names = [(colour, r"patch: contacts, $\phi \in \Phi$"), (rest, "pseudo contacts")]
+    names += [("-" + INK, r"helices $\phi \mapsto S(t, \phi)$"), ("-" + EDGE_EDGE, r"rulings $t \mapsto S(t, \phi)$")]
+    legend(ax, names, columns=2)
+    return ax
 
 
-def colours_of() -> Colours:
-    """The colours of patches and curves."""
-    return Colours(palette.VERTEX_EDGE, palette.EDGE_VERTEX, palette.HELIX, palette.EDGE_EDGE)
+def surface_with_patch(S: Surface, Phi: AngleRange, colour: str, scale: float) -> Pieces:
+    """A surface over a full turn, paler where contacts are pseudo contacts."""
+    ends = np.mod([Phi.phi_min, Phi.phi_max], math.tau)
+    t, phi = np.linspace(0, 1, 13), np.union1d(np.linspace(0, math.tau, 181), ends)
+    inside = is_inside(Phi, (phi[1:] + phi[:-1]) / 2)
+    rgb = np.where(inside[:, None, None], _rgb(colour), _rgb(paler(colour, REST)))
+    return sheet(grid(S, t, phi), np.tile(rgb, (1, len(t) - 1, 1)), scale)
 
 
-def patch_legend(figure: Figure) -> None:
-    """What the colours of patches and curves mean."""
-    names = ("v-e patches", "e-v patches", "v-v helices", "e-e segments")
-    shown = (palette.VERTEX_EDGE, palette.EDGE_VERTEX, "-" + palette.HELIX, "-" + palette.EDGE_EDGE)
-    legend(figure, list(zip(shown, names, strict=True)))
+def is_inside(Phi: AngleRange, phi: Floats) -> Any:
+    """Which angles are in a range."""
+    return np.mod(phi - Phi.phi_min, math.tau) < Phi.phi_range
+
+
+def _rgb(colour: str) -> Floats:
+    from matplotlib.colors import to_rgb
+
+    return np.array(to_rgb(colour))

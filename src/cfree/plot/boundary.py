@@ -25,7 +25,7 @@ from cfree.forbidden.kinds import COLOURS, KINDS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
 from cfree.formats.atomic import checked_suffix, replacing
-from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT
+from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT, WALL
 from cfree.plot.labels import BODY, GHOST, MAY, Labels
 from cfree.plot.strips import THIN, strips
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry, roomiest
@@ -92,7 +92,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
     ax = ax or new_axes((7, 6))
     _draw_slice(cut, ax)
     _draw_inside(ax, cut, extent(cut.boundary))
-    _legend(ax)
+    legend_below(ax, ncols=5)
     return ax
 
 
@@ -156,7 +156,6 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
     """
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
-    from matplotlib.ticker import MaxNLocator
 
     from cfree.plot.depth_sort import Painting
     from cfree.plot.pieces import Colours, pieces_of
@@ -165,18 +164,9 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
         ax = new_space(new_figure((8, 7)), (0.02, 0.1, 0.9, 0.86))
     space: Any = ax
     window = extent(boundary)
-    x0, y0, x1, y1 = window
     space.add_collection(Painting(pieces_of(boundary, window)), autolim=False)
-    space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360))
     _draw_fits(space, isolated_lines(boundary))
-    space.set_box_aspect((x1 - x0, y1 - y0, 0.75 * max(x1 - x0, y1 - y0)), zoom=1.08)
-    space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
-    for axis, name, side in ((space.xaxis, "x", x1 - x0), (space.yaxis, "y", y1 - y0)):
-        axis.set_major_locator(MaxNLocator(1 + round(5 * side / max(x1 - x0, y1 - y0))))
-        axis.set_label_text(with_unit(name, boundary.scene.units))
-    space.set_zlabel("θ")
-    for axis in (space.xaxis, space.yaxis, space.zaxis):
-        axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
+    set_space(space, window, boundary.scene.units)
     handles = [
         *(Patch(color=COLOURS[k], label=f"{KINDS[k]} patch") for k in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX)),
         Line2D([], [], color=Colours.helix, label="v-v helix"),
@@ -275,6 +265,25 @@ def new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3
         return figure.add_axes(place, projection="3d")
 
 
+def set_space(ax: Any, window: Window, units: str, *, height: float = 0.75, zoom: float = 1.08) -> None:
+    """Limits, proportions, ticks and names of axes of a rectangle of the plane and a full turn of theta.
+
+    The turn is as high as `height` times the longer side.
+    """
+    from matplotlib.ticker import MaxNLocator
+
+    x0, y0, x1, y1 = window
+    side = max(x1 - x0, y1 - y0)
+    ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360), zlabel="θ")
+    ax.set_box_aspect((x1 - x0, y1 - y0, height * side), zoom=zoom)
+    ax.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
+    for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
+        axis.set_major_locator(MaxNLocator(1 + round(5 * length / side)))
+        axis.set_label_text(with_unit(name, units))
+    for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
+        axis.set_pane_color(WALL)
+
+
 def new_axes(size: tuple[float, float], place: tuple[float, float, float, float] = (0.1, 0.15, 0.86, 0.77)) -> Axes:
     """Axes of a figure of their own; inches, and parts of the figure."""
     return new_figure(size).add_axes(place)
@@ -322,13 +331,13 @@ def _draw_fits(ax: Any, lines: list[NDArray[np.float64]]) -> None:
         ax.plot(*points.T, "o" if is_dot else "-", color=MARK, markersize=5, linewidth=2.2, zorder=20)
 
 
-def _legend(ax: Axes) -> None:
-    """Below the axis label, however high the axes are."""
+def legend_below(ax: Axes, **options: Any) -> None:
+    """A legend below the axis label, however high the axes are."""
     from matplotlib.transforms import ScaledTranslation
 
     figure: Any = ax.figure
     below = ax.transAxes + ScaledTranslation(0, -0.5, figure.dpi_scale_trans)
-    ax.legend(loc="upper left", bbox_to_anchor=(0, 0), bbox_transform=below, ncols=5, frameon=False)
+    ax.legend(loc="upper left", bbox_to_anchor=(0, 0), bbox_transform=below, frameon=False, **options)
 
 
 def around(boxes: Iterable[Window]) -> Window:

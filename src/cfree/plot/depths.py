@@ -14,8 +14,8 @@ from cfree.arguments import checked
 from cfree.arrangements.arranged import Arrangement
 from cfree.arrangements.regions import planar_cells
 from cfree.exact.half_angle import Angle
-from cfree.palette import INK, SEQUENTIAL
-from cfree.plot.boundary import around, new_axes, new_figure, new_space, set_window, with_unit
+from cfree.palette import FREE, INK, SEQUENTIAL
+from cfree.plot.boundary import around, legend_below, new_axes, new_figure, new_space, set_space, set_window
 from cfree.plot.pieces import FINE, SURFACE, Pieces, faces_of, shaded
 from cfree.plot.strips import step_for, strips
 from cfree.plot.workspace import path_of, rings_of_geometry
@@ -41,6 +41,7 @@ def plot_depths(whole: Arrangement, theta: Angle, ax: Axes | None = None) -> Axe
 
     ax = ax or new_axes((7, 6))
     cut, colours = whole.slice(theta), depth_colours(whole)
+    ax.set_facecolor(colours[0])
     cells = planar_cells(whole, theta)
     depths = [int(whole.cell_depth[cell]) for _, cell in cells]
     for (region, _), depth in zip(cells, depths, strict=True):
@@ -50,8 +51,8 @@ def plot_depths(whole: Arrangement, theta: Angle, ax: Axes | None = None) -> Axe
         low, high = cut.segments.min(axis=(0, 1)).tolist(), cut.segments.max(axis=(0, 1)).tolist()
         set_window(ax, around([(*low, *high)]), whole.scene.units)
     ax.set_title(f"depth at θ = {math.degrees(cut.theta):.4g}°")
-    handles = [Patch(facecolor=colours[depth], edgecolor=INK, label=str(depth)) for depth in sorted(set(depths))]
-    ax.legend(handles=handles, title="pairs that overlap", loc="upper right", frameon=False)
+    handles = [Patch(facecolor=colours[depth], edgecolor=INK, label=str(depth)) for depth in sorted({0, *depths})]
+    legend_below(ax, handles=handles, title="pairs that overlap", ncols=len(handles))
     return ax
 
 
@@ -83,13 +84,7 @@ def plot_faces(whole: Arrangement, ax: Axes3D | None = None, *, depth: int | Non
     corners = pieces.corners.reshape(-1, 3)
     low, high = (corners.min(axis=0), corners.max(axis=0)) if len(corners) else (np.zeros(3), np.ones(3))
     space.add_collection(Painting(pieces), autolim=False)
-    space.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), zlim=(0, 360))
-    x, y = high[0] - low[0], high[1] - low[1]
-    space.set_box_aspect((x, y, 0.75 * max(x, y)), zoom=1.08)
-    space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
-    space.set_xlabel(with_unit("x", whole.scene.units))
-    space.set_ylabel(with_unit("y", whole.scene.units))
-    space.set_zlabel("θ")
+    set_space(space, (low[0], low[1], high[0], high[1]), whole.scene.units)
     colours = depth_colours(whole)
     handles = [Patch(color=colours[k], label=f"depth {k}") for k in sorted(set(depths.tolist()))]
     space.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.02), ncols=6, frameon=False)
@@ -97,11 +92,13 @@ def plot_faces(whole: Arrangement, ax: Axes3D | None = None, *, depth: int | Non
 
 
 def depth_colours(whole: Arrangement) -> NDArray[np.float64]:
-    """(d, 3) a colour for each depth, darker for deeper."""
+    """(d, 3) a colour for each depth: that of what is free, and then darker for deeper."""
     from matplotlib import colormaps
+    from matplotlib.colors import to_rgb
 
     most = int(whole.cell_depth.max())
     colours: NDArray[np.float64] = colormaps[SEQUENTIAL](np.linspace(0.97, 0.1, most + 1))[:, :3]
+    colours[0] = to_rgb(FREE)
     return colours
 
 

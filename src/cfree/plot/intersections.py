@@ -19,7 +19,7 @@ from cfree.exact.angle_interval import AngleInterval
 from cfree.exact.orientation import Location
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.palette import EDGE_EDGE, INK
-from cfree.plot.boundary import new_figure, new_space
+from cfree.plot.boundary import new_figure, new_space, set_space
 from cfree.plot.pieces import shaded
 from cfree.rational.model import RationalSurface
 
@@ -49,8 +49,6 @@ def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) ->
     are on both surfaces, and thin where edges count as lines. Poses on three are dots, hollow if an edge or patch ends
     before.
     """
-    from matplotlib.ticker import MaxNLocator
-
     if ax is None:
         ax = new_space(new_figure((7, 7.5)), (0.02, 0.09, 0.9, 0.9))
     space: Any = ax
@@ -67,12 +65,7 @@ def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) ->
         for pair in combinations(found.surfaces, 2):
             _draw_pair(space, intersection(*pair), window)
         _draw_poses(space, found)
-    (x0, y0), (x1, y1) = window
-    space.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360), xlabel="x", ylabel="y", zlabel="θ")
-    space.set_box_aspect((x1 - x0, y1 - y0, 1.1 * max(x1 - x0, y1 - y0)))
-    space.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
-    for axis in (space.xaxis, space.yaxis):
-        axis.set_major_locator(MaxNLocator(5))
+    set_space(space, (*window[0].tolist(), *window[1].tolist()), "", height=1.1, zoom=1.0)
     handles = {artist.get_label(): artist for artist in (*space.collections, *space.lines)}
     shown = {name: handle for name, handle in handles.items() if not name.startswith("_")}
     space.legend(shown.values(), shown.keys(), loc="upper center", bbox_to_anchor=(0.5, -0.01), ncols=3, frameon=False)

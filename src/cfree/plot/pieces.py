@@ -111,9 +111,11 @@ class Pieces:
         return cut.chosen((bottom < top) | (is_level & (bottom == top)))
 
 
-def pieces_of(boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3) -> Pieces:
+def pieces_of(
+    boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3, detail: Detail = FINE
+) -> Pieces:
     """Everything there is to draw of a boundary: patches, helices and e-e segments, and the section at a full turn."""
-    patches = patches_of(boundary, window, colours, line)
+    patches = patches_of(boundary, window, colours, line, detail)
     return joined([patches, _section(boundary, window, len(patches.corners))])
 
 
@@ -276,7 +278,7 @@ def shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
     normal = np.cross(scaled[:, 2] - scaled[:, 0], scaled[:, 3] - scaled[:, 1])
     length = np.linalg.norm(normal, axis=1)
     lit = normal @ (np.array(LIGHT) / np.linalg.norm(LIGHT)) / np.where(length > 0, length, 1.0)
-    shade = (0.78 + 0.34 * lit)[:, None]
+    shade = (0.82 + 0.3 * lit)[:, None]
     shaded: Floats = np.where(shade < 1, rgb * shade, 1 - (1 - rgb) * (2 - shade))
     return shaded.clip(0, 1)
 

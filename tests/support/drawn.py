@@ -1,0 +1,65 @@
+"""What is drawn in the figures, read back from the artists: shapes, lines, texts, and pieces in space."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import to_hex, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon as Outline
+
+from cfree.figures import draw
+from cfree.figures.style import styled
+from cfree.plot.pieces import CURVE, SURFACE, Pieces
+from cfree.plot.solid import Solid
+
+
+@cache
+def figure(number: int) -> Figure:
+    with styled():
+        return draw(number)
+
+
+def axes(number: int) -> Any:
+    return figure(number).axes[0]
+
+
+def outlines(ax: Axes, colour: str) -> list[np.ndarray]:
+    """Corners of the shapes drawn in a colour."""
+    return [
+        np.asarray(patch.get_xy())[:-1]
+        for patch in ax.patches
+        if isinstance(patch, Outline) and not patch.get_fill() and to_hex(patch.get_edgecolor()) == to_hex(colour)
+    ]
+
+
+def lines(ax: Axes, colour: str) -> list[np.ndarray]:
+    """Points of the lines drawn in a colour; dots are none."""
+    found = [np.asarray(line.get_xydata()) for line in ax.lines if to_hex(line.get_color()) == to_hex(colour)]
+    return [points for points in found if len(points) > 1]
+
+
+def named(ax: Axes) -> dict[str, np.ndarray]:
+    """Where texts are put."""
+    return {text.get_text(): np.array(text.xy) for text in ax.texts if hasattr(text, "xy")}
+
+
+def pieces(number: int, k: int = 0) -> Pieces:
+    """All that is painted on axes."""
+    (solid,) = [c for c in figure(number).axes[k].collections if isinstance(c, Solid)]
+    return solid.pieces
+
+
+def strokes(number: int, colour: str, k: int = 0) -> np.ndarray:
+    """Ends of the parts of curves painted in a colour, (n, 2, 3), theta in degrees."""
+    found = pieces(number, k)
+    return found.corners[(found.sort == CURVE) & (np.abs(found.rgb - to_rgb(colour)).max(axis=1) < 1e-12)][:, :2]
+
+
+def faces(number: int, k: int = 0) -> Pieces:
+    """The faces of surfaces among all that is painted."""
+    found = pieces(number, k)
+    return found.chosen(found.sort == SURFACE)
