@@ -247,7 +247,7 @@ def test_regions_are_drawn_in_the_colours_of_their_depths(three: Arrangement) ->
     assert [to_rgb(patch.get_facecolor()) for patch in ax.patches] == expected
     (lines,) = ax.collections
     assert len(lines.get_segments()) == len(three.slice(0.7).segments)
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["1", "2", "3"]
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["0", "1", "2", "3"]
 
 
 def test_faces_are_drawn_by_depth(three: Arrangement) -> None:

@@ -20,8 +20,8 @@ from cfree.figures import depth, pillars, plane, scenes, surfaces
 from cfree.figures.space import seen
 from cfree.forbidden.boundary import boundary
 from cfree.geometry import patch_classes
+from cfree.plot.depth_sort import Painting
 from cfree.plot.pieces import CURVE, SURFACE
-from cfree.plot.solid import Solid
 from cfree.scene.scene import Scene
 from drawn import faces, figure, outlines, strokes
 
@@ -119,7 +119,7 @@ def test_figure_12_draws_five_obstacles_and_both_poses() -> None:
 
 def test_figure_12_shows_where_the_pillars_of_two_obstacles_meet() -> None:
     found, (_, space) = scenes.five_boundary(), figure(12).axes
-    (solid,) = [c for c in space.collections if isinstance(c, Solid)]
+    (painting,) = [c for c in space.collections if isinstance(c, Painting)]
     owner = found.features.obstacles.owner_polygon[found.contact_obstacle]
     corners = []
     for degrees in range(5, 360, 10):
@@ -132,12 +132,12 @@ def test_figure_12_shows_where_the_pillars_of_two_obstacles_meet() -> None:
     # two on each level, on both sides of the pillars; a little above the crease, which is drawn with flat faces
     azimuth = math.radians(space.azim)
     above = np.array(corners) + 0.12 * np.array([math.cos(azimuth), math.sin(azimuth), 0.3])
-    assert len(corners) > 20 and seen(space, solid, above).mean() > 0.3
+    assert len(corners) > 20 and seen(space, painting, above).mean() > 0.3
 
 
 def test_figure_13_draws_slices_at_equal_steps() -> None:
     stack, _ = figure(13).axes
-    heights = [c.pieces.corners[..., 2] for c in stack.collections if isinstance(c, Solid)]
+    heights = [c._pieces.corners[..., 2] for c in stack.collections if isinstance(c, Painting)]
     levels = [float(z.min()) for z in heights]
     assert all(np.ptp(z) == 0 for z in heights) and levels == pytest.approx(np.linspace(0, 360, scenes.SLICES).tolist())
 

@@ -20,7 +20,7 @@ from PIL import Image
 from cfree import load_scene
 from cfree.figures import FIGURES, draw, draw_all, scenes, surfaces
 from cfree.figures.style import FORMATS, styled, write
-from cfree.plot.solid import Solid
+from cfree.plot.depth_sort import Painting
 
 NUMBERS = [entry.number for entry in FIGURES]
 
@@ -97,8 +97,8 @@ def test_the_gallery_shows_all_figures(drawn: dict[int, Figure], request: pytest
 def test_labels_are_on_the_page_and_do_not_overlap(number: int, drawn: dict[int, Figure]) -> None:
     figure = drawn[number]
     # the names of what is drawn, not what it is drawn of: surfaces are left out, which takes longest
-    for solid in figure.findobj(Solid):
-        solid.set_visible(False)
+    for painting in figure.findobj(Painting):
+        painting.set_visible(False)
     with styled():
         figure.canvas.draw()
     boxes = {}

@@ -242,6 +242,7 @@ def test_no_global_state_of_pyplot_is_touched() -> None:
     program = (
         "import sys, cfree\n"
         "assert 'matplotlib' not in sys.modules\n"
+        "sys.modules['pyvista'] = None\n"  # imports pyplot itself
         "import cfree.plot.boundary as plot\n"
         "scene = cfree.load_scene('examples/scenes/paper_fig9.json')\n"
         "plot.plot_boundary(cfree.boundary(scene)).figure.canvas.draw()\n"

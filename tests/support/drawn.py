@@ -13,8 +13,8 @@ from matplotlib.patches import Polygon as Outline
 
 from cfree.figures import draw
 from cfree.figures.style import styled
+from cfree.plot.depth_sort import Painting
 from cfree.plot.pieces import CURVE, SURFACE, Pieces
-from cfree.plot.solid import Solid
 
 
 @cache
@@ -49,8 +49,8 @@ def named(ax: Axes) -> dict[str, np.ndarray]:
 
 def pieces(number: int, k: int = 0) -> Pieces:
     """All that is painted on axes."""
-    (solid,) = [c for c in figure(number).axes[k].collections if isinstance(c, Solid)]
-    return solid.pieces
+    (painting,) = [c for c in figure(number).axes[k].collections if isinstance(c, Painting)]
+    return painting._pieces
 
 
 def strokes(number: int, colour: str, k: int = 0) -> np.ndarray:

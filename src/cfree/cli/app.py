@@ -33,7 +33,7 @@ from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
-    from cfree.plot.solid import Renderer
+    from cfree.plot.rendered import Renderer
     from cfree.verify.result import Verification
 
 
@@ -480,7 +480,7 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
     """
     with one_line_faults():
         from cfree.figures import FIGURES, draw_all
-        from cfree.plot.solid import MISSING, best_renderer
+        from cfree.plot.rendered import MISSING, best_renderer
 
         numbers = None if only is None else read_numbers(only)
         with bar("figures") as progress:

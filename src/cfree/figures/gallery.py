@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
 from cfree.figures.style import FORMATS, styled, write
-from cfree.plot.solid import Solid, require
+from cfree.plot.depth_sort import Painting
+from cfree.plot.rendered import require
 
 Box = tuple[float, float, float, float]
 
@@ -232,8 +233,8 @@ def draw_all(
             progress(done / len(entries))
         with styled():
             figure = draw(entry.number)
-            for solid in figure.findobj(Solid):
-                solid.renderer = solid.renderer or renderer
+            for painting in figure.findobj(Painting):
+                painting.renderer = painting.renderer or renderer
             for suffix in dict.fromkeys(suffixes):
                 files.append(folder / f"{entry.stem}.{suffix}")
                 write(figure, files[-1])

@@ -70,10 +70,10 @@ def pillar_workspace(ax: Axes) -> Axes:
 def _named_patches(ax: Any, view: tuple[float, float], step: float = 1) -> None:
     set_space(ax, WINDOW, angle_scale=SCALE, view=view, zoom=1.02)
     draw_frame(ax, step)
-    solid = paint(ax, [pieces_of(pillar_boundary(), WINDOW, line=2.4, detail=DETAIL)])
+    painting = paint(ax, [pieces_of(pillar_boundary(), WINDOW, line=2.4, detail=DETAIL)])
     named = contacts(TRIANGLE, OTHER)
     places = np.array([_inside(contact) for contact in named])
-    shown = seen(ax, solid, places.reshape(-1, 3)).reshape(places.shape[:2])
+    shown = seen(ax, painting, places.reshape(-1, 3)).reshape(places.shape[:2])
     flat = np.column_stack(proj3d.proj_transform(*(places.reshape(-1, 3) * DEGREES).T, ax.M))[:, :2]
     across = np.ptp(ax.transData.transform(flat)[:, 0].reshape(shown.shape), axis=1) * 72 / ax.figure.dpi
     for contact, place, around, width in zip(named, places[:, 0], shown, across.tolist(), strict=True):

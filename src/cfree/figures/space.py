@@ -13,8 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from cfree.contact.surface import Surface
 from cfree.palette import FAINT, FOCAL_LENGTH, GREY, INK, VIEW, WALL
+from cfree.plot.depth_sort import Painting
 from cfree.plot.pieces import SURFACE, Detail, Pieces, joined, of_line, shaded
-from cfree.plot.solid import Renderer, Solid
+from cfree.plot.rendered import Renderer
 
 Floats = NDArray[np.float64]
 Box = tuple[float, float, float, float]
@@ -89,12 +90,12 @@ def _multiples(low: float, high: float, step: float) -> list[float]:
     return [step * k for k in range(math.ceil((low + margin) / step), math.floor((high - margin) / step) + 1)]
 
 
-def paint(ax: Any, parts: Iterable[Pieces], z: float = 1, renderer: Renderer | None = None) -> Solid:
+def paint(ax: Any, parts: Iterable[Pieces], z: float = 1, renderer: Renderer | None = None) -> Painting:
     """Put pieces on axes, those in front hiding those behind."""
-    solid = Solid(joined(list(parts)), renderer)
-    solid.set_zorder(z)
-    ax.add_collection(solid, autolim=False)
-    return solid
+    painting = Painting(joined(list(parts)), ghost=0, renderer=renderer)
+    painting.set(zorder=z, clip_on=False)
+    ax.add_collection(painting, autolim=False)
+    return painting
 
 
 def legend(ax: Any, names: Sequence[tuple[str, str]], *, below: float = 0.03, columns: int = 4) -> None:
@@ -130,11 +131,11 @@ def mark(ax: Any, point: ArrayLike, colour: str = INK, size: float = 7) -> None:
     ax.plot([x], [y], [z], "o", color=colour, markersize=size, markeredgecolor="white", zorder=11, clip_on=False)
 
 
-def seen(ax: Any, solid: Solid, points: Floats) -> NDArray[np.bool_]:
+def seen(ax: Any, painting: Painting, points: Floats) -> NDArray[np.bool_]:
     """Which of the points (n, 3), theta in radians, nothing that is painted hides from the camera."""
     ax.M = ax.get_proj()
-    solid.do_3d_projection()
-    return solid.shows(np.column_stack(proj3d.proj_transform(*(points * DEGREES).T, ax.M)))
+    painting.do_3d_projection()
+    return painting.shows(np.column_stack(proj3d.proj_transform(*(points * DEGREES).T, ax.M)))
 
 
 def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:

@@ -1,8 +1,12 @@
-"""Faces and curves in three dimensions, drawn from back to front.
+"""Faces and curves in three dimensions, those in front hiding those behind.
 
-They are in one list, sorted by depth each time the view changes. The free side of a patch is shaded and opaque; the
-forbidden side is a ghost, so that one looks through the near walls into the free space, as into a doll's house. At
-theta = 360 degrees the forbidden space is cut: the section is grey.
+The free side of a patch is shaded and opaque; the forbidden side is a ghost, so that one looks through the near walls
+into the free space, as into a doll's house, or is not drawn at all. At theta = 360 degrees the forbidden space is cut:
+the section is grey.
+
+Faces are drawn by PyVista where it is installed (the extra ``render``), as pixels, each in its true depth; else by
+matplotlib, from back to front, sorted each time the view changes. Curves are lines above them, vectors in vector
+formats: those parts of them that no opaque face hides. All see what the camera of the axes sees.
 """
 
 from __future__ import annotations
@@ -10,14 +14,19 @@ from __future__ import annotations
 from typing import Any, cast
 
 import numpy as np
-from matplotlib.collections import PolyCollection
+from matplotlib.artist import allow_rasterization
+from matplotlib.collections import LineCollection, PolyCollection
 from mpl_toolkits.mplot3d import proj3d
+from numpy.typing import NDArray
 
 from cfree.plot.pieces import CURVE, ON_TOP, OVER, SECTION, WALL, Floats, Pieces
+from cfree.plot.rendered import Renderer, best_renderer, image_of
+from cfree.plot.visible import polylines, seen_parts
 
 AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
 FOG = 0.25
 GLASS, GHOST, DIMMEST, SOLID = 0.3, 0.06, 0.35, 0.9
+HIDING = 0.5  # opacity of a face behind which curves are not seen
 
 
 class Painting(PolyCollection):
@@ -30,31 +39,107 @@ class Painting(PolyCollection):
         Opacity of the side of a face that is turned away.
     opacity : float or (n,) float64
         Of all pieces, or of each.
+    renderer : "matplotlib" or "pyvista", optional
+        Who draws faces; the best there is, if not given.
     """
 
-    def __init__(self, pieces: Pieces, ghost: float = GHOST, opacity: Floats | float = 1.0) -> None:
+    def __init__(
+        self, pieces: Pieces, ghost: float = GHOST, opacity: Floats | float = 1.0, renderer: Renderer | None = None
+    ) -> None:
         super().__init__([], closed=True, joinstyle="round")
+        self.renderer = renderer
         self._pieces = pieces
         self._ghost = ghost
         self._opacity = opacity
+        self._faces: Floats = np.empty((0, 4, 3))
+        self._rgba: Floats = np.empty((0, 4))
+        self._lines = LineCollection([], capstyle="round", joinstyle="round")
 
     def do_3d_projection(self) -> float:
-        """Project, choose what is seen, sort by depth; called before each drawing."""
-        corners, axes = self._pieces.corners, cast(Any, self.axes)
-        if not len(corners):
+        """Project, choose what is seen; called before each drawing."""
+        pieces, axes = self._pieces, cast(Any, self.axes)
+        if not len(pieces.corners):
             return 0.0
-        x, y, z = proj3d.proj_transform(*corners.reshape(-1, 3).T, axes.M)
-        flat, depth = np.stack((x, y), axis=-1).reshape(-1, 4, 2), np.asarray(z).reshape(-1, 4).mean(axis=1)
+        x, y, z = proj3d.proj_transform(*pieces.corners.reshape(-1, 3).T, axes.M)
+        flat = np.stack((x, y, np.asarray(z)), axis=-1).reshape(-1, 4, 3)
+        depth = flat[..., 2].mean(axis=1)
         span = float(depth.min()), float(depth.max())
-        paint(self, self._pieces, flat, depth, span, ghost=self._ghost, opacity=self._opacity)
+        look = _Look(pieces, flat[..., :2], depth, span, self._ghost, self._opacity)
+        faces = look.order[pieces.sort[look.order] < CURVE]
+        look.put(self, flat[..., :2], faces)
+        self._faces, self._rgba = flat[faces], np.column_stack((look.rgb, look.alpha))[faces]
+        curves = np.flatnonzero((pieces.sort >= CURVE) & (look.alpha > 0))
+        self._choose_lines(flat[curves][:, :2], pieces.sort[curves], look, curves)
         return span[0]
+
+    def _choose_lines(self, ends: Floats, sort: NDArray[np.int64], look: _Look, curves: NDArray[np.int64]) -> None:
+        """The parts of curves that are seen, joined: by their sort, and what was given later is above."""
+        rows = np.column_stack((sort, look.rgb[curves], look.alpha[curves], look.pieces.width[curves]))
+        looks, first, of = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        above = np.argsort(np.lexsort((first, looks[:, 0])))
+        parts, seen = seen_parts(ends, self._faces[self._rgba[:, 3] >= HIDING])
+        count = len(parts) // max(1, len(ends))
+        seen |= np.repeat(sort == ON_TOP, count)
+        lines, number = polylines(parts, seen, np.repeat(of.reshape(-1), count))
+        order = np.argsort(above[number], kind="stable") if lines else np.empty(0, np.int64)
+        shown = looks[np.array(number, dtype=np.int64)[order]]
+        self._lines.set_segments([lines[k] for k in order.tolist()])
+        self._lines.set_color(shown[:, 1:5])  # type: ignore[arg-type]
+        self._lines.set_linewidth(shown[:, 5].tolist())
+
+    def shows(self, points: Floats) -> NDArray[np.bool_]:
+        """Which of the points (n, 3), projected as the faces were last, no face hides."""
+        _, seen = seen_parts(np.stack((points, points), axis=1), self._faces)
+        return seen.reshape(len(points), -1)[:, 0]
+
+    def draw(self, renderer: Any) -> None:
+        """Faces by the renderer that is chosen, curves above them."""
+        if not self.get_visible():
+            return
+        self._draw_faces(renderer)
+        axes: Any = self.axes
+        lines = self._lines
+        lines.axes = axes
+        lines.set_figure(axes.figure)
+        lines.set_transform(axes.transData)
+        lines.set_clip_on(self.get_clip_on())
+        lines.set_clip_path(self.get_clip_path())
+        lines.clipbox = self.clipbox
+        lines.draw(renderer)
+
+    draw._supports_rasterization = True  # type: ignore[attr-defined]  # of faces; lines stay lines
+
+    @allow_rasterization  # type: ignore[untyped-decorator]
+    def _draw_faces(self, renderer: Any) -> None:
+        if (self.renderer or best_renderer()) == "pyvista" and len(self._faces):
+            self._draw_image(renderer)
+        else:
+            super().draw(renderer)
+
+    def _draw_image(self, renderer: Any) -> None:
+        """What is within the figure, as fine as the renderer's pixels."""
+        axes: Any = self.axes
+        finer = renderer.get_image_magnification()
+        faces = self._faces.copy()
+        faces[..., :2] = axes.transData.transform(faces[..., :2].reshape(-1, 2)).reshape(-1, 4, 2)
+        all_of_it = faces[..., :2].reshape(-1, 2)
+        low = np.maximum(np.floor(all_of_it.min(axis=0)) - 1, 0)
+        high = np.minimum(np.ceil(all_of_it.max(axis=0)) + 1, axes.figure.bbox.max)
+        if not (low < high).all():
+            return
+        width, height = np.ceil((high - low) * finer).astype(int).tolist()
+        faces[..., :2] = (faces[..., :2] - low) * finer
+        gc = renderer.new_gc()
+        cast(Any, self)._set_gc_clip(gc)
+        renderer.draw_image(gc, *low.tolist(), image_of(faces, self._rgba, (width, height))[::-1])
+        gc.restore()
 
 
 def paint(
     onto: PolyCollection, pieces: Pieces, flat: Floats, depth: Floats, span: tuple[float, float], *,
     ghost: float, opacity: Floats | float = 1.0,
 ) -> None:  # fmt: skip
-    """Put pieces into a collection, from back to front.
+    """Put pieces into a collection, faces and curves from back to front.
 
     Parameters
     ----------
@@ -71,31 +156,46 @@ def paint(
     opacity : float or (n,) float64
         Of all, or of each; curves that are always seen are not fainter than `DIMMEST`.
     """
-    near, far = span
-    p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
-    front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
-    is_curve = pieces.sort >= CURVE
+    look = _Look(pieces, flat, depth, span, ghost, opacity)
+    look.put(onto, flat, look.order)
 
-    clear = np.isin(pieces.sort, (SECTION, ON_TOP, OVER))
-    fog = np.where(clear, 0.0, FOG * np.clip((depth - near) / max(far - near, 1e-300), 0, 1))
-    rgb = pieces.rgb + (1 - pieces.rgb) * fog[:, None]
-    alpha = np.where(front, 1.0, ghost)
-    alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)
-    alpha[(pieces.sort == CURVE) & ~front] = 0
-    alpha *= opacity
-    free = is_curve & (pieces.owner < 0)
-    alpha[free] = np.broadcast_to(np.maximum(opacity, DIMMEST), len(alpha))[free]
-    rank = depth - AHEAD * (far - near) * (is_curve + 1.0 * (pieces.sort == OVER))
-    rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
-    rank[pieces.sort == ON_TOP] -= 20 * (far - near)
-    order = np.argsort(-rank, kind="stable")
-    order = order[alpha[order] > 0]
 
-    fill, rim = (np.column_stack((rgb, part)) for part in (np.where(is_curve, 0, alpha), alpha))
-    glass = (alpha < SOLID) & ~is_curve
-    rim[glass, 3] = 0  # where faces are seen through, their rims would be twice as dark
-    onto.set_verts(flat[order], closed=True)  # type: ignore[arg-type]
-    onto.set_facecolor(fill[order])  # type: ignore[arg-type]
-    onto.set_edgecolor(rim[order])  # type: ignore[arg-type]
-    onto.set_antialiased((~glass)[order].tolist())  # smoothed on both sides a common edge of glass would be seen
-    onto.set_linewidth(np.where(is_curve, pieces.width, 0.4)[order].tolist())
+class _Look:
+    """Colours and opacities of pieces from where the eye is, and their order from back to front."""
+
+    def __init__(
+        self, pieces: Pieces, flat: Floats, depth: Floats, span: tuple[float, float], ghost: float,
+        opacity: Floats | float,
+    ) -> None:  # fmt: skip
+        near, far = span
+        p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
+        front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
+        self.pieces = pieces
+        self.is_curve = is_curve = pieces.sort >= CURVE
+
+        clear = np.isin(pieces.sort, (SECTION, ON_TOP, OVER))
+        fog = np.where(clear, 0.0, FOG * np.clip((depth - near) / max(far - near, 1e-300), 0, 1))
+        self.rgb = pieces.rgb + (1 - pieces.rgb) * fog[:, None]
+        alpha = np.where(front, 1.0, ghost)
+        alpha[pieces.sort == WALL] = np.where(front[pieces.sort == WALL], GLASS, 0)
+        alpha[(pieces.sort == CURVE) & ~front] = 0
+        alpha *= opacity
+        free = is_curve & (pieces.owner < 0)
+        alpha[free] = np.broadcast_to(np.maximum(opacity, DIMMEST), len(alpha))[free]
+        self.alpha = alpha
+        rank = depth - AHEAD * (far - near) * (is_curve + 1.0 * (pieces.sort == OVER))
+        rank[pieces.sort == SECTION] += np.where(front[pieces.sort == SECTION], -10, 10) * (far - near)
+        rank[pieces.sort == ON_TOP] -= 20 * (far - near)
+        order = np.argsort(-rank, kind="stable")
+        self.order = order[alpha[order] > 0]
+
+    def put(self, onto: PolyCollection, flat: Floats, order: NDArray[np.int64]) -> None:
+        """Put pieces into a collection, in an order."""
+        is_curve, alpha = self.is_curve, self.alpha
+        fill, rim = (np.column_stack((self.rgb, part)) for part in (np.where(is_curve, 0, alpha), alpha))
+        rim[(alpha < SOLID) & ~is_curve, 3] = 0  # where faces are seen through, their rims would be twice as dark
+        width = np.where(is_curve, self.pieces.width, np.where(self.pieces.sort == SECTION, 0.8, 0.4))
+        onto.set_verts(flat[order], closed=True)  # type: ignore[arg-type]
+        onto.set_facecolor(fill[order])  # type: ignore[arg-type]
+        onto.set_edgecolor(rim[order])  # type: ignore[arg-type]
+        onto.set_linewidth(width[order].tolist())

@@ -2,22 +2,44 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
+from typing import Any, Literal
+
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.errors import UnsupportedError
+
+Renderer = Literal["matplotlib", "pyvista"]
 Floats = NDArray[np.float64]
 
-FINER, LARGEST = 3, 6000  # pixels along the side of one that is shown; along the side of a picture
+FINER, LARGEST, PEELS = (
+    3,
+    6000,
+    12,
+)  # pixels along the side of one that is shown; along the side of a picture; faces seen through
+MISSING = "surfaces in true depth order need PyVista: pip install 'cfree[render]'"
 
 
-def image_of(faces: Floats, rgb: Floats, size: tuple[int, int]) -> NDArray[np.uint8]:
+def best_renderer() -> Renderer:
+    """PyVista where it is installed."""
+    return "pyvista" if find_spec("pyvista") else "matplotlib"
+
+
+def require(renderer: Renderer) -> None:
+    """Raise UnsupportedError, which says how to get it, if a renderer is missing."""
+    if renderer == "pyvista" and not find_spec("pyvista"):
+        raise UnsupportedError(MISSING)
+
+
+def image_of(faces: Floats, rgba: Floats, size: tuple[int, int]) -> NDArray[np.uint8]:
     """Picture (height, width, 4) of flat faces, transparent where there are none.
 
     Parameters
     ----------
     faces : (n, 4, 3) float64
         x and y in pixels from the lower left, and the depth: the camera has projected them already.
-    rgb : (n, 3) float64
+    rgba : (n, 4) float64
     size : (int, int)
         Width and height in pixels.
     """
@@ -33,10 +55,13 @@ def image_of(faces: Floats, rgb: Floats, size: tuple[int, int]) -> NDArray[np.ui
     n = len(faces)
     cells = np.column_stack((np.full(n, 4), np.arange(4 * n).reshape(n, 4)))
     mesh = pyvista.PolyData(points, cells.ravel())
-    mesh.cell_data["rgb"] = np.rint(255 * rgb).astype(np.uint8)
-    plotter = pyvista.Plotter(off_screen=True, window_size=[width * finer, height * finer])
-    plotter.disable_anti_aliasing()
-    plotter.add_mesh(mesh, scalars="rgb", rgb=True, lighting=False)
+    mesh.cell_data["rgba"] = np.rint(255 * rgba).astype(np.uint8)
+    plotter: Any = pyvista.Plotter(off_screen=True, window_size=[width * finer, height * finer])
+    plotter.disable_anti_aliasing()  # else peeling makes faces vanish
+    if (rgba[:, 3] < 1).any():
+        plotter.enable_depth_peeling(number_of_peels=PEELS)
+    plotter.set_background("black")
+    plotter.add_mesh(mesh, scalars="rgba", rgba=True, lighting=False)
     middle = (width / 2, height / 2)
     plotter.camera_position = [(*middle, 2.0 * max(size)), (*middle, 0.0), (0.0, 1.0, 0.0)]
     plotter.camera.parallel_projection = True
@@ -44,9 +69,9 @@ def image_of(faces: Floats, rgb: Floats, size: tuple[int, int]) -> NDArray[np.ui
     plotter.camera.clipping_range = (0.5 * max(size), 4.0 * max(size))
     fine = np.asarray(plotter.screenshot(transparent_background=True, return_img=True)).astype(np.float64)
     plotter.close()
-    # the mean of small pixels, weighed by their opacity
+    # the mean of small pixels: their colours are as much nearer to the black behind as they are seen through
     blocks = fine.reshape(height, finer, width, finer, 4)
     alpha = blocks[..., 3:].mean(axis=(1, 3))
-    colour = (blocks[..., :3] * blocks[..., 3:]).mean(axis=(1, 3)) / np.maximum(alpha, 1e-9)
+    colour = (255 * blocks[..., :3].mean(axis=(1, 3)) / np.maximum(alpha, 1e-9)).clip(0, 255)
     picture: NDArray[np.uint8] = np.rint(np.concatenate((colour, alpha), axis=-1)).astype(np.uint8)
     return picture

@@ -15,7 +15,8 @@ from matplotlib.figure import Figure
 from cfree.errors import UnsupportedError
 from cfree.figures import draw_all
 from cfree.figures.space import curve, paint, set_space, sheet
-from cfree.plot.solid import MISSING, Solid, best_renderer
+from cfree.plot.depth_sort import Painting
+from cfree.plot.rendered import MISSING, best_renderer
 from cfree.plot.visible import PARTS, depth_buffer, polylines, seen_parts
 
 
@@ -98,10 +99,10 @@ def pixels(figure: Figure) -> np.ndarray:
 def test_faces_that_cross_hide_half_of_each_other() -> None:
     figure = crossing("matplotlib")
     image = pixels(figure)
-    (solid,) = figure.findobj(Solid)
+    (painting,) = figure.findobj(Painting)
     # on the ray to a place, the nearer surface is seen: places of both squares, before and behind the other one
     for place, is_red in (((0.0, -0.6, 3.0), True), ((0.0, 0.0, 3.6), False), ((0.0, 0.0, 2.4), True)):
-        x, y = project(solid, place)
+        x, y = project(painting, place)
         colour = image[-1 - round(y), round(x)]
         assert (colour[0] > colour[2]) == is_red, place
     green = (image[..., 1] > 1.5 * image[..., 0]) & (image[..., 1] > 1.5 * image[..., 2])
@@ -109,11 +110,11 @@ def test_faces_that_cross_hide_half_of_each_other() -> None:
     assert np.ptp(columns) > 80 and (np.diff(columns) > 20).sum() == 1  # hidden between its two ends
 
 
-def project(solid: Solid, place: tuple[float, float, float]) -> tuple[float, float]:
+def project(painting: Painting, place: tuple[float, float, float]) -> tuple[float, float]:
     """Pixels of a place, theta in radians."""
     from mpl_toolkits.mplot3d import proj3d
 
-    axes: Any = solid.axes
+    axes: Any = painting.axes
     x, y, _ = proj3d.proj_transform(place[0], place[1], np.degrees(place[2]), axes.M)
     pixel = axes.transData.transform((float(x), float(y)))
     return float(pixel[0]), float(pixel[1])
@@ -129,7 +130,7 @@ def test_both_renderers_draw_the_same() -> None:
 
 def test_a_missing_renderer_is_named_in_one_line(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     found = importlib.util.find_spec
-    monkeypatch.setattr("cfree.plot.solid.find_spec", lambda name: None if name == "pyvista" else found(name))
+    monkeypatch.setattr("cfree.plot.rendered.find_spec", lambda name: None if name == "pyvista" else found(name))
     assert best_renderer() == "matplotlib"
     with pytest.raises(UnsupportedError, match=r"pip install 'cfree\[render\]'") as caught:
         draw_all(tmp_path / "none", only=[8], renderer="pyvista")
