@@ -100,6 +100,7 @@ def test_faces_that_cross_hide_half_of_each_other() -> None:
     figure = crossing("matplotlib")
     image = pixels(figure)
     (painting,) = figure.findobj(Painting)
+    assert len(painting.get_facecolor()) == 2 * 24 * 24  # one side of each
     # on the ray to a place, the nearer surface is seen: places of both squares, before and behind the other one
     for place, is_red in (((0.0, -0.6, 3.0), True), ((0.0, 0.0, 3.6), False), ((0.0, 0.0, 2.4), True)):
         x, y = project(painting, place)

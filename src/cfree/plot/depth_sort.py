@@ -169,9 +169,10 @@ class _Look:
     ) -> None:  # fmt: skip
         near, far = span
         p, q = flat[:, 2] - flat[:, 0], flat[:, 3] - flat[:, 1]
-        front = (p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0)[pieces.owner] | (pieces.owner < 0)
         self.pieces = pieces
         self.is_curve = is_curve = pieces.sort >= CURVE
+        front = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0] > 0
+        front = np.where(is_curve, front[pieces.owner] | (pieces.owner < 0), front)
 
         clear = np.isin(pieces.sort, (SECTION, ON_TOP, OVER))
         fog = np.where(clear, 0.0, FOG * np.clip((depth - near) / max(far - near, 1e-300), 0, 1))
