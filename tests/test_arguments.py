@@ -81,6 +81,7 @@ def pool() -> list[Any]:
         cfree.exact.Surd(1), cfree.Preferences(), cfree.exact.AngleInterval(None, None),
         cfree.exact.AlgebraicAngle.of(Pose(0, 0)), MEETING, cfree.arrangements.arrangement(SCENE),
         Figure().add_subplot(), Figure().add_subplot(projection="3d"),
+        cfree.plan(cfree.Scene(SQUARE, [[(3, -9), (4, -9), (4, 9)]], bounds=(0, 0, 7, 2)), (0, 0, 0), (6, 0, 0)),
     ]  # fmt: skip
 
 

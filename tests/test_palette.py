@@ -57,6 +57,7 @@ def test_amounts_grow_lighter_and_signs_lie_apart(deficiency: str) -> None:
 
 def test_figures_and_pictures_name_no_colours_of_their_own() -> None:
     source = Path(palette.__file__).parent
-    drawn = [path for folder in ("figures", "plot", "forbidden", "viewer") for path in source.glob(f"{folder}/*.py")]
+    folders = ("figures", "plot", "film", "forbidden", "viewer")
+    drawn = [path for folder in folders for path in source.glob(f"{folder}/*.py")]
     for path in drawn:
         assert not re.findall(r"#[0-9a-fA-F]{6}", path.read_text()), path.name

@@ -96,11 +96,14 @@ def test_the_nearest_miss_is_told_when_asked_for(run: Run, tmp_path: Path) -> No
 
 
 @pytest.mark.slow
-def test_a_proof_is_no_path_to_film_or_to_sample(run: Run, tmp_path: Path) -> None:
+def test_a_proof_is_no_path_to_sample_but_can_be_filmed(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("cfree.film.film_separation", partial(cfree.film.film_separation, seconds=1, fps=6))
     result = run("plan", SWIM, "-o", tmp_path / "way.csv", "--film", tmp_path / "way.gif")
     assert result.exit_code == 1
     assert "there is no path" in result.output
-    assert not list(tmp_path.iterdir())
+    assert [file.name for file in tmp_path.iterdir()] == ["way.gif"]
 
 
 def test_start_and_goal_are_given_in_any_form(run: Run, tmp_path: Path) -> None:

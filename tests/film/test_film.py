@@ -294,7 +294,7 @@ def test_a_full_turn_has_room_where_it_is_made(five: Boundary) -> None:
 
 def test_what_is_swept_appears_and_stays(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 120, "paper")
-    stage = Stage(fig9, (160, 90))
+    stage = Stage(fig9, (160, 90), 25)
     heights = [(view.shown[:, 1] - view.shown[:, 0]).clip(0).sum() for view, _ in views(stage, shots, 25)]
     assert heights[0] == 0 and (np.diff(heights) > -1e-9).all()
     assert heights[-1] == pytest.approx(np.ptp(stage.space.angles, axis=1).sum())
@@ -305,7 +305,7 @@ def test_what_is_swept_appears_and_stays(fig9: Boundary) -> None:
 @pytest.mark.slow
 def test_the_camera_is_smooth_and_stays_in_its_quadrant(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 750, "paper")
-    azimuth = np.array([view.azimuth for view, _ in views(Stage(fig9, (160, 90)), shots, 25)])
+    azimuth = np.array([view.azimuth for view, _ in views(Stage(fig9, (160, 90), 25), shots, 25)])
     assert np.degrees(azimuth).min() > -90 and np.degrees(azimuth).max() < 0
     assert np.degrees(np.abs(np.diff(azimuth)).max()) < 1.5
     assert np.degrees(np.abs(np.diff(azimuth, 2)).max()) < 0.2
@@ -314,7 +314,7 @@ def test_the_camera_is_smooth_and_stays_in_its_quadrant(fig9: Boundary) -> None:
 @pytest.mark.slow
 def test_a_frame_has_the_colours_of_all_pictures_and_its_words(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 120, "paper")
-    stage = Stage(fig9, (640, 360))
+    stage = Stage(fig9, (640, 360), 25)
     frames = [view for view, _ in views(stage, shots, 25) if view.title == shots[4].title]
     image = stage.draw(frames[-1]) / 255
     red, green, blue = image[..., 0], image[..., 1], image[..., 2]
@@ -324,7 +324,6 @@ def test_a_frame_has_the_colours_of_all_pictures_and_its_words(fig9: Boundary) -
     assert np.count_nonzero((blue > 1.5 * green) & (green < 0.35)) > 100  # helices
     assert stage.caption.get_text() == caption(frames[-1].moment.contact)
     assert stage.space.tag.get_text() == "θ = 360°"
-    stage.canvas.draw()
     words = [stage.title, stage.note, stage.caption, stage.pose]
     boxes = [word.get_window_extent() for word in words]
     for box, other in itertools.combinations(boxes, 2):
@@ -390,7 +389,7 @@ def test_without_pyav_one_line_says_what_to_install(monkeypatch: pytest.MonkeyPa
         ({"fps": 0}, "frames a second"),
         ({"size": (321, 180)}, "even numbers"),
         ({"size": (20, 10)}, "160x90"),
-        ({"name": "opera"}, "choose one of paper, path"),
+        ({"name": "opera"}, "choose one of paper, path, separation, turntable"),
         ({"scenes": 0}, "no scene"),
     ],
 )
@@ -431,7 +430,7 @@ def test_help_has_examples() -> None:
         ([FIG9, "-o", "film.avi"], "name the file .mp4 or .gif"),
         (["missing.json", "-o", "film.gif"], "missing.json"),
         ([FIG9, "-o", "film.gif", "--size", "wide"], "1280x720"),
-        ([FIG9, "-o", "film.gif", "--storyboard", "opera"], "paper, path"),
+        ([FIG9, "-o", "film.gif", "--storyboard", "opera"], "paper, path, separation, turntable"),
         ([FIG9, "-o", "film.gif", "--seconds", "0"], "seconds"),
         ([FIG9, "-o", FIG9], "is the input"),
         ([SCENES / "degenerate_own_hole.json", "-o", "film.gif"], "nothing to show"),

@@ -83,7 +83,7 @@ def test_the_line_in_configuration_space_has_the_colours_of_the_trace(five: tupl
     stage = PathStage(track, found, SMALL)
     assert stage.space is not None
     lines: list[Any] = []
-    stage.space.draw = lambda *arguments: lines.extend(arguments[-1])  # type: ignore[method-assign]
+    stage.space.draw = lambda *arguments: lines.extend(arguments[-2])  # type: ignore[method-assign]
     stage.draw(track.travel.total / 2, 0.5)
     assert len({colour for colour, _ in lines}) > 1
     joined = [np.array_equal(before[-1], after[0]) for (_, before), (_, after) in pairwise(lines)]

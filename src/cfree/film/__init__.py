@@ -8,11 +8,13 @@ from os import PathLike
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.paths.path import Path
+from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
 
-__all__ = ["film_path", "save_film"]
+__all__ = ["film_path", "film_separation", "save_film"]
 
 MOST = 60.0  # seconds of motion
+SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # of a film, if not said otherwise
 
 
 @checked
@@ -20,7 +22,7 @@ def save_film(
     boundaries: Sequence[Boundary],
     path: str | PathLike[str],
     *,
-    seconds: float = 30.0,
+    seconds: float | None = None,
     fps: int = 25,
     size: tuple[int, int] = (1280, 720),
     storyboard: str = "paper",
@@ -35,21 +37,22 @@ def save_film(
         path; the others the last two of these.
     path : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
-    seconds : float
-        Length of the film.
+    seconds : float, optional
+        Length of the film: 30 if not given, 12 of a separation, 8 of a turntable.
     fps : int
         Frames a second.
     size : (int, int)
         Width and height in pixels; even, as video codecs want them.
     storyboard : str
-        "paper", or "path" for a motion from start to goal alone.
+        "paper"; "path" for a motion from start to goal alone; "separation" for the surface that parts these, and how
+        the robot tries to pass; "turntable" for the boundary, which turns once around.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
     Raises
     ------
     ValueError
-        If an option has no sense, or there is nothing to show of a scene.
+        If an option has no sense, or there is nothing to show of a scene: no contact, or nothing that parts its ends.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 
@@ -69,6 +72,7 @@ def save_film(
     from cfree.film.reel import check_options, pictures
 
     check_film_path(path)
+    seconds = SECONDS_OF.get(storyboard, SECONDS) if seconds is None else seconds
     check_options(len(boundaries), seconds, fps, size, storyboard)
     write(pictures(boundaries, seconds, fps, size, storyboard, progress), path, fps)
 
@@ -138,3 +142,62 @@ def film_path(
     if seconds is not None and not 0 < seconds <= MOST:
         raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
     write(path_frames(Track.of(path, scene), boundary, seconds, fps, size, progress), file, fps)
+
+
+@checked
+def film_separation(
+    answer: Separated,
+    boundary: Boundary,
+    file: str | PathLike[str],
+    *,
+    seconds: float = SECONDS_OF["separation"],
+    fps: int = 25,
+    size: tuple[int, int] | None = None,
+    progress: Callable[[float], object] | None = None,
+) -> None:
+    """Write a film of a proof: the robot tries to get to its goal, and the surface closes that it cannot pass.
+
+    Parameters
+    ----------
+    answer : Separated
+    boundary : Boundary
+        Of the scene to which it is the answer.
+    file : path
+        ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
+    seconds : float
+        Length of the film.
+    fps : int
+        Frames a second.
+    size : (int, int), optional
+        Width and height in pixels, even; 1280 x 720, for a GIF 640 x 360, if not given.
+    progress : callable, optional
+        Called with the share that is done, from 0 to 1.
+
+    Raises
+    ------
+    ValueError
+        If an option has no sense, or start and goal are parted by no surface, but by what fits exactly.
+    UnsupportedError
+        If the format is unknown, or PyAV is missing.
+
+    Notes
+    -----
+    The robot's motions are paths of the planner to the poses nearest to the goal and farthest from it, of some thousand
+    that can be reached.
+
+    Examples
+    --------
+    >>> import tempfile, cfree
+    >>> hall, wall = [(0, 0), (9, 0), (9, 3), (0, 3)], [(4, -1), (5, -1), (5, 4)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], workspace=hall)
+    >>> proof = cfree.plan(scene, cfree.Pose(1, 1), cfree.Pose(7, 1))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     film_separation(proof, cfree.boundary(scene), f"{folder}/proof.gif", seconds=1, fps=6, size=(320, 180))
+    """
+    from cfree.film.encode import check_film_path, write
+    from cfree.film.reel import apart, check_options, reel
+
+    suffix = check_film_path(file)
+    size = size or ((640, 360) if suffix == ".gif" else (1280, 720))
+    check_options(1, seconds, fps, size, "separation")
+    write(reel([apart(boundary, answer, round(seconds * fps), size, fps)], fps, progress), file, fps)

@@ -1,7 +1,7 @@
 """The box around the configuration space: floor and back walls with a grid, axes with ticks and names.
 
-Seen from azimuths within one quadrant, x runs along the near edge of the floor at y = y0, y along that at x = x1, and
-theta up the left edge: the axes never change places.
+Seen from azimuths within one quadrant the axes never change places: x and y run along the near edges of the floor,
+theta up the left edge. In the usual quadrant these are y = y0, x = x1, and the edge over x0, y0.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from cfree.palette import FAINT, INK, RIM, WALL
+
 if TYPE_CHECKING:
     from cfree.film.eye import Eye
     from cfree.plot.workspace import Window
@@ -21,8 +23,8 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Point = tuple[float, float, float]
 
-INK, WALL, RIM, GRID = "#1d2129", "#f4f5f8", "#c4c8d1", "#d9dce3"
-LENGTH, GAP, FAR = 0.007, 0.028, 0.08  # of a tick, of its number, and of an axis' name; parts of the panel's height
+CORNER = 0.88  # of an axis has numbers: where two axes meet, they would touch
+LENGTH, GAP, FAR = 4.0, 12.0, 30.0  # of a tick, of its number, and of an axis' name, in typographic points
 
 
 @dataclass(frozen=True)
@@ -43,24 +45,26 @@ class Box:
     ax : matplotlib axes
     window : four floats
         x0, y0, x1, y1.
-    height : float
-        Of the panel, in pixels.
     names : (str, str)
         Of the axes x and y.
+    quadrant : int
+        0 if it is seen from azimuths of -90 to 0 degrees, 1 from 0 to 90, and so on.
     """
 
-    def __init__(self, ax: Any, window: Window, height: float, names: tuple[str, str]) -> None:
-        self._height = height
+    def __init__(self, ax: Any, window: Window, names: tuple[str, str], quadrant: int = 0) -> None:
+        self._point = ax.figure.dpi / 72
         x0, y0, x1, y1 = window
-        floor = (x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)
-        left = (x0, y0, 0), (x0, y1, 0), (x0, y1, 360), (x0, y0, 360)
-        back = (x0, y1, 0), (x1, y1, 0), (x1, y1, 360), (x0, y1, 360)
+        ring = (x0, y0), (x1, y0), (x1, y1), (x0, y1)
+        a, b, c, d = ring[quadrant:] + ring[:quadrant]  # left, near, right, far
+        floor = (*a, 0), (*b, 0), (*c, 0), (*d, 0)
+        left = (*a, 0), (*d, 0), (*d, 360), (*a, 360)
+        back = (*d, 0), (*c, 0), (*c, 360), (*d, 360)
         self._faces = np.array([floor, left, back], dtype=np.float64)
         self._edges = np.array([floor[:2], floor[1:3], (left[0], left[3])], dtype=np.float64)
-        self._labels = _labels(window, names)
+        self._labels = _labels(window, names, quadrant)
         self._grid = np.array([line for label in self._labels for line in label.lines])
         self.walls = ax.add_collection(PolyCollection([], facecolors=WALL, edgecolors=RIM, lw=0.8, zorder=1))
-        self.grid = ax.add_collection(LineCollection([], colors=GRID, lw=0.7, zorder=1.1))
+        self.grid = ax.add_collection(LineCollection([], colors=FAINT, lw=0.7, zorder=1.1))
         self.axes = ax.add_collection(LineCollection([], colors=INK, lw=0.9, zorder=5))
         self.texts = [
             ax.text(0, 0, label.text, fontsize=9 if label.lines else 11, zorder=6, va="center",
@@ -68,19 +72,31 @@ class Box:
             for label in self._labels
         ]  # fmt: skip
 
+    def show(self, visible: bool) -> None:
+        """Show the box, or hide it."""
+        for artist in (self.walls, self.grid, self.axes, *self.texts):
+            artist.set_visible(visible)
+
     def draw(self, eye: Eye) -> None:
         """Project everything."""
         self.walls.set_verts(list(eye(self._faces)[0]))
         self.grid.set_segments(list(eye(self._grid)[0]))
         at, _ = eye(np.array([label.place for label in self._labels]))
         ends, _ = eye(self._faces[0])
-        # away from the box: what x points to is where y comes from
+        # away from the box, on the near edges
         away = np.array([_outwards(ends[0] - ends[3]), _outwards(ends[1] - ends[0]), (-1.0, 0.0)])
         away = away[[label.axis for label in self._labels]]
-        gap = np.array([_gap(label) for label in self._labels]) * self._height
+        gap = np.array([_gap(label) for label in self._labels]) * self._point
         for text, place in zip(self.texts, at + gap[:, None] * away, strict=True):
             text.set_position((float(place[0]), float(place[1])))
-        ticks = np.stack((at, at + LENGTH * self._height * away), axis=1)
+        taken: list[Any] = []
+        for text in self.texts:  # names first; numbers that would touch what is written already are left out
+            text.set_visible(True)
+            box = text.get_window_extent()
+            text.set_visible(not any(box.overlaps(other) for other in taken))
+            if text.get_visible():
+                taken.append(box)
+        ticks = np.stack((at, at + LENGTH * self._point * away), axis=1)
         has_tick = np.array([bool(label.lines) for label in self._labels])
         self.axes.set_segments([*eye(self._edges)[0], *ticks[has_tick]])
 
@@ -97,18 +113,31 @@ def _outwards(direction: Floats) -> Floats:
     return np.asarray(bent / np.linalg.norm(bent))
 
 
-def _labels(window: Window, names: tuple[str, str]) -> list[_Label]:
+def _labels(window: Window, names: tuple[str, str], quadrant: int) -> list[_Label]:
     x0, y0, x1, y1 = window
-    locator = MaxNLocator(5, integer=max(x1 - x0, y1 - y0) >= 5)
-    found = [_Label((0.5 * (x0 + x1), y0, 0.0), 0, (), names[0]), _Label((x1, 0.5 * (y0 + y1), 0.0), 1, (), names[1])]
-    found.append(_Label((x0, y0, 315.0), 2, (), "θ"))
-    for x in (float(tick) for tick in locator.tick_values(x0, x1) if x0 < tick < x1):
-        found.append(_Label((x, y0, 0.0), 0, (((x, y0, 0), (x, y1, 0)), ((x, y1, 0), (x, y1, 360))), _number(x)))
-    for y in (float(tick) for tick in locator.tick_values(y0, y1) if y0 < tick < y1):
-        found.append(_Label((x1, y, 0.0), 1, (((x1, y, 0), (x0, y, 0)), ((x0, y, 0), (x0, y, 360))), _number(y)))
+    side = max(x1 - x0, y1 - y0)
+    near_x, far_x = (x1, x0) if quadrant in (0, 1) else (x0, x1)
+    near_y, far_y = (y0, y1) if quadrant in (0, 3) else (y1, y0)
+    left = ((x0, y0), (x1, y0), (x1, y1), (x0, y1))[quadrant]
+    xs, ys = (
+        np.asarray(MaxNLocator(max(2, round(5 * (high - low) / side)), integer=side >= 5).tick_values(low, high))
+        for low, high in ((x0, x1), (y0, y1))
+    )
+    first = quadrant % 2  # which of x and y runs from the left corner to the near one
+    found = [
+        _Label((0.5 * (x0 + x1), near_y, 0.0), first, (), names[0]),
+        _Label((near_x, 0.5 * (y0 + y1), 0.0), 1 - first, (), names[1]),
+        _Label((*left, 315.0), 2, (), "θ"),
+    ]
+    for x in xs[np.abs(2 * xs - x0 - x1) < CORNER * (x1 - x0)].tolist():
+        lines = ((x, near_y, 0), (x, far_y, 0)), ((x, far_y, 0), (x, far_y, 360))
+        found.append(_Label((x, near_y, 0.0), first, lines, _number(x)))
+    for y in ys[np.abs(2 * ys - y0 - y1) < CORNER * (y1 - y0)].tolist():
+        lines = ((near_x, y, 0), (far_x, y, 0)), ((far_x, y, 0), (far_x, y, 360))
+        found.append(_Label((near_x, y, 0.0), 1 - first, lines, _number(y)))
     for z in range(0, 361, 90):
-        lines = ((x0, y0, z), (x0, y1, z)), ((x0, y1, z), (x1, y1, z))
-        found.append(_Label((x0, y0, float(z)), 2, lines, f"{z}°"))
+        lines = ((far_x, y0, z), (far_x, y1, z)), ((x0, far_y, z), (x1, far_y, z))
+        found.append(_Label((*left, float(z)), 2, lines, f"{z}°"))
     return found
 
 

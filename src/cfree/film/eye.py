@@ -7,12 +7,14 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from cfree.palette import VIEW
 from cfree.plot.workspace import Window
 
 Floats = NDArray[np.float64]
 
 HEIGHT = 0.82  # of the box, its longer side being 1
-ELEVATION, DISTANCE, REACH = math.radians(27), 4.2, 0.7  # REACH: depths are so much less and more than the distance
+ELEVATION, DISTANCE = math.radians(VIEW[0]), 4.2
+REACH = 0.7  # depths are so much less and more than the distance
 AZIMUTHS = math.radians(-78), math.radians(-12)  # within one quadrant the axes keep their places
 
 
@@ -26,6 +28,8 @@ class Eye:
     width, height : float
         Of the panel, in pixels.
     azimuth : float, radians
+    azimuths : (float, float)
+        Between which the box keeps its scale.
 
     Attributes
     ----------
@@ -35,17 +39,19 @@ class Eye:
 
     span = DISTANCE - REACH, DISTANCE + REACH
 
-    def __init__(self, window: Window, width: float, height: float, azimuth: float) -> None:
+    def __init__(
+        self, window: Window, width: float, height: float, azimuth: float, azimuths: tuple[float, float] = AZIMUTHS
+    ) -> None:
         x0, y0, x1, y1 = window
         self.side = max(x1 - x0, y1 - y0)
         self.middle = np.array([0.5 * (x0 + x1), 0.5 * (y0 + y1), 180.0])
         self.unit = np.array([1 / self.side, 1 / self.side, HEIGHT / 360])
         self.azimuth = azimuth
         box = np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (0.0, 360.0)])
-        seen = [self._flat(box, azimuth)[0] for azimuth in np.linspace(*AZIMUTHS, 9)]
+        seen = [self._flat(box, azimuth)[0] for azimuth in np.linspace(*azimuths, 17)]
         low, high = np.min([s.min(axis=0) for s in seen], axis=0), np.max([s.max(axis=0) for s in seen], axis=0)
         # one scale and one place for all azimuths: the box turns, and nothing else
-        self.scale = min(0.8 * width / (high[0] - low[0]), 0.88 * height / (high[1] - low[1]))
+        self.scale = min(0.8 * width / (high[0] - low[0]), 0.84 * height / (high[1] - low[1]))
         self.offset = 0.5 * np.array([1.0 * width, 1.04 * height]) - 0.5 * self.scale * (low + high)
 
     def __call__(self, points: ArrayLike) -> tuple[Floats, Floats]:

@@ -15,24 +15,26 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.box import INK
 from cfree.film.moves import Moment
-from cfree.film.plane import TOUCH, Plane, edge_number
-from cfree.film.space import FREE, SOLID, Space
-from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.film.plane import TOUCH, Plane, edge_number, obstacle_name, whole
+from cfree.film.space import Space
 from cfree.forbidden.patch import Contact
-from cfree.plot.boundary import extent, plain, with_unit
-from cfree.plot.pieces import Colours
+from cfree.palette import EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, FREE, GREY, HELIX, INK, RIM, VERTEX_EDGE
+from cfree.plot.boundary import extent, roomy, with_unit
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
+    from cfree.plot.workspace import Window
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
-GREY, NOTHING = "#6b7280", "#b9bec8"
-INCHES = 7.2  # height of the figure; type is as large as in a picture of this height
+TRAIL = 4.0  # seconds until the line of a motion has faded
+DOTS, INCHES = 80, (4.5, 7.2)  # a frame has so many dots an inch if it is that high: letters are large enough to read
 MONO = "DejaVu Sans Mono"
+SHORT = 4  # letters of a unit that stands at the axes
+ROOMY = 11.0  # inches: the legend is one row
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,8 @@ class View:
         Motions so far, theta in degrees, the present one last.
     goal : Pose or None
         Where the robot goes, to be outlined.
+    stays : (parts,) bool
+        Parts that have been swept: these are seen above the plane, too.
     """
 
     title: str
@@ -62,6 +66,23 @@ class View:
     ghost: float
     lines: Sequence[tuple[str, Floats]]
     goal: Pose | None
+    stays: NDArray[np.bool_]
+
+
+def new_frame(size: tuple[int, int]) -> tuple[Figure, float]:
+    """A figure of so many pixels, with a canvas, and its height in inches."""
+    width, height = size
+    inches = float(np.clip(height / DOTS, *INCHES))
+    figure = Figure(figsize=(inches * width / height, inches), dpi=height / inches, facecolor="white")
+    FigureCanvasAgg(figure)
+    return figure, inches
+
+
+def image_of(figure: Figure) -> Image:
+    """The figure drawn, as (height, width, 3) bytes."""
+    canvas: Any = figure.canvas
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
 class Stage:
@@ -72,69 +93,92 @@ class Stage:
     boundary : Boundary
     size : (int, int)
         Width and height in pixels.
+    fps : int
+        Frames a second.
+    surface : Boundary, optional
+        Of which patches are seen, if not of all.
+    window : four floats, optional
+        x0, y0, x1, y1: what is seen, if not everything.
     """
 
-    def __init__(self, boundary: Boundary, size: tuple[int, int]) -> None:
-        self.boundary = boundary
-        width, height = size
-        figure = Figure(figsize=(INCHES * width / height, INCHES), dpi=height / INCHES, facecolor="white")
-        self.canvas: Any = FigureCanvasAgg(figure)
-        window, units = extent(boundary), boundary.scene.units
-        names = with_unit("x", units), with_unit("y", units)
-        self.plane = Plane(figure, boundary.scene, window, names)
-        self.space = Space(figure, boundary, window, names)
-        self.title = figure.text(0.03, 0.945, "", fontsize=18, weight="bold", color=INK, va="center")
-        self.note = figure.text(0.03, 0.89, "", fontsize=13, color=GREY, va="center")
-        self.pose = figure.text(0.985, 0.945, "", fontsize=11, color=INK, va="center", ha="right", family=MONO)
-        self.dot = figure.text(0.03, 0.052, "●", fontsize=17, va="center")
-        self.caption = figure.text(0.052, 0.054, "", fontsize=14, color=INK, va="center")
-        _legend(figure)
+    def __init__(
+        self, boundary: Boundary, size: tuple[int, int], fps: int, surface: Boundary | None = None,
+        window: Window | None = None,
+    ) -> None:  # fmt: skip
+        self.boundary, trail = boundary, TRAIL * fps
+        self.figure, height = new_frame(size)
+        figure, width = self.figure, self.figure.get_figwidth()
+        seen = roomy(window or whole(boundary.scene, extent(boundary)))
+        window, names = window or extent(boundary), axis_names(boundary.scene)
+        low, top = 1.25 / height, 1 - 0.95 / height
+        place = 0.65 / width, low, 0.43 - 0.65 / width, top - low
+        self.plane = Plane(figure, place, boundary.scene, seen, names, trail)
+        place = 0.45, 0.72 / height, 0.54, 1 - 1.28 / height
+        self.space = Space(figure, place, boundary, window, names, trail, surface)
+        left = 0.2 / width
+        text: Any = {"color": INK, "va": "center"}
+        self.title = figure.text(left, 1 - 0.3 / height, "", fontsize=16, weight="bold", **text)
+        self.note = figure.text(left, 1 - 0.63 / height, "", fontsize=12, **text | {"color": GREY})
+        self.pose = figure.text(1 - left, 1 - 0.63 / height, "", fontsize=10.5, ha="right", family=MONO, **text)
+        self.dot = figure.text(left, 0.33 / height, "●", fontsize=16, va="center")
+        self.caption = figure.text(left + 0.25 / width, 0.34 / height, "", fontsize=12.5, **text)
+        legend(figure, 0.34 / height, 6 if width > ROOMY else 3, {"forbidden": FORBIDDEN, "free": FREE})
 
     def draw(self, view: View) -> Image:
         """The frame as (height, width, 3) bytes."""
         pose, contact = view.moment.pose, view.moment.contact
         cut = self.boundary.slice(pose.theta)
         self.plane.draw(view.moment, cut, view.lines[-1], view.goal)
-        self.space.draw(pose, cut, view.azimuth, view.shown, view.ghost, view.lines)
+        self.space.draw(pose, cut, view.azimuth, view.shown, view.ghost, view.lines, view.stays)
         self.title.set_text(view.title)
         self.note.set_text(view.note)
         self.caption.set_text(caption(contact))
-        self.dot.set_color(NOTHING if contact is None else TOUCH[contact.kind])
-        numbers = f"x {float(pose.x):8.3f}   y {float(pose.y):8.3f}   θ {math.degrees(pose.theta):6.1f}°"
-        self.pose.set_text(numbers.replace("-", "−"))
-        self.canvas.draw()
-        return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
+        self.dot.set_color(RIM if contact is None else TOUCH[contact.kind])
+        self.pose.set_text(numbers(pose))
+        return image_of(self.figure)
+
+
+def axis_names(scene: Scene) -> tuple[str, str]:
+    """Names of the axes x and y, with a unit that is an abbreviation."""
+    units = scene.units if len(scene.units) <= SHORT else ""
+    return with_unit("x", units), with_unit("y", units)
+
+
+def numbers(pose: Pose) -> str:
+    """A pose in figures of constant width."""
+    x, y = (f"{value:#.4g}".rjust(8) for value in (float(pose.x), float(pose.y)))
+    return f"x {x}  y {y}  θ {math.degrees(pose.theta):5.1f}°".replace("-", "−")
 
 
 def caption(contact: Contact | None) -> str:
-    """A contact in words.
+    """A contact in words; numbers count from 1, as in the figures.
 
     Examples
     --------
     >>> from cfree.forbidden.patch import Place
     >>> caption(Contact("v-e", Place(0, "robot", 0, 2), Place(0, "kite", 0, 3, 0)))
-    'v-e contact: vertex $a_{2}$ on edge $E_{3}^O$ of kite'
+    'v-e contact: vertex $a_{3}$ on edge $E_{4}$ of $O_{1}$'
     >>> caption(None)
     'no contact'
     """
     if contact is None:
         return "no contact"
     a, b = contact.robot, contact.obstacle
-    first = f"vertex $a_{{{a.index}}}$" if a.end is None else f"edge $E_{{{edge_number(a)}}}^A$"
-    second = f"vertex $b_{{{b.index}}}$" if b.end is None else f"edge $E_{{{edge_number(b)}}}^O$"
-    return f"{contact.kind} contact: {first} on {second} of {plain(b.name)}"
+    first = f"vertex $a_{{{a.index + 1}}}$" if a.end is None else f"edge $E_{{{edge_number(a)}}}^A$"
+    second = f"vertex $b_{{{b.index + 1}}}$" if b.end is None else f"edge $E_{{{edge_number(b)}}}$"
+    return f"{contact.kind} contact: {first} on {second} of {obstacle_name(b)}"
 
 
-def _legend(figure: Figure) -> None:
+def legend(figure: Figure, y: float, columns: int, regions: dict[str, str]) -> None:
+    """What the colours mean: those of contacts, and some more."""
     handles = [
-        Patch(color=COLOURS[PatchKind.VERTEX_EDGE], label="v-e patch"),
-        Patch(color=COLOURS[PatchKind.EDGE_VERTEX], label="e-v patch"),
-        Line2D([], [], color=Colours.helix, lw=2.5, label="v-v helix"),
-        Line2D([], [], color=Colours.edge_edge, lw=2.5, label="e-e line"),
-        Patch(facecolor=SOLID, label="forbidden"),
-        Patch(facecolor=FREE, label="free"),
+        Patch(color=VERTEX_EDGE, label="v-e patch"),
+        Patch(color=EDGE_VERTEX, label="e-v patch"),
+        Line2D([], [], color=HELIX, lw=2.5, label="v-v helix"),
+        Line2D([], [], color=EDGE_EDGE, lw=2.5, label="e-e line"),
+        *(Patch(facecolor=colour, label=name) for name, colour in regions.items()),
     ]
     figure.legend(
-        handles=handles, loc="center right", bbox_to_anchor=(0.992, 0.054), ncols=6, frameon=False,
-        fontsize=9.5, handlelength=1.2, columnspacing=1.1, handletextpad=0.5,
+        handles=handles, loc="center right", bbox_to_anchor=(0.995, y), ncols=columns, frameon=False,
+        fontsize=9.5, handlelength=1.2, columnspacing=1.1, handletextpad=0.5, labelspacing=0.3,
     )  # fmt: skip

@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cfree.collision.motion import rotations
 from cfree.exact.pose import Pose, Poses
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 
     from cfree.forbidden.boundary import Boundary
     from cfree.plot.workspace import Window
+
+Floats = NDArray[np.float64]
 
 SLICES = 72  # among which the place for a full turn is looked for
 GRID = 16  # poses along each axis, among which the farthest is
@@ -76,16 +79,35 @@ class FreeMotions:
 
     def farthest(self, pose: Pose) -> Pose | None:
         """Of poses on a grid that can be reached, the farthest; None if none can."""
+        reached = self._reached(pose)
+        return _pose(reached[self._distances(reached, pose).argmax()]) if len(reached) else None
+
+    def tried(self, start: Pose, goal: Pose) -> list[Pose]:
+        """Of poses on a grid that can be reached, the nearest to a goal, that farthest from it, and one more."""
+        reached = self._reached(start)
+        if not len(reached):
+            return []
+        apart = self._distances(reached, goal)
+        rows = [reached[apart.argmin()]]
+        for _ in range(2):  # each as far from all others as can be
+            apart = np.min([self._distances(reached, _pose(row)) for row in rows], axis=0)
+            rows.append(reached[apart.argmax()])
+        return [_pose(row) for row in rows]
+
+    def _reached(self, pose: Pose) -> Floats:
+        """Poses x, y, theta on a grid in the cell of a pose."""
         x0, y0, x1, y1 = self._window
         axes = np.linspace(x0, x1, GRID), np.linspace(y0, y1, GRID), np.linspace(0, math.tau, GRID, endpoint=False)
-        x, y, theta = (axis.ravel() for axis in np.meshgrid(*axes, indexing="ij"))
-        far = np.hypot(x - float(pose.x), y - float(pose.y))
-        far += self._planner.angle_scale * np.abs(np.mod(theta - pose.theta + math.pi, math.tau) - math.pi)
-        reached = self._space.locate(Poses(np.stack((x, y), axis=1), theta)) == self._space.locate(pose)
-        if not reached.any():
-            return None
-        k = int(np.where(reached, far, -1.0).argmax())
-        return Pose(float(x[k]), float(y[k]), float(theta[k]))
+        rows = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+        cells = self._space.locate(Poses(rows[:, :2], rows[:, 2]))
+        found: Floats = rows[cells == self._space.locate(pose)]
+        return found
+
+    def _distances(self, rows: Floats, pose: Pose) -> Floats:
+        x, y, theta = rows.T
+        turn = np.abs(np.mod(theta - pose.theta + math.pi, math.tau) - math.pi)
+        found: Floats = np.hypot(x - float(pose.x), y - float(pose.y)) + self._planner.angle_scale * turn
+        return found
 
     def travel(self, path: Path) -> float:
         """How far the robot travels."""
@@ -98,3 +120,8 @@ class FreeMotions:
         travel = Travel(path, self._scene)
         places = zip(*(column.tolist() for column in travel.places(travel.total * np.array(shares))), strict=True)
         return [path.motions[k].at(path.poses[k], path.motions[k].parameter(share)) for k, share in places]
+
+
+def _pose(row: Floats) -> Pose:
+    x, y, theta = row.tolist()
+    return Pose(x, y, theta)

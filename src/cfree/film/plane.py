@@ -5,18 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from matplotlib.collections import LineCollection
+from matplotlib.colors import to_rgb
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.patheffects import withStroke
-from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.box import INK
 from cfree.film.moves import Moment, shape_of
-from cfree.forbidden.kinds import COLOURS, PatchKind
+from cfree.film.names import Names
 from cfree.forbidden.patch import Contact, Place
-from cfree.palette import FORBIDDEN, GREY, OBSTACLE, ROBOT
-from cfree.plot.pieces import Colours
+from cfree.palette import EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, OBSTACLE, OBSTACLE_RIM, ROBOT, VERTEX_EDGE
+from cfree.plot.boundary import space_numbers
 from cfree.plot.workspace import Window, path_of, rings_of, rings_of_geometry
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import robot_radius
@@ -28,11 +28,20 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
-Mark = tuple[Floats, str, Floats]  # points of a feature, its name, where to write it
+Mark = tuple[Floats, str, Floats, Floats]  # points of a feature, its name, where to write it, and which way inwards is
 
-TOUCH = {"v-e": COLOURS[PatchKind.VERTEX_EDGE], "e-v": COLOURS[PatchKind.EDGE_VERTEX], "v-v": Colours.helix}
-PLACE = 0.055, 0.17, 0.38, 0.655
+TOUCH = {"v-e": VERTEX_EDGE, "e-v": EDGE_VERTEX, "v-v": HELIX}
 NAMES = 0.055  # distance of a name from its feature, a part of the width
+FAINTEST = 0.15  # opacity of an old trail
+TRIED = 6  # places for the name of a feature
+
+
+def whole(scene: Scene, window: Window) -> Window:
+    """The rectangle around obstacles and positions of the reference point, with a margin."""
+    boxes = np.array([window, *(polygon.bounds for polygon in scene.obstacles)], dtype=np.float64)
+    margin = 0.6 * robot_radius(scene)
+    (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0) - margin, boxes[:, 2:].max(axis=0) + margin
+    return float(x0), float(y0), float(x1), float(y1)
 
 
 class Plane:
@@ -41,23 +50,26 @@ class Plane:
     Parameters
     ----------
     figure : matplotlib figure
+    place : four floats
+        Left, bottom, width, height: parts of the figure.
     scene : Scene
     window : four floats
-        x0, y0, x1, y1 around all positions of the reference point.
+        x0, y0, x1, y1: what is seen.
     names : (str, str)
         Of the axes x and y.
+    trail : float
+        Frames until the trail of the reference point has faded.
     """
 
-    def __init__(self, figure: Figure, scene: Scene, window: Window, names: tuple[str, str]) -> None:
-        self.scene = scene
-        ax: Any = figure.add_axes(PLACE)
-        boxes = np.array([window, *(polygon.bounds for polygon in scene.obstacles)], dtype=np.float64)
-        margin = 0.6 * robot_radius(scene)
-        (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0) - margin, boxes[:, 2:].max(axis=0) + margin
+    def __init__(
+        self, figure: Figure, place: Window, scene: Scene, window: Window, names: tuple[str, str], trail: float
+    ) -> None:
+        self.scene, self._age = scene, trail
+        ax: Any = figure.add_axes(place)
+        x0, y0, x1, y1 = window
         self._reach = NAMES * (x1 - x0), 0.3 * robot_radius(scene)
         ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal", anchor="C", xlabel=names[0], ylabel=names[1])
-        for axis in (ax.xaxis, ax.yaxis):
-            axis.set_major_locator(MaxNLocator(6, integer=max(x1 - x0, y1 - y0) >= 5))
+        space_numbers(ax)
         ax.tick_params(length=3, labelsize=9)
 
         def shape(rings: list[Floats], **style: Any) -> Any:
@@ -68,22 +80,23 @@ class Plane:
             frame = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)])
             outside = [frame, *(ring[::-1] for ring in rings_of([scene.workspace]))]
             shape(outside, facecolor=OBSTACLE, lw=0, zorder=2)
-        shape(rings_of(scene.obstacles), facecolor=OBSTACLE, edgecolor="#3c434d", lw=0.6, zorder=2)
+        shape(rings_of(scene.obstacles), facecolor=OBSTACLE, edgecolor=OBSTACLE_RIM, lw=0.6, zorder=2)
         if scene.bounds is not None:
             left, bottom, right, top = map(float, scene.bounds)
             dashed: Any = {"fill": False, "edgecolor": GREY, "linestyle": (0, (5, 3)), "zorder": 2.1}
             ax.add_patch(Rectangle((left, bottom), right - left, top - bottom, **dashed))
-        (self.tail,) = ax.plot([], [], lw=1.6, zorder=3, solid_capstyle="round")
-        self.target = shape([], fill=False, edgecolor=ROBOT, lw=1.1, ls="--", zorder=3.5)
-        self.body = shape([], facecolor=ROBOT, alpha=0.72, lw=0, zorder=4)
-        self.rim = shape([], fill=False, edgecolor="#1b4a80", lw=1.1, zorder=4.1)
+        self.trail = ax.add_collection(LineCollection([], linewidths=2.0, zorder=3, capstyle="round"), autolim=False)
+        self.target = shape([], fill=False, edgecolor=ROBOT, lw=1.2, ls="--", zorder=3.5)
+        self.body = shape([], facecolor=ROBOT, alpha=0.85, lw=0, zorder=4)
+        self.rim = shape([], fill=False, edgecolor=INK, lw=0.8, zorder=4.1)
         self.edges = [ax.plot([], [], lw=3.4, zorder=5, solid_capstyle="round")[0] for _ in range(2)]
         (self.vertex,) = ax.plot([], [], "o", ms=7, mec="white", mew=1.2, zorder=6)
         (self.origin,) = ax.plot([], [], "o", ms=5, color=INK, mec="white", mew=1.2, zorder=6)
         halo = [withStroke(linewidth=2.4, foreground="white")]
         self.names = [
-            ax.text(0, 0, "", ha="center", va="center", fontsize=12, zorder=7, path_effects=halo) for _ in range(2)
+            ax.text(0, 0, "", ha="center", va="center", fontsize=12.5, zorder=7, path_effects=halo) for _ in range(2)
         ]
+        self.shapes = Names(ax, scene)
 
     def draw(self, moment: Moment, cut: Slice, line: tuple[str, Floats], goal: Pose | None) -> None:
         """Everything as it is in one frame; see `cfree.film.frame.View`."""
@@ -94,9 +107,12 @@ class Plane:
         self.rim.set_path(path_of(map(pose.apply, rings)))
         self.target.set_path(path_of([] if goal is None else map(goal.apply, rings)))
         colour, places = line
-        self.tail.set(xdata=places[:, 0], ydata=places[:, 1], color=colour)
+        self.trail.set_segments(list(np.stack((places[:-1, :2], places[1:, :2]), axis=1)))
+        fresh = np.clip(1 - (len(places) - 1 - np.arange(1, len(places))) / self._age, FAINTEST, 1)
+        self.trail.set_color([(*to_rgb(colour), share) for share in fresh.tolist()])
         self.origin.set_data([float(pose.x)], [float(pose.y)])
         self._draw_contact(moment)
+        self.shapes.draw(pose, self.names)
 
     def _draw_contact(self, moment: Moment) -> None:
         contact = moment.contact
@@ -105,10 +121,14 @@ class Plane:
         if contact is None:
             return
         marks = self._marks(contact, moment.pose)
-        for edge, name, (points, text, place) in zip(self.edges, self.names, marks, strict=True):
+        for edge, name, (points, text, place, inwards) in zip(self.edges, self.names, marks, strict=True):
             edge.set_visible(len(points) == 2)
             edge.set(xdata=points[:, 0], ydata=points[:, 1], color=TOUCH[contact.kind])
             name.set(text=text, position=place.tolist(), color=TOUCH[contact.kind])
+            for k in range(1, TRIED):  # farther inside while it is on the other name
+                if name is self.names[0] or not name.get_window_extent().overlaps(self.names[0].get_window_extent()):
+                    break
+                name.set_position((place + k * inwards).tolist())
             if len(points) == 1:
                 self.vertex.set(xdata=points[:, 0], ydata=points[:, 1], markerfacecolor=TOUCH[contact.kind])
 
@@ -126,17 +146,23 @@ class Plane:
         if place.end is not None:
             points = vertices[[place.index, place.end]]
             x, y = (points[1] - points[0]) / np.linalg.norm(points[1] - points[0])
-            name = rf"$E_{{{edge_number(place)}}}^{letters[1]}$"
-            return points, name, points.mean(axis=0) + abs(inwards) * np.array([-y, x])
+            letter = "^A" if letters[1] == "A" else ""
+            inside = abs(inwards) * np.array([-y, x])
+            return points, f"$E_{{{edge_number(place)}}}{letter}$", points.mean(axis=0) + inside, inside
         k, first, count = place.index, offsets[place.ring], offsets[place.ring + 1] - offsets[place.ring]
         before, point, after = (vertices[first + (k - first + step) % count] for step in (-1, 0, 1))
         u, v = (point - before) / np.linalg.norm(point - before), (after - point) / np.linalg.norm(after - point)
         inside = np.array([-(u + v)[1], (u + v)[0]])  # the interior is on the left
-        at = point + 1.5 * inwards * inside / max(float(np.linalg.norm(inside)), 1e-12)
-        return point[None], f"${letters[0]}_{{{k}}}$", at
+        inside *= 1.5 * inwards / max(float(np.linalg.norm(inside)), 1e-12)
+        return point[None], f"${letters[0]}_{{{k + 1}}}$", point + inside, inside
 
 
 def edge_number(place: Place) -> int:
-    """The vertex at which an edge begins; edges of the workspace run against its rings."""
+    """The number, from 1, of the vertex at which an edge begins; edges of the workspace run against its rings."""
     assert place.end is not None
-    return place.end if place.polygon == WORKSPACE else place.index
+    return 1 + (place.end if place.polygon == WORKSPACE else place.index)
+
+
+def obstacle_name(place: Place) -> str:
+    """The name of an obstacle as in the figures, or the workspace."""
+    return "the workspace" if place.polygon == WORKSPACE else f"$O_{{{place.polygon + 1}}}$"

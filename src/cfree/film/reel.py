@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.film.apart import seen, shots_apart
 from cfree.film.eye import AZIMUTHS
 from cfree.film.frame import Stage, View
 from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
+from cfree.film.turntable import turntable_frames
+from cfree.free.space import free_space
+from cfree.planning.planner import Planner
+from cfree.planning.separation import Separated
+from cfree.plot.answer import surface_of
+from cfree.scene.scene import required
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -19,11 +27,12 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
+NAMES = (*STORYBOARDS, "separation", "turntable")
 FADE = 0.4  # seconds from one scene to the next, or over a cut
 TURN = 1.6  # seconds over which the camera turns from one shot to the next
 SWAY = math.radians(7), 11.0  # the camera is never quite at rest: how far, in how many seconds
 LATER = ("pillar", "path")  # what a second scene shows: the rest has been seen
-KEPT = ("slices", "helix", "path")  # shots whose line stays
+KEPT = ("slices", "helix", "path", "apart")  # shots whose line stays
 
 
 def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int], name: str) -> None:
@@ -36,8 +45,8 @@ def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int], 
         ...
     ValueError: size 1281x720; give even numbers from 160x90 to 7680x4320
     """
-    if name not in STORYBOARDS:
-        raise ValueError(f"storyboard {name!r}; choose one of {', '.join(STORYBOARDS)}")
+    if name not in NAMES:
+        raise ValueError(f"storyboard {name!r}; choose one of {', '.join(NAMES)}")
     if not scenes:
         raise ValueError("no scene; give at least one")
     check_frames(fps, size)
@@ -86,12 +95,65 @@ def pictures(
 ) -> Iterator[Image]:
     """All frames of a film."""
     total = round(seconds * fps)
-    scenes = shots_of(boundaries, total, name)
-    total = sum(len(shot.moments) for shots in scenes for shot in shots)
-    fade, done = round(FADE * fps), 0
+    if name == "turntable":
+        counts = np.diff(np.rint(np.linspace(0, total, len(boundaries) + 1))).astype(int).tolist()
+        turns = (turntable_frames(b, count, size) for b, count in zip(boundaries, counts, strict=True))
+        yield from _counted(chain.from_iterable(turns), total, progress)
+        return
+    if name == "separation":
+        count = total // len(boundaries)
+        films = [apart(boundary, answer_of(boundary), count, size, fps) for boundary in boundaries]
+    else:
+        scenes = shots_of(boundaries, total, name)
+        films = [(Stage(b, size, fps), shots) for b, shots in zip(boundaries, scenes, strict=True)]
+    yield from reel(films, fps, progress)
+
+
+def apart(
+    boundary: Boundary, answer: Separated, frames: int, size: tuple[int, int], fps: int
+) -> tuple[Stage, list[Shot]]:
+    """The film of a separation: where it is drawn, and what it shows.
+
+    Raises
+    ------
+    ValueError
+        If start and goal are parted by no surface, but by exact fits.
+    """
+    if not len(answer.pieces):
+        raise ValueError("nothing to show: start and goal are parted by no surface, but by what fits exactly")
+    surface = surface_of(answer, boundary.scene)
+    window = seen(answer, surface)
+    return Stage(boundary, size, fps, surface, window), shots_apart(boundary, answer, window, frames)
+
+
+def answer_of(boundary: Boundary) -> Separated:
+    """The proof that there is no path between the ends of a scene.
+
+    Raises
+    ------
+    ValueError
+        If there is one, or the scene has no ends.
+    """
+    scene = boundary.scene
+    start, goal = required(scene, None, None)
+    answer = Planner(scene, free_space(boundary)).plan(start, goal)
+    if not isinstance(answer, Separated):
+        raise ValueError("there is a path from start to goal: nothing parts them; film it with the storyboard path")
+    return answer
+
+
+def reel(
+    films: Sequence[tuple[Stage, Sequence[Shot]]], fps: int, progress: Callable[[float], object] | None
+) -> Iterator[Image]:
+    """Frames of films one after the other, with fades between them and over cuts."""
+    total = sum(len(shot.moments) for _, shots in films for shot in shots)
+    return _counted(_faded(films, fps), total, progress)
+
+
+def _faded(films: Sequence[tuple[Stage, Sequence[Shot]]], fps: int) -> Iterator[Image]:
+    fade = round(FADE * fps)
     last: Image | None = None
-    for boundary, shots in zip(boundaries, scenes, strict=True):
-        stage = Stage(boundary, size)
+    for stage, shots in films:
         before, since = last, 0  # what fades out, and for how long
         for view, cut in views(stage, shots, fps):
             if cut:
@@ -103,9 +165,13 @@ def pictures(
                 share = since / (fade + 1)
                 picture = ((1 - share) * before + share * last + 0.5).astype(np.uint8)
             yield picture
-            done += 1
-            if progress is not None:
-                progress(done / total)
+
+
+def _counted(frames: Iterator[Image], total: int, progress: Callable[[float], object] | None) -> Iterator[Image]:
+    for k, frame in enumerate(frames):
+        yield frame
+        if progress is not None:
+            progress((k + 1) / total)
 
 
 def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View, bool]]:
@@ -114,6 +180,7 @@ def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View,
     ghost = _averaged(np.concatenate([np.full(len(shot.moments), shot.ghost) for shot in shots]), 0.5 * fps)
     shown = np.stack((stage.space.angles[:, 0], stage.space.angles[:, 0]), axis=1)
     kept: list[tuple[str, Floats]] = []
+    stays = np.zeros(len(shown), dtype=np.bool_)
     at = 0
     for shot in shots:
         line = np.array([(float(q.x), float(q.y), math.degrees(q.theta)) for q in (m.pose for m in shot.moments)])
@@ -121,8 +188,10 @@ def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View,
             shown = _more_shown(shown, stage.space.angles, shot, k, line[:, 2])
             # the free way to a shot is drawn while it lasts
             lines = [*kept, (shot.colour, line[0 if k < shot.link else shot.link : k + 1])]
-            goal = shot.moments[-1].pose if shot.kind == "path" else None
-            view = View(shot.title, shot.note, moment, float(azimuth[at]), shown, float(ghost[at]), lines, goal)
+            if shot.swept is not None:
+                stays[list(shot.swept.parts)] = True
+            place = float(azimuth[at]), shown, float(ghost[at])
+            view = View(shot.title, shot.note, moment, *place, lines, shot.goal, stays)
             yield view, shot.cut and k == 0
             at += 1
         if shot.kind in KEPT:

@@ -27,9 +27,9 @@ from cfree.film.eye import AZIMUTHS
 from cfree.film.free_motions import FreeMotions
 from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
 from cfree.forbidden.kinds import KINDS, PatchKind
+from cfree.palette import HELIX, PATH, VIEW
 from cfree.paths.path import Path
 from cfree.plot.boundary import extent
-from cfree.plot.pieces import Colours
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
@@ -42,8 +42,7 @@ STORYBOARDS = {
     "path": ("path",),
 }
 SECONDS = {"slices": 8.0, "helix": 3.5, "v-e": 5.5, "e-v": 6.5, "pillar": 9.0, "path": 8.0}
-PATH = "#d81b9a"
-HOME = math.radians(-52)
+HOME = math.radians(VIEW[1])
 FULL_TURN = math.tau - 1e-6
 LOWER = math.radians(50)  # by how much the first slice is below the second
 LINK = 0.45  # share of a shot that a free way to its beginning may take
@@ -76,6 +75,8 @@ class Shot:
         Opacity of what is above the plane of the current orientation.
     colour : str
         Of the motion's line in the configuration space.
+    goal : Pose, optional
+        Where the robot is to go.
     """
 
     kind: str
@@ -89,6 +90,7 @@ class Shot:
     azimuth: float = HOME
     ghost: float = 1.0
     colour: str = PATH
+    goal: Pose | None = None
 
 
 def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBOARDS["paper"]) -> list[Shot]:
@@ -168,7 +170,7 @@ class _Director:
         last = Ring.near(self.boundary, theta, goal)
         if last is None:
             return None
-        moments = self._two_slices(last, goal, n) or [last.moment(s) for s in _eased(0, last.perimeter, n)]
+        moments = self._two_slices(last, goal, n) or [last.moment(s) for s in eased(0, last.perimeter, n)]
         return Shot("slices", "Translation: a slice at constant orientation", _FORMULAS["slices"], moments)
 
     def _two_slices(self, last: Ring, goal: tuple[float, float], n: int) -> list[Moment] | None:
@@ -180,7 +182,7 @@ class _Director:
         if first is None:
             return None
         here = _xy(first.moment(0.0).pose)
-        turning = roll(self.boundary, here, _eased(angle, last.theta, max(n, 100)), 0.3 * last.perimeter)
+        turning = roll(self.boundary, here, eased(angle, last.theta, max(n, 100)), 0.3 * last.perimeter)
         if turning is None:
             return None
         again = Ring.near(self.boundary, last.theta, _xy(turning[-1].pose))
@@ -190,17 +192,17 @@ class _Director:
         turn = n // 5
         before = round((n - turn) * first.perimeter / (first.perimeter + rest))
         return [
-            *(first.moment(s) for s in _eased(0, first.perimeter, before)),
+            *(first.moment(s) for s in eased(0, first.perimeter, before)),
             *_thinned(turning, turn),
-            *(again.moment(s) for s in _eased(0, rest, n - turn - before)),
+            *(again.moment(s) for s in eased(0, rest, n - turn - before)),
         ]
 
     def _helix(self, n: int) -> Shot:
         assert self.corner is not None
         low, high = _inside(self.corner)
-        moments = along_helix(self.boundary, self.corner, _eased(low, high, n))
+        moments = along_helix(self.boundary, self.corner, eased(low, high, n))
         shot = Shot("helix", "Rotation about a vertex: a helix", _FORMULAS["v-v"], moments)
-        return replace(shot, azimuth=self._azimuth(self.corner), colour=Colours.helix)
+        return replace(shot, azimuth=self._azimuth(self.corner), colour=HELIX)
 
     def _vertex_edge(self, n: int) -> Shot:
         column = self.corner
@@ -236,7 +238,7 @@ class _Director:
                 return None
             found = [here] * n, 0, False
         moments, link, cut = found
-        level = np.append(np.zeros(link), np.degrees(_eased(0, FULL_TURN, n - link)))
+        level = np.append(np.zeros(link), np.degrees(eased(0, FULL_TURN, n - link)))
         shot = Shot("pillar", title, _FORMULAS["pillar"], moments)
         return replace(shot, level=level, ghost=0.08, link=link, cut=cut)
 
@@ -248,7 +250,7 @@ class _Director:
         if ring is None:
             return None
         dense = max(4 * n, 400)
-        angles = _eased(0, FULL_TURN, dense)
+        angles = eased(0, FULL_TURN, dense)
         motions = (roll(self.boundary, start, angles, turns * ring.perimeter) for turns in (2, 1, 3, 0))
         motion = next((motion for motion in motions if motion is not None), None)
         return None if motion is None else self._linked(lambda count: _thinned(motion, count), n)
@@ -271,7 +273,7 @@ class _Director:
             return None
         moments, link, cut = self._linked(lambda count: self._along(way, count), n)
         shot = Shot("path", "A path through the free space", _FORMULAS["path"], moments)
-        return replace(shot, ghost=0.08, link=link, cut=cut)
+        return replace(shot, ghost=0.08, link=link, cut=cut, goal=moments[-1].pose)
 
     # what they need
 
@@ -292,7 +294,7 @@ class _Director:
 
     def _along(self, way: Path, n: int, end: float = 1.0) -> list[Moment]:
         """Poses at even travel of the robot, slowly at both ends."""
-        return [Moment(pose) for pose in self.free.poses(way, _eased(0, end, n))]
+        return [Moment(pose) for pose in self.free.poses(way, eased(0, end, n))]
 
     def _rest(self) -> Moment | None:
         """Where there is most room."""
@@ -352,7 +354,7 @@ def _inside(column: Column) -> tuple[float, float]:
     return low + margin, high - margin
 
 
-def _eased(start: float, stop: float, n: int) -> list[float]:
+def eased(start: float, stop: float, n: int) -> list[float]:
     """From start to stop, slowly at both ends."""
     s = np.linspace(0, 1, n) if n > 1 else np.zeros(n)
     s = np.where(s < 0.1, s * s / 0.18, np.where(s > 0.9, 1 - (1 - s) ** 2 / 0.18, (s - 0.05) / 0.9))

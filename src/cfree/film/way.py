@@ -7,36 +7,38 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+import shapely
 from matplotlib.collections import LineCollection, PathCollection
 from matplotlib.colors import to_hex
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from cfree.collision.distance import EdgeDistances
-from cfree.film.box import INK
 from cfree.film.eye import Eye
-from cfree.film.frame import GREY, INCHES, MONO
+from cfree.film.frame import MONO, axis_names, image_of, new_frame, numbers
+from cfree.film.names import Names
 from cfree.film.space import Space
-from cfree.palette import BARRIER, ROBOT
-from cfree.plot.boundary import extent, plain, set_window, with_unit
+from cfree.palette import BARRIER, GREY, INK, RIM, ROBOT
+from cfree.plot.boundary import extent, plain, set_window
+from cfree.plot.labels import BODY, LINE, Labels
 from cfree.plot.path import Track, poses_of, quantity, statement
-from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_of
+from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.scene.scene import robot_radius
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
+    from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 SECONDS = 4.0, 20.0  # a path takes as many as the robot travels of its own radii, between these
 REST = 0.6, 1.2  # seconds before and after
-ALONE, BESIDE = (0.06, 0.16, 0.9, 0.7), (0.05, 0.16, 0.4, 0.7)
-GAUGE = 0.05, 0.055, 0.3, 0.022
 AZIMUTHS = math.radians(-62), math.radians(-32)  # the camera turns this far in a film
 SHADES = 24  # colours of the line in configuration space
+TITLE = 40  # characters
 DASH = 8  # steps of the path
 GLASS = 0.08  # opacity of what is above the robot's orientation
 
@@ -56,55 +58,66 @@ class PathStage:
     def __init__(self, track: Track, boundary: Boundary | None, size: tuple[int, int]) -> None:
         self.track, self.boundary, scene = track, boundary, track.scene
         self.radius = robot_radius(scene)
-        width, height = size
-        figure = Figure(figsize=(INCHES * width / height, INCHES), dpi=height / INCHES, facecolor="white")
-        self.canvas: Any = FigureCanvasAgg(figure)
-        self._draw_plane(figure)
+        self.figure, height = new_frame(size)
+        figure, width = self.figure, self.figure.get_figwidth()
+        low, top = 1.15 / height, 1 - 0.85 / height
+        right = 0.45 if boundary is not None else 0.98
+        self._draw_plane(figure, (0.65 / width, low, right - 0.65 / width, top - low))
         self.space: Space | None = None
         if boundary is not None:
-            names = with_unit("x", scene.units), with_unit("y", scene.units)
-            self.space = Space(figure, boundary, extent(boundary), names)
+            place = 0.46, 0.3 / height, 0.53, 1 - 1.1 / height
+            self.space = Space(figure, place, boundary, extent(boundary), axis_names(scene), 0)
+            self.stays = np.zeros(len(self.space.angles), dtype=np.bool_)
             self.dashes = LineCollection([], linewidths=1.8, zorder=7)
             self.space.point.axes.add_collection(self.dashes, autolim=False)
         if track.least is not None:
-            self._draw_gauge(figure)
-        figure.text(0.03, 0.95, plain(scene.name) or "a free path", fontsize=18, weight="bold", color=INK, va="center")
-        figure.text(0.03, 0.9, statement(track), fontsize=12, color=GREY, va="center")
-        self.pose = figure.text(0.985, 0.95, "", fontsize=11, color=INK, va="center", ha="right", family=MONO)
+            self._draw_gauge(figure, (0.3 / width, 0.36 / height, min(0.28, 2.6 / width), 0.15 / height))
+        text: Any = {"va": "center", "color": INK}
+        figure.text(0.2 / width, 1 - 0.3 / height, _title(scene), fontsize=16, weight="bold", **text)
+        figure.text(0.2 / width, 1 - 0.63 / height, statement(track), fontsize=11, **text | {"color": GREY})
+        self.pose = figure.text(1 - 0.2 / width, 0.25 / height, "", fontsize=10.5, ha="right", family=MONO, **text)
         lines = track.rows * (1, 1, 180 / math.pi)
         self.line = np.column_stack((lines[:, :2], lines[:, 2] % 360))
         self.shade = _shades(track)
         self.distances = EdgeDistances(scene)
 
-    def _draw_plane(self, figure: Figure) -> None:
+    def _draw_plane(self, figure: Figure, place: Window) -> None:
         """What is in the workspace, and artists of what moves."""
         track = self.track
-        ax: Any = figure.add_axes(ALONE if self.boundary is None else BESIDE)
+        ax: Any = figure.add_axes(place)
         draw_surroundings(ax, track.scene)
         draw_robot(ax, track.scene, track.path.goal, faint=True)
-        ax.plot(*track.rows[:, :2].T, color="#b9bec8", linewidth=1.0, linestyle=(0, (4, 3)), zorder=3.5)
+        ax.plot(*track.rows[:, :2].T, color=RIM, linewidth=1.0, linestyle=(0, (4, 3)), zorder=3.5)
         self.ghosts = ax.add_collection(PathCollection([], linewidths=0.7, zorder=2), autolim=False)
         self.trace = ax.add_collection(LineCollection([], linewidths=2.4, capstyle="round", zorder=4), autolim=False)
         self.body = ax.add_patch(PathPatch(path_of([]), facecolor=ROBOT, alpha=0.8, linewidth=0, zorder=5))
-        self.rim = ax.add_patch(PathPatch(path_of([]), fill=False, edgecolor="#1b4a80", linewidth=1.2, zorder=5.1))
+        self.rim = ax.add_patch(PathPatch(path_of([]), fill=False, edgecolor=INK, linewidth=0.8, zorder=5.1))
         (self.origin,) = ax.plot([], [], "o", ms=5, color=INK, mec="white", mew=1.2, zorder=6)
         (self.gap,) = ax.plot([], [], "o-", ms=3.5, lw=1.8, color=BARRIER, zorder=7)
         set_window(ax, track.window, track.scene.units)
         ax.tick_params(length=3, labelsize=9)
+        labels = Labels(ax, track.scene)
+        labels.avoid_robot(track.scene, [track.path.goal], BODY)
+        labels.avoid([shapely.LineString(track.rows[:, :2])], LINE)
+        labels.name_robot(track.scene, track.path.goal, "goal")
+        self.words = [text for text in ax.texts if text.get_text()]
+        self.names = Names(ax, track.scene)
 
-    def _draw_gauge(self, figure: Figure) -> None:
+    def _draw_gauge(self, figure: Figure, place: Window) -> None:
         """A bar of all clearances, and a pointer to the present one."""
         track = self.track
         most = track.most
-        ax: Any = figure.add_axes(GAUGE)
+        ax: Any = figure.add_axes(place)
         ax.imshow(np.linspace(0, 1, 256)[None], aspect="auto", cmap=track.colours.cmap, extent=(0, most, 0, 1))
         ax.set(yticks=[], xlim=(0, most))
-        ax.tick_params(length=2, labelsize=8)
+        ax.xaxis.set_major_locator(MaxNLocator(4))
+        ax.tick_params(length=2, labelsize=8.5)
         assert track.least is not None
         ax.axvline(track.least.found, color=BARRIER, linewidth=2)
         (self.pointer,) = ax.plot([], [], "v", color=INK, ms=8, clip_on=False, zorder=5)
-        left, bottom, width, height = GAUGE
-        self.value = figure.text(left + width + 0.015, bottom + height / 2, "", fontsize=12, color=INK, va="center")
+        left, bottom, width, height = place
+        right, middle = left + width + 0.2 / figure.get_figwidth(), bottom + height / 2
+        self.value = figure.text(right, middle, "", fontsize=12, color=INK, va="center")
 
     def draw(self, travel: float, share: float) -> Image:
         """The frame after so much travel as (height, width, 3) bytes; share of the film that is over."""
@@ -132,12 +145,11 @@ class PathStage:
             azimuth = AZIMUTHS[0] + share * (AZIMUTHS[1] - AZIMUTHS[0])
             here = np.array([[*row[0, :2], math.degrees(pose.theta)]])
             lines = _runs(np.concatenate((self.line[:done], here)), self.shade)
-            self.space.draw(pose, self.boundary.slice(pose.theta), azimuth, self.space.angles, GLASS, lines)
+            self.space.draw(pose, self.boundary.slice(pose.theta), azimuth, self.space.angles, GLASS, lines, self.stays)
             self._dash(azimuth, done, colours)
-        x, y, theta = row[0].tolist()
-        self.pose.set_text(f"x {x:8.4g}   y {y:8.4g}   θ {math.degrees(theta):6.1f}°".replace("-", "−"))
-        self.canvas.draw()
-        return np.asarray(self.canvas.buffer_rgba())[..., :3].copy()
+        self.names.draw(pose, self.words)
+        self.pose.set_text(numbers(pose))
+        return image_of(self.figure)
 
     def _dash(self, azimuth: float, done: int, colours: Floats) -> None:
         """The way so far in configuration space, in dashes that nothing hides."""
@@ -179,6 +191,12 @@ def path_frames(
         yield frame
         if progress is not None:
             progress((len(travel) + k + 1) / total)
+
+
+def _title(scene: Scene) -> str:
+    """The name of a scene, if it has one; the beginning of a long one."""
+    name = scene.name or "a free path"
+    return plain(name if len(name) <= TITLE else f"{name[:TITLE]}...")
 
 
 def _shades(track: Track) -> list[str]:

@@ -169,7 +169,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
 def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels) -> None:
     """The surface between start and goal, and what is seen of them beside it."""
     surface = surface_of(answer, scene)
-    box = _around_surface(surface)
+    box = around_surface(surface)
     space = _right(figure)
     _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, tiny=TINY))
     _legend(space, {"v-e contacts": VERTEX_EDGE, "e-v contacts": EDGE_VERTEX}, [])
@@ -263,7 +263,10 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     distance = np.where(patches.owner < 0, distance, np.maximum(distance, distance[patches.owner]))
     near, line = patches.chosen(distance < 1), _line(track, rows)
     fading = np.clip((1 - distance[distance < 1]) / (1 - FADE), 0, 1)
-    opacity = np.concatenate((fading, np.ones(len(line.corners))))
+    # on white half of it looks the same, and has no seams
+    white = np.where(fading > 0.5, 1 - fading, 0.0)[:, None]
+    near = replace(near, rgb=near.rgb + white * (1 - near.rgb))
+    opacity = np.concatenate((np.where(fading > 0.5, 1.0, fading), np.ones(len(line.corners))))
     _draw_patches(ax, boundary, window, degrees, joined([near, line]), opacity)
     names = {"v-e patch": PALE.vertex_edge, "e-v patch": PALE.edge_vertex}
     middle = track.colour(np.array([track.most / 2]))[0]
@@ -322,7 +325,7 @@ def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any, Any]])
     )  # fmt: skip
 
 
-def _around_surface(surface: Boundary) -> Window:
+def around_surface(surface: Boundary) -> Window:
     """A surface, and as much around it as to see the obstacles it belongs to."""
     return _around(strips(surface, math.radians(5)).points.reshape(-1, 2), robot_radius(surface.scene))
 

@@ -291,17 +291,22 @@ def new_axes(size: tuple[float, float], place: tuple[float, float, float, float]
 
 def set_window(ax: Axes, window: Window, units: str) -> None:
     """Limits with a margin, few enough numbers to have room, and the names of the axes."""
-    from matplotlib.ticker import MaxNLocator
-
     x0, y0, x1, y1 = window
     margin = 0.03 * max(x1 - x0, y1 - y0)
     ax.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - margin, y1 + margin), aspect="equal")
+    space_numbers(ax)
+    ax.set_xlabel(with_unit("x", units))
+    ax.set_ylabel(with_unit("y", units))
+
+
+def space_numbers(ax: Axes) -> None:
+    """As many numbers beside axes of a final size as have room."""
+    from matplotlib.ticker import MaxNLocator
+
     ax.apply_aspect()
     box, inch = ax.get_window_extent(), ax.figure.dpi
     for axis, inches in ((ax.xaxis, box.width / 0.8 / inch), (ax.yaxis, box.height / 0.4 / inch)):
-        axis.set_major_locator(MaxNLocator(int(np.clip(inches, 2, 6))))
-    ax.set_xlabel(with_unit("x", units))
-    ax.set_ylabel(with_unit("y", units))
+        axis.set_major_locator(MaxNLocator(int(np.clip(inches, 1, 6))))
 
 
 def with_unit(name: str, units: str) -> str:

@@ -1,0 +1,71 @@
+"""Names within shapes, as in the figures: A in the robot, O_1, O_2, ... in the obstacles; only where they fit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from shapely.geometry.base import BaseGeometry
+
+    from cfree.exact.pose import Pose
+    from cfree.scene.scene import Scene
+
+Floats = NDArray[np.float64]
+
+SIZE = 11.0  # of letters, in typographic points
+ROOM = 0.7  # of that, the radius that is needed within a shape
+MANY = 300  # obstacles have names at most
+
+
+class Names:
+    """Artists of the names on axes whose limits and place are final.
+
+    Parameters
+    ----------
+    ax : matplotlib axes
+    scene : Scene
+    """
+
+    def __init__(self, ax: Any, scene: Scene) -> None:
+        ax.apply_aspect()
+        pixels = float(ax.transData.transform((1.0, 0.0))[0] - ax.transData.transform((0.0, 0.0))[0])
+        needed = ROOM * SIZE * ax.figure.dpi / 72 / pixels
+        style = {"ha": "center", "va": "center", "fontsize": SIZE, "color": "white", "clip_on": True}
+        (x0, x1), (y0, y1) = ax.get_xlim(), ax.get_ylim()
+        shapes = [shapely.clip_by_rect(obstacle.to_shapely(), x0, y0, x1, y1) for obstacle in scene.obstacles[:MANY]]
+        self._obstacles = [
+            ax.text(*centre, f"$O_{{{k + 1}}}$", zorder=2.5, **style)
+            for k, shape in enumerate(shapes)
+            for centre, radius in [_disc(shape)]
+            if radius > needed
+        ]
+        self._boxes = [text.get_window_extent() for text in self._obstacles]
+        self._centre, radius = max((_disc(part.to_shapely()) for part in scene.robot), key=lambda disc: disc[1])
+        self._robot = ax.text(0, 0, "$A$", zorder=4.5, **style) if radius > needed else None
+
+    def draw(self, pose: Pose, others: Iterable[Any]) -> None:
+        """The robot's name where it is; hidden are all names that other texts are on."""
+        taken = [text.get_window_extent() for text in others if text.get_visible()]
+        if self._robot is not None:
+            (place,) = pose.apply(np.array([self._centre])).tolist()
+            self._robot.set_position(place)
+            self._robot.set_visible(True)
+            box = self._robot.get_window_extent()
+            self._robot.set_visible(not any(box.overlaps(other) for other in taken))
+            taken.append(box)
+        for text, box in zip(self._obstacles, self._boxes, strict=True):
+            text.set_visible(not any(box.overlaps(other) for other in taken))
+
+
+def _disc(shape: BaseGeometry) -> tuple[tuple[float, float], float]:
+    """Centre and radius of a largest disc within a shape, nearly."""
+    if shape.area <= 0:
+        return (0.0, 0.0), 0.0
+    line = shapely.maximum_inscribed_circle(shape, 0.02 * shape.area**0.5)
+    (x, y), _ = line.coords
+    return (x, y), line.length
