@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import math
 import pickle
@@ -150,6 +151,31 @@ def test_free_cells_that_touch_along_a_helix_on_the_bounds_are_two() -> None:
     left, right = (whole.cell(Pose(x, "3/2", "135deg")) for x in (-1.5, 1.5))
     assert whole.cell_depth[[left, right]].tolist() == [0, 0] and left != right
     assert (whole.cell_depth == 0).sum() == 2
+
+
+def test_depth_0_is_the_free_space_where_corners_are_on_bounds() -> None:
+    """Small integers, so that much touches; a vertex of each part of the robot is its reference point."""
+    random_ = random.Random(7)
+
+    def triangle(most: int) -> cfree.Polygon:
+        while True:
+            corners = [(random_.randint(-most, most), random_.randint(-most, most)) for _ in range(3)]
+            with contextlib.suppress(cfree.InvalidPolygonError):
+                return cfree.Polygon(corners)
+
+    several = 0
+    for _ in range(12):
+        robot = [triangle(2) for _ in range(random_.choice([1, 2]))]
+        robot = [
+            cfree.Polygon([(x - part.vertices[0][0], y - part.vertices[0][1]) for x, y in part.vertices])
+            for part in robot
+        ]
+        scene = Scene(robot, [triangle(3) for _ in range(random_.randint(1, 3))], bounds=(-2, -2, 2, 2))
+        whole, space = arrangement(scene), cfree.free_space(cfree.boundary(scene))
+        free = sorted(whole.volumes[whole.cell_depth == 0])
+        assert free == pytest.approx(sorted(space.volumes), rel=1e-9, abs=1e-9)
+        several += len(free) > 1
+    assert several > 3
 
 
 def test_beyond_everything_is_what_bounds_and_workspace_forbid() -> None:

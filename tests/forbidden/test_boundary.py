@@ -1,4 +1,4 @@
-"""The trimmed boundary: counts, volume, the laws it obeys, threads, Ctrl-C, odd scenes and open bugs."""
+"""The trimmed boundary: counts, volume, the laws it obeys, threads, Ctrl-C and odd scenes."""
 
 import math
 import os
@@ -20,8 +20,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree import Boundary, IncompleteError, Polygon, Scene, _core, boundary, free_space, load_scene, save
-from cfree.arrangements import arrangement
+from cfree import Boundary, IncompleteError, Polygon, Scene, _core, boundary, load_scene, save
 from cfree.formats.boundary_file import load_boundary
 from cfree.scene.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
@@ -41,7 +40,6 @@ from shapes import (
 )
 
 TESTS = Path(__file__).parents[1]
-OPEN_BUGS = sorted((TESTS / "cases" / "failure").glob("*.json"))
 ANGLES = (0.1234, 1.9876, 3.3333, 5.4321)
 COSINE, SINE = Fraction(3, 5), Fraction(4, 5)  # of a rational turn
 TURN = math.atan2(4, 3)
@@ -427,22 +425,6 @@ print("done", flush=True)
     assert time.perf_counter() - start < 5  # a second, and a busy machine
     assert "KeyboardInterrupt" in errors
     assert "done" not in output
-
-
-# --- open bugs ---
-
-
-@pytest.mark.parametrize("path", OPEN_BUGS, ids=lambda path: path.stem)
-@pytest.mark.xfail(strict=True, reason="open; move the file to tests/cases once it is fixed")
-def test_open_bug(path: Path) -> None:
-    for program in ("compared.py", "fuzz.py"):
-        done = subprocess.run(
-            [sys.executable, str(TESTS / "support" / program), str(path)], capture_output=True, text=True, timeout=30
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
-    scene = load_scene(path)
-    free = [cell for cell in arrangement(scene).cells if cell.depth == 0]
-    assert len(free_space(boundary(scene))) == len(free)
 
 
 def test_repr_and_types() -> None:

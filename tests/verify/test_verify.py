@@ -36,7 +36,7 @@ TESTS = Path(__file__).parents[1]
 SCENES = TESTS.parent / "examples" / "scenes"
 REAL = {"benchmr_parking1", "benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin"}
 SMALL = [path for path in sorted(SCENES.glob("*.json")) if path.stem not in REAL]
-CASES = [path for path in sorted((TESTS / "cases").rglob("*.json")) if path.parent.name != "failure"]
+CASES = sorted((TESTS / "cases").rglob("*.json"))
 FLAT = SCENES / "flat.json"
 TAUS = [Fraction(1, 7), Fraction(-5, 9), Fraction(2, 3)]
 

@@ -29,7 +29,31 @@ Patches list_patches(const Scene& scene) {
 }
 
 PatchTrimming::PatchTrimming(const Scene& s, bool regularized)
-    : patches(list_patches(s)), first_patch(first_patches(s, patches)), scene(s), neighbours(s), owners(s, regularized) {}
+    : patches(list_patches(s)), first_patch(first_patches(s, patches)), scene(s), neighbours(s), owners(s, regularized) {
+    const Shape& A = s.robot;
+    for (Index r = 0; r < A.ring_vertices; ++r)
+        for (Index i = 0; A.layer[r] == reference_layer && i < A.ring_vertices; ++i)
+            if (A.layer[i] != reference_layer && A.point[i] == A.point[r]) at_reference.push_back(i);
+}
+
+// A pillar below a bound may have a vertex on it that stays there while the robot turns: that of an obstacle's vertex on the
+// bound and the robot's at its reference point. Within one layer this cannot be: two convex bodies on one side of a line that
+// touch in a point of it overlap once one of them is moved along the line one way or the other.
+void PatchTrimming::seams(const Feature& contact, std::vector<Feature>& out) const {
+    out.clear();
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    if (at_reference.empty() || A.layer[contact.robot] != reference_layer) return;
+    const Index a = O.v[contact.obstacle], b = O.w[contact.obstacle];
+    const auto between = [&](const std::vector<double>& near, const std::vector<Int>& along, const std::vector<Int>& across,
+                             Index o) {
+        return near[o] == near[a] && across[o] == across[a] && (along[a] < along[o]) == (along[o] < along[b]) &&
+               along[o] != along[a] && along[o] != along[b];
+    };
+    const bool is_level = O.Y[a] == O.Y[b];
+    for (Index o = 0; o < O.ring_vertices; ++o)
+        if (O.layer[o] != reference_layer && (is_level ? between(O.y, O.X, O.Y, o) : between(O.x, O.Y, O.X, o)))
+            out.push_back({Kind::vertex_vertex, at_reference.front(), o});
+}
 
 void PatchTrimming::pillars_near(Index feature, Shadows& out) const {
     std::vector<Index> near;
@@ -42,6 +66,8 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
     const Feature contact = patches.contact(patch);
     const std::vector<Feature> before_it = owners.before(contact);
     const Range range = range_of(scene, contact, tally.decisions);
+    std::vector<Feature> touching;
+    seams(contact, touching);
     const std::size_t before = out.size();
     for (int r = 0; r < range.count; ++r) {
         Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
@@ -59,6 +85,7 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
             heed_stop();
             trimmer.cover(pillar.p, pillar.k, near.slices, part);
         }
+        for (const Feature& helix : touching) trimmer.split(helix);
         trimmer.finish(patch, out, thin);
         tally.decisions += trimmer.decide.counters;
     }

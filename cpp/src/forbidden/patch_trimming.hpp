@@ -25,7 +25,11 @@ public:
     void trim(Index patch, Shadows& near, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin, Tally& tally) const;
 
 private:
+    // Helices inside a bound's patch along which pillars may touch it, free space on both sides; theory, "The trimmed boundary".
+    void seams(const Feature& contact, std::vector<Feature>& out) const;
+
     const Scene& scene;
+    std::vector<Index> at_reference;  // vertices of the robot where its reference point is
     const PillarIndex neighbours;
     const CoincidentSurfaces owners;
 };

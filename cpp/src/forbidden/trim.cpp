@@ -131,6 +131,16 @@ void Trimmer::cede(const Feature& owner, const Event& from, const Event& to) {
     take({band, -1, -1, nullptr});
 }
 
+void Trimmer::split(const Feature& helix) {
+    const Index t = curve_of(helix, false);
+    Area seam{0, 1, t, t, 0, 1};
+    bounds(seam);
+    next.clear();
+    for (const Area& area : live)
+        if (!subtract_from(area, {seam, -1, -1, nullptr})) next.push_back(area);
+    live.swap(next);
+}
+
 // Whether the band covers the inside of its segment at this one of its angles.
 bool Trimmer::covers_at(const Band& band, Index event) {
     if (band.state == nullptr) return true;

@@ -48,6 +48,8 @@ public:
     void left(Slices& slices);
     // Take away what another patch of the same surface owns, between two angles.
     void cede(const Feature& owner, const Event& from, const Event& to);
+    // Part what is left along a helix, on both sides of which it goes on.
+    void split(const Feature& helix);
     bool empty() const { return live.empty() && thin.empty(); }
     // What is left, in order, neighbours with the same curves joined; and what is left without width: lower = upper or from = to.
     void finish(Index patch, std::vector<Trapezoid>& out, std::vector<Trapezoid>& thin_out);
