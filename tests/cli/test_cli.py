@@ -423,6 +423,18 @@ def test_bad_wishes_for_figures_write_nothing(options: tuple[str, str], message:
     assert list(tmp_path.iterdir()) == []
 
 
+def test_figures_in_space_say_who_would_draw_them_better(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("cfree.plot.rendered.find_spec", lambda _: None)
+    in_space, in_plane = (run("figures", "-o", tmp_path, "--only", n, "--format", "png") for n in ("16", "6"))
+    assert in_space.exit_code == in_plane.exit_code == 0
+    assert in_plane.stderr == ""
+    assert in_space.stderr.strip().endswith("pip install 'cfree[render]'") and in_space.stderr.count("\n") == 1
+    refused = run("figures", "-o", tmp_path / "none", "--renderer", "pyvista")
+    assert refused.exit_code == 2 and "cfree[render]" in refused.stderr and not (tmp_path / "none").exists()
+
+
 def test_figures_need_a_directory(run: Run, tmp_path: Path) -> None:
     (tmp_path / "file").write_text("mine")
     result = run("figures", "-o", tmp_path / "file", "--only", "6")

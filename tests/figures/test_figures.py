@@ -21,14 +21,9 @@ from cfree import load_scene
 from cfree.figures import FIGURES, draw, draw_all, scenes, surfaces
 from cfree.figures.style import FORMATS, styled, write
 from cfree.plot.depth_sort import Painting
+from drawn import figure as drawn
 
 NUMBERS = [entry.number for entry in FIGURES]
-
-
-@pytest.fixture(scope="module")
-def drawn() -> dict[int, Figure]:
-    with styled():
-        return {number: draw(number) for number in NUMBERS}
 
 
 # files
@@ -43,7 +38,7 @@ def test_figures_are_written_whole_in_all_formats(tmp_path: Path) -> None:
     assert {file.name for file in files} == {f"{stem}.{suffix}" for stem in chosen for suffix in FORMATS}
     assert shares == [0, 0.5, 1]
     for file in files:
-        width, height = draw(chosen[file.stem]).get_size_inches()
+        width, height = FIGURES[chosen[file.stem] - 1].size
         if file.suffix == ".png":
             with Image.open(file) as image:
                 assert image.width / image.height == pytest.approx(width / height, rel=0.01)
@@ -78,14 +73,14 @@ def test_a_figure_that_cannot_be_written_leaves_the_old_file(tmp_path: Path, mon
     assert file.read_bytes() == before and list(tmp_path.iterdir()) == [file]
 
 
-def test_the_gallery_shows_all_figures(drawn: dict[int, Figure], request: pytest.FixtureRequest) -> None:
+def test_the_gallery_shows_all_figures(request: pytest.FixtureRequest) -> None:
     docs = request.config.rootpath / "docs"
     page = (docs / "figures.md").read_text()
     for entry in FIGURES:
         image = docs / "images" / "figures" / f"{entry.stem}.png"
         assert f"images/figures/{image.name}" in page and image.stat().st_size < 200_000
         with Image.open(image) as shown:
-            width, height = drawn[entry.number].get_size_inches()
+            width, height = entry.size
             assert shown.width / shown.height == pytest.approx(width / height, rel=0.02)
 
 
@@ -94,8 +89,8 @@ def test_the_gallery_shows_all_figures(drawn: dict[int, Figure], request: pytest
 
 @pytest.mark.slow
 @pytest.mark.parametrize("number", NUMBERS)
-def test_labels_are_on_the_page_and_do_not_overlap(number: int, drawn: dict[int, Figure]) -> None:
-    figure = drawn[number]
+def test_labels_are_on_the_page_and_do_not_overlap(number: int) -> None:
+    figure = drawn(number)
     # the names of what is drawn, not what it is drawn of: surfaces are left out, which takes longest
     for painting in figure.findobj(Painting):
         painting.set_visible(False)

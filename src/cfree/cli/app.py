@@ -498,7 +498,8 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
                 written = [str(file) for file in files if file.stem == entry.stem]
                 if written:
                     print(printable(f"figure {entry.number}: {entry.caption} {' '.join(written)}"))
-        if renderer is None and best_renderer() == "matplotlib":
+        has_space = any(panel.in_space for e in FIGURES if numbers is None or e.number in numbers for panel in e.panels)
+        if has_space and renderer is None and best_renderer() == "matplotlib":
             print(f"drawn by matplotlib; {MISSING}", file=sys.stderr)
 
 

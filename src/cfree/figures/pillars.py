@@ -27,7 +27,7 @@ from cfree.scene.scene import Scene
 WINDOW = (-3.2, -2.8, 3.2, 3.0)
 SCALE = 1.1
 ROOM = 20  # typographic points across the middle half of a patch that gets a name
-BEHIND = (VIEW[0], 70.0)
+BEHIND = (VIEW[0], -163.0)
 LEGEND = [
     (VERTEX_EDGE, "v-e patches"), (EDGE_VERTEX, "e-v patches"), ("-" + HELIX, "v-v helices"),
     ("-" + EDGE_EDGE, "e-e segments"),
