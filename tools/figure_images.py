@@ -17,4 +17,5 @@ with TemporaryDirectory() as folder:
             small = image.convert("RGB").resize(
                 (round(image.width * share), round(image.height * share)), Image.LANCZOS
             )
-        small.quantize(256, dither=Image.Dither.NONE).save(FOLDER / file.name, optimize=True)
+        small = small.quantize(256, Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
+        small.save(FOLDER / file.name, optimize=True)

@@ -35,15 +35,19 @@ def off(surface: Surface, points: np.ndarray) -> Any:
 
 
 def artists(ax: Any) -> dict[str, Any]:
-    return {artist.get_label(): artist for artist in (*ax.collections, *ax.lines)}
+    """Lines by name, and the painted surfaces of each kind as (corners, colours)."""
+    found: dict[str, Any] = {line.get_label(): line for line in ax.lines}
+    for painting in ax.collections:
+        pieces = painting._pieces
+        is_warm = pieces.rgb[:, 0] > pieces.rgb[:, 2]
+        for name, chosen in (("v-e", is_warm), ("e-v", ~is_warm)):
+            if chosen.any():
+                found[name] = pieces.corners[chosen], pieces.rgb[chosen]
+    return found
 
 
 def data(line: Any) -> np.ndarray:
     return np.column_stack(line.get_data_3d()).astype(float)
-
-
-def faces(collection: Any) -> np.ndarray:
-    return np.asarray(collection._faces)
 
 
 def test_surfaces_and_their_curve_are_drawn_where_they_are() -> None:
@@ -51,10 +55,10 @@ def test_surfaces_and_their_curve_are_drawn_where_they_are() -> None:
     drawn = artists(plot_intersection(found))
     assert set(drawn) == {"v-e", "e-v", "edges as lines", "curve on both"}
     for surface, name in zip(PAIR, ("v-e", "e-v"), strict=True):
-        corners = faces(drawn[name]).reshape(-1, 3)
+        corners = drawn[name][0].reshape(-1, 3)
         assert off(surface, corners).max() < 1e-12 and corners[:, 2].min() == 0 and corners[:, 2].max() == 360
         kind = PatchKind.VERTEX_EDGE if name == "v-e" else PatchKind.EDGE_VERTEX
-        shade = np.corrcoef(drawn[name].get_facecolor()[:, :3].mean(axis=0), to_rgb(COLOURS[kind]))[0, 1]
+        shade = np.corrcoef(drawn[name][1].mean(axis=0), to_rgb(COLOURS[kind]))[0, 1]
         assert shade > 0.98
     (part,) = found.ranges
     curve = data(drawn["curve on both"])
@@ -73,10 +77,10 @@ def test_of_patches_nothing_else_is_drawn() -> None:
     drawn = artists(plot_intersection(intersection(*patches)))
     for patch, name in zip(patches, ("v-e", "e-v"), strict=True):
         assert patch.Phi is not None
-        middle = np.radians(faces(drawn[name])[..., 2].mean(axis=1))
+        middle = np.radians(drawn[name][0][..., 2].mean(axis=1))
         assert all(patch.Phi.locate(math.tan(phi / 2)).value == "inside" for phi in middle.tolist())
         width = math.degrees(patch.Phi.end.theta - patch.Phi.start.theta) % 360
-        assert np.ptp(faces(drawn[name])[..., 2], axis=1).sum() / 12 == pytest.approx(width)
+        assert np.ptp(drawn[name][0][..., 2], axis=1).sum() / 24 == pytest.approx(width)
 
 
 def test_poses_on_three_surfaces_are_dots() -> None:

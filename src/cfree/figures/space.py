@@ -7,14 +7,13 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d import proj3d
 from numpy.typing import ArrayLike, NDArray
 
 from cfree.contact.surface import Surface
 from cfree.palette import FAINT, FOCAL_LENGTH, GREY, INK, VIEW, WALL
 from cfree.plot.depth_sort import Painting
-from cfree.plot.pieces import SURFACE, Detail, Pieces, joined, of_line, shaded
+from cfree.plot.pieces import Detail, Pieces, joined, of_line, of_sheet
 from cfree.plot.rendered import Renderer
 
 Floats = NDArray[np.float64]
@@ -139,17 +138,8 @@ def seen(ax: Any, painting: Painting, points: Floats) -> NDArray[np.bool_]:
 
 
 def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
-    """Both sides of a grid of points (m, n, 3), theta in radians, in one colour or one for each face (m - 1, n - 1, 3).
-
-    Each side is a face of its own, lit from its own side, so that the one turned away need not be drawn.
-    """
-    p = points * DEGREES
-    corners = np.stack((p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]), axis=2).reshape(-1, 4, 3)
-    n = len(corners)
-    rgb = np.tile(to_rgb(colour), (n, 1)) if isinstance(colour, str) else colour.reshape(-1, 3)
-    both = np.concatenate((corners, corners[:, ::-1]))
-    lit = shaded(np.concatenate((rgb, rgb)), both, angle_scale)
-    return Pieces(both, lit, np.full(2 * n, SURFACE), np.full(2 * n, -1), np.zeros(2 * n), np.full(2 * n, -1))
+    """A grid of points (m, n, 3), theta in radians; see `of_sheet`."""
+    return of_sheet(points * DEGREES, colour, angle_scale)
 
 
 def curve(points: Floats, colour: str, width: float) -> Pieces:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from itertools import combinations
 from typing import Any
 
 import numpy as np
-from matplotlib.colors import to_rgb
 from mpl_toolkits.mplot3d.axes3d import Axes3D
 from numpy.typing import NDArray
 
@@ -20,13 +20,14 @@ from cfree.exact.orientation import Location
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.palette import EDGE_EDGE, INK
 from cfree.plot.boundary import new_figure, new_space, set_space
-from cfree.plot.pieces import shaded
+from cfree.plot.depth_sort import Painting
+from cfree.plot.pieces import joined, of_sheet
 from cfree.rational.model import RationalSurface
 
 Floats = NDArray[np.float64]
 
 ROWS, CELLS, POINTS = 121, 13, 721  # of a surface over a full turn, across it, of a curve
-SEEN_THROUGH = 0.55
+SEEN_THROUGH = 0.75
 NAMES = {PatchKind.VERTEX_EDGE: "v-e", PatchKind.EDGE_VERTEX: "e-v"}
 
 
@@ -58,7 +59,7 @@ def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) ->
     low, high = points.min(axis=0), points.max(axis=0)
     margin = 0.05 * max(*(high - low)[:2], 1e-300)
     window = low[:2] - margin, high[:2] + margin
-    _draw_sheets(space, found, sheets)
+    kinds = _draw_sheets(space, found, sheets)
     if isinstance(found, Intersection):
         _draw_pair(space, found, window)
     else:
@@ -66,7 +67,7 @@ def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) ->
             _draw_pair(space, intersection(*pair), window)
         _draw_poses(space, found)
     set_space(space, (*window[0].tolist(), *window[1].tolist()), "", height=1.1, zoom=1.0)
-    handles = {artist.get_label(): artist for artist in (*space.collections, *space.lines)}
+    handles = {artist.get_label(): artist for artist in (*kinds, *space.lines)}
     shown = {name: handle for name, handle in handles.items() if not name.startswith("_")}
     space.legend(shown.values(), shown.keys(), loc="upper center", bbox_to_anchor=(0.5, -0.01), ncols=3, frameon=False)
     return ax
@@ -92,24 +93,19 @@ def _sheet(surface: Any) -> Floats:
     return rows
 
 
-def _draw_sheets(space: Any, found: Intersection | Triple, sheets: list[Floats]) -> None:
-    """All in one collection for each kind, sorted by depth."""
-    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+def _draw_sheets(space: Any, found: Intersection | Triple, sheets: list[Floats]) -> list[Any]:
+    """All of them, those in front hiding those behind by half; what their colours mean."""
+    from matplotlib.patches import Patch
 
-    for kind, name in NAMES.items():
-        chosen = [p for p, surface in zip(sheets, found.surfaces, strict=True) if _kind(surface) is kind and len(p)]
-        if not chosen:
-            continue
-        faces = np.concatenate(
-            [np.stack((p[:-1, :-1], p[:-1, 1:], p[1:, 1:], p[1:, :-1]), axis=2).reshape(-1, 4, 3) for p in chosen]
-        )
-        faces = _turned(faces, faces[..., 2].mean(axis=1))
-        rgb = shaded(np.tile(to_rgb(COLOURS[kind]), (len(faces), 1)), faces, 1.0)
-        space.add_collection3d(
-            Poly3DCollection(
-                faces, facecolors=rgb, alpha=SEEN_THROUGH, linewidths=0, antialiased=False, label=name, zorder=1
-            )
-        )
+    kinds = [_kind(surface) for surface, sheet in zip(found.surfaces, sheets, strict=True) if len(sheet)]
+    parts = [of_sheet(p, COLOURS[kind], 1.0) for p, kind in zip([p for p in sheets if len(p)], kinds, strict=True)]
+    if parts:
+        pieces = joined(parts)
+        turned = _turned(pieces.corners, pieces.corners[..., 2].mean(axis=1))
+        painting = Painting(replace(pieces, corners=turned), ghost=0, opacity=SEEN_THROUGH)
+        painting.set_zorder(1)
+        space.add_collection(painting, autolim=False)
+    return [Patch(color=COLOURS[kind], alpha=SEEN_THROUGH, label=NAMES[kind]) for kind in NAMES if kind in kinds]
 
 
 def _turned(faces: Floats, degrees: Floats) -> Floats:

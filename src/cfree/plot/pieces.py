@@ -154,6 +154,19 @@ def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pie
     return of_one_colour(corners, colour, sort, np.full(len(corners), -1), width)
 
 
+def of_sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
+    """Both sides of a grid of points (m, n, 3), theta in degrees, in one colour or one for each face (m - 1, n - 1, 3).
+
+    Each side is a face of its own, lit from its own side, so that the one turned away need not be drawn.
+    """
+    corners = np.stack((points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]), axis=2).reshape(-1, 4, 3)
+    n = len(corners)
+    rgb = np.tile(to_rgb(colour), (n, 1)) if isinstance(colour, str) else colour.reshape(-1, 3)
+    both = np.concatenate((corners, corners[:, ::-1]))
+    lit = shaded(np.concatenate((rgb, rgb)), both, angle_scale)
+    return Pieces(both, lit, np.full(2 * n, SURFACE), np.full(2 * n, -1), np.zeros(2 * n), np.full(2 * n, -1))
+
+
 def faces_of(rows: Strips, widest: float) -> tuple[Floats, Ints, Ints]:
     """Corners of all faces, the strip that each is a part of, and the first face of each strip."""
     ends = _with_degrees(rows.points, rows.theta)

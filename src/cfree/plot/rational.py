@@ -19,7 +19,7 @@ from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.surface import Surface, contact_surface
 from cfree.exact.orientation import Location
 from cfree.forbidden.kinds import COLOURS, PatchKind
-from cfree.palette import FAINT, INK, LIGHT, RIM
+from cfree.palette import FAINT, INK, LIGHT, RIM, WALL
 from cfree.polygons.polygon import Polygon
 from cfree.rational.model import RationalRange, rational_range, to_rational
 
@@ -118,4 +118,4 @@ def _draw(space: Any, outlines: Floats, colours: NDArray[np.str_], height: float
     for axis in (space.xaxis, space.yaxis):
         axis.set_major_locator(MaxNLocator(5))
     for axis in (space.xaxis, space.yaxis, space.zaxis):
-        axis.set_pane_color((0.97, 0.97, 0.98, 1.0))
+        axis.set_pane_color(WALL)
