@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import time
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -80,17 +81,47 @@ def measured(size: int, workers: int) -> dict[str, Any]:
         start = time.perf_counter()
         tile = max(1_000, min(20_000, 39 * side * side // 8))
         files = [folder / "robot.json", folder / "city.geojsonl"]
-        with most:
+        with most, stream(client) as tasks:
             found = boundary(files, folder=folder / "tiles", client=client, tile=tile, progress=note)
         end = time.perf_counter()
         times = [*began.values(), end]
         seconds = {stage: times[k + 1] - times[k] for k, stage in enumerate(began)} | {"all": end - start}
         return {
+            "workers": workers,
             "vertices": found.vertices, "tiles": found.tiles, "trapezoids": found.trapezoids, "cells": len(found.cells),
             "digest": found.digest, "seconds": seconds, "memory": most.together, "largest": most.largest,
+            "tasks": seconds_of(tasks), "borders": borders(found),
             "bytes": sum(path.stat().st_size for path in (folder / "tiles").rglob("*.npz")),
             "plans": list(map(lambda place: planned(found, *place), places(side))),
         }  # fmt: skip
+
+
+def stream(client: Any) -> Any:
+    """What the workers do while it is open."""
+    if client is None:
+        return nullcontext()
+    from distributed import get_task_stream
+
+    return get_task_stream(client)
+
+
+def seconds_of(stream: Any) -> dict[str, list[float]]:
+    """Of each kind of task how long each took."""
+    found: dict[str, list[float]] = {}
+    for task in stream.data if stream is not None else ():
+        name = str(task["key"]).split("-")[0]
+        found.setdefault(name, []).append(sum(s["stop"] - s["start"] for s in task["startstops"]))
+    return found
+
+
+def borders(found: Sharded) -> dict[str, float]:
+    """Which share of what glue tasks hold is other tiles', and which share of sides leads into them."""
+    work, own, held, sides, out = found.work, 0, 0, 0, 0
+    for tile in range(0, found.tiles, max(1, found.tiles // 8)):
+        rows, glued = work.rows(tile, work.surfaces, around=True), work.shard("glue", tile)
+        own, held = own + int((rows.tile == tile).sum()), held + len(rows.tile)
+        sides, out = sides + int(glued["sides"].sum()), out + len(glued["border"])
+    return {"halo": held / own - 1, "border": out / sides}
 
 
 def places(side: int) -> list[tuple[str, float, float]]:

@@ -14,7 +14,7 @@ from cfree.arguments import checked
 from cfree.distributed import tasks
 from cfree.distributed.division import Division, Features, divide_scene
 from cfree.distributed.joining import JoinedSurfaces, join
-from cfree.distributed.nesting import Answer, Nesting, Questions, nest
+from cfree.distributed.nesting import Answer, Nesting, Question, nest
 from cfree.distributed.reading import read_source, source_key
 from cfree.distributed.running import check_client, run
 from cfree.distributed.shard import VERSION, key_of, read_json, write_json, write_shard
@@ -203,7 +203,7 @@ class _Build:
         joined = join(len(division), lambda tile: work.shard(tasks.GLUED, tile))
         present = {tile: np.unique(tasks.surfaces_in(joined, tile)) for tile, count in components.items() if count}
 
-        def ask(questions: Questions) -> Iterable[Answer]:
+        def ask(questions: Mapping[int, list[Question]]) -> Iterable[Answer]:
             self.progress("nest", 0, 1)
             asked = {tile: (tasks.surfaces_in(joined, tile), lines) for tile, lines in sorted(questions.items())}
             for _, answers in self._run(tasks.nest_task, asked):

@@ -86,20 +86,22 @@ class TileLines:
     def __init__(self, boundary: _core.Boundary, surface: Ints) -> None:
         self._location, self._surface = _core.PointLocation(boundary), surface
         rows = boundary.trapezoids
-        self._width = rows.to_lo - rows.from_hi
+        # by surface, the widest first
+        self._order = np.lexsort((rows.from_hi - rows.to_lo, surface))
+        self._sorted = surface[self._order]
 
     def begin(self, surface: int, attempt: int) -> tuple[Line | None, list[Crossing] | None]:
         """A line from a surface that is in the tile, and what it crosses here; other ones for other attempts."""
         for k in range(TRIES * attempt, TRIES * (attempt + 1)):
             line = self._line(surface, k)
-            if line is not None and (crossed := self.crossings(line, is_its_own=True)) is not None:
+            crossed = None if line is None else self.crossings(line, is_its_own=True)
+            if is_general(line, crossed):
                 return line, crossed
         return None, None
 
     def _line(self, surface: int, attempt: int) -> Line | None:
-        own = np.flatnonzero(self._surface == surface)
-        order = own[np.argsort(-self._width[own], kind="stable")]
-        row = int(order[attempt % len(order)])
+        first, end = np.searchsorted(self._sorted, [surface, surface + 1]).tolist()
+        row = int(self._order[first + attempt % (end - first)])
         found = self._location.pose_on(row, attempt)
         return None if found is None else Line(*found, row)
 
@@ -111,8 +113,48 @@ class TileLines:
         return [Crossing(int(self._surface[row]), Place.of(n, d), free) for row, n, d, free in found]
 
 
-Questions = dict[int, list[tuple[int, int, Line | None]]]
-Answer = tuple[int, Line | None, list[Crossing] | None]
+@dataclass(frozen=True)
+class Question:
+    """What a line of a surface crosses in a tile; without a line, one is begun.
+
+    Attributes
+    ----------
+    surface, attempt : int
+    own : list of int
+        The tiles that the surface is in.
+    """
+
+    surface: int
+    attempt: int
+    own: list[int]
+    line: Line | None
+
+
+Ends = tuple[Crossing, "Crossing | None"]
+"""The last crossing of a surface on its line, and what is crossed next."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """The line and what it crosses, unless that tells the ends already."""
+
+    surface: int
+    line: Line | None = None
+    crossed: list[Crossing] | None = None
+    ends: Ends | None = None
+
+
+def answered(lines: TileLines, tile: int, asked: Question, boxes: NDArray[np.float64], scale: float) -> Answer:
+    """What a tile knows; arguments as of `nest`."""
+    surface, line = asked.surface, asked.line
+    if line is not None:
+        return Answer(surface, line, lines.crossings(line))
+    line, crossed = lines.begin(surface, asked.attempt)
+    if line is not None and crossed is not None:
+        search = _Search(asked.attempt, line, {tile}, crossed)
+        if _next(search, surface, asked.own, boxes, scale) is None:
+            return Answer(surface, ends=_ends(search, surface))
+    return Answer(surface, line, crossed)
 
 
 @dataclass
@@ -137,7 +179,7 @@ def nest(
     joined: JoinedSurfaces,
     present: Mapping[int, Ints],
     boxes: NDArray[np.float64],
-    ask: Callable[[Questions], Iterable[Answer]],
+    ask: Callable[[Mapping[int, list[Question]]], Iterable[Answer]],
     is_bounded: bool,
     scale: float,
 ) -> Nesting:
@@ -151,8 +193,7 @@ def nest(
     boxes : (tiles, 4) float64
         Around the poses of each tile's trapezoids, in the user's units.
     ask : callable
-        Given questions by tile, (surface, attempt, line or None to begin one), the answers: surface, line, and what it
-        crosses in that tile.
+        Given questions by tile, the answers.
     is_bounded : bool
         Whether there is no free space far away.
     scale : float
@@ -166,9 +207,9 @@ def nest(
         tiles.sort(key=lambda tile: (boxes[tile, 0], tile))
     searches = [_Search() for _ in tiles_of]
     waiting = set(range(len(searches)))
-    settled: dict[int, tuple[Crossing, Crossing | None]] = {}
+    settled: dict[int, Ends] = {}
     while waiting:
-        questions: Questions = {}
+        questions: dict[int, list[Question]] = {}
         for surface in sorted(waiting):
             search = searches[surface]
             own = tiles_of[surface]
@@ -181,16 +222,20 @@ def nest(
                 waiting.discard(surface)
                 continue
             search.done.add(tile)
-            questions.setdefault(tile, []).append((surface, attempt, search.line))
-        for surface, line, crossed in ask(questions) if questions else ():
+            questions.setdefault(tile, []).append(Question(surface, attempt, own, search.line))
+        for answer in ask(questions) if questions else ():
+            surface = answer.surface
             search = searches[surface]
-            known = search.crossed + (crossed or [])
-            if line is None or crossed is None or not _are_apart([line.x, *(crossing.x for crossing in known)]):
-                if search.attempt == ATTEMPTS * len(tiles_of[surface]):
-                    raise InvariantError(f"no line from closed surface {surface} in general position")
-                searches[surface] = _Search(search.attempt + 1)
+            known = None if answer.crossed is None else search.crossed + answer.crossed
+            if answer.ends is not None:
+                settled[surface] = answer.ends
+                waiting.discard(surface)
+            elif is_general(answer.line, known):
+                search.line, search.crossed = answer.line, known or []
+            elif search.attempt == ATTEMPTS * len(tiles_of[surface]):
+                raise InvariantError(f"no line from closed surface {surface} in general position")
             else:
-                search.line, search.crossed = line, known
+                searches[surface] = _Search(search.attempt + 1)
     return _nested(settled, is_bounded)
 
 
@@ -213,13 +258,16 @@ def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float
     return int(others[np.argmax(boxes[others, 2])]) if len(others) else None
 
 
-def _are_apart(places: list[Place]) -> bool:
-    places.sort()
+def is_general(line: Line | None, crossed: list[Crossing] | None) -> bool:
+    """Is there a line, and does it cross surfaces one after the other?"""
+    if line is None or crossed is None:
+        return False
+    places = sorted([line.x, *(crossing.x for crossing in crossed)])
     return all(one != other for one, other in pairwise(places))
 
 
-def _ends(search: _Search, surface: int) -> tuple[Crossing, Crossing | None]:
-    """The last crossing of the surface on its line, as far as known, and what is crossed next."""
+def _ends(search: _Search, surface: int) -> Ends:
+    """As far as known."""
     line = search.line
     assert line is not None
     own = [crossing for crossing in search.crossed if crossing.surface == surface]
@@ -228,7 +276,7 @@ def _ends(search: _Search, surface: int) -> tuple[Crossing, Crossing | None]:
     return last, max(others, key=lambda c: c.x, default=None)
 
 
-def _nested(settled: Mapping[int, tuple[Crossing, Crossing | None]], is_bounded: bool) -> Nesting:
+def _nested(settled: Mapping[int, Ends], is_bounded: bool) -> Nesting:
     count = len(settled)
     free_inside = np.array([not settled[k][0].is_free_before for k in range(count)], np.bool_)
     parent = np.full(count, NONE, np.int64)

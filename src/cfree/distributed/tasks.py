@@ -19,7 +19,7 @@ from cfree.distributed.division import Division, Features
 from cfree.distributed.exact_sums import exact_sums
 from cfree.distributed.glue import glue_tile
 from cfree.distributed.joining import JoinedSurfaces
-from cfree.distributed.nesting import Crossing, Line, TileLines
+from cfree.distributed.nesting import Answer, Question, TileLines, answered
 from cfree.distributed.part import Part
 from cfree.distributed.rows import Rows, gathered
 from cfree.distributed.shard import Shard, key_of, read_json, read_shard, write_shard
@@ -144,18 +144,13 @@ def glue_task(folder: str, stamp: str, tile: int) -> int:
     return len(glued["faces"])
 
 
-def nest_task(
-    folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], asked: list[tuple[int, int, Line | None]]
-) -> list[tuple[int, Line | None, list[Crossing] | None]]:
+def nest_task(folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], asked: list[Question]) -> list[Answer]:
     """What lines cross in a tile, by the surfaces that they are from; `surface` is that of each component."""
     work = opened(folder, stamp)
     component = work.shard(GLUED, tile)["component"]
     lines = TileLines(work.rows(tile, work.surfaces, around=False).core, surface[component])
-    answers = []
-    for number, attempt, line in asked:
-        found = lines.begin(number, attempt) if line is None else (line, lines.crossings(line))
-        answers.append((number, *found))
-    return answers
+    scale = float(work.store.rest.scale)
+    return [answered(lines, tile, question, work.division.boxes, scale) for question in asked]
 
 
 def measure_task(
