@@ -37,8 +37,8 @@ FOCAL_LENGTH = 1.8
 LIGHT = (-0.55, -0.65, 0.52)
 
 LETTERS: dict[str, Any] = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
+    "font.family": "DejaVu Sans",
+    "mathtext.fontset": "stix",  # formulas as in the paper
     "font.size": 13,
     "axes.linewidth": 0.8,
     "axes.edgecolor": INK,

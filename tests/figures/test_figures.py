@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import json
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Iterator
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
-from matplotlib.text import Text
-from mpl_toolkits.mplot3d import proj3d
-from mpl_toolkits.mplot3d.art3d import Text3D
 from PIL import Image
 
 from cfree import load_scene
@@ -22,6 +17,7 @@ from cfree.figures import FIGURES, draw, draw_all, scenes, surfaces
 from cfree.figures.style import FORMATS, styled, write
 from cfree.plot.depth_sort import Painting
 from drawn import figure as drawn
+from overlaps import touching, written
 
 NUMBERS = [entry.number for entry in FIGURES]
 
@@ -95,37 +91,13 @@ def test_labels_are_on_the_page_and_do_not_overlap(number: int) -> None:
     for painting in figure.findobj(Painting):
         painting.set_visible(False)
     with styled():
-        figure.canvas.draw()
-    boxes = {}
-    for text in texts(figure):
-        box = text.get_window_extent()
-        boxes[text.get_text(), round(box.x0), round(box.y0)] = box
-        assert box.x0 >= 0 and box.y0 >= 0, text
-        assert box.x1 <= figure.bbox.width and box.y1 <= figure.bbox.height, text
+        boxes = written(figure)
+        assert list(touching(figure)) == []
     assert len(boxes) >= 4
-    for (name, one), (other, two) in combinations(boxes.items(), 2):
-        width = min(one.x1, two.x1) - max(one.x0, two.x0)
-        height = min(one.y1, two.y1) - max(one.y0, two.y0)
-        assert width <= 1 or height <= 1, (name, other)
-
-
-def _is_of_axis(text: Text) -> bool:
-    """Whether a text is a tick or the name of an axis."""
-    axes: Any = text.axes
-    return any(text in axis.findobj(Text) for axis in axes._axis_map.values()) or text in (
-        axes.title, axes._left_title, axes._right_title,
-    )  # fmt: skip
-
-
-def texts(figure: Figure) -> Iterator[Text]:
-    """Text that is seen; that in space is put where it is projected to."""
-    for text in figure.findobj(Text):
-        if isinstance(text, Text3D):
-            x, y, _ = proj3d.proj_transform(*text.get_position_3d(), text.axes.M)
-            Text.set_position(text, (x, y))
-        is_hidden = text.axes is not None and not text.axes.axison and _is_of_axis(text)
-        if text.get_text() and text.get_visible() and not is_hidden:
-            yield text
+    width, height = figure.bbox.size
+    for text, box in boxes:
+        x0, y0, x1, y1 = box.bounds
+        assert x0 >= 0 and y0 >= 0 and x1 <= width and y1 <= height, text
 
 
 def test_the_triangles_and_the_five_obstacles_are_those_of_the_examples() -> None:

@@ -27,6 +27,7 @@ from cfree.plot import depth_sort, pieces
 from cfree.plot.boundary import extent, plot_boundary, plot_overview, plot_slice, plot_workspace, save_figure
 from cfree.scene.scene import Scene
 from compared import scene_of
+from overlaps import touching
 from shapes import PlainScene, box
 
 SCENES = Path("examples/scenes")
@@ -375,3 +376,10 @@ def floats(shapes: Any) -> list[tuple[Any, Any]]:
         ([(float(x), float(y)) for x, y in outer], [[(float(x), float(y)) for x, y in hole] for hole in holes])
         for outer, holes in shapes
     ]
+
+
+@pytest.mark.parametrize("name", ["paper_fig9", "benchmr_parking1"])
+def test_numbers_of_axes_in_space_do_not_touch(name: str) -> None:
+    ax = plot_boundary(boundary(load_scene(SCENES / f"{name}.json")))
+    ax.findobj(depth_sort.Painting)[0].set_visible(False)
+    assert list(touching(ax.figure)) == []

@@ -39,5 +39,5 @@ def gauss_and_bonnet(ax: Axes) -> Axes:
     ax.set_yticks(range(-30, 31, 10))
     ax.axhline(0, color=GREY, linewidth=0.8)
     ax.spines[["top", "right"]].set_visible(False)
-    ax.legend(loc="best", frameon=False)
+    ax.legend(loc="upper right", frameon=False)
     return ax

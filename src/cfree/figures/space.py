@@ -21,7 +21,7 @@ Box = tuple[float, float, float, float]
 
 DETAIL = Detail(4_000, (math.radians(3), math.radians(15)), 36)
 """Of boundaries: fine enough to be smooth, and few enough faces to be vectors."""
-TURNS = {0: "0", 90: r"$\pi/2$", 180: r"$\pi$", 270: r"$3\pi/2$", 360: r"$2\pi$"}
+TURNS = {0: "$0$", 90: r"$\pi/2$", 180: r"$\pi$", 270: r"$3\pi/2$", 360: r"$2\pi$"}
 DEGREES = np.array([1.0, 1.0, 180 / math.pi])
 
 
@@ -110,7 +110,7 @@ def legend(ax: Any, names: Sequence[tuple[str, str]], *, below: float = 0.03, co
     ]
     ax.legend(
         handles=handles, loc="upper center", bbox_to_anchor=(0.5, below), ncols=min(columns, len(handles)),
-        handlelength=1.3, columnspacing=1.6, fontsize=12, frameon=False,
+        handlelength=1.3, columnspacing=1.6, fontsize=11, frameon=False,
     )  # fmt: skip
 
 

@@ -19,7 +19,7 @@ from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELI
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.separation import Separated
-from cfree.plot.boundary import around, new_figure, new_space, plain, roomy, set_window, with_unit
+from cfree.plot.boundary import around, new_figure, new_space, plain, roomy, set_ticks, set_window, with_unit
 from cfree.plot.depth_sort import Painting
 from cfree.plot.labels import BODY, Labels, name_in_space
 from cfree.plot.path import Track, draw_track, statement
@@ -39,7 +39,6 @@ NEAR = 1.6  # robot's radii, or twice the least clearance: patches farther from 
 FADE = 0.5  # share of that from which on patches are fainter
 TINY = 0.03  # of the window: patches narrower or lower have no lines around them
 DASH = 8  # steps of the path
-CORNER = 0.9  # of an axis has numbers
 STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
@@ -281,7 +280,7 @@ def _draw_patches(
 ) -> None:
     """Pieces above the obstacles; axes with ticks and names."""
     import shapely
-    from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
+    from matplotlib.ticker import FuncFormatter, MultipleLocator
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     (low, high), (x0, y0, x1, y1), units = degrees, window, boundary.scene.units
@@ -300,11 +299,7 @@ def _draw_patches(
     ax.zaxis.set_major_locator(MultipleLocator(next((s for s in STEPS if (high - low) / s <= 6), STEPS[-1])))
     ax.zaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}°".replace("-", "−")))
     for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
-        low, high = axis.get_view_interval()
-        ticks = MaxNLocator(1 + round(5 * length / side)).tick_values(low, high)
-        # clear of the corners, where two axes meet
-        ticks = ticks[np.abs(ticks - (low + high) / 2) < CORNER * (high - low) / 2]
-        axis.set_ticks(ticks, [f"{tick:g}".replace("-", "−") for tick in ticks.tolist()])
+        set_ticks(axis, 1 + round(5 * length / side))
         axis.set_label_text(with_unit(name, units))
         axis.labelpad = 9
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):

@@ -31,6 +31,7 @@ from cfree.plot.strips import THIN, strips
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry, roomiest
 from cfree.scene.scene import Scene
 
+CORNER = 0.9  # of an axis has numbers
 SLIMMEST = 0.4  # of a window's longer side, the other
 
 
@@ -270,18 +271,26 @@ def set_space(ax: Any, window: Window, units: str, *, height: float = 0.75, zoom
 
     The turn is as high as `height` times the longer side.
     """
-    from matplotlib.ticker import MaxNLocator
-
     x0, y0, x1, y1 = window
     side = max(x1 - x0, y1 - y0)
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=(0, 360), zlabel="θ")
     ax.set_box_aspect((x1 - x0, y1 - y0, height * side), zoom=zoom)
     ax.set_zticks(range(0, 361, 90), labels=[f"{degrees}°" for degrees in range(0, 361, 90)])
     for axis, name, length in ((ax.xaxis, "x", x1 - x0), (ax.yaxis, "y", y1 - y0)):
-        axis.set_major_locator(MaxNLocator(1 + round(5 * length / side)))
+        set_ticks(axis, 1 + round(5 * length / side))
         axis.set_label_text(with_unit(name, units))
     for axis in (ax.xaxis, ax.yaxis, ax.zaxis):
         axis.set_pane_color(WALL)
+
+
+def set_ticks(axis: Any, count: int) -> None:
+    """Some numbers on an axis in space, clear of the corners, where two axes meet."""
+    from matplotlib.ticker import MaxNLocator
+
+    low, high = axis.get_view_interval()
+    ticks = MaxNLocator(count).tick_values(low, high)
+    ticks = ticks[np.abs(ticks - (low + high) / 2) < CORNER * (high - low) / 2]
+    axis.set_ticks(ticks, [f"{tick:g}".replace("-", "\N{MINUS SIGN}") for tick in ticks.tolist()])
 
 
 def new_axes(size: tuple[float, float], place: tuple[float, float, float, float] = (0.1, 0.15, 0.86, 0.77)) -> Axes:
