@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import sys
 from typing import Any
 
 import numpy as np
@@ -127,6 +128,14 @@ def test_both_renderers_draw_the_same() -> None:
     first, second = (pixels(crossing(renderer)) for renderer in ("matplotlib", "pyvista"))
     assert (np.abs(first - second).max(axis=-1) > 60).mean() < 0.01
     assert (first < 250).any(axis=-1).mean() > 0.03
+
+
+def test_a_renderer_that_cannot_be_imported_is_not_chosen(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "pyvista.py").write_text("raise ImportError('libGL.so.1: cannot open shared object file')")
+    for name in [name for name in sys.modules if name.partition(".")[0] == "pyvista"]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.syspath_prepend(tmp_path)
+    assert best_renderer() == "matplotlib"
 
 
 def test_a_missing_renderer_is_named_in_one_line(tmp_path: Any, monkeypatch: pytest.MonkeyPatch) -> None:

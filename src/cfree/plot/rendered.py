@@ -22,8 +22,14 @@ MISSING = "surfaces in true depth order need PyVista: pip install 'cfree[render]
 
 
 def best_renderer() -> Renderer:
-    """PyVista where it is installed."""
-    return "pyvista" if find_spec("pyvista") else "matplotlib"
+    """PyVista where it is installed, with the libraries it needs."""
+    if not find_spec("pyvista"):
+        return "matplotlib"
+    try:
+        import pyvista  # noqa: F401
+    except ImportError:
+        return "matplotlib"
+    return "pyvista"
 
 
 def require(renderer: Renderer) -> None:
