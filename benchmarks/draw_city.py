@@ -1,6 +1,7 @@
 """Draw a city in tiles: `python draw_city.py PICTURE [BLOCKS]`.
 
-A path from a street to the farthest courtyard with a door, the proof for one without, and the tiles that either has read.
+Left, the tiles, and a path from a street to the farthest courtyard with a door; right, a courtyard without one, in the
+colour of barriers what its proof is about.
 """
 
 from __future__ import annotations
@@ -9,20 +10,19 @@ import sys
 import tempfile
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 from bench_shards import STREET, places
-from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
-from matplotlib.patches import Patch
+from matplotlib.patches import PathPatch, Rectangle
 from write_city import write_city
 
 import cfree
-from cfree.distributed import boundary
-from cfree.palette import PALETTE
+from cfree.distributed import Sharded, boundary
+from cfree.palette import BARRIER, FRAME, LETTERS, OBSTACLE, PATH
+from cfree.plot.workspace import draw_robot, draw_surroundings, path_of, rings_of
 
-matplotlib.use("Agg")
-TILE = 1_000
+TILE = 500
+AROUND = 45.0
 
 
 def main() -> None:
@@ -31,25 +31,38 @@ def main() -> None:
         folder = Path(name)
         side = write_city(folder, blocks)
         found = boundary([folder / "robot.json", folder / "city.geojsonl"], folder=folder / "tiles", tile=TILE)
-        *_, (_, x, y), (_, u, v) = places(side)
-        way, shut = found.plan(STREET, (x, y, 0)), found.plan(STREET, (u, v, 0))
-        assert isinstance(way, cfree.Path) and isinstance(shut, cfree.Separated)
-        assert shut.scene is not None
-        store, boxes = found.work.store, found.work.division.boxes
-        figure = Figure(figsize=(8, 8), layout="constrained")
-        ax = figure.add_subplot()
-        for x0, y0, x1, y1 in boxes:
-            ax.fill([x0, x1, x1, x0], [y0, y0, y1, y1], facecolor="none", edgecolor=PALETTE.frame, linewidth=0.7)
-        near = {int(name.split()[-1]) for name in shut.scene.obstacle_names if name}
-        for number, polygon in enumerate(store.polygons(range(len(store)))):
-            colour = PALETTE.barrier if number in near else PALETTE.obstacle
-            rings = [polygon.vertices[i:j] for i, j in zip(polygon.ring_offsets, polygon.ring_offsets[1:])]
-            path = matplotlib.path.Path.make_compound_path(
-                *(matplotlib.path.Path(np.vstack([ring, ring[:1]]), closed=True) for ring in rings)
-            )
-            ax.add_patch(matplotlib.patches.PathPatch(path, facecolor=colour, edgecolor="none"))
-        ax.plot(*way.sample(1.0).xy.T, color=PALETTE.path, linewidth=1.4)
-    figure.savefig(picture, dpi=110)
+        *_, (_, *far), (_, *shut) = places(side)
+        draw(found, far, shut).savefig(picture, dpi=100)
+
+
+def draw(found: Sharded, far: list[float], shut: list[float]) -> Figure:
+    import matplotlib
+
+    with matplotlib.rc_context(LETTERS):
+        figure = Figure(figsize=(12, 6.2), layout="constrained")
+        left, right = figure.subplots(1, 2)
+        store = found.work.store
+        every = store.scene(range(len(store)))
+        left.add_patch(PathPatch(path_of(rings_of(every.obstacles)), facecolor=OBSTACLE, edgecolor="none"))
+        for x0, y0, x1, y1 in found.work.division.boxes:
+            left.add_patch(Rectangle((x0, y0), x1 - x0, y1 - y0, fill=False, edgecolor=FRAME, linewidth=0.8))
+        way = found.plan(STREET, (*far, 0))
+        assert isinstance(way, cfree.Path)
+        left.plot(*way.sample(1.0).xy.T, color=PATH, linewidth=1.5)
+        left.set_title(f"a path of {way.length:,.0f}: {found.tiles_read} of {found.tiles} tiles read", fontsize=13)
+        proof = found.plan(STREET, (*shut, 0))
+        assert isinstance(proof, cfree.Separated) and proof.scene is not None
+        draw_surroundings(right, every)
+        about = [k for k, name in enumerate(proof.scene.obstacle_names) if k in proof.obstacles and name]
+        walls = [proof.scene.obstacles[k] for k in about]
+        right.add_patch(PathPatch(path_of(rings_of(walls)), facecolor=BARRIER, edgecolor="none", zorder=2))
+        draw_robot(right, every, cfree.Pose(*shut, 0), faint=False)
+        right.set_title(f"no way out, proved: {found.tiles_read} of {found.tiles} tiles read", fontsize=13)
+        right.set(xlim=np.add(shut[0], (-AROUND, AROUND)), ylim=np.add(shut[1], (-AROUND, AROUND)))
+        for ax in (left, right):
+            ax.set_aspect("equal")
+            ax.autoscale_view() if ax is left else None
+    return figure
 
 
 if __name__ == "__main__":

@@ -55,9 +55,7 @@ def predicted(run: dict[str, Any], vertices: int, workers: int) -> dict[str, flo
 def main() -> None:
     run = json.loads(Path(sys.argv[1]).read_text().splitlines()[-1])
     per = {stage: sum(run["tasks"][task]) / run["trapezoids"] for stage, task in STAGES.items()}
-    print(
-        f"{run['vertices']:,} vertices, {run['trapezoids']:,} trapezoids, {run['tiles']} tiles, {run['workers']} workers"
-    )
+    print("{vertices:,} vertices, {trapezoids:,} trapezoids, {tiles} tiles, {workers} workers".format(**run))
     print("microseconds a trapezoid: " + ", ".join(f"{stage} {1e6 * value:.2f}" for stage, value in per.items()))
     print("microseconds a vertex, the asking process alone: "
           + ", ".join(f"{stage} {1e6 * value:.1f}" for stage, value in alone(run).items()))  # fmt: skip
