@@ -16,12 +16,12 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
     "sphinx.ext.napoleon",
-    "sphinx.ext.mathjax",
+    "sphinx-mathjax-offline",
     "sphinx.ext.viewcode",
     "sphinx_gallery.gen_gallery",
 ]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
-exclude_patterns = ["_build", "gallery/GALLERY_HEADER.rst", "sg_execution_times.rst"]
+exclude_patterns = ["_build", "gallery/GALLERY_HEADER.rst"]
 myst_enable_extensions = ["dollarmath", "amsmath"]
 myst_heading_anchors = 3
 # links to files of the repository that are no pages; names of arguments taken for types
@@ -83,6 +83,7 @@ sphinx_gallery_conf = {
     "filename_pattern": r"\.py$",
     "remove_config_comments": True,
     "show_memory": False,
+    "write_computation_times": False,  # a page with scripts from elsewhere
     "min_reported_time": 1e9,
     "download_all_examples": False,
     "abort_on_example_error": True,

@@ -86,7 +86,7 @@ def stages() -> Iterator[Callable[[str, int, int], None] | None]:
 
     def tell(say: Callable[[str], None], stage: str, done: int, of: int) -> None:
         seconds = time.monotonic() - began.setdefault(stage, time.monotonic())
-        text = f"{stage} {done:,} of {of:,} tiles"
+        text = f"{stage} {done:,} of {of:,} tiles" if of else f"{stage} {done:,} obstacles"
         if 0 < done < of and seconds > SECOND:
             text += f", {MINUTE * done / seconds:.3g} a minute, {_duration(seconds * (of - done) / done)} left"
         say(text)

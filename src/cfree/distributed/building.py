@@ -22,10 +22,12 @@ from cfree.distributed.sharded import Sharded
 from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_scene
 from cfree.distributed.trim import MODULUS
 from cfree.errors import FormatError
+from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
 
 TILE = 20_000
 ROUNDS = 3
+BLOCK = 1_000  # obstacles
 Progress = Callable[[str, int, int], object]
 
 
@@ -55,7 +57,8 @@ def boundary(
     tiles : int, optional
         How many tiles instead.
     progress : callable, optional
-        Called with the name of the stage, and how many of how many tiles are done.
+        Called with the name of the stage, and how many of how many tiles are done; of obstacles that are read, how many,
+        and 0.
 
     Returns
     -------
@@ -131,11 +134,15 @@ class _Build:
         place = self.folder / "scene"
         if (place / "facts.json").exists():
             return SceneStore(place)
-        self.progress("read", 0, 1)
         head, obstacles = read_source(self.source)
-        store = store_scene(head, obstacles, place)
-        self.progress("read", 1, 1)
-        return store
+        return store_scene(head, self._counted(obstacles), place)
+
+    def _counted(self, obstacles: Iterator[Polygon]) -> Iterator[Polygon]:
+        self.progress("read", 0, 0)
+        for count, obstacle in enumerate(obstacles, 1):
+            yield obstacle
+            if count % BLOCK == 0:
+                self.progress("read", count, 0)
 
     def _divided(self, store: SceneStore) -> Division:
         place = self.folder / "tiles"
