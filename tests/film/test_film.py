@@ -322,7 +322,7 @@ def test_a_frame_has_the_colours_of_all_pictures_and_its_words(fig9: Boundary) -
     assert np.count_nonzero((red > 1.5 * green) & (red > 2 * blue)) > 3000  # v-e patches
     assert np.count_nonzero((blue > 1.2 * green) & (green > 2 * red)) > 1500  # e-v patches
     assert np.count_nonzero((blue > 1.5 * green) & (green < 0.35)) > 100  # helices
-    assert stage.caption.get_text() == caption(frames[-1].moment.contact)
+    assert stage.caption.get_text() == caption(frames[-1].recent[-1].contact)
     assert stage.space.tag.get_text() == "θ = 360°"
     words = [stage.title, stage.note, stage.caption, stage.pose]
     boxes = [word.get_window_extent() for word in words]

@@ -44,7 +44,8 @@ class View:
     Attributes
     ----------
     title, note : str
-    moment : Moment
+    recent : sequence of Moment
+        As many as trails are long, the present one last.
     azimuth : float, radians
     shown : (parts, 2) float64, degrees
         Between which angles each part of the boundary is drawn.
@@ -60,7 +61,7 @@ class View:
 
     title: str
     note: str
-    moment: Moment
+    recent: Sequence[Moment]
     azimuth: float
     shown: Floats
     ghost: float
@@ -126,9 +127,9 @@ class Stage:
 
     def draw(self, view: View) -> Image:
         """The frame as (height, width, 3) bytes."""
-        pose, contact = view.moment.pose, view.moment.contact
+        pose, contact = view.recent[-1].pose, view.recent[-1].contact
         cut = self.boundary.slice(pose.theta)
-        self.plane.draw(view.moment, cut, view.lines[-1], view.goal)
+        self.plane.draw(view.recent, cut, view.lines[-1], view.goal)
         self.space.draw(pose, cut, view.azimuth, view.shown, view.ghost, view.lines, view.stays)
         self.title.set_text(view.title)
         self.note.set_text(view.note)

@@ -45,8 +45,10 @@ class Names:
             if radius > needed
         ]
         self._boxes = [text.get_window_extent() for text in self._obstacles]
-        self._centre, radius = max((_disc(part.to_shapely()) for part in scene.robot), key=lambda disc: disc[1])
-        self._robot = ax.text(0, 0, "$A$", zorder=4.5, **style) if radius > needed else None
+        dot = shapely.Point(0, 0).buffer(0.5 * needed)  # of the reference point, beside which the name is
+        discs = [_disc(part.to_shapely().difference(dot)) for part in scene.robot]
+        self._centre, radius = max(discs, key=lambda disc: disc[1])
+        self._robot = ax.text(0, 0, "$A$", zorder=5.5, **style) if radius > 0.8 * needed else None
 
     def draw(self, pose: Pose, others: Iterable[Any]) -> None:
         """The robot's name where it is; hidden are all names that other texts are on."""

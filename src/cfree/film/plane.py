@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -86,6 +87,9 @@ class Plane:
             dashed: Any = {"fill": False, "edgecolor": GREY, "linestyle": (0, (5, 3)), "zorder": 2.1}
             ax.add_patch(Rectangle((left, bottom), right - left, top - bottom, **dashed))
         self.trail = ax.add_collection(LineCollection([], linewidths=2.0, zorder=3, capstyle="round"), autolim=False)
+        self.touched = ax.add_collection(
+            LineCollection([], linewidths=4.0, zorder=4.9, capstyle="round"), autolim=False
+        )
         self.target = shape([], fill=False, edgecolor=ROBOT, lw=1.2, ls="--", zorder=3.5)
         self.body = shape([], facecolor=ROBOT, alpha=0.85, lw=0, zorder=4)
         self.rim = shape([], fill=False, edgecolor=INK, lw=0.8, zorder=4.1)
@@ -98,8 +102,9 @@ class Plane:
         ]
         self.shapes = Names(ax, scene)
 
-    def draw(self, moment: Moment, cut: Slice, line: tuple[str, Floats], goal: Pose | None) -> None:
+    def draw(self, recent: Sequence[Moment], cut: Slice, line: tuple[str, Floats], goal: Pose | None) -> None:
         """Everything as it is in one frame; see `cfree.film.frame.View`."""
+        moment = recent[-1]
         pose = moment.pose
         rings = rings_of(self.scene.robot)
         self.region.set_path(path_of(rings_of_geometry(cut.forbidden)))
@@ -108,11 +113,38 @@ class Plane:
         self.target.set_path(path_of([] if goal is None else map(goal.apply, rings)))
         colour, places = line
         self.trail.set_segments(list(np.stack((places[:-1, :2], places[1:, :2]), axis=1)))
-        fresh = np.clip(1 - (len(places) - 1 - np.arange(1, len(places))) / self._age, FAINTEST, 1)
-        self.trail.set_color([(*to_rgb(colour), share) for share in fresh.tolist()])
+        self.trail.set_color([(*to_rgb(colour), share) for share in self._fresh(len(places), FAINTEST)])
+        self._draw_touched(recent)
         self.origin.set_data([float(pose.x)], [float(pose.y)])
         self._draw_contact(moment)
         self.shapes.draw(pose, self.names)
+
+    def _fresh(self, count: int, faintest: float) -> list[float]:
+        """Opacities of the parts of a line through so many places, which fade with their age."""
+        shares: list[float] = np.clip(1 - np.arange(count - 2, -1, -1) / self._age, faintest, 1).tolist()
+        return shares
+
+    def _draw_touched(self, recent: Sequence[Moment]) -> None:
+        """Where the robot has touched, of late."""
+        contacts = [moment.contact for moment in recent]
+        places = [self._touch(moment) for moment in recent]
+        parts = [
+            (np.stack((a, b)), (*to_rgb(TOUCH[now.kind]), share))
+            for a, b, now, share in zip(places, places[1:], contacts[1:], self._fresh(len(places), 0.0), strict=False)
+            if now is not None and a is not None and b is not None
+        ]
+        self.touched.set_segments([part for part, _ in parts])
+        self.touched.set_color([colour for _, colour in parts])
+
+    def _touch(self, moment: Moment) -> Floats | None:
+        """Where the robot touches: at its own vertex, or at the obstacle's."""
+        if moment.contact is None:
+            return None
+        robot, obstacle = moment.contact.robot, moment.contact.obstacle
+        if robot.end is None:
+            vertices = self.scene.robot[robot.polygon].vertices
+            return np.asarray(moment.pose.apply(vertices[robot.index : robot.index + 1])[0])
+        return np.asarray(shape_of(self.scene, obstacle).vertices[obstacle.index])
 
     def _draw_contact(self, moment: Moment) -> None:
         contact = moment.contact

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from cfree.film.apart import seen, shots_apart
 from cfree.film.eye import AZIMUTHS
-from cfree.film.frame import Stage, View
+from cfree.film.frame import TRAIL, Stage, View
 from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
 from cfree.film.turntable import turntable_frames
 from cfree.free.space import free_space
@@ -184,14 +184,15 @@ def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View,
     at = 0
     for shot in shots:
         line = np.array([(float(q.x), float(q.y), math.degrees(q.theta)) for q in (m.pose for m in shot.moments)])
-        for k, moment in enumerate(shot.moments):
+        for k in range(len(shot.moments)):
             shown = _more_shown(shown, stage.space.angles, shot, k, line[:, 2])
             # the free way to a shot is drawn while it lasts
             lines = [*kept, (shot.colour, line[0 if k < shot.link else shot.link : k + 1])]
             if shot.swept is not None:
                 stays[list(shot.swept.parts)] = True
             place = float(azimuth[at]), shown, float(ghost[at])
-            view = View(shot.title, shot.note, moment, *place, lines, shot.goal, stays)
+            recent = shot.moments[max(0, k - round(TRAIL * fps)) : k + 1]
+            view = View(shot.title, shot.note, recent, *place, lines, shot.goal, stays)
             yield view, shot.cut and k == 0
             at += 1
         if shot.kind in KEPT:

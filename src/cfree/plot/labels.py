@@ -22,7 +22,6 @@ from cfree.plot.workspace import Window, rings_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
     from mpl_toolkits.mplot3d.axes3d import Axes3D
     from shapely.geometry.base import BaseGeometry
 
@@ -39,8 +38,10 @@ PAD = 2.0  # points around a label that are its own
 LABEL, WALL, BODY, LINE, GHOST = 1000.0, 40.0, 25.0, 8.0, 5.0
 """What it costs to cover: other labels and leaders, obstacles, robots at rest, lines, ghosts."""
 FARTHEST = 40.0  # points from the numbers of an axis to its name
+EDGE = 0.3  # share of that if it is only touched
+CLOSER = 24  # places that are looked at closely
 FAR = 0.08  # what a point of distance costs
-CORNERS = 12  # of a robot, any of which its name may be beside
+CORNERS = 6  # of a robot, any of which its name may be beside
 FRAME, MAY = "reference point stays inside", "the reference point may be"
 
 
@@ -104,15 +105,20 @@ class Room:
         boxes, leaders = _boxes(centres, half), shapely.linestrings(np.stack((anchors, centres), axis=1))
         covers = np.zeros(len(boxes), dtype=bool)
         for tree, price in self.kept:
-            box, shape = tree.query(boxes, predicate="intersects")
-            share = np.zeros(len(boxes))
-            np.add.at(share, box, shapely.area(shapely.intersection(boxes[box], tree.geometries[shape])))
-            hit = np.unique(box)
-            cost[hit] += price * (0.3 + np.minimum(1.0, share[hit] / shapely.area(boxes[hit])))
+            hit = np.unique(tree.query(boxes, predicate="intersects")[0])
+            cost[hit] += EDGE * price
             covers[hit] |= price in (WALL, BODY)
             if price == LABEL:
                 cost[np.unique(tree.query(leaders, predicate="intersects")[0])] += LABEL / 2
-        k = int(cost.argmin())
+        near = np.argsort(cost, kind="stable")[:CLOSER]  # how much they cover is only computed for these
+        for tree, price in self.kept:
+            if price in (LABEL, LINE):
+                continue
+            box, shape = tree.query(boxes[near], predicate="intersects")
+            share = np.zeros(len(near))
+            np.add.at(share, box, shapely.area(shapely.intersection(boxes[near[box]], tree.geometries[shape])))
+            cost[near] += price * np.minimum(1.0, share / shapely.area(boxes[near]))
+        k = int(near[cost[near].argmin()])
         return Place(anchors[k], centres[k], half, bool(covers[k]), bool(cost[k] < LABEL / 2))
 
 
@@ -236,12 +242,12 @@ def name_in_space(ax: Axes3D, names: Iterable[tuple[Floats, str]], line: Floats 
     seen = [artist for artist in axes.collections if artist.get_visible()]
     for artist in seen:  # to lay out what is written needs no faces
         artist.set_visible(False)
-    written = _written(figure)
+    written = _written(axes)
     own = axes.xaxis, axes.yaxis, axes.zaxis
     while own[0].labelpad < FARTHEST and any(_touches(axis.label, written) for axis in own):
         for axis in own:
             axis.labelpad += 4
-        written = _written(figure)
+        written = _written(axes)
     for artist in seen:
         artist.set_visible(True)
 
@@ -263,8 +269,8 @@ def name_in_space(ax: Axes3D, names: Iterable[tuple[Floats, str]], line: Floats 
         room.keep([place.box], LABEL)
 
 
-def _written(figure: Figure) -> list[tuple[Any, BaseGeometry]]:
-    """All texts of a figure but those with a halo, and their boxes in pixels, as they are when it is drawn.
+def _written(ax: Axes3D) -> list[tuple[Any, BaseGeometry]]:
+    """All texts of axes but those with a halo, and their boxes in pixels, as they are when they are drawn.
 
     Axes with three dimensions place theirs only then.
     """
@@ -277,8 +283,9 @@ def _written(figure: Figure) -> list[tuple[Any, BaseGeometry]]:
             if mtext is not None:
                 found.append((mtext, _box(mtext)))
 
-    width, height = figure.get_size_inches() * figure.dpi
-    figure.draw(Noting(width, height, figure.dpi))  # type: ignore[no-untyped-call]
+    figure: Any = ax.figure
+    width, height = figure.bbox.size
+    ax.draw(Noting(width, height, figure.dpi))  # type: ignore[no-untyped-call]
     return found
 
 
