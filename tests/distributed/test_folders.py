@@ -34,7 +34,7 @@ class Ended(Exception):
 @pytest.mark.parametrize("stage", ["read", "trim", "glue", "join", "nest"])
 def test_what_was_ended_goes_on(stage: str, made: Sharded, tmp_path: Path) -> None:
     def stop(at: str, done: int, of: int) -> None:
-        if at == stage and (done or of == 1):
+        if at == stage and (done or of < 2):
             raise Ended
 
     with pytest.raises(Ended):

@@ -57,8 +57,8 @@ def boundary(
     tiles : int, optional
         How many tiles instead.
     progress : callable, optional
-        Called with the name of the stage, and how many of how many tiles are done; of obstacles that are read, how many,
-        and 0.
+        Called with the name of the stage, and how many of how many tiles are done; while obstacles are read, with how
+        many there are so far, and 0.
 
     Returns
     -------
