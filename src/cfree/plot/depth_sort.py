@@ -26,6 +26,7 @@ from cfree.plot.visible import polylines, seen_parts
 AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
 FOG = 0.25
 GLASS, GHOST, DIMMEST, SOLID = 0.3, 0.06, 0.35, 0.9
+RIM = 0.6  # of faces, in typographic points: it hides seams
 HIDING = 0.5  # opacity of a face behind which curves are not seen
 
 
@@ -195,8 +196,9 @@ class _Look:
         is_curve, alpha = self.is_curve, self.alpha
         fill, rim = (np.column_stack((self.rgb, part)) for part in (np.where(is_curve, 0, alpha), alpha))
         rim[(alpha < SOLID) & ~is_curve, 3] = 0  # where faces are seen through, their rims would be twice as dark
-        width = np.where(is_curve, self.pieces.width, np.where(self.pieces.sort == SECTION, 0.8, 0.4))
         onto.set_verts(flat[order], closed=True)  # type: ignore[arg-type]
         onto.set_facecolor(fill[order])  # type: ignore[arg-type]
         onto.set_edgecolor(rim[order])  # type: ignore[arg-type]
-        onto.set_linewidth(width[order].tolist())
+        # one for all where there are faces alone: matplotlib is slow with many
+        width = np.where(is_curve, self.pieces.width, RIM)[order]
+        onto.set_linewidth(width.tolist() if is_curve[order].any() else RIM)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-SIDE = 900  # cells of the buffer along its longer side
+SIDE = 700  # cells of the buffer along its longer side
 PARTS = 4  # of a piece of a curve; each is seen or not
 SLACK = 0.004  # of all depth: a curve lies on its faces
 SHORT = 6  # parts of a curve; shorter gaps are rounding
@@ -39,9 +39,10 @@ def depth_buffer(corners: Floats, low: Floats, size: float, shape: tuple[int, in
     area = q[:, 0] * r[:, 1] - q[:, 1] * r[:, 0]
     seen = np.abs(area) > 1e-12
     p, q, r, area, triangles = p[seen], q[seen], r[seen], area[seen], triangles[seen]
-    first = np.clip(np.floor(triangles[..., :2].min(axis=1)).astype(np.int64), 0, np.array(shape)[::-1])
-    last = np.clip(np.ceil(triangles[..., :2].max(axis=1)).astype(np.int64), 0, np.array(shape)[::-1])
-    width, height = (last - first).T
+    # cells whose middles may be inside
+    first = np.clip(np.ceil(triangles[..., :2].min(axis=1) - 0.5).astype(np.int64), 0, np.array(shape)[::-1])
+    last = np.clip(np.floor(triangles[..., :2].max(axis=1) + 0.5).astype(np.int64), 0, np.array(shape)[::-1])
+    width, height = np.maximum(last - first, 0).T
     count = width * height
     of = np.repeat(np.arange(len(count)), count)
     k = np.arange(len(of)) - (np.cumsum(count) - count)[of]
