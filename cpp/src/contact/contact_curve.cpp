@@ -26,14 +26,14 @@ Places::Parts Places::parts(const Feature& f) const {
 }
 
 ContactCurve::ContactCurve(const Places& places, const Feature& on, const Feature& other, double from, double to) {
-    if (other.kind == Kind::vertex_vertex) {
-        c = places.b(other.obstacle), m = -places.a(other.robot);
-        return;
+    if (other.kind == Kind::vertex_vertex) c = places.b(other.obstacle), m = -places.a(other.robot);
+    else {
+        const auto p = places.parts(on), q = places.parts(other);
+        const bool turns = on.kind == Kind::edge_vertex;
+        if (on.kind == other.kind) meet_parallel(p, q, turns);
+        else meet_mixed(turns ? q : p, turns ? p : q, from, to);
     }
-    const auto p = places.parts(on), q = places.parts(other);
-    const bool turns = on.kind == Kind::edge_vertex;
-    if (on.kind == other.kind) meet_parallel(p, q, turns);
-    else meet_mixed(turns ? q : p, turns ? p : q, from, to);
+    once = std::abs(m) + std::abs(m_back), twice = std::abs(m_twice);
 }
 
 // Two surfaces of a kind: lines at a constant angle to one another.
@@ -96,7 +96,7 @@ Complex ContactCurve::acceleration(double phi) const {
 // |exp(i phi)| and |cos| grow as exp of the imaginary part at most, and |sin| is no less than that of the real part.
 double ContactCurve::reach(Complex origin, double from, double to, double beyond) const {
     const double low = half(from), high = half(to), more = growth(beyond);
-    double result = std::abs(c - origin) + more * (std::abs(m) + std::abs(m_back) + more * std::abs(m_twice));
+    double result = std::abs(c - origin) + more * (once + more * twice);
     const auto add = [&](double of, double shift, double at_low, double at_high) {
         if (of == 0) return;
         const bool pole = std::floor(low / pi + shift) != std::floor(high / pi + shift);
@@ -110,16 +110,32 @@ double ContactCurve::reach(Complex origin, double from, double to, double beyond
 
 // tan and cot of half(phi) and their derivatives grow from the middle of their period on: the ends bound them.
 double ContactCurve::speed(double from, double to) const {
+    if (k == 0 && l == 0) return once + 2 * twice;
     double tangent = 0, cotangent = 0;
     for (const double phi : {from, to}) {
         const CosineSine at = cosine_sine(half(phi));
         if (l != 0) tangent = std::max(tangent, 1 / (at.c * at.c));
         if (k != 0) cotangent = std::max(cotangent, 1 / (at.s * at.s));
     }
-    return std::abs(m) + std::abs(m_back) + 2 * std::abs(m_twice) + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
+    return once + 2 * twice + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
+}
+
+// That in the middle, and the third derivative's bound; its terms too grow from the middle of their period on.
+double ContactCurve::bend_near(double from, double to) const {
+    if (m_back == 0.0 && twice == 0 && k == 0 && l == 0) return once;
+    double tangent = 0, cotangent = 0;
+    for (const double phi : {from, to}) {
+        const CosineSine at = cosine_sine(half(phi));
+        const double s = at.s * at.s, t = at.c * at.c;
+        if (l != 0) tangent = std::max(tangent, (1 + 2 * s) / (t * t));
+        if (k != 0) cotangent = std::max(cotangent, (1 + 2 * t) / (s * s));
+    }
+    const double third = once + 8 * twice + 0.125 * (std::abs(k) * cotangent + std::abs(l) * tangent);
+    return std::min(bend(from, to), std::abs(acceleration(0.5 * (from + to))) + 0.5 * (to - from) * third);
 }
 
 double ContactCurve::bend(double from, double to) const {
+    if (k == 0 && l == 0) return once + 4 * twice;
     double tangent = 0, cotangent = 0;
     for (const double phi : {from, to}) {
         const CosineSine at = cosine_sine(half(phi));
@@ -127,7 +143,7 @@ double ContactCurve::bend(double from, double to) const {
         if (l != 0) tangent = std::max(tangent, s / (t * t * t));
         if (k != 0) cotangent = std::max(cotangent, t / (s * s * s));
     }
-    return std::abs(m) + std::abs(m_back) + 4 * std::abs(m_twice) + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
+    return once + 4 * twice + 0.25 * (std::abs(k) * cotangent + std::abs(l) * tangent);
 }
 
 }  // namespace cfree

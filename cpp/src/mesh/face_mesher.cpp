@@ -1,4 +1,4 @@
-// Points on a lattice or in rows, where there is room; more where the bound asks for them, none that are not needed.
+// Points as laid out, where there is room; more where the bound asks for them, none that are not needed.
 #include "cfree/mesh/face_mesher.hpp"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "cfree/support/stop.hpp"
 
@@ -14,36 +15,37 @@ namespace cfree {
 
 namespace {
 
-constexpr double rim_gap = 0.1;          // least distance of lattice points from the rim, in units of the lattice
-constexpr double lattice_stretch = 1.6;  // where h is large the shear varies less
-constexpr double golden = std::numbers::phi;
-constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles a unit of w du dphi / error
+constexpr double usual_stretch = 1.6;
+constexpr double doubt = 1.3;  // of estimates of how many triangles there will be
+constexpr double few = 4;      // triangles, for which nothing is laid out
 
 }  // namespace
 
-void FaceMesher::fill(const MeshFace& on, const Rim& rim, const Rows& rows, Index which) {
+void FaceMesher::fill(const MeshFace& on, const Rim& rim, const Layout& layout, Index which) {
     face = &on, number = which;
-    if (least_triangles(on, error, angle_scale) <= 4) return fill(rim, rows, Pattern::none);
-    fill(rim, rows, Pattern::lattice);
-    if (rows.rows.empty()) return;
-    const auto other_net = net;
-    const auto other_points = points;
-    fill(rim, rows, Pattern::rows);
-    if (net.triangles.size() > other_net.triangles.size()) net = other_net, points = other_points;
+    if (least_triangles(on, error) <= few) return fill(rim, {});
+    const Layout lattice = lattice_over(on, error, may_leave);
+    if (layout.is_empty()) return fill(rim, lattice);
+    fill(rim, layout);
+    if (lattice.triangles > doubt * layout.triangles) return;
+    const auto first_net = std::exchange(net, {});
+    const auto first_points = std::exchange(points, {});
+    fill(rim, lattice);
+    if (net.triangles.size() >= first_net.triangles.size()) net = first_net, points = first_points;
 }
 
-// From the rim inwards: a disc zipped between the two curves, points of the pattern, more where the bound asks for them.
-void FaceMesher::fill(const Rim& rim, const Rows& rows, Pattern pattern) {
+// From the rim inwards: a disc zipped between the two curves, points as laid out, more where the bound asks for them.
+void FaceMesher::fill(const Rim& rim, const Layout& layout) {
     net = {}, points.clear();
-    stretch = pattern == Pattern::rows ? rows.stretch : lattice_stretch;
+    const bool bare = layout.is_empty();
+    stretch = bare ? usual_stretch : layout.stretch, lean = bare ? -face->shear : layout.lean;
     place(rim);
     const auto rim_end = static_cast<Index>(points.size());
-    if (pattern != Pattern::none) net.make_delaunay();
-    if (pattern == Pattern::lattice) add_lattice();
-    if (pattern == Pattern::rows) add_rows(rows);
-    const auto pattern_end = static_cast<Index>(points.size());
+    if (!bare) net.make_delaunay();
+    for (const auto [u, phi, off] : layout.inside) insert(u, phi, off);
+    const auto layout_end = static_cast<Index>(points.size());
     improve(100 * points.size() + 10000);
-    if (static_cast<Index>(points.size()) > rim_end) simplify(rim_end, pattern_end);
+    if (static_cast<Index>(points.size()) > rim_end) simplify(rim_end, layout_end);
 }
 
 // The face between its curves, then the points of its first and last side put on the rim.
@@ -68,82 +70,18 @@ void FaceMesher::place(const Rim& rim) {
     split(sides[0], corner(1)), split(sides[2], corner(3));
 }
 
-void FaceMesher::insert(const MeshPoint& p) {
+void FaceMesher::insert(double u, double phi, double off) {
+    heed_stop();
+    MeshPoint p = face->point_inside(face->s(u), phi);
+    p.off = off;
     const Index id = add_point(p);
     if (!net.insert(id)) points.pop_back(), net.places.pop_back();
 }
 
-void FaceMesher::add_rows(const Rows& rows) {
-    for (std::size_t k = 1; k + 1 < rows.rows.size(); ++k) {
-        heed_stop();
-        const auto [phi, parts] = rows.rows[k];
-        const double low = face->u(face->position(face->curves[0].at(phi), phi)), wide = face->width_u(phi);
-        const bool between = k % 2 == 1;
-        for (int i = between ? 0 : 1; i < parts; ++i) insert(face->point(face->s(low + wide * (i + (between ? 0.5 : 0.0)) / parts), phi));
-    }
-}
-
 Index FaceMesher::add_point(const MeshPoint& p) {
     points.push_back(p);
-    net.places.push_back({face->is_saddle ? (face->u(p.s) + face->shear * p.phi) / stretch : p.s, stretch * p.phi});
+    net.places.push_back({face->is_saddle ? (face->u(p.s) - lean * p.phi) / stretch : p.s, stretch * p.phi});
     return static_cast<Index>(points.size()) - 1;
-}
-
-// The largest share of the ideal area at which triangles of the lattice fit everywhere.
-double FaceMesher::scale_of_lattice() const {
-    const double phi = 0.5 * (face->from + face->to), unit = lattice_unit();
-    const double low = face->u(face->position(face->curves[0].at(phi), phi)), wide = face->width_u(phi);
-    const auto fits = [&](double scale) {
-        for (int k = 0; k <= 16; ++k) {
-            std::array<MeshPoint, 3> p;
-            const double x[] = {0, lattice.m, lattice.n}, y[] = {0, lattice.n, lattice.m};
-            for (int c = 0; c < 3; ++c) {
-                const double dy = scale * unit * y[c] / stretch;
-                const double u = low + wide * k / 16 + side() * stretch * scale * unit * (x[c] - 0.76) - face->shear * dy;
-                p[c] = lifted({face->s(u), phi + dy, {0, 0}});
-            }
-            if (face->excess_inside({&p[0], &p[1], &p[2]}) > 1) return false;
-        }
-        return true;
-    };
-    double scale = 1;
-    while (scale > 0.5 && !fits(scale)) scale *= 0.985;
-    return scale;
-}
-
-// Of best triangles. On the surface: edges (1/g, g), (1, -1) and (g, 1/g), g the golden ratio, with |dx dy| = 1; a third of the
-// error below it |dx dy| is 2/3 for two of them and 4/3 for the third, (k, -k).
-FaceMesher::Lattice::Lattice(bool free)
-    : m(free ? 1 - 1 / std::numbers::sqrt3 : 1 / golden), n(free ? 1 + 1 / std::numbers::sqrt3 : golden),
-      k(free ? 2 / std::numbers::sqrt3 : 1), off(free ? -1.0 / 3 : 0) {}
-
-MeshPoint FaceMesher::lifted(MeshPoint p) const {
-    p.off = side() * lattice.off * error * face->gradient(p.s);
-    return p;
-}
-
-void FaceMesher::add_lattice() {
-    const double unit = lattice_unit() * scale_of_lattice();
-    double left = 1e300, right = -1e300;
-    for (const auto& p : net.places) left = std::min(left, p.x), right = std::max(right, p.x);
-    const double x0 = 0.5 * (left + right), y0 = 0.5 * (face->from + face->to) * stretch, gap = rim_gap * unit;
-    const double wide = 0.5 * (right - left) / unit, high = 0.5 * (face->to - face->from) * stretch / unit;
-    const auto [m, n, k, off] = lattice;
-    const auto rows = static_cast<Index>(std::ceil((wide * n + high * m) / (k * (m + n)))) + 2;
-    for (Index j = -rows; j <= rows; ++j) {
-        heed_stop();
-        const auto from = static_cast<Index>(std::floor((-high + j * k) / n));
-        const auto to = static_cast<Index>(std::ceil((high + j * k) / n));
-        for (Index i = from; i <= to; ++i) {
-            const double x = x0 + side() * unit * (i * m + j * k), phi = (y0 + unit * (i * n - j * k)) / stretch;
-            if (x < left || x > right || phi < face->from + gap / stretch || phi > face->to - gap / stretch) continue;
-            const double u = stretch * x - face->shear * phi;
-            const MeshPoint p = face->point(face->s(u), phi);
-            const double low = p.s - p.inward[0], up = p.s + p.inward[1];
-            if (u - face->u(low) < gap * stretch || face->u(up) - u < gap * stretch) continue;
-            insert(lifted(p));
-        }
-    }
 }
 
 template <std::size_t n>
@@ -151,7 +89,7 @@ Index FaceMesher::add_middle(const std::array<Index, n>& of) {
     double x = 0, y = 0;
     for (const Index k : of) x += net.places[k].x / n, y += net.places[k].y / n;
     y /= stretch;
-    return add_point(face->point(face->is_saddle ? face->s(stretch * x - face->shear * y) : x, y));
+    return add_point(face->point_inside(face->is_saddle ? face->s(stretch * x + lean * y) : x, y));
 }
 
 // Flips edges and puts points on them until every triangle is close.
@@ -227,16 +165,6 @@ void FaceMesher::simplify(Index rim, Index inner) {
         }
     }
     net.sweep_dropped();
-}
-
-// The best known density's integral over the face, by Simpson's rule.
-double least_triangles(const MeshFace& face, double error, double angle_scale) {
-    if (!face.is_saddle || face.is_thin()) return 0;
-    double sum = 0;
-    const int parts = 16;
-    for (int k = 0; k <= parts; ++k)
-        sum += (k == 0 || k == parts ? 1 : k % 2 ? 4 : 2) * face.width_u(face.from + k * (face.to - face.from) / parts);
-    return best_density * angle_scale * (face.to - face.from) * sum / (3 * parts) / error;
 }
 
 }  // namespace cfree

@@ -17,7 +17,7 @@ namespace {
 using std::numbers::pi;
 constexpr double most_turn = pi / 4;  // between two samples of a curve
 constexpr double few = 4;             // triangles, for which no pattern is made
-constexpr double least_part = 0.05;    // of a row's step: ends of edges this close to it do for its end
+constexpr double least_part = 0.05;    // of a layout's step: ends of edges this close to a point of it do for that
 
 bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
 
@@ -26,7 +26,7 @@ public:
     Mesher(const CellComplex& cells, double most_error, double scale, bool off_surface = false)
         : in(cells), trapezoids(cells.boundary->trapezoids), patches(cells.boundary->patches), scene(*cells.boundary->scene),
           error(most_error), angle_scale(scale), faces(static_cast<Index>(cells.component.size())),
-          half_edges(static_cast<Index>(cells.face.size())), filler(most_error, scale, off_surface) {
+          half_edges(static_cast<Index>(cells.face.size())), filler(most_error, off_surface) {
         for (Index v = 0; v < in.vertices; ++v) {  // the robot as it is, the obstacles from their origin
             const auto [c, s] = cosine_sine(in.theta[v]);
             const double a = scene.frame[2], b = scene.frame[3];
@@ -96,7 +96,7 @@ private:
     std::vector<Run> runs;            // of each half-edge
     Mesh out;
     Index rim_vertices = 0;
-    std::vector<Rows> rows;
+    std::vector<Layout> layouts;
     FaceMesher filler;
 };
 
@@ -110,17 +110,16 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
         const Index f = in.face[order[k]];
         is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
         Samples ends;
-        const auto& of = rows[f].rows;
-        for (std::size_t j = 2; j + 2 < of.size(); j += 2) {
-            const double near_by = least_part * (of[j + 1].angle - of[j - 1].angle);
-            if (of[j].angle > a + near_by && of[j].angle < b - near_by) ends.push_back(of[j].angle);
-        }
+        const auto& of = layouts[f].stops[in.side[order[k]] == 1];
+        const double near_by = least_part * (mesh_faces[f].to - mesh_faces[f].from) / static_cast<double>(of.size() + 1);
+        for (const double angle : of)
+            if (angle > a + near_by && angle < b - near_by) ends.push_back(angle);
         if (ends.size() > stops.size()) stops = std::move(ends);
     }
     const auto bend = [&](double from, double to) {
         double most = 0;
         for (Index k = start[edge]; k < start[edge + 1]; ++k)
-            for (const ContactCurve& c : mesh_faces[in.face[order[k]]].curves) most = std::max(most, c.bend(from, to));
+            for (const ContactCurve& c : mesh_faces[in.face[order[k]]].curves) most = std::max(most, c.bend_near(from, to));
         return most;
     };
     Samples samples;
@@ -143,7 +142,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
     return samples;
 }
 
-// As many parts as the row there of one of the faces has.
+// As many parts as a row there has, or those that the points next to the side ask for, in all faces of its patch.
 Mesher::Samples Mesher::samples_of_side(Index edge) const {
     const Index first = order[start[edge]];
     const Complex p = place(first), q = place(after(first));
@@ -151,17 +150,22 @@ Mesher::Samples Mesher::samples_of_side(Index edge) const {
     for (Index k = start[edge]; k < start[edge + 1]; ++k) {
         const Index f = in.face[order[k]];
         const MeshFace& sheet = mesh_faces[f];
-        if (rows[f].rows.empty()) continue;
+        if (layouts[f].is_empty()) continue;
+        std::vector<Wall> walls;
+        for (Index m = start[edge]; m < start[edge + 1]; ++m)
+            if (const Index g = in.face[order[m]]; trapezoids.patch[g] == trapezoids.patch[f])
+                walls.push_back({&mesh_faces[g], angle(order[m]), &layouts[g].ends[in.side[order[m]] == 2]});
         const double phi = angle(order[k]), s = sheet.position(p, phi), t = sheet.position(q, phi);
-        const double from = sheet.u(s), to = sheet.u(t);
-        const auto& row = in.side[order[k]] == 0 ? rows[f].rows.front() : rows[f].rows.back();
-        const auto steps = static_cast<std::size_t>(std::lround(row.parts * std::abs(to - from) / sheet.width_u(phi)));
-        if (steps <= best.size() + 1) continue;
-        best.clear();
-        for (std::size_t j = 1; j < steps; ++j) {
-            const double u = from + (to - from) * static_cast<double>(j) / static_cast<double>(steps);
-            best.push_back((sheet.s(u) - s) / (t - s));
+        const double from = sheet.u(std::min(s, t)), to = sheet.u(std::max(s, t));
+        Samples found = wall_points(walls, error, from, to);
+        if (const int parts = layouts[f].parts[in.side[order[k]] == 2]; parts > 0) {
+            const auto steps = static_cast<int>(std::lround(parts * (to - from) / sheet.width_u(phi)));
+            found.clear();
+            for (int j = 1; j < steps; ++j) found.push_back(from + (to - from) * j / steps);
         }
+        for (double& each : found) each = (sheet.s(each) - s) / (t - s);
+        if (s > t) std::reverse(found.begin(), found.end());
+        if (found.size() > best.size()) best = std::move(found);
     }
     return best;
 }
@@ -233,8 +237,8 @@ Rim Mesher::rim_of(Index f) {
 // The triangles of a face, and its inner points as vertices.
 void Mesher::triangulate(Index f) {
     const MeshFace& sheet = mesh_faces[f];
-    out.least += least_triangles(sheet, error, angle_scale);
-    filler.fill(sheet, rim_of(f), rows[f], f);
+    out.least += least_triangles(sheet, error);
+    filler.fill(sheet, rim_of(f), layouts[f], f);
     for (const Triangle& t : filler.net.triangles) {
         for (const Index c : t.corner) {
             MeshPoint& p = filler.points[c];
@@ -313,8 +317,8 @@ Mesh Mesher::run() {
     early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
     runs.resize(static_cast<std::size_t>(half_edges));
     for (const MeshFace& sheet : mesh_faces) {
-        const bool is_large = least_triangles(sheet, error, angle_scale) > few;
-        rows.push_back(is_large ? rows_across(sheet, error) : Rows{});
+        const bool is_large = least_triangles(sheet, error) > few;
+        layouts.push_back(is_large ? best_layout(sheet, error) : Layout{});
     }
     const auto samples = samples_of_edges();
     for (Index e = 0; e < in.edges; ++e)
@@ -337,7 +341,7 @@ MeshEstimate Mesher::estimate() const {
         const MeshFace& sheet = mesh_faces[f];
         const double high = sheet.to - sheet.from;
         if (sheet.is_thin()) continue;
-        result.triangles += 1.3 * least_triangles(sheet, error, angle_scale);
+        result.triangles += 1.3 * least_triangles(sheet, error);
         for (const ContactCurve& c : sheet.curves) {
             const double bend = c.bend(sheet.from + 0.25 * high, sheet.to - 0.25 * high);
             result.triangles += high * std::sqrt(bend / (8 * on_curves * error));

@@ -33,6 +33,8 @@ struct MeshFace::Spread {
     }
     double low, high, angle, reach, off;
     double slip() const { return off * angle / 2; }  // along the line, as normals turn
+    // at most the angle's cosine
+    double turn() const { return 1 - square(angle) / 2 * (1 - square(angle) / 12 * (1 - square(angle) / 30)); }
 };
 
 MeshFace::MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double first,
@@ -75,18 +77,43 @@ MeshPoint MeshFace::point(double s, double phi) const {
     return {s, phi, {std::max(0.0, s - low), std::max(0.0, high - s)}};
 }
 
+MeshPoint MeshFace::point_inside(double s, double phi) const {
+    const double low = position(curves[0].at(phi), phi), high = position(curves[1].at(phi), phi);
+    s = std::min(std::max(s, low), std::max(low, high));
+    return {s, phi, {s - low, std::max(0.0, high - s)}};
+}
+
 // In its own slice a point with weights l of the corners is off the line by the sum of l_k off_k, less that of l_j l_k form(j, k),
-// j < k, up to third order; of that the extremes over a triangle are on its edges.
+// j < k, up to third order; in each slice this is linear, so the extremes over a triangle are on its edges.
 double MeshFace::form(const MeshPoint& p, const MeshPoint& q) const {
     const double phi = q.phi - p.phi;
     return phi * (q.s - p.s + 0.5 * h * phi);
 }
 
+// Of an edge with weights 1 - l and l: off by a linear function, less l (1 - l) (form + at most even + at most odd |1 - 2 l|).
+struct MeshFace::Wave {
+    double form, even, odd;
+    // The greatest with the values a and b of a linear function at the ends, on one side.
+    double most(double a, double b, int side) const {
+        const double high = even - side * form, rise = std::abs(b - a) + 0.5 * odd;
+        if (high > rise) return 0.5 * (a + b) + high / 4 + square(rise) / (4 * high);
+        return std::max(a, b) + (high + odd > 0 ? odd / 4 : 0);
+    }
+};
+
+MeshFace::Wave MeshFace::wave(const MeshPoint& p, const MeshPoint& q) const {
+    const double angle = std::abs(q.phi - p.phi), third = cube(angle) / 6;
+    const double reach = std::max(std::abs(p.s), std::abs(q.s)), off = std::max(std::abs(p.off), std::abs(q.off));
+    return {form(p, q),
+            0.5 * std::abs(q.s - p.s) * third +
+                square(angle) * (square(angle) * (std::abs(h) / 24 + reach * angle / 120) + off / 2),
+            0.5 * std::abs(p.s + q.s) * third};
+}
+
 // The largest on an edge.
 double MeshFace::peak(const MeshPoint& p, const MeshPoint& q) const {
-    const double of = form(p, q), rise = q.off - p.off, ends = std::max(std::abs(p.off), std::abs(q.off));
-    if (std::abs(rise) >= std::abs(of)) return ends;
-    return std::max(ends, std::abs(0.5 * (p.off + q.off) - of / 4 - square(rise) / (4 * of)));
+    const Wave of = wave(p, q);
+    return std::max(of.most(p.off, q.off, 1), of.most(-p.off, -q.off, -1));
 }
 
 double MeshFace::most_form(const Corners& c) const {
@@ -98,7 +125,7 @@ double MeshFace::third_order(const Spread& d) const {
 }
 
 double MeshFace::slice_distance(const Corners& c, const Spread& d) const {
-    if (is_saddle) return std::max({peak(*c[0], *c[1]), peak(*c[1], *c[2]), peak(*c[2], *c[0])}) + third_order(d);
+    if (is_saddle) return std::max({peak(*c[0], *c[1]), peak(*c[1], *c[2]), peak(*c[2], *c[0])});
     const double turned = std::arg(fixed) - std::arg(-i_unit * direction);
     return std::abs(fixed) * most_cosine(d.low + turned, d.high + turned) * square(d.angle) / 8;
 }
@@ -109,9 +136,9 @@ double MeshFace::beyond(const Corners& c, const Spread& d) const {
     for (int side = 0; side < 2; ++side) {
         std::array<const MeshPoint*, 3> p = c;
         std::sort(p.begin(), p.end(), [&](auto* x, auto* y) { return x->inward[side] < y->inward[side]; });
-        const double bend = curves[side].bend(d.low, d.high), turn = cosine(d.angle);
-        const double least = p[0]->inward[side] * turn;
-        const double plain = bend * square(d.angle) / 8 - least;
+        const double turn = d.turn(), least = p[0]->inward[side] * turn;
+        if (curves[side].bend(d.low, d.high) * square(d.angle) / 8 + d.slip() <= least) continue;
+        const double bend = curves[side].bend_near(d.low, d.high), plain = bend * square(d.angle) / 8 - least;
         const double two = std::max(bend * square(p[1]->phi - p[0]->phi) / 8 - least,
                                     bend * square(d.angle) / 2 - p[2]->inward[side] * turn);
         most = std::max(most, std::min(plain, two) + d.slip());
@@ -130,7 +157,7 @@ double MeshFace::excess(const Corners& c) const {
 
 // Within the slice, of the points from which a path of length `eps` down the gradient may leave the face by a side.
 double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) const {
-    const double all = slice_distance(c, d), forms = most_form(c) + d.off, turn = cosine(d.angle), margin = eps / w;
+    const double all = slice_distance(c, d), forms = most_form(c) + d.off, turn = d.turn(), margin = eps / w;
     double most = 0;
     // heights of the corners over a side, how high a point may be that counts, and how much the side may be bent
     const auto add = [&](std::array<double, 3> height, double near_by, double bend) {
@@ -148,14 +175,13 @@ double MeshFace::slice_distance_near_sides(const Corners& c, const Spread& d) co
     const double low = std::max(from, d.low - margin), high = std::min(to, d.high + margin);
     for (int side = 0; side < 2; ++side)
         add({c[0]->inward[side] * turn, c[1]->inward[side] * turn, c[2]->inward[side] * turn},
-            margin * (curves[side].speed(low, high) + all) + d.slip(), curves[side].bend(d.low, d.high));
+            margin * (curves[side].speed(low, high) + all) + d.slip(), curves[side].bend_near(d.low, d.high));
     return most;
 }
 
 // The distance is at most that within the slice over a lower bound G of the gradient near by.
 double MeshFace::excess_inside(const Corners& c) const {
     const Spread d(c);
-    const double rest = third_order(d);
     const double lost = d.slip() + d.reach * square(d.angle) / 8 + std::abs(h) * cube(d.angle) / 48 +
                         eps * norm(1, (std::abs(h) + eps * norm(1, d.reach / w)) / w);
     const double s = (c[0]->s + c[1]->s + c[2]->s) / 3, r = std::max(0.0, std::abs(s) - lost) / w;
@@ -164,10 +190,10 @@ double MeshFace::excess_inside(const Corners& c) const {
     for (int k = 0; k < 3; ++k) {
         const MeshPoint &p = *c[k], &q = *c[(k + 1) % 3];
         const double Gp = G + slope * (p.s - s), Gq = G + slope * (q.s - s);
+        const Wave of = wave(p, q);
         for (const int side : {1, -1}) {  // the largest of side * F - eps G on the edge
-            const double A = side * p.off - eps * Gp, B = side * q.off - eps * Gq, C = -side * form(p, q);
-            const double on_edge = C > std::abs(B - A) ? 0.5 * (A + B) + C / 4 + square(B - A) / (4 * C) : std::max(A, B);
-            most = std::max(most, 1 + (on_edge + rest) / (eps * 0.5 * (Gp + Gq)));
+            const double over = of.most(side * p.off - eps * Gp, side * q.off - eps * Gq, side);
+            most = std::max(most, 1 + over / (eps * 0.5 * (Gp + Gq)));
         }
     }
     return most;

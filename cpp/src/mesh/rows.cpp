@@ -1,5 +1,5 @@
 // From one side to the other, each pair of strips as high as its triangles allow.
-#include "cfree/mesh/face_mesher.hpp"
+#include "cfree/mesh/layout.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,7 @@ namespace cfree {
 
 namespace {
 
-constexpr double rim_cost = 1;         // triangles of neighbours for a point that they do not need
-constexpr double lattice_rim = 1.1;    // triangles that a lattice needs more for each unit of its rim
+constexpr double rim_cost = 1;  // triangles of neighbours for a point that they do not need
 constexpr std::size_t most_rows = 200'000;
 
 class Marcher {
@@ -20,7 +19,7 @@ public:
     Marcher(const MeshFace& on, double most_error) : face(on), error(most_error) {}
 
     // Of several numbers of parts to begin with, the one that leads to the fewest triangles.
-    Rows run() const {
+    Layout run() const {
         const int likely = best_parts(0.5 * (face.from + face.to));
         Rows best;
         double least = 1e300;
@@ -33,10 +32,36 @@ public:
             }
             if (!found.rows.empty() && triangles < least) least = triangles, best = std::move(found);
         }
-        return least < triangles_of_lattice() ? best : Rows{};
+        return laid_out(best, least);
     }
 
 private:
+    struct Row {
+        double angle;
+        int parts;  // of the row, or of those before and after it
+    };
+    struct Rows {
+        std::vector<Row> rows;  // an odd number, from the first side to the last; none if there is no good choice
+        double stretch = 1;
+    };
+
+    Layout laid_out(const Rows& of, double triangles) const {
+        if (of.rows.empty()) return {};
+        Layout result;
+        result.triangles = triangles, result.stretch = of.stretch, result.lean = -face.shear;
+        for (std::size_t k = 1; k + 1 < of.rows.size(); ++k) {
+            const auto [phi, parts] = of.rows[k];
+            const bool between = k % 2 == 1;
+            if (!between)
+                for (auto& stops : result.stops) stops.push_back(phi);
+            const double low = face.u(face.position(face.curves[0].at(phi), phi)), wide = face.width_u(phi);
+            const double shift = between ? 0.5 : 0;
+            for (int i = between ? 0 : 1; i < parts; ++i) result.inside.push_back({low + wide * (i + shift) / parts, phi});
+        }
+        result.parts = {of.rows.front().parts, of.rows.back().parts};
+        return result;
+    }
+
     Rows march(int parts) const {
         double phi = face.from, height = 0, wide = 0;
         std::vector<double> steps;
@@ -63,13 +88,6 @@ private:
         const double y = 0.5 * (face.to - face.from) / static_cast<double>(steps.size());
         result.stretch = std::sqrt(0.5 * std::numbers::sqrt3 * std::max(2 * wide / height, 1e-3 * y) / y);
         return result;
-    }
-
-    // As measured: of best triangles, and for each unit of the rim some more.
-    double triangles_of_lattice() const {
-        const double w = face.scale(), unit = 2 * std::sqrt(error / w), high = face.to - face.from;
-        const double around = 2 * high + face.width_u(face.from) + face.width_u(face.to);
-        return 1.033 * least_triangles(face, error, w) + lattice_rim * around / unit;
     }
 
     int best_parts(double phi) const {
@@ -136,21 +154,6 @@ private:
 
 }  // namespace
 
-double rim_step(const MeshFace& face, double error, double phi) {
-    constexpr double most_turn = std::numbers::pi / 4;
-    double step = std::min(most_turn, face.to - face.from);
-    for (int tries = 0; tries < 3; ++tries) {
-        const double end = std::min(phi + step, face.to);
-        double bend = 1e-300;
-        for (const ContactCurve& c : face.curves) bend = std::max(bend, c.bend(std::min(phi, end), end));
-        step = std::min(step, std::sqrt(8 * on_curves * error / bend));
-    }
-    return step;
-}
-
-Rows rows_across(const MeshFace& face, double error) {
-    if (!face.is_saddle || face.is_thin()) return {};
-    return Marcher(face, error).run();
-}
+Layout rows_across(const MeshFace& face, double error) { return Marcher(face, error).run(); }
 
 }  // namespace cfree

@@ -52,6 +52,7 @@ public:
     // Bounds of |x'| and |x''| from one angle to another.
     double speed(double from, double to) const;
     double bend(double from, double to) const;
+    double bend_near(double from, double to) const;  // a smaller one where the angles are close
     // Bound of |x - origin| for complex angles between these and within `beyond` of the real ones; infinite at a pole.
     double reach(Complex origin, double from, double to, double beyond) const;
 
@@ -62,6 +63,7 @@ private:
 
     Complex c = 0, m = 0, m_back = 0, m_twice = 0, e = 0;
     double k = 0, l = 0, phi_0 = 0;
+    double once = 0, twice = 0;  // |m| + |m'| and |m''|
 };
 
 }  // namespace cfree

@@ -26,7 +26,8 @@ public:
     MeshFace(const Places& places, const Feature& on, const Feature& lower, const Feature& upper, double from, double to,
           double error, double angle_scale);
 
-    MeshPoint point(double s, double phi) const;
+    MeshPoint point(double s, double phi) const;         // on the face but for rounding
+    MeshPoint point_inside(double s, double phi) const;  // the nearest to s between the curves
     double position(Complex x, double phi) const;
     Complex at(double s, double phi, double off = 0) const;
     double gradient(double s) const;  // how much off the line a place is for each unit of distance from an e-v surface
@@ -41,6 +42,9 @@ public:
     double scale() const { return w; }
     double width_u(double phi) const;  // of the face at an angle
     double most_width_u() const { return most_width; }
+    double height() const { return h; }
+    // That an edge of an e-v face is off by a quarter of, about.
+    double form(const MeshPoint& p, const MeshPoint& q) const;
 
     // Is there less between its angles than doubles can tell apart? Then its corners are all that is known of it.
     bool is_thin() const { return to - from < 1e-9; }
@@ -57,7 +61,8 @@ private:
     double slice_distance(const Corners& corners, const Spread& d) const;
     double beyond(const Corners& corners, const Spread& d) const;
     double slice_distance_near_sides(const Corners& corners, const Spread& d) const;
-    double form(const MeshPoint& p, const MeshPoint& q) const;
+    struct Wave;  // of an edge
+    Wave wave(const MeshPoint& p, const MeshPoint& q) const;
     double peak(const MeshPoint& p, const MeshPoint& q) const;
 
     double eps, w;
