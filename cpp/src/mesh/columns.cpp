@@ -47,12 +47,27 @@ public:
     Layout run() {
         const Choice best = choose();
         if (best.columns == 0) return {};
-        const Level middle = level(0.5 * (face.from + face.to));
-        shares.assign(1, 0);
-        reach(middle, best, widest(middle, best), &shares);
-        for (double& each : shares) each /= shares.back();
-        const double fit = correction(best);
+        const double middle = 0.5 * (face.from + face.to);
+        set_shares(best, widest(level(middle), best));
+        const double fit = correction(best, [&](const Level& at) { return step(at, best); });
         return fit > 0 ? laid_out(best, fit) : Layout{};
+    }
+
+    // As few columns as can be with these steps.
+    Layout run(const Wanted& wanted) {
+        const auto at = some_levels();
+        const auto steps = [&](const Level&) { return wanted.step; };
+        for (int n = least_columns(at[1]); n <= most_columns; ++n) {
+            Choice of{n, 0.5, false};
+            of.shift = best_shift(at[1], wanted.step);
+            const auto is_fine = [&](const Level& each) { return widest(each, of) >= wanted.step * (1 - 1e-9); };
+            if (!std::all_of(at.begin(), at.end(), is_fine)) continue;
+            set_shares(of, wanted.step);
+            if (correction(of, steps) < 1) continue;
+            of.triangles = corner_cost + 2 * n * (high / wanted.step + wall_cost);
+            return laid_out(of, 1, &wanted);
+        }
+        return {};
     }
 
 private:
@@ -127,24 +142,28 @@ private:
     }
 
     // The largest triangles with an edge (eta, 1) along the columns have x^2 - (2 + eta) x + eta = 0 and the shift 1 / x.
+    double best_shift(const Level& at, double step) const {
+        const Place middle = place(at, 0.5);
+        const double lean = middle.slope + half, eta = std::min(1.0, step * step * std::abs(lean) / middle.room);
+        const double x = 0.5 * (2 + eta + std::sqrt(4 + eta * eta));
+        return lean > 0 ? 1 / x : 1 - 1 / x;
+    }
+    std::array<Level, 3> some_levels() const {
+        return {level(face.from + high / 6), level(face.from + high / 2), level(face.to - high / 6)};
+    }
+    int least_columns(const Level& at) const { return 1 + static_cast<int>(at.wide / (2 * usual * unit())); }
+
     Choice choose() const {
-        std::array<Level, 3> at;
-        for (int k = 0; k < 3; ++k) at[k] = level(face.from + (k + 0.5) / 3 * high);
-        const Place middle = place(at[1], 0.5);
-        const double lean = middle.slope + half;
+        const auto at = some_levels();
         const bool is_bent = std::min(at[1].caps[0], at[1].caps[1]) < 0.95 * unit();
         Choice best;
-        const auto likely = static_cast<int>(at[1].wide / (usual * unit()));
-        for (int n = 1 + likely / 2; n <= most_columns + likely; ++n) {
+        const int first = least_columns(at[1]);
+        for (int n = first; n <= most_columns + 2 * first; ++n) {
             double least = 1e300;
             for (const bool coarse : {false, true}) {
                 if (coarse && !is_bent) continue;
                 Choice of{n, 0.5, coarse};
-                for (int k = 0; k < 2; ++k) {
-                    const double t = widest(at[1], of), eta = std::min(1.0, t * t * std::abs(lean) / middle.room);
-                    const double x = 0.5 * (2 + eta + std::sqrt(4 + eta * eta));
-                    of.shift = lean > 0 ? 1 / x : 1 - 1 / x;
-                }
+                for (int k = 0; k < 2; ++k) of.shift = best_shift(at[1], widest(at[1], of));
                 of.triangles = corner_cost;
                 for (const Level& each : at) {
                     const double t = widest(each, of);
@@ -163,12 +182,19 @@ private:
         return best;
     }
 
-    // The share of the first order's steps that the bounds allow.
-    double correction(const Choice& of) const {
+    void set_shares(const Choice& of, double step) {
+        shares.assign(1, 0);
+        reach(level(0.5 * (face.from + face.to)), of, step, &shares);
+        for (double& each : shares) each /= shares.back();
+    }
+
+    // The share of steps that the bounds allow.
+    template <class Steps>
+    double correction(const Choice& of, const Steps& steps) const {
         double fit = 1;
         for (const double share : {0.2, 0.5, 0.8}) {
             const Level at = level(face.from + share * high);
-            const double first = step(at, of);
+            const double first = steps(at);
             for (int k = 0; k < tries; ++k) {
                 const double most = excess(at, of, fit * first);
                 if (most <= 1) break;
@@ -203,12 +229,12 @@ private:
         return chain;
     }
 
-    Layout laid_out(const Choice& of, double fit) const {
+    Layout laid_out(const Choice& of, double fit, const Wanted* wanted = nullptr) const {
         // steps from the first side on, by angles
         std::array<double, levels> steps{};
         double before = 0;
         for (int k = 0; k < levels; ++k) {
-            const double rate = 1 / (fit * step(level(face.from + high * k / (levels - 1)), of));
+            const double rate = 1 / (wanted ? wanted->step : fit * step(level(face.from + high * k / (levels - 1)), of));
             if (k > 0) steps[k] = steps[k - 1] + 0.5 * (before + rate) * high / (levels - 1);
             before = rate;
         }
@@ -219,12 +245,13 @@ private:
             const double part = (v - steps[k - 1]) / (steps[k] - steps[k - 1]);
             return face.from + high * (static_cast<double>(k) - 1 + part) / (levels - 1);
         };
+        const double phase = wanted ? (wanted->first - face.from) / wanted->step - wanted->curve * of.columns * of.shift : 0;
         Layout result;
         std::array<std::vector<Layout::Point>, 2> ends;
         for (int i = 0; i <= of.columns; ++i) {
             heed_stop();
             std::vector<Layout::Point> column;
-            double v = i * of.shift;
+            double v = i * of.shift + phase;
             for (v -= std::floor(v - least_gap); v < whole - least_gap; v += 1) {
                 const double phi = angle(v);
                 column.push_back({low(phi) + face.width_u(phi) * shares[i], phi});
@@ -252,5 +279,6 @@ private:
 }  // namespace
 
 Layout columns_along(const MeshFace& face, double error) { return Columns(face, error).run(); }
+Layout columns_along(const MeshFace& face, double error, const Wanted& wanted) { return Columns(face, error).run(wanted); }
 
 }  // namespace cfree

@@ -7,6 +7,10 @@
 
 namespace cfree {
 
+namespace {
+constexpr double spared = 1;  // triangles for each point that a neighbour wants as well
+}
+
 double rim_step(const MeshFace& face, double error, double phi, int which) {
     constexpr double most_turn = std::numbers::pi / 4;
     double step = std::min(most_turn, face.to - face.from);
@@ -20,11 +24,16 @@ double rim_step(const MeshFace& face, double error, double phi) {
     return std::min(rim_step(face, error, phi, 0), rim_step(face, error, phi, 1));
 }
 
-Layout best_layout(const MeshFace& face, double error) {
+Layout best_layout(const MeshFace& face, double error, const std::optional<Wanted>& wanted) {
     if (!face.is_saddle || face.is_thin()) return {};
     Layout rows = rows_across(face, error), columns = columns_along(face, error);
     Layout& best = rows.is_empty() || (!columns.is_empty() && columns.triangles < rows.triangles) ? columns : rows;
-    return best.triangles < triangles_of_lattice(face, error) ? std::move(best) : Layout{};
+    const double lattice = triangles_of_lattice(face, error);
+    if (wanted) {
+        Layout same = columns_along(face, error, *wanted);
+        if (!same.is_empty() && same.triangles < std::min(best.triangles, lattice) + spared * wanted->points) return same;
+    }
+    return best.triangles < lattice ? std::move(best) : Layout{};
 }
 
 }  // namespace cfree

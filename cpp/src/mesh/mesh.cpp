@@ -73,6 +73,8 @@ private:
     }
     Complex place(Index h) const { return places[in.vertex[h]]; }
 
+    void lay_out();
+    std::optional<Wanted> wanted_by_neighbours(Index f) const;
     Samples samples_of_curve(Index edge) const;
     Samples samples_of_side(Index edge) const;
     std::vector<Samples> samples_of_edges() const;
@@ -313,13 +315,38 @@ bool Mesher::part_equal_edges() {
     return any;
 }
 
+// Large faces first; others have the same points on curves that they share with them, if that is cheap.
+void Mesher::lay_out() {
+    std::vector<double> least;
+    for (const MeshFace& sheet : mesh_faces) least.push_back(least_triangles(sheet, error));
+    std::vector<Index> by_size(static_cast<std::size_t>(faces));
+    std::iota(by_size.begin(), by_size.end(), 0);
+    std::stable_sort(by_size.begin(), by_size.end(), [&](Index f, Index g) { return least[f] > least[g]; });
+    layouts.resize(static_cast<std::size_t>(faces));
+    for (const Index f : by_size)
+        if (least[f] > few) layouts[f] = best_layout(mesh_faces[f], error, wanted_by_neighbours(f));
+}
+
+// At equal steps, by that with which the face shares most.
+std::optional<Wanted> Mesher::wanted_by_neighbours(Index f) const {
+    std::optional<Wanted> result;
+    double most = 0;
+    for (Index h = in.first[f]; h < in.first[f + 1]; ++h) {
+        const double high = std::abs(angle(after(h)) - angle(h));
+        const Index twin = in.twin[h];
+        const auto& stops = layouts[in.face[twin]].stops[in.side[twin] == 1];
+        if (!is_curve(in.side[h]) || high <= most || stops.size() < 3) continue;
+        const double step = (stops.back() - stops.front()) / static_cast<double>(stops.size() - 1);
+        if (std::abs(stops[1] - stops[0] - step) > 1e-3 * step) continue;
+        most = high, result = Wanted{in.side[h] == 1, stops.front(), step, high / step};
+    }
+    return result;
+}
+
 Mesh Mesher::run() {
     early.assign(static_cast<std::size_t>(in.vertices), -1), late = early;
     runs.resize(static_cast<std::size_t>(half_edges));
-    for (const MeshFace& sheet : mesh_faces) {
-        const bool is_large = least_triangles(sheet, error) > few;
-        layouts.push_back(is_large ? best_layout(sheet, error) : Layout{});
-    }
+    lay_out();
     const auto samples = samples_of_edges();
     for (Index e = 0; e < in.edges; ++e)
         for (Index k = start[e]; !samples[e].empty() && k < start[e + 1]; ++k)

@@ -137,7 +137,9 @@ private:
         const auto middle = row(phi + y, 0.5, parts);
         for (auto* of : {&below, &above}) of->front().inward[0] = of->back().inward[1] = 0;
         double most = 0;
-        const auto add = [&](const MeshPoint& p, const MeshPoint& q, const MeshPoint& r) { most = std::max(most, face.excess({&p, &q, &r})); };
+        const auto add = [&](const MeshPoint& p, const MeshPoint& q, const MeshPoint& r) {
+            most = std::max(most, face.excess({&p, &q, &r}));
+        };
         const auto n = static_cast<std::size_t>(parts);
         for (std::size_t i = 0; i < n; ++i) {
             add(below[i], below[i + 1], middle[i]), add(above[i], above[i + 1], middle[i]);

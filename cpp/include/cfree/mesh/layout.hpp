@@ -1,5 +1,6 @@
 // Points laid out over a twisted face so that none are wasted at its curves; theory, "How few triangles".
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "cfree/mesh/mesh_face.hpp"
@@ -19,6 +20,12 @@ struct Layout {
     bool is_empty() const { return triangles == 0; }
 };
 
+// Points on one of the face's curves that a neighbour wants there, at equal steps.
+struct Wanted {
+    int curve;
+    double first, step, points;
+};
+
 // A side of a face: an angle and the points next to it.
 struct Wall {
     const MeshFace* face;
@@ -36,10 +43,12 @@ double rim_step(const MeshFace& face, double error, double phi);
 Layout rows_across(const MeshFace& face, double error);
 // From side to side along curves like the face's, each shifted against the one before.
 Layout columns_along(const MeshFace& face, double error);
+// With the points wanted on a curve; empty if that is not possible.
+Layout columns_along(const MeshFace& face, double error, const Wanted& wanted);
 // Best triangles, that lose at the rim; off the surface where that makes them larger, if `free` says so.
 Layout lattice_over(const MeshFace& face, double error, bool free);
-// The better of rows and columns, or an empty one if a lattice is better.
-Layout best_layout(const MeshFace& face, double error);
+// The better of rows and columns, or an empty one if a lattice is better; as a neighbour wants it where that costs little.
+Layout best_layout(const MeshFace& face, double error, const std::optional<Wanted>& wanted);
 
 // Triangles that a lattice needs, as measured.
 double triangles_of_lattice(const MeshFace& face, double error);
