@@ -233,6 +233,14 @@ def test_vertices_off_the_surface_keep_both_bounds_and_save_triangles(
     assert not np.isin(off.triangles.ravel()[lifted], np.flatnonzero(rim)).any()
 
 
+def test_vertices_next_to_a_side_stay_on_the_surface_where_it_is_steep() -> None:
+    # a third of the error in space is more than all of it within a slice, which is what counts there
+    result = boundary(make(shapes.random_scene(104, "axis_parallel")))
+    mesh = result.mesh(0.03 * robot_radius(result.scene), angle_scale=0.3, off_surface=True)
+    check_closed(mesh, result)
+    check_error(mesh, result)
+
+
 def test_half_the_error_is_not_met(triangles: Boundary) -> None:
     # the bound is sharp: with few triangles to spare, some points are almost as far as allowed
     mesh = triangles.mesh(0.001)

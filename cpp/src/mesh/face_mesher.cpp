@@ -74,6 +74,7 @@ void FaceMesher::insert(double u, double phi, double off) {
     heed_stop();
     MeshPoint p = face->point_inside(face->s(u), phi);
     p.off = off;
+    if (off != 0 && face->excess({&p, &p, &p}) > 1) p.off = 0;  // too near a side, within which it counts whole
     const Index id = add_point(p);
     if (!net.insert(id)) points.pop_back(), net.places.pop_back();
 }
