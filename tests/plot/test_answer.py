@@ -332,6 +332,7 @@ def test_a_separation_shows_its_barrier_and_its_surface() -> None:
     # the reference point stays inside the room: so does the surface around it
     assert faces[..., :2].min() > 1 and faces[..., 0].max() < 8 and np.ptp(faces[..., 2]) == pytest.approx(360)
     assert [text.get_text().strip() for text in room.texts] == ["start"]  # the goal is out of the picture
+    assert [text.get_text() for text in room.get_legend().get_texts()] == ["v-e contacts", "e-v contacts"]
     figure.canvas.draw()
 
 

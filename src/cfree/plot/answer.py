@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import ISOLATED_COLUMNS, IsolatedParts
+from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, VERTEX_EDGE, VIEW, paler
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
@@ -171,7 +172,8 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labe
     box = around_surface(surface)
     space = _right(figure)
     _draw_patches(space, surface, box, (0.0, 360.0), patches_of(surface, box, tiny=TINY))
-    _legend(space, {"v-e contacts": VERTEX_EDGE, "e-v contacts": EDGE_VERTEX}, [])
+    kinds = {"v-e contacts": PatchKind.VERTEX_EDGE, "e-v contacts": PatchKind.EDGE_VERTEX, "bounds": PatchKind.BOUND}
+    _legend(space, {name: COLOURS[kind] for name, kind in kinds.items() if (surface.patch_kind == kind).any()}, [])
     _frame(ax, box, labels)
     rows = [
         (np.array([float(pose.x), float(pose.y), math.degrees(pose.theta)]), name)
