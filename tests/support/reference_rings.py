@@ -110,10 +110,8 @@ def _read_points(ring: int, points: Points) -> Ratios:
             x, y = to_ratio(pair[0]), to_ratio(pair[1])
         except ValueError as error:
             raise _fault(ring, f"point {k}: {error}") from None
-        try:
-            x[0] / x[1], y[0] / y[1]
-        except OverflowError:
-            raise _fault(ring, f"point {k} lies beyond 1.8e308; scale the coordinates") from None
+        if max(n.bit_length() - d.bit_length() for n, d in (x, y)) >= 1023:
+            raise _fault(ring, f"point {k} lies beyond 4e307; scale the coordinates")
         ratios.append((x, y))
     if len(ratios) > 1 and ratios[0] == ratios[-1]:
         ratios.pop()

@@ -61,10 +61,8 @@ def _plain(ring: int, rows: Any) -> list[ExactPoint]:
             x, y = map(to_fraction, pair)
         except ValueError as error:
             raise _fault(ring, f"point {k}: {error}") from None
-        try:
-            float(x), float(y)
-        except OverflowError:
-            raise _fault(ring, f"point {k} lies beyond 1.8e308; scale the coordinates") from None
+        if max(value.numerator.bit_length() - value.denominator.bit_length() for value in (x, y)) >= 1023:
+            raise _fault(ring, f"point {k} lies beyond 4e307; scale the coordinates")  # as the core has it
         points.append((x, y))
     closed = len(points) > 1 and points[0] == points[-1]
     if len(points) - closed < 3:
