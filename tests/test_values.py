@@ -16,6 +16,7 @@ import cfree.verify
 from cfree import Pose, Rotation, Translation
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
 from cfree.exact import Surd
+from cfree.formats.shapes import Shape
 from cfree.rational import rational_helix, rational_range, rational_segment, rational_surface
 from cfree.rational.bezier import bezier_patches
 from public import NAMES
@@ -99,6 +100,7 @@ def samples(x: int) -> dict[str, Any]:
         "Scene": scene,
         "Separated": separated,
         "Sharded": cfree.distributed.boundary(scene, folder=tempfile.mkdtemp(), tile=x),
+        "Shapes": cfree.Shapes("SVG", (Shape("robot", str(x), TRIANGLE),), {"units": str(x)}),
         "SharedLine": cfree.arrangements.intersection(floor, below).lines[0],
         "Slice": boundary.slice({"tau": step}),
         "Slide": cfree.Slide((TOUCH, TOUCH), [0, 0, x], [0, 2], [1, 0, 1], 1),

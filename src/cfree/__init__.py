@@ -43,8 +43,11 @@ if TYPE_CHECKING:
     from cfree.forbidden.slice import Slice as Slice
     from cfree.formats.files import load as load
     from cfree.formats.files import save as save
+    from cfree.formats.footprints import footprint as footprint
     from cfree.formats.scene_file import load_polygons as load_polygons
     from cfree.formats.scene_file import load_scene as load_scene
+    from cfree.formats.scene_file import load_shapes as load_shapes
+    from cfree.formats.shapes import Shapes as Shapes
     from cfree.free.largest_disc import largest_disc as largest_disc
     from cfree.free.space import Cell as Cell
     from cfree.free.space import FreeSpace as FreeSpace
@@ -100,7 +103,9 @@ _HOMES = {
     "analysis.fits": "Fit fits",
     "analysis.margins": "Interval NearestMiss max_margin max_scale nearest_miss",
     "formats.files": "load save",
-    "formats.scene_file": "load_polygons load_scene",
+    "formats.footprints": "footprint",
+    "formats.scene_file": "load_polygons load_scene load_shapes",
+    "formats.shapes": "Shapes",
     "viewer.browser": "view",
     "viewer.notebook": "widget",
 }

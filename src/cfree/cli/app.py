@@ -16,6 +16,7 @@ from cfree.cli import options
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
 from cfree.cli.files import bar, boundary_of, check_outputs, planner_of
 from cfree.cli.options import FILE, examples, file_option
+from cfree.cli.scenes import check, convert
 from cfree.cli.terminal import print_json, printable
 from cfree.cli.values import (
     read_angle,
@@ -56,28 +57,8 @@ def app() -> None:
     """The exact configuration space of a planar robot that translates and rotates among polygons."""
 
 
-@app.command(epilog=examples("cfree check scene.json", "cfree check scene.json --json | jq .patches"))
-@options.scene
-@options.as_json
-def check(scene: Path, as_json: bool) -> None:
-    """Validate a scene and describe it.
-
-    Vertices, pieces, patches to expect; are start and goal free? SCENE is JSON, GeoJSON or WKT.
-    """
-    with one_line_faults():
-        from cfree.cli.describe import describe
-        from cfree.formats.scene_file import load_scene
-
-        with bar("reading"):
-            given = load_scene(scene)
-        with bar("counting"):
-            facts = {"file": str(scene)} | describe(given)
-        if as_json:
-            print_json(facts)
-        else:
-            from cfree.cli.report import print_scene
-
-            print_scene(facts)
+app.add_command(check)
+app.add_command(convert)
 
 
 @app.command(

@@ -48,6 +48,11 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     for point in facts["removed"]:
         place = "outer ring" if point["ring"] == 0 else f"hole {point['ring'] - 1}"
         yield f"removed    {point['shape']}: {place}, point {point['index']}: {point['reason']}"
+    if facts["format"] != "scene":
+        yield f"read as    {facts['format']}"
+    for name in ("changed", "dropped"):
+        for line in facts[name]:
+            yield f"{name:<10} {line}"
     for name in ("units", "note"):
         if facts[name]:
             yield f"{name:<10} {facts[name]}"

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 import cfree._core as _core
 from cfree.arguments import checked
-from cfree.errors import FormatError
+from cfree.errors import FormatError, UnsupportedError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import COLUMNS, ISOLATED_COLUMNS, IsolatedParts, Trapezoids
 from cfree.forbidden.record import Stats
@@ -33,10 +33,15 @@ MOST_DEFLATED = 1032
 def save_boundary(
     boundary: Boundary, path: str | os.PathLike[str], cells: Mapping[str, NDArray[Any]] | None = None
 ) -> None:
-    """Write a boundary, with its cells if given; equal boundaries make equal files."""
+    """Write a boundary, with its cells if given; equal boundaries make equal files. Parquet holds its trapezoids."""
     from cfree.formats.scene_file import scene_text
 
-    check_boundary_path(path)
+    if check_boundary_path(path) == ".parquet":
+        if cells:
+            raise UnsupportedError(f"{os.fspath(path)}: cells are written as .npz only; name the file so")
+        from cfree.formats.boundary_table import save_table
+
+        return save_table(boundary, path)
     arrays: dict[str, Any] = {"scene": np.frombuffer(scene_text(boundary.scene).encode(), np.uint8)}
     arrays |= {key: getattr(boundary, key) for key in PATCH_COLUMNS}
     arrays |= {name: getattr(boundary.trapezoids, name) for name in COLUMNS}
@@ -50,7 +55,7 @@ def save_boundary(
 
 def check_boundary_path(path: str | os.PathLike[str]) -> str:
     """Suffix of a file that `save_boundary` can write."""
-    return checked_suffix(path, "boundary", (".npz",))
+    return checked_suffix(path, "boundary", (".npz", ".parquet"))
 
 
 @checked

@@ -18,7 +18,8 @@ from cfree.formats.boundary_file import load_archive, save_boundary, save_space
 from cfree.formats.findings import Findings, read_text
 from cfree.formats.json_text import read_literals, with_numbers
 from cfree.formats.mesh_file import save_mesh
-from cfree.formats.scene_file import is_wkt, save_scene, scene_from_json, scene_from_wkt
+from cfree.formats.readers import is_drawing, is_wkt, read_json_file, read_wkt
+from cfree.formats.scene_file import load_scene, save_scene
 from cfree.formats.slice_geojson import save_slice
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
@@ -44,7 +45,8 @@ def save(
     ----------
     value : Scene, Boundary, FreeSpace, Path, Separated, AllSeparated, Mesh or Slice
     path : path
-        ``.json`` for scenes, paths and separations, ``.npz`` for boundaries and free spaces, ``.glb``, ``.ply``,
+        ``.json`` for scenes, paths and separations, for scenes also ``.geojson``, ``.svg`` or ``.dxf``, ``.npz`` for
+        boundaries and free spaces, for boundaries also ``.parquet``, a table of trapezoids, ``.glb``, ``.ply``,
         ``.obj`` or ``.stl`` for meshes, ``.geojson`` for slices. Poses of paths also as ``.csv``, ``.yaml`` (a ROS
         nav_msgs/Path) or ``.geojson`` with the robot's outlines.
     step, turn : float
@@ -106,12 +108,13 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Sep
     with collection_paused():
         if is_archive(path):
             return load_archive(path)
+        if is_drawing(path):
+            return load_scene(path)
         findings = Findings(fspath(path), read_text(FilePath(path)))
-        if is_wkt(findings):
-            return scene_from_wkt(findings)
-        data = read_literals(findings)
+        data = None if is_wkt(findings) else read_literals(findings)
         if isinstance(data, Mapping) and "answer" in data:
             from cfree.formats.answer_format import answer_from_json
 
             return answer_from_json(findings, with_numbers(data)).answer
-        return scene_from_json(findings, data)
+        found = read_wkt(findings) if data is None else read_json_file(findings, data)
+        return found if isinstance(found, Scene) else found.scene()

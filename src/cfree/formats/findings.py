@@ -109,7 +109,7 @@ class Findings:
         self.at(place.key if key else place.start, dotted(path), message.replace("{got}", got))
 
 
-def read_text(file: FilePath) -> str:
+def read_text(file: FilePath, most: int | None = None) -> str:
     """Text of a file in UTF-8, with or without a byte order mark.
 
     Raises
@@ -117,15 +117,16 @@ def read_text(file: FilePath) -> str:
     InvalidFileError
         If there is no such file, or it is not text.
     """
+    most = LARGEST if most is None else most
     try:
         with file.open("rb") as stream:
-            raw = stream.read(LARGEST + 1)
+            raw = stream.read(most + 1)
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         fault = f"{reason}; give the path of a file that can be read"
         raise InvalidFileError(str(file), [Problem(1, 1, "", fault)]) from None
-    if len(raw) > LARGEST:
-        fault = f"more than {LARGEST >> 20} MiB; give a file of a scene or an answer"
+    if len(raw) > most:
+        fault = f"more than {_size(most)}; give a file of a scene or an answer"
         raise InvalidFileError(str(file), [Problem(1, 1, "", fault)])
     try:
         return raw.decode("utf-8-sig")
@@ -134,3 +135,7 @@ def read_text(file: FilePath) -> str:
         message = f"byte 0x{raw[error.start]:02x} is not UTF-8; save the file as UTF-8 text"
         line, column = readable.count("\n") + 1, len(readable) - readable.rfind("\n")
         raise InvalidFileError(str(file), [Problem(line, column, "", message)]) from None
+
+
+def _size(count: int) -> str:
+    return f"{count >> 20} MiB" if count >> 20 else f"{count >> 10} KiB"

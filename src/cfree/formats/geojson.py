@@ -1,6 +1,7 @@
 """Polygons from GeoJSON (RFC 7946), with the decimals they are written with.
 
-A feature's property ``role`` says what it is for, ``name`` names an obstacle; others are left alone.
+A feature's property ``role`` says what it is for, ``name`` names an obstacle; the robot's feature may have
+``bounds``, ``start``, ``goal``, ``goals``, ``units`` and so on, as a scene has them. Others are left alone.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from cfree.errors import InvalidPolygonError
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path
 from cfree.formats.scene_format import Point, report
+from cfree.formats.scene_settings import read_settings
 from cfree.formats.scene_values import is_encodable
 from cfree.formats.shapes import ROLES, Shape
 from cfree.polygons.polygon import Polygon
@@ -24,15 +26,18 @@ _CHILDREN = {"FeatureCollection": "features", "GeometryCollection": "geometries"
 _FLAT = ("Point", "MultiPoint", "LineString", "MultiLineString")
 
 
-def geojson_shapes(findings: Findings, data: object) -> list[Shape]:
-    """Shapes of a feature, a geometry or a collection of either; faults go to `findings`."""
+def geojson_shapes(findings: Findings, data: object, settings: dict[str, Any] | None = None) -> list[Shape]:
+    """Shapes of a feature, a geometry or a collection of either; faults go to `findings`, the robot's to `settings`."""
     shapes: list[Shape] = []
     waiting: list[tuple[Any, Path, str, str | None]] = [(data, (), "obstacle", None)]
     while waiting:
         value, path, role, name = waiting.pop()
         kind = str(value.get("type")) if isinstance(value, dict) else ""
         if kind == "Feature":
-            role, name = _role_and_name(findings, value.get("properties"), (*path, "properties"))
+            properties = value.get("properties")
+            role, name = _role_and_name(findings, properties, (*path, "properties"))
+            if role == "robot" and settings is not None:
+                settings |= read_settings(findings, properties, (*path, "properties"))
             at = (*path, "geometry") if "geometry" in value else path
             waiting.append((value.get("geometry"), at, role, name))
         elif kind in _CHILDREN:

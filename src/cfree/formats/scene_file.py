@@ -8,38 +8,42 @@ from __future__ import annotations
 import json
 import math
 import os
-import re
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
-from fractions import Fraction
 from os import PathLike
 from pathlib import Path
+from typing import Literal
 
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import UnsupportedError
 from cfree.exact.half_angle import Angle
-from cfree.exact.number import MAX_DIGITS
 from cfree.exact.pose import Pose
 from cfree.formats.atomic import replacing
-from cfree.formats.findings import Findings, read_text
-from cfree.formats.json_text import read_json, read_literals, with_numbers
-from cfree.formats.scene_values import scene_from_plain
+from cfree.formats.findings import Findings
+from cfree.formats.json_text import read_literals
+from cfree.formats.number_text import number_text
+from cfree.formats.readers import DRAWINGS, read_file, read_json_file
+from cfree.formats.scene_texts import EXPORTS, write_scene
+from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
+from cfree.formats.source import Reading
 from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
+NOT_WRITTEN = {".wkt", *DRAWINGS} - EXPORTS.keys()
+_SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "check", "version")
 
 
 @checked
 def load_scene(path: str | PathLike[str]) -> Scene:
-    """Read a scene from a JSON scene, a GeoJSON or a WKT file.
+    """Read a scene from a file of any kind that `load_shapes` reads.
 
     Parameters
     ----------
     path : path
-        What is in the file decides how it is read, except that a ``.wkt`` file is always WKT.
+        JSON is what is in it; all else is what its name says.
 
     Returns
     -------
@@ -58,75 +62,117 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     >>> scene.start.x
     Fraction(-3, 1)
     """
-    findings = _open(path)
     with collection_paused():
-        return scene_from_wkt(findings) if is_wkt(findings) else scene_from_json(findings, read_literals(findings))
+        found = read_file(path)
+        return found if isinstance(found, Scene) else found.scene()
 
 
-def scene_from_wkt(findings: Findings) -> Scene:
-    """The scene that WKT holds."""
-    from cfree.formats.shapes import scene_from_shapes
-    from cfree.formats.wkt import wkt_shapes
+@checked
+def load_shapes(
+    path: str | PathLike[str],
+    *,
+    tolerance: float | None = None,
+    unknown: Literal["obstacle", "free"] = "obstacle",
+    roles: Mapping[str, str] | None = None,
+) -> Shapes:
+    """Read what is in a file of any kind, before it is a scene: `docs/formats.md` describes them.
 
-    return scene_from_shapes(findings, wkt_shapes(findings), "begin its line with robot:")
+    Parameters
+    ----------
+    path : path
+        A scene, GeoJSON, WKT, SVG, DXF, the YAML of a ROS map or of nav2 parameters, URDF, or nesting JSON.
+    tolerance : float, optional
+        Curves become polygons with this error at most, in the scene's unit: around robot and obstacles, inside the
+        workspace. A thousandth of the drawing's size if left out.
+    unknown : "obstacle" or "free"
+        What the unknown cells of a map are.
+    roles : mapping of str to str, optional
+        Of layers, groups or names: "robot", "obstacle", "workspace", or "ignore".
 
+    Raises
+    ------
+    FormatError
+        If the file cannot be read.
+    ImportError
+        With the command that installs what reads it, if that is missing.
 
-def scene_from_json(findings: Findings, data: object) -> Scene:
-    """The scene, or the GeoJSON, that JSON with literals is."""
-    if _is_geojson(data):
-        from cfree.formats.geojson import geojson_shapes
-        from cfree.formats.shapes import scene_from_shapes
-
-        remedy = 'give its feature the property "role": "robot"'
-        return scene_from_shapes(findings, geojson_shapes(findings, with_numbers(data)), remedy)
-    if not findings and (scene := scene_from_plain(data)):
-        return scene
-    from cfree.formats.scene_format import scene_from_models
-
-    return scene_from_models(findings, with_numbers(data))
+    Examples
+    --------
+    >>> shapes = load_shapes("examples/scenes/flat.json")
+    >>> shapes.form, len(shapes.of("obstacle")) == len(shapes.scene().obstacles)
+    ('scene', True)
+    """
+    if tolerance is not None and not 0 < tolerance < math.inf:
+        raise ValueError(f"tolerance: {tolerance} is no length; give one above 0")
+    for name, role in (roles or {}).items():
+        if role not in (*ROLES, IGNORE):
+            raise ValueError(f"roles: {name}: {role!r}; give one of {', '.join((*ROLES, IGNORE))}")
+    with collection_paused():
+        found = read_file(path, Reading(tolerance, unknown, dict(roles or {})))
+        return shapes_in(found, os.fspath(path)) if isinstance(found, Scene) else found
 
 
 def scene_from_text(name: str, text: str) -> Scene:
     """Scene from the JSON text that `scene_text` makes; `name` stands for the file in errors."""
     findings = Findings(name, text)
-    return scene_from_json(findings, read_literals(findings))
+    found = read_json_file(findings, read_literals(findings))
+    assert isinstance(found, Scene)
+    return found
 
 
 @checked
 def load_polygons(path: str | PathLike[str]) -> tuple[Polygon, ...]:
-    """Read the polygons of a GeoJSON or a WKT file, whatever their roles, in the order of the file.
+    """Read the polygons of a file of any kind, whatever their roles, in the order of the file.
 
     Raises
     ------
     FormatError
         As `load_scene` does.
     """
-    findings = _open(path)
-    if is_wkt(findings):
-        from cfree.formats.wkt import wkt_shapes
-
-        shapes = wkt_shapes(findings)
-    else:
-        from cfree.formats.geojson import geojson_shapes
-
-        shapes = geojson_shapes(findings, read_json(findings))
-    findings.fail_if_any()
-    return tuple(shape.polygon for shape in shapes)
+    return load_shapes(path).polygons
 
 
-def save_scene(scene: Scene, path: str | PathLike[str]) -> None:
-    """Write a scene as JSON; `load_scene` gives an equal one.
+def shapes_in(scene: Scene, file: str) -> Shapes:
+    """The shapes of a scene and all else that it has."""
+    named = zip(scene.obstacles, scene.obstacle_names, strict=True)
+    shapes = [
+        *(Shape("robot", None, part) for part in scene.robot),
+        *(Shape("obstacle", None if name == default_name(k) else name, o) for k, (o, name) in enumerate(named)),
+        *([Shape("workspace", None, scene.workspace)] if scene.workspace else []),
+    ]
+    settings = {key: value for key in _SETTINGS if (value := getattr(scene, key))}
+    if "goal" in settings:
+        settings.pop("goals", None)
+    return Shapes("scene", tuple(shapes), settings, file=file)
+
+
+def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
+    """Write a scene as JSON, which `load_scene` makes an equal one of, or as GeoJSON, SVG or DXF by the file's name.
+
+    Returns
+    -------
+    tuple of str
+        What is not in the file as it was in the scene, in words.
 
     Raises
     ------
     UnsupportedError
-        If the name of the file says GeoJSON or WKT, which hold less than a scene.
+        If the file's name says another format.
     """
     target = Path(os.path.realpath(path))
-    if target.suffix.lower() in (".wkt", ".geojson"):
-        raise UnsupportedError(f"{target.name}: scenes are written as JSON only; name the file .json")
+    if target.suffix.lower() in EXPORTS:
+        return write_scene(scene, target)
+    check_scene_path(target)
     with replacing(target) as unfinished:
         unfinished.write_text(scene_text(scene), encoding="utf-8", newline="\n")
+    return ()
+
+
+def check_scene_path(path: str | PathLike[str]) -> None:
+    """Raise an error if no scene is written to a file of this name."""
+    target = Path(path)
+    if target.suffix.lower() in NOT_WRITTEN:
+        raise UnsupportedError(f"{target.name}: scenes are written as .json, {', '.join(EXPORTS)}; name the file so")
 
 
 def scene_text(scene: Scene) -> str:
@@ -167,48 +213,6 @@ def scene_text(scene: Scene) -> str:
     if scene.check:
         lines["check"] = _json(scene.check)
     return "{\n" + ",\n".join(f'  "{key}": {text}' for key, text in lines.items()) + "\n}\n"
-
-
-def number_text(value: Fraction) -> str:
-    """Exact JSON of a number: a decimal if one of moderate length is exact, else ``"p/q"`` in quotes.
-
-    Examples
-    --------
-    >>> number_text(Fraction(-1, 8)), number_text(Fraction(1, 3))
-    ('-0.125', '"1/3"')
-    """
-    bits = value.numerator.bit_length() + value.denominator.bit_length()
-    if bits > 3 * MAX_DIGITS:  # a digit has 3.3 bits, and a point may add some zeros
-        raise UnsupportedError(f"a number has about {bits * 0.301:.0f} digits; round it before saving")
-    rest, places = value.denominator, 0
-    for prime in (2, 5):
-        power = 0
-        while rest % prime == 0 and power < 80:
-            rest, power = rest // prime, power + 1
-        places = max(places, power)
-    if rest != 1:
-        return f'"{value}"'
-    digits = str(abs(value.numerator) * 10**places // value.denominator).rjust(places + 1, "0")
-    whole, decimals = digits[: len(digits) - places], digits[len(digits) - places :]
-    return f"{'-' if value < 0 else ''}{whole}{decimals and '.'}{decimals}"
-
-
-# reading
-
-
-def _open(path: str | PathLike[str]) -> Findings:
-    return Findings(os.fspath(path), read_text(Path(path)))
-
-
-def is_wkt(findings: Findings) -> bool:
-    """By the name of the file, or by what is in it."""
-    if Path(findings.file).suffix.lower() == ".wkt":
-        return True
-    return findings.text.lstrip()[:1] not in "{[" and bool(re.search("POLYGON", findings.text, re.IGNORECASE))
-
-
-def _is_geojson(data: object) -> bool:
-    return isinstance(data, Mapping) and "type" in data
 
 
 # writing

@@ -1,0 +1,138 @@
+"""Commands about scenes alone: what is in a file, and the same in a file of another kind."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from cfree.cli import options
+from cfree.cli.faults import one_line_faults
+from cfree.cli.files import bar
+from cfree.cli.options import FILE, Decorator, examples
+from cfree.cli.terminal import print_json, printable
+
+if TYPE_CHECKING:
+    from cfree.formats.shapes import Shapes
+    from cfree.scene.scene import Scene
+
+
+def _reading(command: Any) -> Any:
+    """How to read drawings and maps."""
+    given: list[Decorator] = [
+        click.option("--tolerance", type=float, metavar="E", help="Error of the polygons that curves become.",
+                     show_default="drawing's size / 1000"),
+        click.option("--unknown", type=click.Choice(["obstacle", "free"]), default="obstacle", show_default=True,
+                     help="What unknown cells of a map are."),
+        click.option("--role", "roles", multiple=True, metavar="NAME=ROLE",
+                     help="Of a layer, group or name: robot, obstacle, workspace or ignore."),
+        click.option("--robot", metavar="ROBOT",
+                     help='Instead of the file\'s: a file, or a footprint "[[0.3, 0.2], ...]".'),
+    ]  # fmt: skip
+    for option in reversed(given):
+        command = option(command)
+    return command
+
+
+@click.command(epilog=examples(
+    "cfree check scene.json",
+    "cfree check scene.json --json | jq .patches",
+    "cfree check map.yaml --robot nav2_params.yaml",
+))  # fmt: skip
+@options.scene
+@_reading
+@options.as_json
+def check(
+    scene: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None, as_json: bool
+) -> None:
+    """Validate a scene and describe it.
+
+    Vertices, pieces, patches to expect; are start and goal free? SCENE is of any kind that cfree convert reads: what
+    was changed and dropped in reading is said.
+    """
+    with one_line_faults():
+        from cfree.cli.describe import describe
+
+        shapes, given = _read(scene, tolerance, unknown, roles, robot)
+        with bar("counting"):
+            facts = {"file": str(scene)} | describe(given) | _facts(shapes)
+        if as_json:
+            print_json(facts)
+        else:
+            from cfree.cli.report import print_scene
+
+            print_scene(facts)
+
+
+@click.command(epilog=examples(
+    "cfree convert plan.svg scene.json",
+    "cfree convert part.dxf scene.json --tolerance 0.01 --role DIMENSIONS=ignore",
+    "cfree convert map.yaml scene.json --robot nav2_params.yaml",
+    'cfree convert map.yaml scene.json --unknown free --robot "[[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]]"',
+    "cfree convert scene.json scene.svg",
+))  # fmt: skip
+@click.argument("source", type=FILE, metavar="IN")
+@click.argument("target", type=FILE, metavar="OUT")
+@_reading
+@options.as_json
+def convert(
+    source: Path, target: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None,
+    as_json: bool,
+) -> None:  # fmt: skip
+    """Read a scene of one kind and write it as another.
+
+    IN is JSON, GeoJSON, WKT, SVG, DXF, a ROS map's YAML, nav2 parameters, URDF, or nesting JSON; OUT is .json,
+    .geojson, .svg or .dxf. What was changed and dropped is said.
+    """
+    with one_line_faults():
+        from cfree.cli.files import check_outputs
+        from cfree.cli.report import print_rows
+        from cfree.formats.scene_file import check_scene_path, save_scene
+
+        check_scene_path(target)
+        written = check_outputs(source, {"scene": target})
+        shapes, scene = _read(source, tolerance, unknown, roles, robot)
+        rounded = save_scene(scene, target)
+        facts = _facts(shapes)
+        facts["changed"] += list(rounded)
+        facts |= {"robot": len(scene.robot), "obstacles": len(scene.obstacles)}
+        if as_json:
+            print_json({"file": str(source), **facts, "files": written})
+            return
+        rows: dict[str, Any] = {"read as": facts["format"], "robot": f"{len(scene.robot)} polygons"}
+        rows["obstacles"] = f"{len(scene.obstacles):,} polygons"
+        print_rows(scene.name or str(source), rows, written)
+        for key in ("changed", "dropped"):
+            for line in facts[key]:
+                print(printable(f"  {key}  {line}"))
+
+
+def _read(
+    file: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None
+) -> tuple[Shapes, Scene]:
+    from cfree.formats.scene_file import load_shapes
+
+    with bar("reading"):
+        pairs = [role.rpartition("=") for role in roles]
+        if wrong := next((role for role, (_, sign, _) in zip(roles, pairs, strict=True) if not sign), None):
+            raise ValueError(f'--role: {wrong!r}; write it like "walls=obstacle"')
+        named = {name: role for name, _, role in pairs}
+        how: dict[str, Any] = {"tolerance": tolerance, "unknown": unknown, "roles": named}
+        shapes = load_shapes(file, **how)
+        return shapes, shapes.scene(None if robot is None else _robot(robot, tolerance))
+
+
+def _robot(text: str, tolerance: float | None) -> Any:
+    """The polygons of a footprint, or of a file: those of the role robot, if there are any."""
+    from cfree.formats.footprints import footprint
+    from cfree.formats.scene_file import load_shapes
+
+    if text.lstrip()[:1] in ("[", "("):
+        return footprint(text)
+    shapes = load_shapes(text, tolerance=tolerance)
+    return [shape.polygon for shape in shapes.of("robot")] or list(shapes.polygons)
+
+
+def _facts(shapes: Shapes) -> dict[str, Any]:
+    return {"format": shapes.form, "changed": list(shapes.changed), "dropped": list(shapes.dropped)}

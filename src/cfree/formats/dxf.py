@@ -1,0 +1,339 @@
+"""DXF: closed outlines of the model space, with the layer as role and name; ezdxf reads the file.
+
+Polylines with bulges, circles, ellipses, splines, solids and hatches, and lines and arcs of one layer that join to
+rings; blocks are expanded. One ring inside of another on a layer is a hole in it. Frame and unit are the drawing's.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import math
+from collections import defaultdict
+from collections.abc import Callable, Iterable, Iterator
+from io import BytesIO
+from typing import Any
+
+from cfree.exact.number import ExactPoint
+from cfree.formats.extras import needed
+from cfree.formats.findings import InvalidFileError
+from cfree.formats.outlines import Drawn, shapes_of_drawing
+from cfree.formats.scene_settings import read_settings
+from cfree.formats.segments import (
+    Arc,
+    Cubic,
+    Line,
+    Ring,
+    Segment,
+    Vector,
+    bulged,
+    ends,
+    point_of,
+    polyline,
+    quadratic,
+    reversed_ring,
+)
+from cfree.formats.shapes import Shapes
+from cfree.formats.source import DEEPEST, Source, read_bytes
+
+UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 7: "km", 10: "yd", 14: "dm"}
+"""Of $INSUNITS."""
+PROPERTY = "cfree"
+"""Of the file: what a scene has beside its shapes, as JSON."""
+MOST_BYTES = 1 << 25
+
+
+def read_dxf(source: Source) -> Shapes:
+    """What is drawn."""
+    needed("ezdxf", "dxf", "DXF")
+    from ezdxf import recover
+
+    logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it says while it mends is counted below
+
+    raw = read_bytes(source.findings.file, MOST_BYTES)
+    try:
+        document, audit = recover.read(BytesIO(raw))
+        unit = UNITS.get(document.header.get("$INSUNITS", 0), "")
+        text = next((value for tag, value in document.header.custom_vars if tag == PROPERTY), "{}")
+        hidden = {layer.dxf.name.lower() for layer in document.layers if layer.is_off() or layer.is_frozen()}
+        entities = list(document.modelspace())
+    except Exception as error:  # a damaged file ends in any of them
+        source.refuse(f"{str(error)[:100] or type(error).__name__}; give DXF")
+    if audit.fixes:
+        source.changed["faults of the file, mended by ezdxf"] += len(audit.fixes)
+    walk = _Walk(source, hidden)
+    walk.all(entities, None, 0)
+    drawn = list(walk.drawn())
+    try:
+        data = json.loads(text)
+    except (ValueError, RecursionError):
+        data = {}
+    settings = {"units": unit} if unit else {}
+    settings |= read_settings(source.findings, data, (PROPERTY,))
+    return shapes_of_drawing(source, "DXF", drawn, settings, 'call a layer "robot"')
+
+
+class _Walk:
+    """Rings by layer."""
+
+    def __init__(self, source: Source, hidden: set[str]) -> None:
+        self.source = source
+        self.hidden = hidden
+        self.closed: dict[str, list[Ring]] = defaultdict(list)
+        self.open: dict[str, Ring] = defaultdict(list)
+        self.filled: list[Drawn] = []
+
+    def all(self, entities: Iterable[Any], block_layer: str | None, depth: int) -> None:
+        """Entities of the model space or of a block, whose layer 0 is that of its reference."""
+        if depth > DEEPEST:
+            self.source.refuse(f"blocks nested more than {DEEPEST} deep; explode them")
+        for entity in entities:
+            self.source.spend()
+            kind = entity.dxftype()
+            try:
+                layer = str(entity.dxf.get("layer", "0"))
+                layer = block_layer if layer == "0" and block_layer is not None else layer
+                if layer.lower() in self.hidden:
+                    self.source.dropped[f"{kind} on layer {layer}, which is off"] += 1
+                elif kind == "INSERT":
+                    self.block(entity, layer, depth)
+                elif kind in _READERS:
+                    _READERS[kind](self, entity, layer)
+                else:
+                    self.source.dropped[f"{kind}: no outline"] += 1
+            except InvalidFileError:
+                raise
+            except Exception as error:  # ezdxf raises what it likes
+                self.source.dropped[f"{kind}: {str(error)[:80] or type(error).__name__}"] += 1
+
+    def block(self, entity: Any, layer: str, depth: int) -> None:
+        copies = entity.multi_insert() if entity.mcount > 1 else (entity,)
+        if entity.mcount > 1:
+            self.source.spend(entity.mcount)
+        for copy in copies:
+            self.all(copy.virtual_entities(), layer, depth + 1)
+
+    def drawn(self) -> Iterator[Drawn]:
+        """What is filled together: a layer's rings; each hatch."""
+        for layer, pieces in self.open.items():
+            self.closed[layer] += self.joined(pieces)
+        for layer, rings in self.closed.items():
+            if rings:
+                yield Drawn(rings, (layer,))
+        yield from self.filled
+
+    def joined(self, pieces: Ring) -> list[Ring]:
+        """Rings of the pieces that meet end to end; a piece that goes on nowhere is dropped."""
+        at: dict[ExactPoint, list[tuple[int, bool]]] = defaultdict(list)
+        for k, piece in enumerate(pieces):
+            for last, end in enumerate(ends(piece)):
+                at[_joint(end)].append((k, bool(last)))
+        rings: list[Ring] = []
+        seen: set[int] = set()
+        used = 0
+        for k, piece in enumerate(pieces):
+            if k in seen:
+                continue
+            seen.add(k)
+            first, here = map(_joint, ends(piece))
+            ring, current = [piece], (k, True)
+            while here != first and len(at[here]) == 2:
+                a, b = at[here]
+                j, last = b if a == current else a
+                if j in seen:
+                    break
+                seen.add(j)
+                ring += reversed_ring([pieces[j]]) if last else [pieces[j]]
+                here, current = _joint(ends(pieces[j])[0 if last else 1]), (j, not last)
+            if here == first:
+                rings.append(_tied(ring))
+                used += len(ring)
+        if len(pieces) > used:
+            self.source.dropped["open line: it forbids nothing; close it, or give it width"] += len(pieces) - used
+        return rings
+
+    # entities
+
+    def line(self, entity: Any, layer: str) -> None:
+        a, b = (point_of(p.x, p.y) for p in (entity.dxf.start, entity.dxf.end))
+        if a != b:
+            self.open[layer].append(Line(a, b))
+
+    def arc(self, entity: Any, layer: str) -> None:
+        first, last = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
+        self.open[layer].append(_round(entity, first, first + ((last - first) % math.tau or math.tau)))
+
+    def circle(self, entity: Any, layer: str) -> None:
+        if entity.dxf.radius > 0:
+            self.closed[layer].append([_round(entity, 0.0, math.tau)])
+
+    def ellipse(self, entity: Any, layer: str) -> None:
+        c, u, v = entity.dxf.center, entity.dxf.major_axis, entity.minor_axis
+        first, last = float(entity.dxf.start_param), float(entity.dxf.end_param)
+        sweep = (last - first) % math.tau
+        whole = sweep < 1e-9 or sweep > math.tau - 1e-9
+        arc = Arc((c.x, c.y), (u.x, u.y), (v.x, v.y), first, first + (math.tau if whole else sweep))
+        if whole:
+            self.closed[layer].append([arc])
+        else:
+            self.open[layer].append(arc)
+
+    def polyline(self, entity: Any, layer: str) -> None:
+        """LWPOLYLINE, or a POLYLINE in the plane."""
+        if entity.dxftype() == "POLYLINE":
+            if not entity.is_2d_polyline:
+                self.source.dropped["POLYLINE in space: no outline"] += 1
+                return
+            given = [(v.dxf.location.x, v.dxf.location.y, v.dxf.get("bulge", 0.0)) for v in entity.vertices]
+            closed = entity.is_closed
+        else:
+            given, closed = list(entity.get_points("xyb")), entity.closed
+            if entity.dxf.get("const_width", 0.0):
+                self.source.dropped["width of polylines"] += 1
+        self.source.spend(len(given))
+        place = _frame(entity)
+        ring = _bulged_ring(given, closed)
+        closed = closed or (len(given) > 2 and given[0][:2] == given[-1][:2])
+        moved = [_placed(segment, place) for segment in ring]
+        if closed:
+            if moved:
+                self.closed[layer].append(moved)
+        else:
+            self.open[layer] += moved
+
+    def spline(self, entity: Any, layer: str) -> None:
+        curve = entity.construction_tool()
+        self.source.spend(curve.count)
+        if curve.degree > 3 or curve.is_rational:
+            self.source.changed["SPLINE with weights or of a degree above 3: Bezier curves through its points"] += 1
+            pieces: Iterable[Any] = curve.cubic_bezier_approximation(level=8)
+        else:
+            pieces = (_Points(points) for points in curve.bezier_decomposition())
+        ring: Ring = []
+        for piece in pieces:
+            self.source.spend()
+            p = [(float(point.x), float(point.y)) for point in piece.control_points]
+            ring.append(_bezier(p))
+        if ring and _joint(ends(ring[0])[0]) == _joint(ends(ring[-1])[1]):
+            self.closed[layer].append(ring)
+        else:
+            self.open[layer] += ring
+
+    def solid(self, entity: Any, layer: str) -> None:
+        points = [point_of(p.x, p.y) for p in entity.wcs_vertices()]
+        self.closed[layer].append(polyline(list(dict.fromkeys(points))))
+
+    def hatch(self, entity: Any, layer: str) -> None:
+        """Its rings, filled as even and odd."""
+        place = _frame(entity)
+        rings: list[Ring] = []
+        for path in entity.paths:
+            ring: Ring = []
+            if hasattr(path, "vertices"):
+                self.source.spend(len(path.vertices))
+                ring = _bulged_ring(list(path.vertices), True)
+            else:
+                for edge in path.edges:
+                    self.source.spend()
+                    ring += self.edge(edge)
+            if ring:
+                rings.append([_placed(segment, place) for segment in ring])
+        if rings:
+            self.filled.append(Drawn(rings, (layer,)))
+
+    def edge(self, edge: Any) -> Ring:
+        """Of a hatch."""
+        kind = type(edge).__name__
+        if kind == "LineEdge":
+            a, b = (point_of(p[0], p[1]) for p in (edge.start, edge.end))
+            return [Line(a, b)] if a != b else []
+        if kind == "ArcEdge":
+            r, c = float(edge.radius), (float(edge.center[0]), float(edge.center[1]))
+            first, last = math.radians(edge.start_angle), math.radians(edge.end_angle)
+            arc: Ring = [Arc(c, (r, 0.0), (0.0, r), first, first + ((last - first) % math.tau or math.tau))]
+            return arc if edge.ccw else reversed_ring(arc)
+        raise ValueError(f"{kind} at its edge: only polylines, lines and arcs are read")
+
+
+_READERS: dict[str, Callable[[_Walk, Any, str], None]] = {
+    "LINE": _Walk.line,
+    "ARC": _Walk.arc,
+    "CIRCLE": _Walk.circle,
+    "ELLIPSE": _Walk.ellipse,
+    "LWPOLYLINE": _Walk.polyline,
+    "POLYLINE": _Walk.polyline,
+    "SPLINE": _Walk.spline,
+    "SOLID": _Walk.solid,
+    "TRACE": _Walk.solid,
+    "HATCH": _Walk.hatch,
+}
+
+
+class _Points:
+    """Control points of a Bézier curve."""
+
+    def __init__(self, points: Any) -> None:
+        self.control_points = points
+
+
+def _bezier(p: list[Vector]) -> Segment:
+    match p:
+        case [a, b]:
+            return Line(point_of(*a), point_of(*b))
+        case [a, b, c]:
+            return quadratic(a, b, c)
+        case [a, b, c, d]:
+            return Cubic((a, b, c, d))
+    raise ValueError(f"a curve of {len(p)} control points")
+
+
+def _bulged_ring(given: list[Any], closed: bool) -> Ring:
+    ring: Ring = []
+    following = [*given[1:], *given[:1]] if closed else given[1:]
+    for (x, y, bulge), after in zip(given, following, strict=False):
+        a, b = (float(x), float(y)), (float(after[0]), float(after[1]))
+        if a != b:
+            ring.append(bulged(a, b, float(bulge)) if bulge else Line(point_of(*a), point_of(*b)))
+    return ring
+
+
+def _frame(entity: Any) -> int:
+    """1, or -1 if the entity is seen from below: its x is then the other way."""
+    z = entity.dxf.extrusion
+    if abs(z.x) > 1e-9 or abs(z.y) > 1e-9:
+        raise ValueError("it stands in space, and not in the plane of x and y")
+    return 1 if z.z > 0 else -1
+
+
+def _placed(segment: Segment, side: int) -> Segment:
+    if side > 0:
+        return segment
+    match segment:
+        case Line(a, b):
+            return Line((-a[0], a[1]), (-b[0], b[1]))
+        case Arc(c, u, v, first, last):
+            return Arc((-c[0], c[1]), (-u[0], u[1]), (-v[0], v[1]), first, last)
+        case Cubic((p, q, r, s)):
+            return Cubic(((-p[0], p[1]), (-q[0], q[1]), (-r[0], r[1]), (-s[0], s[1])))
+
+
+def _round(entity: Any, first: float, last: float) -> Segment:
+    c, r = entity.dxf.center, float(entity.dxf.radius)
+    return _placed(Arc((float(c.x), float(c.y)), (r, 0.0), (0.0, r), first, last), _frame(entity))
+
+
+def _joint(p: Vector) -> ExactPoint:
+    """Ends that differ by less than the ninth digit are one."""
+    return point_of(
+        float(f"{p[0]:.9g}") if abs(p[0]) > 1e-9 else 0.0, float(f"{p[1]:.9g}") if abs(p[1]) > 1e-9 else 0.0
+    )
+
+
+def _tied(ring: Ring) -> Ring:
+    """Lines that begin exactly where the ones before end."""
+    tied = list(ring)
+    for k, segment in enumerate(tied):
+        before = tied[k - 1]
+        if isinstance(segment, Line) and isinstance(before, Line):
+            tied[k] = Line(before.end, segment.end)
+    return [segment for segment in tied if not isinstance(segment, Line) or segment.start != segment.end]

@@ -1,0 +1,150 @@
+"""Outlines of a drawing as shapes: which rings are holes of which, roles, the robot's pivot, curves as polygons."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from cfree.errors import InvalidPolygonError
+from cfree.exact.number import ExactPoint
+from cfree.exact.pose import Pose
+from cfree.formats.curve_polygons import Outline, area, box_of, default_tolerance, polygon_of, rough
+from cfree.formats.findings import InvalidFileError, Problem
+from cfree.formats.segments import Ring, Vector, carried, decimal
+from cfree.formats.shapes import IGNORE, Shape, Shapes, role_of, shapes_of
+from cfree.formats.source import CURVE_SHARE, Source
+from cfree.scene.scene import explained
+
+PIVOT = "pivot"
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """Rings that are filled together, under names of which the innermost is first."""
+
+    rings: list[Ring]
+    names: tuple[str, ...]
+    line: int = 1
+    even_odd: bool = True
+
+
+def shapes_of_drawing(
+    source: Source, form: str, drawn: Sequence[Drawn], settings: Mapping[str, Any], remedy: str
+) -> Shapes:
+    """The shapes; raises the problems that there are."""
+    pivots = [item for item in drawn if item.names and item.names[0].lower() == PIVOT]
+    kept = [(item, *role_of(source, *item.names)) for item in drawn if item not in pivots and any(item.rings)]
+    for item in drawn:
+        if not _is_near(item.rings):
+            source.refuse("a coordinate that is not finite, or beyond 1e150; scale the drawing", item.line)
+    pivot = _center(pivots[0]) if pivots else None
+    if len(pivots) > 1:
+        source.refuse(f"{len(pivots)} pivots; mark one point", pivots[1].line)
+    tolerance = source.reading.tolerance or default_tolerance(
+        [r for item, _, _ in kept for r in item.rings], CURVE_SHARE
+    )
+    shapes: list[Shape] = []
+    problems: list[Problem] = []
+    curves = 0
+    for item, role, name in kept:
+        if role == IGNORE:
+            source.dropped[f"{name}: ignored"] += 1
+            continue
+        rings = item.rings
+        if role == "robot" and pivot:
+            rings = [carried(ring, (*_ONE, -pivot[0], -pivot[1])) for ring in rings]
+        for outline in nested(source, rings, item.even_odd):
+            curves += outline.curved
+            try:
+                polygon = polygon_of(source, outline, tolerance, inside=role == "workspace")
+            except InvalidPolygonError as error:
+                problems.append(Problem(item.line, 1, name or role, explained(error)))
+            else:
+                shapes.append(Shape(role, name, polygon))
+    if curves:
+        source.changed[
+            f"{curves:,} outlines with curves: polygons around them (a workspace: inside) within {tolerance:g}"
+        ] += 1
+    if problems:
+        raise InvalidFileError(source.findings.file, problems)
+    given = dict(settings)
+    if pivot and "start" not in given and any(shape.role == "robot" for shape in shapes):
+        given["start"] = Pose(*pivot, 0)
+        source.changed["the pivot is the robot's reference point, and its place the start"] += 1
+    return shapes_of(source, form, shapes, given, remedy)
+
+
+_ONE = (Fraction(1), Fraction(0), Fraction(0), Fraction(1))
+
+
+def _is_near(rings: Sequence[Ring]) -> bool:
+    """Is every coordinate finite, and in the range of scenes?"""
+    try:
+        return max(map(abs, box_of(rings))) < 1e150
+    except OverflowError:
+        return False
+
+
+def _center(item: Drawn) -> ExactPoint:
+    x0, y0, x1, y1 = box_of(item.rings)
+    return decimal((x0 + x1) / 2), decimal((y0 + y1) / 2)
+
+
+def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outline]:
+    """Outer rings with their holes, by the rule that fills them.
+
+    Parameters
+    ----------
+    rings : sequence of rings
+        That do not cross each other.
+    even_odd : bool
+        Else what has a winding number other than 0 is filled.
+    """
+    import shapely
+
+    if len(rings) == 1:
+        return [Outline(rings[0])]
+    points: list[list[Vector]] = [rough(ring) for ring in rings]
+    areas = [area(part) for part in points]
+    kept = [k for k in range(len(rings)) if len(points[k]) > 2 and areas[k]]
+    order = sorted(kept, key=lambda k: -abs(areas[k]))
+    bodies = [shapely.Polygon(points[k]) for k in order]
+    tree = shapely.STRtree(bodies)
+    winding: dict[int, int] = {}
+    parent: dict[int, int | None] = {}
+    holes: dict[int, list[int]] = {}
+    for place, k in enumerate(order):
+        probe = shapely.Point(points[k][0])
+        around = sorted(int(j) for j in tree.query(probe) if j < place and _inside(points[order[j]], points[k]))
+        source.spend(1 + len(around) + len(points[k]))
+        outside = winding[order[around[-1]]] if around else 0
+        step = 1 if even_odd or areas[k] > 0 else -1
+        winding[k] = (outside + step) % 2 if even_odd else outside + step
+        parent[k] = order[around[-1]] if around else None
+        if not outside and winding[k]:
+            holes[k] = []
+        elif outside and not winding[k]:
+            owner = parent[k]
+            while owner is not None and owner not in holes:
+                owner = parent[owner]
+            if owner is not None:
+                holes[owner].append(k)
+        else:
+            source.changed["a ring inside of a filled one: filled already"] += 1
+    return [Outline(rings[k], tuple(rings[j] for j in sorted(inner))) for k, inner in sorted(holes.items())]
+
+
+def _inside(outer: list[Vector], inner: list[Vector]) -> bool:
+    """Are most of some points of a ring inside of another? Rings may touch, and points be on each other's."""
+    few = inner[:: max(1, len(inner) // 7)]
+    return sum(_contains(outer, p) for p in few) * 2 > len(few)
+
+
+def _contains(ring: list[Vector], p: Vector) -> bool:
+    odd = False
+    for (x0, y0), (x1, y1) in zip(ring, [*ring[1:], *ring[:1]], strict=True):
+        if (y0 > p[1]) != (y1 > p[1]) and p[0] < x0 + (p[1] - y0) * (x1 - x0) / (y1 - y0):
+            odd = not odd
+    return odd

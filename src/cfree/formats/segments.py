@@ -1,0 +1,171 @@
+"""What outlines in drawings are made of: lines, arcs of circles and ellipses, cubic Bézier curves.
+
+Points of lines are exact, those of curves doubles. A ring is a list of segments, each beginning where the one before
+ends; affine maps carry them (`Affine`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+from fractions import Fraction
+
+from cfree.exact.number import ExactPoint
+
+Affine = tuple[Fraction, Fraction, Fraction, Fraction, Fraction, Fraction]
+"""(a, b, c, d, e, f) takes (x, y) to (a x + c y + e, b x + d y + f), as SVG writes it."""
+Vector = tuple[float, float]
+
+IDENTITY: Affine = (Fraction(1), Fraction(0), Fraction(0), Fraction(1), Fraction(0), Fraction(0))
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """From a point to another."""
+
+    start: ExactPoint
+    end: ExactPoint
+
+
+@dataclass(frozen=True, slots=True)
+class Arc:
+    """Points center + u cos t + v sin t, for t from `first` to `last`, in radians; u and v are conjugate radii."""
+
+    center: Vector
+    u: Vector
+    v: Vector
+    first: float
+    last: float
+
+    def at(self, t: float, scale: float = 1.0) -> Vector:
+        """The point at t, its distance from the center scaled."""
+        c, s = math.cos(t) * scale, math.sin(t) * scale
+        return (
+            self.center[0] + self.u[0] * c + self.v[0] * s,
+            self.center[1] + self.u[1] * c + self.v[1] * s,
+        )
+
+    @property
+    def closed(self) -> bool:
+        """A whole ellipse?"""
+        return abs(self.last - self.first) >= math.tau * (1 - 1e-12)
+
+
+@dataclass(frozen=True, slots=True)
+class Cubic:
+    """A Bézier curve of degree 3."""
+
+    points: tuple[Vector, Vector, Vector, Vector]
+
+
+Segment = Line | Arc | Cubic
+Ring = list[Segment]
+
+
+def decimal(value: float) -> Fraction:
+    """The shortest decimal that 14 digits of a double tell: what was added up in doubles is what was meant.
+
+    Examples
+    --------
+    >>> decimal(0.1 + 0.2), decimal(-1e-20)
+    (Fraction(3, 10), Fraction(-1, 100000000000000000000))
+    """
+    if not -1e150 < value < 1e150:
+        raise ValueError(f"{value} is no coordinate; give one below 1e150")
+    return Fraction(Decimal(f"{value:.14g}")) if abs(value) > 1e-150 else Fraction(0)
+
+
+def point_of(x: float, y: float) -> ExactPoint:
+    """A point of a drawing."""
+    return decimal(x), decimal(y)
+
+
+def circle(center: Vector, radius: float) -> Ring:
+    """A whole circle."""
+    return [Arc(center, (radius, 0.0), (0.0, radius), 0.0, math.tau)]
+
+
+def polyline(points: Sequence[ExactPoint]) -> Ring:
+    """The closed ring of some points."""
+    return [Line(a, b) for a, b in zip(points, [*points[1:], *points[:1]], strict=True) if a != b]
+
+
+def quadratic(a: Vector, b: Vector, c: Vector) -> Cubic:
+    """A Bézier curve of degree 2."""
+    lower, upper = ((e[0] + 2 * (b[0] - e[0]) / 3, e[1] + 2 * (b[1] - e[1]) / 3) for e in (a, c))
+    return Cubic((a, lower, upper, c))
+
+
+def bulged(a: Vector, b: Vector, bulge: float) -> Arc:
+    """The arc of a DXF polyline: `bulge` is the tangent of a quarter of its angle, to the left if above 0."""
+    half = 2 * math.atan(bulge)
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    middle, rise = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2), 1 / math.tan(half) / 2
+    center = middle[0] - dy * rise, middle[1] + dx * rise
+    first = math.atan2(a[1] - center[1], a[0] - center[0])
+    radius = math.hypot(a[0] - center[0], a[1] - center[1])
+    return Arc(center, (radius, 0.0), (0.0, radius), first, first + 2 * half)
+
+
+def ends(segment: Segment) -> tuple[Vector, Vector]:
+    """Where a segment begins and ends, in doubles."""
+    match segment:
+        case Line(start, end):
+            return (float(start[0]), float(start[1])), (float(end[0]), float(end[1]))
+        case Arc():
+            return segment.at(segment.first), segment.at(segment.last)
+        case Cubic(points):
+            return points[0], points[3]
+
+
+def reversed_ring(ring: Sequence[Segment]) -> Ring:
+    """The same ring in the other direction."""
+    return [_reversed(segment) for segment in reversed(ring)]
+
+
+def _reversed(segment: Segment) -> Segment:
+    match segment:
+        case Line(start, end):
+            return Line(end, start)
+        case Arc(center, u, v, first, last):
+            return Arc(center, u, v, last, first)
+        case Cubic((a, b, c, d)):
+            return Cubic((d, c, b, a))
+
+
+def carried(ring: Sequence[Segment], by: Affine) -> Ring:
+    """A ring in another frame: lines exactly, curves in doubles."""
+    a, b, c, d, e, f = map(float, by)
+
+    def direction(p: Vector) -> Vector:
+        return a * p[0] + c * p[1], b * p[0] + d * p[1]
+
+    def point(p: Vector) -> Vector:
+        x, y = direction(p)
+        return x + e, y + f
+
+    moved: Ring = []
+    for segment in ring:
+        match segment:
+            case Line(start, end):
+                moved.append(Line(applied(by, start), applied(by, end)))
+            case Arc(center, u, v, first, last):
+                moved.append(Arc(point(center), direction(u), direction(v), first, last))
+            case Cubic((p, q, r, s)):
+                moved.append(Cubic((point(p), point(q), point(r), point(s))))
+    return moved
+
+
+def applied(by: Affine, p: ExactPoint) -> ExactPoint:
+    """A point in another frame."""
+    a, b, c, d, e, f = by
+    return a * p[0] + c * p[1] + e, b * p[0] + d * p[1] + f
+
+
+def compose(outer: Affine, inner: Affine) -> Affine:
+    """First `inner`, then `outer`."""
+    a, b, c, d, _, _ = outer
+    (x, y), (p, q, r, s) = applied(outer, (inner[4], inner[5])), inner[:4]
+    return a * p + c * q, b * p + d * q, a * r + c * s, b * r + d * s, x, y

@@ -1,0 +1,183 @@
+"""SVG and DXF: what is drawn is what is read; curves are surrounded; what cannot be read is one error with its line."""
+
+import math
+import xml.etree.ElementTree as ElementTree
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+import shapely
+
+import cfree
+import drawings
+from cfree.errors import FormatError
+from cfree.formats import source
+from cfree.formats.curve_polygons import Outline, polygon_of
+from cfree.formats.segments import Arc, Cubic, Line, Ring, bulged, ends, point_of
+from cfree.formats.source import Source
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    drawings.put(tmp_path)
+    return tmp_path
+
+
+def of(shapes: cfree.Shapes, name: str) -> list[cfree.Polygon]:
+    return [shape.polygon for shape in shapes.shapes if shape.name == name]
+
+
+def test_svg_is_read_as_it_is_drawn(folder: Path) -> None:
+    shapes = cfree.load_shapes(folder / "a.svg")
+    wall, *ellipses = of(shapes, "walls")
+    x, y = Fraction("10.2"), Fraction("-10.4")  # exactly: the transform's decimals are added as decimals
+    corners = [(2 * x, 2 * y - 4), (2 * x + 200, 2 * y - 4), (2 * x + 200, 2 * y), (2 * x, 2 * y)]
+    assert set(wall.exact_vertices) == set(corners)
+    assert [round(float(e.exact_area) / 4 / math.pi, 1) for e in ellipses] == [
+        96.6,
+        87.4,
+    ]  # 4 times 24; grown to reach its ends, 86.7
+    (lake,) = of(shapes, "lake")
+    assert len(lake.ring_offsets) == 3
+    (chair,) = of(shapes, "chair")
+    assert chair.bounds == pytest.approx((200, -308, 208, -300), abs=0.1)
+    scene = shapes.scene()
+    assert (scene.units, scene.start) == ("mm", cfree.Pose(24, -410))
+    assert shapes.changed[0] == "a user unit is 2 mm"
+    assert shapes.dropped == (
+        "line: it forbids nothing",
+        "text: no outline",
+        "use: 'other.svg#a' is not in this file",
+        "hidden rect",
+    )
+
+
+def test_dxf_is_read_as_it_is_drawn(folder: Path) -> None:
+    shapes = cfree.load_shapes(folder / "a.dxf", tolerance=0.001)
+    (slot,), (part,), (ellipse,) = of(shapes, "walls"), of(shapes, "part"), of(shapes, "ellipse")
+    assert float(slot.exact_area) == pytest.approx(40 + 4 * math.pi, abs=0.02)
+    assert float(part.exact_area) == pytest.approx(10.1 * 4.2 - math.pi, abs=0.01)
+    assert part.exact_area > Fraction("42.42") - Fraction(math.pi)  # outside of the true shape's hole
+    assert float(ellipse.exact_area) == pytest.approx(math.pi * 29 * 0.4, abs=0.02)
+    assert set(of(shapes, "furniture")[0].exact_vertices) == {(19, 40), (20, 40), (20, 46), (19, 46)}
+    assert len(of(shapes, "hatch")[0].ring_offsets) == 3
+    scene = shapes.scene()
+    assert (scene.units, scene.start) == ("mm", cfree.Pose(2, 2))
+    assert scene.workspace == cfree.Polygon([(-50, -50), (120, -50), (120, 100), (-50, 100)])
+    assert shapes.dropped[0] == "CIRCLE on layer off, which is off"
+
+
+def test_roles_can_be_given(folder: Path) -> None:
+    shapes = cfree.load_shapes(folder / "a.dxf", roles={"hatch": "ignore", "part": "robot"})
+    assert (of(shapes, "hatch"), len(shapes.of("robot"))) == ([], 2)
+    with pytest.raises(ValueError, match="roles: part: 'wall'; give one of robot"):
+        cfree.load_shapes(folder / "a.dxf", roles={"part": "wall"})
+
+
+RINGS: dict[str, Ring] = {
+    "circle": [Arc((3.1, -2), (2, 0), (0, 2), 0.3, 0.3 + math.tau)],
+    "ellipse": [Arc((0, 0), (5, 1), (0.2, -0.7), 0, -math.tau)],
+    "bulges": [bulged((0, 0), (4, 0), 0.7), bulged((4, 0), (4, 3), -0.4), Line(point_of(4, 3), point_of(0, 0))],
+    "s": [
+        Cubic(((0, 0), (3, -4), (5, 4), (8, 0))),
+        Line(point_of(8, 0), point_of(8, 6)),
+        Cubic(((8, 6), (6, 3), (1, 9), (0, 6))),
+        Line(point_of(0, 6), point_of(0, 0)),
+    ],
+}
+
+
+def sampled(ring: Ring) -> list[tuple[float, float]]:
+    points = []
+    for segment in ring:
+        for t in (k / 500 for k in range(500)):
+            if isinstance(segment, Arc):
+                points.append(segment.at(segment.first + t * (segment.last - segment.first)))
+            else:
+                p = segment.points if isinstance(segment, Cubic) else ends(segment)
+                weights = (1 - t, t) if len(p) == 2 else ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t**3)
+                points.append(tuple(sum(w * q[k] for w, q in zip(weights, p, strict=True)) for k in (0, 1)))
+    return points
+
+
+@pytest.mark.parametrize("name", RINGS)
+@pytest.mark.parametrize("error", [0.3, 0.001])
+def test_polygons_are_around_curves_or_inside_and_near(name: str, error: float) -> None:
+    curve = shapely.Polygon(sampled(RINGS[name]))
+    points = shapely.points(sampled(RINGS[name]))
+    for inside in (False, True):
+        polygon = polygon_of(Source(""), Outline(RINGS[name]), error, inside).to_shapely()
+        assert shapely.distance(polygon.boundary, points).max() <= error
+        assert polygon.boundary.hausdorff_distance(curve.boundary) <= error + 1e-4
+        strangers = points[
+            shapely.contains_properly(polygon, points) if inside else ~shapely.intersects(polygon, points)
+        ]
+        assert not len(strangers) or shapely.distance(polygon, strangers).max() == 0 or not inside
+        assert all(shapely.distance(polygon.boundary, p) < 1e-12 for p in strangers)  # on straight sides, rounded
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("a.svg", "<svg>\n<g>", "a.svg:2:4 no element found; give XML"),
+        ("a.svg", "<html/>", "a.svg:1:1 expected an element svg, got html; give SVG"),
+        ("a.svg", "<svg>" + "<g>" * 200, "nested more than 100 deep"),
+        ("a.svg", '<svg>\n<rect width="7x" height="3"/></svg>', "a.svg:2:1 rect: width: '7x' is no length"),
+        ("a.svg", '<svg><path d="M0 0 L4 4 L4 0 L0 3 Z"/></svg>', "edges 0 and 2 cross"),
+        ("a.svg", '<svg><g id="a"><use href="#a"/></g></svg>', "nested more than 100 deep"),
+        (
+            "a.svg",
+            '<!DOCTYPE svg [<!ENTITY a "b">\n<!ENTITY c "&a;&a;">]><svg>&c;</svg>',
+            "entity a: entities are not read; write what they stand for",
+        ),
+        (
+            "a.svg",
+            '<svg><g id="a0"><rect width="1" height="1"/></g>'
+            + "".join(f'<g id="a{k + 1}">' + f'<use href="#a{k}"/>' * 10 + "</g>" for k in range(12))
+            + "</svg>",
+            "more than 1,000 elements and points, references expanded",
+        ),
+        ("a.dxf", "hello", "a.dxf:1:1"),
+        ("a.urdf", '<robot><joint name="j"/></robot>', "a.urdf:1:1 joint j: its links are not there"),
+        ("a.yaml", "a: [b", "a.yaml:1:6"),
+        ("a.yaml", "image: ../map.pgm\nresolution: 1\norigin: [0, 0, 0]", "is outside of the map's folder"),
+        ("a.yaml", "image: /etc/passwd\nresolution: 1\norigin: [0, 0, 0]", "is outside of the map's folder"),
+        ("a.yaml", "image: a.pgm\nresolution: x\norigin: [0, 0]", "a.yaml:2:13 resolution: 'x' is no number"),
+        ("a.yaml", 'footprint: "[[1, 2], [3]]"', "a.yaml:1:12 footprint: '[[1, 2], [3]]'; write it like"),
+        ("a.yaml", "a: &a [*a]\nfootprint: *a", "write it like"),
+        ("a.json", '{"items": [{"shape": {"type": "circle"}}]}', 'a.json:1:22 items[0].shape: expected a shape'),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_read_is_one_error_with_its_place(
+    name: str, text: str, message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(source, "MOST_STEPS", 1000)
+    (tmp_path / name).write_text(text)
+    with pytest.raises(FormatError) as caught:
+        cfree.load_shapes(tmp_path / name)
+    assert message in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["paper_fig9", "flat", "street_Berlin", "degenerate_workspace", "benchmr_parking1"])
+@pytest.mark.parametrize("suffix", [".geojson", ".svg", ".dxf"])
+def test_written_scenes_are_read_as_they_were(name: str, suffix: str, tmp_path: Path) -> None:
+    scene = cfree.load_scene(f"examples/scenes/{name}.json")
+    cfree.save(scene, tmp_path / f"a{suffix}")
+    assert cfree.load(tmp_path / f"a{suffix}") == scene
+
+
+def test_names_and_exact_numbers_survive_where_they_can(tmp_path: Path) -> None:
+    scene = cfree.Scene(
+        [(0, 0), ("1/3", 0), (0, 1)],
+        [[(3, 0), (4, 0), (4, "0.1")]],
+        obstacle_names=['robot "<a>"'],
+        goals=[(1, 2), (3, 4)],
+    )
+    cfree.save(scene, tmp_path / "a.geojson")
+    assert cfree.load(tmp_path / "a.geojson") == scene
+    cfree.save(scene, tmp_path / "a.svg")
+    drawn = cfree.load(tmp_path / "a.svg")
+    assert isinstance(drawn, cfree.Scene)
+    assert (drawn.obstacles, drawn.obstacle_names, drawn.goals) == (scene.obstacles, scene.obstacle_names, scene.goals)
+    assert drawn.robot[0].exact_vertices[1][0] == Fraction("0.33333333333333")
+    ElementTree.parse(tmp_path / "a.svg")

@@ -1,0 +1,117 @@
+"""Small files of each kind that cfree reads, as a person would draw or write them."""
+
+from __future__ import annotations
+
+from functools import cache
+from io import BytesIO, StringIO
+from pathlib import Path
+
+SVG = """<?xml version="1.0"?>
+<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
+     xmlns:xlink="http://www.w3.org/1999/xlink" width="210mm" height="297mm" viewBox="0 0 105 148.5">
+ <defs><g id="chair"><rect width="4" height="4" rx="1"/></g></defs>
+ <g inkscape:label="walls" transform="translate(10.1,10.2)">
+  <rect x="0.1" y="0.2" width="100" height="2"/>
+  <path id="lake" fill-rule="evenodd" d="m 20,20 c 10,-10 20,10 30,0 v 30 h -30 z m 5,12 h 10 v 10 h -10 z"/>
+  <g transform="rotate(30 60 60) scale(2)"><ellipse cx="10" cy="60" rx="8" ry="3" transform="skewX(20)"/></g>
+  <path d="M 70 100 A 10 6 30 1 1 90 100 A 10 6 30 0 1 70 100"/><line x2="5" y2="5"/><text>hi</text>
+ </g>
+ <use xlink:href="#chair" x="100" y="150"/><use href="other.svg#a"/><rect width="9" height="9" style="display: none"/>
+ <g id="Robot"><path d="M 10 200 h 20 a 5 5 0 0 1 0 10 h -20 a 5 5 0 0 1 0 -10 z"/></g>
+ <circle id="pivot" cx="12" cy="205" r="1"/>
+</svg>
+"""
+MAP = """image: map.pgm
+resolution: 0.05
+origin: [-1.5, 2, 0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+PGM = "P2\n# a comment\n4 3\n255\n254 254 254 254\n254 0 0 254\n254 254 0 205\n"
+NAV2 = """local_costmap:
+  local_costmap:
+    ros__parameters:
+      footprint: "[[0.5, 0.25], [-.5,0.25], [-0.5, -0.25], [.5, -0.25]]"
+      footprint_padding: 0.01
+global_costmap: {global_costmap: {ros__parameters: {robot_radius: .22}}}
+"""
+URDF = """<robot name="r"><link name="base"><collision><geometry><box size="0.6 0.4 0.2"/></geometry></collision></link>
+<link name="wheel"><collision><origin rpy="1.5708 0 0"/><geometry><cylinder radius="0.1" length="0.05"/></geometry>
+</collision></link><link name="lidar"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>
+<joint name="j" type="continuous"><parent link="base"/><child link="wheel"/><origin xyz="0.1 0.225 0"/></joint>
+<joint name="k" type="fixed"><parent link="base"/><child link="lidar"/><origin xyz="0.3 0 0.2" rpy="0 0.3 0"/></joint>
+</robot>
+"""
+NESTING = """{"name": "swim", "items": [
+ {"id": 0, "demand": 3, "allowed_orientations": [0, 180], "shape": {"type": "simple_polygon",
+  "data": [[0, 0], [4, 0], [0, 3], [0, 0]]}},
+ {"id": 1, "demand": 1, "shape": {"type": "polygon", "data": {"outer": [[0, 0], [4, 0], [4, 4], [0, 4]],
+  "inner": [[[1, 1], [2, 1], [1, 2]]]}}}], "strip_height": 10,
+ "solution": {"strip_width": 30, "layout": {"container_id": 0, "density": 0.5, "placed_items": [
+  {"item_id": 0, "transformation": {"rotation": 3.1415927, "translation": [8, 8]}},
+  {"item_id": 1, "transformation": {"rotation": 0, "translation": [12, 1]}}]}}}
+"""
+
+
+@cache
+def dxf() -> str:
+    """A drawing with a curve of each kind, blocks, a hatch, layers that are roles or off."""
+    import ezdxf
+
+    document = ezdxf.new("R2010")
+    document.units = 4
+    for name in ("robot", "walls", "pivot", "off", "part"):
+        document.layers.add(name)
+    document.layers.get("off").off()
+    space = document.modelspace()
+
+    def on(layer: str) -> dict[str, dict[str, str]]:
+        return {"dxfattribs": {"layer": layer}}
+
+    space.add_lwpolyline([(0, 0, 0), (10, 0, 1), (10, 4, 0), (0, 4, 1)], format="xyb", close=True, **on("robot"))
+    space.add_circle((2, 2), 0.5, **on("pivot"))
+    space.add_lwpolyline([(30, 0), (40.1, 0), (40.1, 4.2), (30, 4.2)], close=True, **on("part"))
+    space.add_circle((35, 2), 1, **on("part"))
+    space.add_line((0, 20), (10, 20), **on("walls"))
+    space.add_line((10, 24), (0, 24), **on("walls"))
+    space.add_arc((10, 22), 2, -90, 90, **on("walls"))
+    space.add_arc((0, 22), 2, 90, 270, **on("walls"))
+    space.add_ellipse((30, 30), (5, 2), 0.4, **on("ellipse"))
+    space.add_spline([(50, 0), (60, 5), (65, 15), (50, 20), (45, 10), (50, 0)], **on("spline"))
+    block = document.blocks.new("B")
+    block.add_lwpolyline([(0, 0), (1, 0), (1, 2), (0, 2)], close=True)
+    space.add_blockref("B", (20, 40), dxfattribs={"layer": "furniture", "xscale": -1, "yscale": 3})
+    hatch = space.add_hatch(**on("hatch"))
+    hatch.paths.add_polyline_path([(50, 30), (60, 30), (60, 40), (50, 40)], is_closed=True)
+    hatch.paths.add_polyline_path([(52, 32), (54, 32), (54, 34)], is_closed=True)
+    space.add_circle((0, 0), 100, **on("off"))
+    space.add_text("hi")
+    space.add_line((0, 0), (1, 1))
+    space.add_lwpolyline([(-50, -50), (120, -50), (120, 100), (-50, 100)], close=True, **on("Workspace"))
+    stream = StringIO()
+    document.write(stream)
+    return stream.getvalue()
+
+
+def files() -> dict[str, bytes]:
+    """Names with contents."""
+    texts = {"a.svg": SVG, "nav.yaml": NAV2, "r.urdf": URDF, "n.json": NESTING, "a.dxf": dxf(), "map.yaml": MAP}
+    return {name: text.encode() for name, text in texts.items()}
+
+
+def put(folder: Path) -> None:
+    """Write all of them, and the map's image."""
+    for name, content in files().items():
+        (folder / name).write_bytes(content)
+    (folder / "map.pgm").write_text(PGM)
+
+
+def png(rows: list[list[int]]) -> bytes:
+    """An image of grey values."""
+    import numpy as np
+    from PIL import Image
+
+    stream = BytesIO()
+    Image.fromarray(np.array(rows, dtype=np.uint8)).save(stream, "PNG")
+    return stream.getvalue()
