@@ -78,6 +78,8 @@ def one_line_faults() -> Iterator[None]:
             _discard_output()
         fail(f"{name}: {error.strerror}" if name and error.strerror else str(error), BAD_INPUT)
     except Exception as error:  # no answer: not to be taken for one
+        if isinstance(error, ImportError) and "pip install 'cfree[" in str(error):
+            fail(str(error), BAD_INPUT)
         _say("".join(traceback.format_exception(error)))
         fail("this is a bug in cfree, please report it", BUG)
 

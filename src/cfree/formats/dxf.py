@@ -152,16 +152,23 @@ class _Walk:
             self.source.dropped["open line: it forbids nothing; close it, or give it width"] += len(pieces) - used
         return rings
 
+    def goes_on(self, layer: str, pieces: Ring) -> None:
+        """Keep pieces with two ends; a ValueError if an end is no point."""
+        for piece in pieces:
+            for end in ends(piece):
+                _joint(end)
+        self.open[layer] += pieces
+
     # entities
 
     def line(self, entity: Any, layer: str) -> None:
         a, b = (point_of(p.x, p.y) for p in (entity.dxf.start, entity.dxf.end))
         if a != b:
-            self.open[layer].append(Line(a, b))
+            self.goes_on(layer, [Line(a, b)])
 
     def arc(self, entity: Any, layer: str) -> None:
         first, last = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
-        self.open[layer].append(_round(entity, first, first + ((last - first) % math.tau or math.tau)))
+        self.goes_on(layer, [_round(entity, first, first + ((last - first) % math.tau or math.tau))])
 
     def circle(self, entity: Any, layer: str) -> None:
         if entity.dxf.radius > 0:
@@ -176,7 +183,7 @@ class _Walk:
         if whole:
             self.closed[layer].append([arc])
         else:
-            self.open[layer].append(arc)
+            self.goes_on(layer, [arc])
 
     def polyline(self, entity: Any, layer: str) -> None:
         """LWPOLYLINE, or a POLYLINE in the plane."""
@@ -199,7 +206,7 @@ class _Walk:
             if moved:
                 self.closed[layer].append(moved)
         else:
-            self.open[layer] += moved
+            self.goes_on(layer, moved)
 
     def spline(self, entity: Any, layer: str) -> None:
         curve = entity.construction_tool()
@@ -217,7 +224,7 @@ class _Walk:
         if ring and _joint(ends(ring[0])[0]) == _joint(ends(ring[-1])[1]):
             self.closed[layer].append(ring)
         else:
-            self.open[layer] += ring
+            self.goes_on(layer, ring)
 
     def solid(self, entity: Any, layer: str) -> None:
         points = [point_of(p.x, p.y) for p in entity.wcs_vertices()]

@@ -117,8 +117,8 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     holes: dict[int, list[int]] = {}
     for place, k in enumerate(order):
         probe = shapely.Point(points[k][0])
-        around = sorted(int(j) for j in tree.query(probe) if j < place and _inside(points[order[j]], points[k]))
-        source.spend(1 + len(around) + len(points[k]))
+        around = sorted(int(j) for j in tree.query(probe) if j < place and _inside(source, points[order[j]], points[k]))
+        source.spend(1 + len(points[k]))
         outside = winding[order[around[-1]]] if around else 0
         step = 1 if even_odd or areas[k] > 0 else -1
         winding[k] = (outside + step) % 2 if even_odd else outside + step
@@ -136,8 +136,9 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     return [Outline(rings[k], tuple(rings[j] for j in sorted(inner))) for k, inner in sorted(holes.items())]
 
 
-def _inside(outer: list[Vector], inner: list[Vector]) -> bool:
+def _inside(source: Source, outer: list[Vector], inner: list[Vector]) -> bool:
     """Are most of some points of a ring inside of another? Rings may touch, and points be on each other's."""
+    source.spend(1 + len(outer) // 8)
     few = inner[:: max(1, len(inner) // 7)]
     return sum(_contains(outer, p) for p in few) * 2 > len(few)
 

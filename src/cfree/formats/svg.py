@@ -43,7 +43,7 @@ _GROUPS = {"svg", "g", "a", "switch"}
 _FORMS = {"path", "rect", "circle", "ellipse", "polygon", "polyline", "line"}
 _LENGTH = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*(px|mm|cm|in|pt|pc|Q|m)?\s*")
 _FLIP: Affine = (Fraction(1), Fraction(0), Fraction(0), Fraction(-1), Fraction(0), Fraction(0))
-MOST_CHARACTERS = 1 << 24
+MOST_CHARACTERS = 1 << 22
 """Of one path."""
 
 
@@ -225,7 +225,9 @@ class _Walk:
             return [polyline(points)] if len(points) > 2 else []
         text = node.attributes.get("d", "")
         if len(text) > MOST_CHARACTERS:
-            raise ValueError("a path of more than 16 MiB")
+            raise ValueError("a path of more than 4 MiB; cut it into several")
+        if len(re.findall("[zZ]", text)) > len(re.findall("[mM]", text)) + 100:  # svgelements looks back from each
+            raise ValueError("a path that closes more often than it begins")
         return self._path(text)
 
     def _path(self, text: str) -> list[Ring]:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 from cfree.formats.extras import needed
-from cfree.formats.findings import Findings, read_text
+from cfree.formats.findings import Findings, InvalidFileError, read_text
 from cfree.formats.source import DEEPEST, Source
 
 MOST_BYTES = 1 << 18
@@ -15,8 +16,6 @@ MOST_BYTES = 1 << 18
 
 def read_nodes(source: Source) -> Any:
     """The root node of the file, a tree of PyYAML's nodes; None if it is empty."""
-    from pathlib import Path
-
     yaml = needed("yaml", "ros", "YAML")
     text = read_text(Path(source.findings.file), MOST_BYTES)
     source.findings = Findings(source.findings.file, text)
@@ -34,6 +33,8 @@ def read_nodes(source: Source) -> Any:
         line, column = (mark.line + 1, mark.column + 1) if mark else (1, 1)
         reason = getattr(error, "problem", None) or getattr(error, "reason", None) or "no YAML"
         source.refuse(f"{reason}; give YAML", line, column)
+    except InvalidFileError:
+        raise
     except (ValueError, RecursionError) as error:
         source.refuse(f"{error}; give YAML")
 
