@@ -109,6 +109,14 @@ def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
     return min(xs), min(ys), max(xs), max(ys)
 
 
+def in_range(rings: Sequence[Ring]) -> bool:
+    """Is every coordinate finite, and one that a scene may have?"""
+    try:
+        return all(abs(x) < 1e150 for ring in rings for segment in ring for p in _control(segment) for x in p)
+    except (OverflowError, ValueError):  # beyond doubles; the cosine of infinity
+        return False
+
+
 def rough(ring: Ring) -> list[Vector]:
     """Some points of a ring in their order, enough to tell its direction."""
     return [p for segment in ring for piece in _halved(segment, 3) for p in piece[:1]]

@@ -10,7 +10,7 @@ from typing import Any
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.curve_polygons import Outline, area, box_of, default_tolerance, polygon_of, rough
+from cfree.formats.curve_polygons import Outline, area, box_of, default_tolerance, in_range, polygon_of, rough
 from cfree.formats.findings import InvalidFileError, Problem
 from cfree.formats.segments import Ring, Vector, carried, decimal
 from cfree.formats.shapes import IGNORE, Shape, Shapes, role_of, shapes_of
@@ -37,7 +37,7 @@ def shapes_of_drawing(
     pivots = [item for item in drawn if item.names and item.names[0].lower() == PIVOT]
     kept = [(item, *role_of(source, *item.names)) for item in drawn if item not in pivots and any(item.rings)]
     for item in drawn:
-        if not _is_near(item.rings):
+        if not in_range(item.rings):
             source.refuse("a coordinate that is not finite, or beyond 1e150; scale the drawing", item.line)
     pivot = _center(pivots[0]) if pivots else None
     if len(pivots) > 1:
@@ -77,14 +77,6 @@ def shapes_of_drawing(
 
 
 _ONE = (Fraction(1), Fraction(0), Fraction(0), Fraction(1))
-
-
-def _is_near(rings: Sequence[Ring]) -> bool:
-    """Is every coordinate finite, and in the range of scenes?"""
-    try:
-        return max(map(abs, box_of(rings))) < 1e150
-    except OverflowError:
-        return False
 
 
 def _center(item: Drawn) -> ExactPoint:

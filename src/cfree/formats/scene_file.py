@@ -24,7 +24,6 @@ from cfree.formats.findings import Findings
 from cfree.formats.json_text import read_literals
 from cfree.formats.number_text import number_text
 from cfree.formats.readers import DRAWINGS, read_file, read_json_file
-from cfree.formats.scene_texts import EXPORTS, write_scene
 from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
 from cfree.formats.source import Reading
 from cfree.polygons.polygon import Polygon
@@ -32,7 +31,8 @@ from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
-NOT_WRITTEN = {".wkt", *DRAWINGS} - EXPORTS.keys()
+EXPORTS = (".geojson", ".svg", ".dxf")
+NOT_WRITTEN = {".wkt", *DRAWINGS} - {*EXPORTS}
 _SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "check", "version")
 
 
@@ -161,6 +161,8 @@ def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
     """
     target = Path(os.path.realpath(path))
     if target.suffix.lower() in EXPORTS:
+        from cfree.formats.scene_texts import write_scene
+
         return write_scene(scene, target)
     check_scene_path(target)
     with replacing(target) as unfinished:

@@ -31,7 +31,7 @@ COLOURS = {"robot": ROBOT, "obstacle": OBSTACLE, "workspace": "none"}
 
 def write_scene(scene: Scene, path: Path) -> tuple[str, ...]:
     """Write a scene by the suffix of the file's name; what is not in the file as it was in the scene, in words."""
-    writer = EXPORTS[path.suffix.lower()]
+    writer = _WRITERS[path.suffix.lower()]
     text, changed = writer(scene)
     with replacing(path) as unfinished:
         unfinished.write_text(text, encoding="utf-8", newline="\n")
@@ -149,7 +149,7 @@ def dxf_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
 
 
 _NO_LAYER = '<>/\\":;?*|=`'
-EXPORTS: dict[str, Callable[[Scene], tuple[str, tuple[str, ...]]]] = {
+_WRITERS: dict[str, Callable[[Scene], tuple[str, tuple[str, ...]]]] = {
     ".geojson": geojson_text,
     ".svg": svg_text,
     ".dxf": dxf_text,

@@ -42,6 +42,7 @@ _HIDDEN = {"defs", "symbol", "clipPath", "mask", "marker", "pattern", "metadata"
 _GROUPS = {"svg", "g", "a", "switch"}
 _FORMS = {"path", "rect", "circle", "ellipse", "polygon", "polyline", "line"}
 _LENGTH = re.compile(r"\s*([+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?)\s*(px|mm|cm|in|pt|pc|Q|m)?\s*")
+_TRANSFORM = re.compile(r"\s*(?:(?:matrix|translate|scale|rotate|skewX|skewY)\s*\([^()]*\)[\s,]*)*+")
 _FLIP: Affine = (Fraction(1), Fraction(0), Fraction(0), Fraction(-1), Fraction(0), Fraction(0))
 MOST_CHARACTERS = 1 << 22
 """Of one path."""
@@ -160,6 +161,11 @@ class _Walk:
         yield from self.drawn(target, moved, names, depth + 1, used=True)
 
     def _transform(self, node: Node) -> Affine:
+        if not _TRANSFORM.fullmatch(node.attributes["transform"]):
+            text = node.attributes["transform"][:60]
+            self.source.refuse(
+                f"transform: {text!r}; write it like translate(1 2) rotate(30)", node.line, place=node.tag
+            )
         try:
             m = self.library.Matrix(node.attributes["transform"])
             a, b, c, d, e, f = (decimal(float(value)) for value in (m.a, m.b, m.c, m.d, m.e, m.f))
