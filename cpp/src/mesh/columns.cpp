@@ -13,12 +13,11 @@ namespace {
 
 constexpr double wall_cost = 0.25;   // triangles that a column needs more at each side, as measured
 constexpr double corner_cost = 6;   // and the face at its corners
-constexpr double rim_cost = 1;      // triangles of neighbours for a point that they do not need
 constexpr double least_gap = 0.03;  // of points from the face's sides, in steps
 constexpr double longest = 1.6;     // step, in units of the lattice
 constexpr double behind = 0.7;      // of the sum of both gaps beside it: a column's end with more is not next to the side
 constexpr double usual = 2;         // distance of columns, in the same units
-constexpr int most_columns = 100, levels = 33, tries = 10;
+constexpr int most_columns = 100, levels = 33, halvings = 10;
 
 struct Choice {
     int columns = 0;
@@ -32,7 +31,7 @@ template <class Holds>
 double greatest(double limit, const Holds& holds) {
     if (holds(limit)) return limit;
     double good = 0, bad = limit;
-    for (int k = 0; k < tries; ++k) {
+    for (int k = 0; k < halvings; ++k) {
         const double middle = 0.5 * (good + bad);
         (holds(middle) ? good : bad) = middle;
     }
@@ -170,7 +169,7 @@ private:
                     double rate = 2 * n * (1 / t + wall_cost / high);
                     for (const double most : each.caps) {  // points of the curves that only this face needs, or only its neighbours
                         const double parts = std::ceil(t / most - 1e-9);
-                        rate += (parts - 1) / t + rim_cost * std::max(0.0, parts / t - 1 / most);
+                        rate += (parts - 1) / t + spare_point_cost * std::max(0.0, parts / t - 1 / most);
                     }
                     of.triangles += high / 3 * rate;
                 }
@@ -195,7 +194,7 @@ private:
         for (const double share : {0.2, 0.5, 0.8}) {
             const Level at = level(face.from + share * high);
             const double first = steps(at);
-            for (int k = 0; k < tries; ++k) {
+            for (int k = 0; k < halvings; ++k) {
                 const double most = excess(at, of, fit * first);
                 if (most <= 1) break;
                 fit *= std::clamp(0.998 / most, 0.3, 1.0);

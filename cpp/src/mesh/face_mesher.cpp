@@ -15,15 +15,13 @@ namespace cfree {
 
 namespace {
 
-constexpr double usual_stretch = 1.6;
 constexpr double doubt = 1.3;  // of estimates of how many triangles there will be
-constexpr double few = 4;      // triangles, for which nothing is laid out
 
 }  // namespace
 
 void FaceMesher::fill(const MeshFace& on, const Rim& rim, const Layout& layout, Index which) {
     face = &on, number = which;
-    if (least_triangles(on, error) <= few) return fill(rim, {});
+    if (least_triangles(on, error) <= few_triangles) return fill(rim, {});
     const Layout lattice = lattice_over(on, error, may_leave);
     if (layout.is_empty()) return fill(rim, lattice);
     fill(rim, layout);

@@ -15,7 +15,6 @@ constexpr double golden = std::numbers::phi;
 constexpr double best_density = 0.21650635094610965;  // sqrt(3) / 8: triangles a unit of w du dphi / error
 constexpr double rim_gap = 0.1;                       // least distance of points from the rim, in units of the lattice
 constexpr double rim_cost = 1.1;                      // triangles more for each unit of the rim, as measured
-constexpr double usual_stretch = 1.6;                 // where h is large the shear varies less
 
 class Lattice {
 public:

@@ -16,8 +16,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double most_turn = pi / 4;  // between two samples of a curve
-constexpr double few = 4;             // triangles, for which no pattern is made
-constexpr double least_part = 0.05;    // of a layout's step: ends of edges this close to a point of it do for that
+constexpr double nearest_part = 0.05;    // of a layout's step: ends of edges this close to a point of it do for that
 
 bool is_curve(std::uint8_t side) { return side == 1 || side == 3; }
 
@@ -113,7 +112,7 @@ Mesher::Samples Mesher::samples_of_curve(Index edge) const {
         is_digon = is_digon || in.first[f + 1] - in.first[f] == 2;
         Samples ends;
         const auto& of = layouts[f].stops[in.side[order[k]] == 1];
-        const double near_by = least_part * (mesh_faces[f].to - mesh_faces[f].from) / static_cast<double>(of.size() + 1);
+        const double near_by = nearest_part * (mesh_faces[f].to - mesh_faces[f].from) / static_cast<double>(of.size() + 1);
         for (const double angle : of)
             if (angle > a + near_by && angle < b - near_by) ends.push_back(angle);
         if (ends.size() > stops.size()) stops = std::move(ends);
@@ -324,7 +323,7 @@ void Mesher::lay_out() {
     std::stable_sort(by_size.begin(), by_size.end(), [&](Index f, Index g) { return least[f] > least[g]; });
     layouts.resize(static_cast<std::size_t>(faces));
     for (const Index f : by_size)
-        if (least[f] > few) layouts[f] = best_layout(mesh_faces[f], error, wanted_by_neighbours(f));
+        if (least[f] > few_triangles) layouts[f] = best_layout(mesh_faces[f], error, wanted_by_neighbours(f));
 }
 
 // At equal steps, by that with which the face shares most.

@@ -11,7 +11,6 @@ namespace cfree {
 
 namespace {
 
-constexpr double rim_cost = 1;  // triangles of neighbours for a point that they do not need
 constexpr std::size_t most_rows = 200'000;
 
 class Marcher {
@@ -110,7 +109,7 @@ private:
     // Triangles a radian, with those of the neighbours for points on the rim that they do not need.
     double rate(double phi, int parts, double y) const {
         const double spare = std::max(0.0, 1 - 2 * y / rim_step(face, error, phi));
-        return (4 * parts + rim_cost * spare) / (2 * y);
+        return (4 * parts + spare_point_cost * spare) / (2 * y);
     }
 
     // Half of the height of two strips from phi on, of so many parts.

@@ -9,7 +9,7 @@ namespace cfree {
 namespace {
 
 constexpr double most_load = 0.96;  // of an edge, of what the error allows to first order
-constexpr double least_part = 0.5;   // of the mean distance of points next to the side, between points on it
+constexpr double least_distance = 0.5;   // of the mean distance of points next to the side, between points on it
 constexpr double least_share = 1e-3;  // of the side, the same
 
 // The points of one face from left to right, and how far they have been joined to points on the side.
@@ -57,7 +57,7 @@ std::vector<double> wall_points(const std::vector<Wall>& walls, double error, do
         if (first == ends.end() || first->u > to) continue;
         chains.push_back({*wall.face, ends, wall.phi, error, static_cast<std::size_t>(first - ends.begin())});
         const double wide = ends.back().u - ends.front().u;
-        if (wide > 0) least = std::min(least, least_part * wide / static_cast<double>(ends.size()));
+        if (wide > 0) least = std::min(least, least_distance * wide / static_cast<double>(ends.size()));
     }
     least = std::max(least, least_share * (to - from));
     std::vector<double> result;

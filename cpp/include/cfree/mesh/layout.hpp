@@ -20,6 +20,13 @@ struct Layout {
     bool is_empty() const { return triangles == 0; }
 };
 
+// Triangles, for no more of which nothing is laid out.
+inline constexpr double few_triangles = 4;
+// Where a layout says nothing, and where h is large and the shear varies less.
+inline constexpr double usual_stretch = 1.6;
+// Triangles of neighbours for a point that they do not need.
+inline constexpr double spare_point_cost = 1;
+
 // Points on one of the face's curves that a neighbour wants there, at equal steps.
 struct Wanted {
     int curve;
