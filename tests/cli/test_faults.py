@@ -40,7 +40,7 @@ def with_fault(raised: str, *arguments: str) -> subprocess.CompletedProcess[str]
         f"def load_scene(path):\n    {raised}\n"
         "cfree.formats.scene_file.load_scene = load_scene\n"
         "from cfree.cli.app import main\n"
-        f"sys.argv = ['cfree', *{arguments or ('check', FIG9)!r}]\n"
+        f"sys.argv = ['cfree', *{arguments or ('boundary', FIG9)!r}]\n"
         "main()\n"
     )
     return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

@@ -31,8 +31,11 @@ NUMBER = re.compile(r"(?<![\w.])(?:\d+\.\d*|\.\d+|\d+(?=[eE]))(?:[eE][+-]?\d+)?"
 # computed from the exact structure, in doubles
 COMPUTED = (
     "cell_facts",
+    "columns",
     "contact_curve",
     "face_mesher",
+    "lattice",
+    "layout",
     "limits",
     "mesh",
     "mesh_face",
@@ -41,6 +44,7 @@ COMPUTED = (
     "slice",
     "surface",
     "triangulation",
+    "wall",
 )
 # guesses: motions are then decided, trapezoids that seem to be neighbours glued
 GUESSED = (

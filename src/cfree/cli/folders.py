@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -75,8 +75,12 @@ def cluster(workers: int | None, scheduler: str | None) -> Iterator[Any]:
     local = LocalCluster(
         n_workers=workers, threads_per_worker=1, host="127.0.0.1", dashboard_address="127.0.0.1:0", silence_logs=50
     )
-    with local, Client(local) as client:
-        yield client
+    try:
+        with Client(local) as client:
+            yield client
+    finally:
+        with suppress(AssertionError):  # Dask's, where a worker is just being started again
+            local.close()
 
 
 @contextmanager
