@@ -92,7 +92,7 @@ def measured(size: int, workers: int) -> dict[str, Any]:
             "digest": found.digest, "seconds": seconds, "memory": most.together, "largest": most.largest,
             "tasks": seconds_of(tasks), "borders": borders(found),
             "bytes": sum(path.stat().st_size for path in (folder / "tiles").rglob("*.npz")),
-            "plans": list(map(lambda place: planned(found, *place), places(side))),
+            "plans": [planned(found, *place) for place in places(side)],
         }  # fmt: skip
 
 

@@ -59,9 +59,9 @@ def draw(found: Sharded, far: list[float], shut: list[float]) -> Figure:
         draw_robot(right, every, cfree.Pose(*shut, 0), faint=False)
         right.set_title(f"no way out, proved: {found.tiles_read} of {found.tiles} tiles read", fontsize=13)
         right.set(xlim=np.add(shut[0], (-AROUND, AROUND)), ylim=np.add(shut[1], (-AROUND, AROUND)))
+        left.autoscale_view()
         for ax in (left, right):
             ax.set_aspect("equal")
-            ax.autoscale_view() if ax is left else None
     return figure
 
 

@@ -65,7 +65,7 @@ def main() -> None:
         )
     )
     guess = predicted(run, run["vertices"], run["workers"])
-    for stage in (*guess,):
+    for stage in guess:
         print(f"{stage:8} simulated {guess[stage]:8.1f} s, measured {run['seconds'][stage]:8.1f} s")
     print(f"{'all':8} simulated {sum(guess.values()):8.1f} s, measured {run['seconds']['all']:8.1f} s")
     for vertices, workers in CASES:

@@ -304,6 +304,5 @@ def _rounded(value: float) -> Fraction:
 
 
 def _mapped(polygon: Polygon, image: Callable[[ExactPoint], ExactPoint]) -> Polygon:
-    points = [image(p) for p in polygon.exact_vertices]
-    outer, *holes = (points[i:j] for i, j in zip(polygon.ring_offsets, polygon.ring_offsets[1:], strict=False))
+    outer, *holes = ([image(p) for p in ring] for ring in polygon.exact_rings)
     return Polygon(outer, holes)

@@ -27,11 +27,7 @@ LINES = 14  # of a family
 @checked
 def lines_of_curvature(ax: Axes3D) -> Axes3D:
     """Figure 19: lines of curvature, which cross at right angles."""
-    families: list[Family] = [
-        lambda at: float(at.principal_directions[0]),
-        lambda at: float(at.principal_directions[1]),
-    ]
-    _draw(ax, families, (VERTEX_EDGE, INK))
+    _draw(ax, families("principal_directions"), (VERTEX_EDGE, INK))
     legend(ax, [("-" + VERTEX_EDGE, r"along $\xi_1$"), ("-" + INK, r"along $\xi_2$")])
     return ax
 
@@ -39,23 +35,24 @@ def lines_of_curvature(ax: Axes3D) -> Axes3D:
 @checked
 def asymptotic_lines(ax: Axes3D) -> Axes3D:
     """Figure 19: asymptotic lines: the rulings, and another family."""
-    families: list[Family] = [
-        lambda at: float(at.asymptotic_directions[0]),
-        lambda at: float(at.asymptotic_directions[1]),
-    ]
-    _draw(ax, families, (FRAME, INK))
+    _draw(ax, families("asymptotic_directions"), (FRAME, INK))
     legend(ax, [("-" + FRAME, r"rulings, $\xi = 0$"), ("-" + INK, r"along $\xi = \arctan\frac{2v}{F}$")])
     return ax
 
 
-def _draw(ax: Axes3D, families: Sequence[Family], colours: tuple[str, str]) -> None:
+def families(name: str) -> list[Family]:
+    """The two directions of a name that forms have."""
+    return [lambda at, k=k: float(getattr(at, name)[k]) for k in (0, 1)]  # type: ignore[misc]
+
+
+def _draw(ax: Axes3D, chosen: Sequence[Family], colours: tuple[str, str]) -> None:
     t, phi = np.linspace(0, 1, 25), np.linspace(PHI.phi_min, PHI.phi_max, 91)
     points = grid(SURFACE, t, phi)
     ends = math.degrees(phi[0]) - 10, math.degrees(phi[-1]) + 10
     set_space(ax, around(points, 0.25), angle_scale=1.0, degrees=ends, zoom=0.95)
     draw_frame(ax)
     parts: list[Pieces] = [sheet(points, paler(EDGE_VERTEX, 0.5), 1.0)]
-    for family, colour in zip(families, colours, strict=True):
+    for family, colour in zip(chosen, colours, strict=True):
         parts += [curve(SURFACE(*rows.T), colour, 1.3) for rows in lines_along(family)]
     paint(ax, parts)
 

@@ -14,6 +14,7 @@ from cfree.scene.scene import Scene
 __all__ = ["film_path", "film_separation", "save_film"]
 
 MOST = 60.0  # seconds of motion
+SIZE, SIZES = (1280, 720), {".gif": (640, 360)}  # of answers' films, if not said otherwise
 SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # of a film, if not said otherwise
 
 
@@ -24,7 +25,7 @@ def save_film(
     *,
     seconds: float | None = None,
     fps: int = 25,
-    size: tuple[int, int] = (1280, 720),
+    size: tuple[int, int] = SIZE,
     storyboard: str = "paper",
     progress: Callable[[float], object] | None = None,
 ) -> None:
@@ -136,8 +137,7 @@ def film_path(
     from cfree.plot.path import Track
 
     suffix = check_film_path(file)
-    if size is None:
-        size = (640, 360) if suffix == ".gif" else (1280, 720)
+    size = size or SIZES.get(suffix, SIZE)
     check_frames(fps, size)
     if seconds is not None and not 0 < seconds <= MOST:
         raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
@@ -198,6 +198,6 @@ def film_separation(
     from cfree.film.reel import apart, check_options, reel
 
     suffix = check_film_path(file)
-    size = size or ((640, 360) if suffix == ".gif" else (1280, 720))
+    size = size or SIZES.get(suffix, SIZE)
     check_options(1, seconds, fps, size, "separation")
     write(reel([apart(boundary, answer, round(seconds * fps), size, fps)], fps, progress), file, fps)

@@ -33,8 +33,10 @@ from cfree.formats.segments import (
     ends,
     point_of,
     reversed_ring,
+    straight,
+    turn,
 )
-from cfree.formats.source import Source
+from cfree.formats.source import CURVE_SHARE, Source
 from cfree.polygons.polygon import Polygon
 
 DEEPEST = 24  # times that a piece of a curve is halved
@@ -52,7 +54,7 @@ class Outline:
     @property
     def curved(self) -> bool:
         """Is not all of it straight?"""
-        return any(not isinstance(segment, Line) for ring in (self.outer, *self.holes) for segment in ring)
+        return not all(map(straight, (self.outer, *self.holes)))
 
 
 def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool = False) -> Polygon:
@@ -76,8 +78,9 @@ def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool 
 
     Examples
     --------
-    >>> from cfree.formats.segments import circle
-    >>> around, within = (polygon_of(Source(""), Outline(circle((0, 0), 1)), 0.1, inside) for inside in (False, True))
+    >>> from cfree.formats.segments import arc_of_circle
+    >>> disc = Outline([arc_of_circle((0, 0), 1)])
+    >>> around, within = (polygon_of(Source(""), disc, 0.1, inside) for inside in (False, True))
     >>> len(around), round(float(around.exact_area), 2), round(float(within.exact_area), 2)
     (10, 3.27, 2.92)
     """
@@ -96,10 +99,12 @@ def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool 
     raise AssertionError
 
 
-def default_tolerance(rings: Sequence[Ring], share: float) -> float:
-    """A part of the size of all these rings."""
+def tolerance_of(source: Source, rings: Sequence[Ring]) -> float:
+    """The one that is asked for, or else a part of the size of all these rings."""
+    if source.reading.tolerance:
+        return source.reading.tolerance
     x0, y0, x1, y1 = box_of(rings)
-    return max(x1 - x0, y1 - y0) / share
+    return max(x1 - x0, y1 - y0) / CURVE_SHARE
 
 
 def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
@@ -134,7 +139,7 @@ def _directed(ring: Ring, outer: bool) -> Ring:
 
 def _points(source: Source, ring: Ring, error: float, inside: bool) -> list[ExactPoint]:
     """Vertices of the chain to the right of a ring with the shape on its left, or to the left of it."""
-    if all(isinstance(segment, Line) for segment in ring):
+    if straight(ring):
         source.spend(len(ring))
         return [segment.start for segment in ring if isinstance(segment, Line)]
     points = _around(source, reversed_ring(ring) if inside else ring, error)
@@ -273,14 +278,10 @@ def _right_of(piece: tuple[Vector, ...]) -> list[Vector]:
     """Hull vertices strictly to the right of the chord, in their order; the piece goes on along it."""
     hull: list[Vector] = []
     for p in piece:
-        while len(hull) > 1 and _turn(hull[-2], hull[-1], p) <= 0:
+        while len(hull) > 1 and turn(hull[-2], hull[-1], p) <= 0:
             hull.pop()
         hull.append(p)
     return hull[1:-1]
-
-
-def _turn(p: Vector, q: Vector, r: Vector) -> float:
-    return (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
 
 
 def _smooth(before: Segment, after: Segment) -> bool:
@@ -294,8 +295,3 @@ def _unit(p: Vector, q: Vector) -> Vector:
     x, y = q[0] - p[0], q[1] - p[1]
     length = math.hypot(x, y) or 1.0
     return x / length, y / length
-
-
-def straight(ring: Ring) -> bool:
-    """Only lines?"""
-    return all(isinstance(segment, Line) for segment in ring)

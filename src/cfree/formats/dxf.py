@@ -11,6 +11,7 @@ import logging
 import math
 from collections import defaultdict
 from collections.abc import Callable, Iterable, Iterator
+from fractions import Fraction
 from io import BytesIO
 from typing import Any
 
@@ -20,13 +21,16 @@ from cfree.formats.findings import InvalidFileError
 from cfree.formats.outlines import Drawn, shapes_of_drawing
 from cfree.formats.scene_settings import read_settings
 from cfree.formats.segments import (
+    Affine,
     Arc,
     Cubic,
     Line,
     Ring,
     Segment,
     Vector,
+    arc_of_circle,
     bulged,
+    carried,
     ends,
     point_of,
     polyline,
@@ -167,12 +171,12 @@ class _Walk:
             self.goes_on(layer, [Line(a, b)])
 
     def arc(self, entity: Any, layer: str) -> None:
-        first, last = math.radians(entity.dxf.start_angle), math.radians(entity.dxf.end_angle)
-        self.goes_on(layer, [_round(entity, first, first + ((last - first) % math.tau or math.tau))])
+        arc = _arc(entity.dxf.center, entity.dxf.radius, (entity.dxf.start_angle, entity.dxf.end_angle))
+        self.goes_on(layer, _in_plane(entity, [arc]))
 
     def circle(self, entity: Any, layer: str) -> None:
         if entity.dxf.radius > 0:
-            self.closed[layer].append([_round(entity, 0.0, math.tau)])
+            self.closed[layer].append(_in_plane(entity, [_arc(entity.dxf.center, entity.dxf.radius, (0, 360))]))
 
     def ellipse(self, entity: Any, layer: str) -> None:
         c, u, v = entity.dxf.center, entity.dxf.major_axis, entity.minor_axis
@@ -198,29 +202,24 @@ class _Walk:
             if entity.dxf.get("const_width", 0.0):
                 self.source.dropped["width of polylines"] += 1
         self.source.spend(len(given))
-        place = _frame(entity)
-        ring = _bulged_ring(given, closed)
-        closed = closed or (len(given) > 2 and given[0][:2] == given[-1][:2])
-        moved = [_placed(segment, place) for segment in ring]
-        if closed:
-            if moved:
-                self.closed[layer].append(moved)
-        else:
-            self.goes_on(layer, moved)
+        ring = _in_plane(entity, _bulged_ring(given, closed))
+        if not (closed or (len(given) > 2 and given[0][:2] == given[-1][:2])):
+            self.goes_on(layer, ring)
+        elif ring:
+            self.closed[layer].append(ring)
 
     def spline(self, entity: Any, layer: str) -> None:
         curve = entity.construction_tool()
         self.source.spend(curve.count)
         if curve.degree > 3 or curve.is_rational:
             self.source.changed["SPLINE with weights or of a degree above 3: Bezier curves through its points"] += 1
-            pieces: Iterable[Any] = curve.cubic_bezier_approximation(level=8)
+            pieces: Iterable[Any] = (piece.control_points for piece in curve.cubic_bezier_approximation(level=8))
         else:
-            pieces = (_Points(points) for points in curve.bezier_decomposition())
+            pieces = curve.bezier_decomposition()
         ring: Ring = []
-        for piece in pieces:
+        for points in pieces:
             self.source.spend()
-            p = [(float(point.x), float(point.y)) for point in piece.control_points]
-            ring.append(_bezier(p))
+            ring.append(_bezier([(float(point.x), float(point.y)) for point in points]))
         if ring and _joint(ends(ring[0])[0]) == _joint(ends(ring[-1])[1]):
             self.closed[layer].append(ring)
         else:
@@ -232,7 +231,6 @@ class _Walk:
 
     def hatch(self, entity: Any, layer: str) -> None:
         """Its rings, filled as even and odd."""
-        place = _frame(entity)
         rings: list[Ring] = []
         for path in entity.paths:
             ring: Ring = []
@@ -244,7 +242,7 @@ class _Walk:
                     self.source.spend()
                     ring += self.edge(edge)
             if ring:
-                rings.append([_placed(segment, place) for segment in ring])
+                rings.append(_in_plane(entity, ring))
         if rings:
             self.filled.append(Drawn(rings, (layer,)))
 
@@ -255,9 +253,7 @@ class _Walk:
             a, b = (point_of(p[0], p[1]) for p in (edge.start, edge.end))
             return [Line(a, b)] if a != b else []
         if kind == "ArcEdge":
-            r, c = float(edge.radius), (float(edge.center[0]), float(edge.center[1]))
-            first, last = math.radians(edge.start_angle), math.radians(edge.end_angle)
-            arc: Ring = [Arc(c, (r, 0.0), (0.0, r), first, first + ((last - first) % math.tau or math.tau))]
+            arc: Ring = [_arc(edge.center, edge.radius, (edge.start_angle, edge.end_angle))]
             return arc if edge.ccw else reversed_ring(arc)
         raise ValueError(f"{kind} at its edge: only polylines, lines and arcs are read")
 
@@ -274,13 +270,6 @@ _READERS: dict[str, Callable[[_Walk, Any, str], None]] = {
     "TRACE": _Walk.solid,
     "HATCH": _Walk.hatch,
 }
-
-
-class _Points:
-    """Control points of a Bézier curve."""
-
-    def __init__(self, points: Any) -> None:
-        self.control_points = points
 
 
 def _bezier(p: list[Vector]) -> Segment:
@@ -304,29 +293,22 @@ def _bulged_ring(given: list[Any], closed: bool) -> Ring:
     return ring
 
 
-def _frame(entity: Any) -> int:
-    """1, or -1 if the entity is seen from below: its x is then the other way."""
+def _in_plane(entity: Any, ring: Ring) -> Ring:
+    """A ring of an entity in the drawing's plane: of one that is seen from below, x is the other way."""
     z = entity.dxf.extrusion
     if abs(z.x) > 1e-9 or abs(z.y) > 1e-9:
         raise ValueError("it stands in space, and not in the plane of x and y")
-    return 1 if z.z > 0 else -1
+    return ring if z.z > 0 else carried(ring, _MIRRORED)
 
 
-def _placed(segment: Segment, side: int) -> Segment:
-    if side > 0:
-        return segment
-    match segment:
-        case Line(a, b):
-            return Line((-a[0], a[1]), (-b[0], b[1]))
-        case Arc(c, u, v, first, last):
-            return Arc((-c[0], c[1]), (-u[0], u[1]), (-v[0], v[1]), first, last)
-        case Cubic((p, q, r, s)):
-            return Cubic(((-p[0], p[1]), (-q[0], q[1]), (-r[0], r[1]), (-s[0], s[1])))
+_MIRRORED: Affine = (Fraction(-1), Fraction(0), Fraction(0), Fraction(1), Fraction(0), Fraction(0))
 
 
-def _round(entity: Any, first: float, last: float) -> Segment:
-    c, r = entity.dxf.center, float(entity.dxf.radius)
-    return _placed(Arc((float(c.x), float(c.y)), (r, 0.0), (0.0, r), first, last), _frame(entity))
+def _arc(center: Any, radius: float, degrees: tuple[float, float]) -> Arc:
+    """Counter-clockwise between two angles; all around if they are one."""
+    first, last = map(math.radians, degrees)
+    sweep = (last - first) % math.tau or math.tau
+    return arc_of_circle((float(center[0]), float(center[1])), float(radius), first, first + sweep)
 
 
 def _joint(p: Vector) -> ExactPoint:

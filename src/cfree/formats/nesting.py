@@ -174,10 +174,7 @@ class _Reader:
             if role == "robot":
                 continue  # it is in its own frame, not where it was placed
             for part in parts:
-                outer, *holes = (
-                    pose.apply_exact(part.exact_vertices[i:j])
-                    for i, j in zip(part.ring_offsets, part.ring_offsets[1:], strict=False)
-                )
+                outer, *holes = map(pose.apply_exact, part.exact_rings)
                 yield Shape(role, name, Polygon(outer, holes))
 
     def pose(self, data: Any, allowed: list[float], path: Path) -> Pose:

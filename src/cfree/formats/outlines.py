@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from typing import Any
 
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.curve_polygons import Outline, area, box_of, default_tolerance, in_range, polygon_of, rough
+from cfree.formats.curve_polygons import Outline, area, box_of, in_range, polygon_of, rough, tolerance_of
 from cfree.formats.findings import InvalidFileError, Problem
-from cfree.formats.segments import Ring, Vector, carried, decimal
+from cfree.formats.segments import Ring, Vector, carried, decimal, translation
 from cfree.formats.shapes import IGNORE, Shape, Shapes, role_of, shapes_of
-from cfree.formats.source import CURVE_SHARE, Source
+from cfree.formats.source import Source
 from cfree.scene.scene import explained
 
 PIVOT = "pivot"
@@ -42,9 +41,7 @@ def shapes_of_drawing(
     pivot = _center(pivots[0]) if pivots else None
     if len(pivots) > 1:
         source.refuse(f"{len(pivots)} pivots; mark one point", pivots[1].line)
-    tolerance = source.reading.tolerance or default_tolerance(
-        [r for item, _, _ in kept for r in item.rings], CURVE_SHARE
-    )
+    tolerance = tolerance_of(source, [ring for item, _, _ in kept for ring in item.rings])
     shapes: list[Shape] = []
     problems: list[Problem] = []
     curves = 0
@@ -54,7 +51,7 @@ def shapes_of_drawing(
             continue
         rings = item.rings
         if role == "robot" and pivot:
-            rings = [carried(ring, (*_ONE, -pivot[0], -pivot[1])) for ring in rings]
+            rings = [carried(ring, translation(-pivot[0], -pivot[1])) for ring in rings]
         for outline in nested(source, rings, item.even_odd):
             curves += outline.curved
             try:
@@ -74,9 +71,6 @@ def shapes_of_drawing(
         given["start"] = Pose(*pivot, 0)
         source.changed["the pivot is the robot's reference point, and its place the start"] += 1
     return shapes_of(source, form, shapes, given, remedy)
-
-
-_ONE = (Fraction(1), Fraction(0), Fraction(0), Fraction(1))
 
 
 def _center(item: Drawn) -> ExactPoint:

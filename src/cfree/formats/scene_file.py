@@ -222,8 +222,8 @@ def scene_text(scene: Scene) -> str:
 
 def _shape(polygon: Polygon, name: str = "") -> str:
     rings = []
-    for start, stop in zip(polygon.ring_offsets, polygon.ring_offsets[1:], strict=False):
-        points = (f"[{number_text(x)}, {number_text(y)}]" for x, y in polygon.exact_vertices[start:stop])
+    for ring in polygon.exact_rings:
+        points = (f"[{number_text(x)}, {number_text(y)}]" for x, y in ring)
         rings.append(f"[{', '.join(points)}]")
     members = {"name": _json(name) if name else "", "outer": rings[0], "holes": ", ".join(rings[1:])}
     members["holes"] = members["holes"] and f"[{members['holes']}]"

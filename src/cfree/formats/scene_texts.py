@@ -10,11 +10,9 @@ import json
 from collections.abc import Callable
 from fractions import Fraction
 from html import escape
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
-from cfree.exact.number import ExactPoint
 from cfree.formats.atomic import replacing
 from cfree.formats.extras import needed
 from cfree.formats.number_text import number_text
@@ -47,11 +45,6 @@ def _shapes(scene: Scene) -> list[tuple[str, str, Polygon]]:
     ]
 
 
-def _rings(polygon: Polygon) -> list[tuple[ExactPoint, ...]]:
-    offsets = polygon.ring_offsets
-    return [polygon.exact_vertices[i:j] for i, j in pairwise(offsets)]
-
-
 def _rounded(count: int, what: str) -> tuple[str, ...]:
     return (f"{count:,} numbers: rounded to {what}",) if count else ()
 
@@ -65,7 +58,7 @@ def geojson_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
         settings = {}
         rings = ", ".join(
             f"[{', '.join(f'[{number_text(x)}, {number_text(y)}]' for x, y in (*ring, ring[0]))}]"
-            for ring in _rings(polygon)
+            for ring in polygon.exact_rings
         )
         lines.append(
             f'{{"type": "Feature", "properties": {json.dumps(properties, ensure_ascii=False)}, '
@@ -85,7 +78,7 @@ def svg_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
         return f"{float(value):.14g}"
 
     def data(polygon: Polygon) -> str:
-        rings = (" L ".join(f"{text(x)} {text(y)}" for x, y in ring) for ring in _rings(polygon))
+        rings = (" L ".join(f"{text(x)} {text(y)}" for x, y in ring) for ring in polygon.exact_rings)
         return " ".join(f"M {ring} Z" for ring in rings)
 
     shapes = _shapes(scene)
@@ -136,7 +129,7 @@ def dxf_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
         if layer not in document.layers:
             document.layers.add(layer, color={"robot": 3, "obstacle": 8, "workspace": 5}[role])
         hatch = space.add_hatch(dxfattribs={"layer": layer})
-        for k, ring in enumerate(_rings(polygon)):
+        for k, ring in enumerate(polygon.exact_rings):
             points = [(float(x), float(y)) for x, y in ring]
             rounded += sum(
                 decimal(p) != q for a, b in zip(points, ring, strict=True) for p, q in zip(a, b, strict=True)

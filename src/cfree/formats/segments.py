@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
+from typing import Any
 
 from cfree.exact.number import ExactPoint
 
@@ -64,6 +65,21 @@ Segment = Line | Arc | Cubic
 Ring = list[Segment]
 
 
+def translation(x: Fraction, y: Fraction) -> Affine:
+    """To another place."""
+    return Fraction(1), Fraction(0), Fraction(0), Fraction(1), x, y
+
+
+def straight(ring: Sequence[Segment]) -> bool:
+    """Only lines?"""
+    return all(isinstance(segment, Line) for segment in ring)
+
+
+def turn(p: Sequence[Any], q: Sequence[Any], r: Sequence[Any]) -> Any:
+    """Above 0 if the way from p over q to r turns left; as exact as the points are."""
+    return (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])
+
+
 def decimal(value: float) -> Fraction:
     """The shortest decimal that 14 digits of a double tell: what was added up in doubles is what was meant.
 
@@ -82,9 +98,9 @@ def point_of(x: float, y: float) -> ExactPoint:
     return decimal(x), decimal(y)
 
 
-def circle(center: Vector, radius: float) -> Ring:
-    """A whole circle."""
-    return [Arc(center, (radius, 0.0), (0.0, radius), 0.0, math.tau)]
+def arc_of_circle(center: Vector, radius: float, first: float = 0.0, last: float = math.tau) -> Arc:
+    """Part of a circle, counter-clockwise if `last` is larger; all of it, if not said otherwise."""
+    return Arc(center, (radius, 0.0), (0.0, radius), first, last)
 
 
 def polyline(points: Sequence[ExactPoint]) -> Ring:
@@ -106,7 +122,7 @@ def bulged(a: Vector, b: Vector, bulge: float) -> Arc:
     center = middle[0] - dy * rise, middle[1] + dx * rise
     first = math.atan2(a[1] - center[1], a[0] - center[0])
     radius = math.hypot(a[0] - center[0], a[1] - center[1])
-    return Arc(center, (radius, 0.0), (0.0, radius), first, first + 2 * half)
+    return arc_of_circle(center, radius, first, first + 2 * half)
 
 
 def ends(segment: Segment) -> tuple[Vector, Vector]:

@@ -33,6 +33,7 @@ from cfree.formats.segments import (
     point_of,
     polyline,
     quadratic,
+    translation,
 )
 from cfree.formats.shapes import Shapes
 from cfree.formats.source import DEEPEST, Source
@@ -73,7 +74,7 @@ def _settings(source: Source, root: Node) -> dict[str, Any]:
 
 def _scale(source: Source, root: Node) -> tuple[Affine, str]:
     """From user units to the unit of the drawing's width, and that unit."""
-    box = [text for text in re.split(r"[\s,]+", root.attributes.get("viewBox", "")) if text]
+    box = _words(root.attributes.get("viewBox", ""))
     width, height = (_LENGTH.fullmatch(root.attributes.get(key, "")) for key in ("width", "height"))
     if not width or not width[2] or width[2] == "px" or len(box) != 4:
         return IDENTITY, "px"
@@ -157,7 +158,7 @@ class _Walk:
             self.source.dropped[f"use: {link[:60]!r} is not in this file"] += 1
             return
         x, y = (self._number(node, key) for key in ("x", "y"))
-        moved = compose(at, (Fraction(1), Fraction(0), Fraction(0), Fraction(1), x, y))
+        moved = compose(at, translation(x, y))
         yield from self.drawn(target, moved, names, depth + 1, used=True)
 
     def _transform(self, node: Node) -> Affine:
@@ -176,9 +177,9 @@ class _Walk:
     def _placed(self, node: Node) -> Affine:
         """Of an inner svg."""
         x, y = (self._number(node, key) for key in ("x", "y"))
-        box = [text for text in re.split(r"[\s,]+", node.attributes.get("viewBox", "")) if text]
+        box = _words(node.attributes.get("viewBox", ""))
         if len(box) != 4:
-            return Fraction(1), Fraction(0), Fraction(0), Fraction(1), x, y
+            return translation(x, y)
         size = [node.attributes.get(key, box[k]) for k, key in ((2, "width"), (3, "height"))]
         try:
             text = self.library.Viewbox.viewbox_transform(
@@ -216,14 +217,13 @@ class _Walk:
             return []
         if node.tag in ("circle", "ellipse"):
             rx, ry = (number("r"),) * 2 if node.tag == "circle" else (size("rx"), size("ry"))
-            rx, ry = (rx if rx is not None else ry or Fraction(0)), (ry if ry is not None else rx or Fraction(0))
+            rx, ry = _radii(rx, ry)
             return [_ellipse(number("cx"), number("cy"), rx, ry)] if rx > 0 and ry > 0 else []
         if node.tag == "rect":
             x, y, w, h = (number(key) for key in ("x", "y", "width", "height"))
             return _rectangle(x, y, w, h, size("rx"), size("ry"))
         if node.tag in ("polygon", "polyline"):
-            texts = [text for text in re.split(r"[\s,]+", node.attributes.get("points", "")) if text]
-            values = [to_fraction(text) for text in texts]
+            values = [to_fraction(text) for text in _words(node.attributes.get("points", ""))]
             points = list(zip(values[::2], values[1::2], strict=False))
             if node.tag == "polyline" and points[:1] != points[-1:]:
                 self.source.dropped["open polyline: it forbids nothing"] += 1
@@ -303,6 +303,16 @@ def _segment(lib: Any, item: Any) -> Ring:
     raise ValueError(f"{type(item).__name__} in a path")
 
 
+def _radii(rx: Fraction | None, ry: Fraction | None) -> tuple[Fraction, Fraction]:
+    """One that is not said is as large as the other."""
+    return rx if rx is not None else ry or Fraction(0), ry if ry is not None else rx or Fraction(0)
+
+
+def _words(text: str) -> list[str]:
+    """Of a list with blanks or commas between."""
+    return [word for word in re.split(r"[\s,]+", text) if word]
+
+
 def _ellipse(cx: Fraction, cy: Fraction, rx: Fraction, ry: Fraction) -> Ring:
     return [Arc((float(cx), float(cy)), (float(rx), 0.0), (0.0, float(ry)), 0.0, tau)]
 
@@ -313,7 +323,7 @@ def _rectangle(
     """A rectangle with round corners, or without."""
     if w <= 0 or h <= 0:
         return []
-    rx, ry = (rx if rx is not None else ry or Fraction(0)), (ry if ry is not None else rx or Fraction(0))
+    rx, ry = _radii(rx, ry)
     rx, ry = min(rx, w / 2), min(ry, h / 2)
     if rx <= 0 or ry <= 0:
         return [polyline([(x, y), (x + w, y), (x + w, y + h), (x, y + h)])]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import InvalidPolygonError
-from cfree.formats.segments import point_of
+from cfree.formats.segments import point_of, turn
 from cfree.formats.shapes import IGNORE, Shape, Shapes, shapes_of
 from cfree.formats.source import CURVE_SHARE, Source
 from cfree.formats.xml_tree import Node, read_tree
@@ -171,12 +171,8 @@ def _hull(points: Sequence[tuple[float, float]]) -> Polygon:
     for row in (ordered, ordered[::-1]):
         hull: list[Any] = []
         for p in row:
-            while len(hull) > 1 and _left(hull[-2], hull[-1], p) <= 0:
+            while len(hull) > 1 and turn(hull[-2], hull[-1], p) <= 0:
                 hull.pop()
             hull.append(p)
         halves.append(hull[:-1])
     return Polygon(halves[0] + halves[1])
-
-
-def _left(p: Any, q: Any, r: Any) -> Any:
-    return (q[0] - p[0]) * (r[1] - q[1]) - (q[1] - p[1]) * (r[0] - q[0])

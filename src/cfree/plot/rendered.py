@@ -13,11 +13,9 @@ from cfree.errors import UnsupportedError
 Renderer = Literal["matplotlib", "pyvista"]
 Floats = NDArray[np.float64]
 
-FINER, LARGEST, PEELS = (
-    3,
-    6000,
-    12,
-)  # pixels along the side of one that is shown; along the side of a picture; faces seen through
+FINER = 3  # pixels along the side of one that is shown
+LARGEST = 6000  # along the side of a picture
+PEELS = 12  # faces seen through
 MISSING = "surfaces in true depth order need PyVista: pip install 'cfree[render]'"
 
 

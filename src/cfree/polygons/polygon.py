@@ -138,6 +138,11 @@ class Polygon(Shown):
         d = self.denominator
         return tuple((Fraction(x, d), Fraction(y, d)) for x, y in self.numerators)
 
+    @property
+    def exact_rings(self) -> list[tuple[ExactPoint, ...]]:
+        """The vertices by ring, as they are; the interior on the left."""
+        return [self.exact_vertices[i:j] for i, j in pairwise(self.ring_offsets)]
+
     @cached_property
     def next(self) -> Ints:
         """Index of the vertex after each vertex, in its ring."""

@@ -9,7 +9,7 @@ import hashlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import chain, pairwise
+from itertools import chain
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -89,6 +89,6 @@ def _lines(scene: Scene) -> Iterator[str]:
 
 def _shape(word: str, polygon: Polygon) -> Iterator[str]:
     yield word
-    for ring, (i, j) in enumerate(pairwise(polygon.ring_offsets)):
-        numbers = map(str, chain.from_iterable(polygon.exact_vertices[i:j]))
-        yield f"{'hole' if ring else 'outer'} {' '.join(numbers)}"
+    for k, ring in enumerate(polygon.exact_rings):
+        numbers = map(str, chain.from_iterable(ring))
+        yield f"{'hole' if k else 'outer'} {' '.join(numbers)}"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from itertools import pairwise
 
 from cfree.errors import CfreeError
 from cfree.polygons.polygon import Polygon
@@ -75,7 +74,7 @@ def _made(scene: Scene, robot: tuple[Polygon, ...], obstacles: tuple[Polygon, ..
 
 def _simpler(polygon: Polygon) -> Iterator[Polygon]:
     """The polygon without one hole, or without one vertex, where that is a polygon."""
-    outer, *holes = (list(polygon.exact_vertices[i:j]) for i, j in pairwise(polygon.ring_offsets))
+    outer, *holes = map(list, polygon.exact_rings)
     for k in range(len(holes)):
         yield Polygon(outer, holes[:k] + holes[k + 1 :])
     for ring in (outer, *holes):
