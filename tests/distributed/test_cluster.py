@@ -59,6 +59,9 @@ def test_a_cluster_gives_the_same_bytes_when_workers_are_killed(client: Any, tmp
         for path in sorted((here.folder / stage).iterdir()):
             assert path.read_bytes() == (there.folder / stage / path.name).read_bytes()
     assert there.verify(sample=5, client=client).verified
+    poses = cfree.Poses([(x, y) for x in range(-9, 49, 7) for y in range(-9, 49, 7)], [0.7] * 81)
+    cells = here.locate(poses)
+    assert set(cells.tolist()) == {-1, 0} and there.locate(poses, client=client).tolist() == cells.tolist()
 
 
 def test_nobody_else_can_reach_the_cluster(client: Any) -> None:

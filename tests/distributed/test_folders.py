@@ -164,6 +164,27 @@ def test_many_questions_have_the_same_answers(made: Sharded) -> None:
     assert [answer.start.x for answer in answers] == [-5, -5]
 
 
+def test_poses_are_located_where_tiles_are_needed(made: Sharded) -> None:
+    """Some poses need the tile they are in alone; exact fits are in no cell."""
+    assert made.locate((45, 45, 0)) == 0 and 0 < made.tiles_read < made.tiles
+    assert made.locate(Pose(1, 1)) == -1 and made.tiles_read == 0
+    assert made.locate([]).shape == (0,)
+
+
+def test_a_pose_that_fits_exactly_is_in_no_cell(tmp_path: Path) -> None:
+    """A square in a hole of its size, one that touches a corner of a room, and one in the middle of it."""
+    square, block = [(0, 0), (2, 0), (2, 2), (0, 2)], [(10, 0), (20, 0), (20, 9), (10, 9)]
+    hole = cfree.Polygon(block, [[(12, 3), (12, 5), (14, 5), (14, 3)]])
+    floor = [(-9, -9), (30, -9), (30, -8), (-9, -8)]
+    scene = cfree.Scene(square, [hole, floor], workspace=[(-9, -9), (30, -9), (30, 20), (-9, 20)])
+    space = cfree.free_space(cfree.boundary(scene))
+    poses = [Pose(12, 3), Pose(14, 5, "180deg"), Pose(-9, 18), Pose(0, 5), Pose(12, 3, "1deg"), Pose(8, 0), Pose(8, 9)]
+    for tiles in (1, 4):
+        found = boundary(scene, folder=tmp_path / str(tiles), tiles=tiles)
+        cells = found.locate(poses).tolist()
+        assert cells == space.locate(poses).tolist() == [-2, -2, 0, 0, -1, 0, 0]
+
+
 def test_shards_are_verified(made: Sharded, tmp_path: Path) -> None:
     result = made.verify()
     assert result.verified and all(check.how != "SKIPPED" for check in result.checks)

@@ -12,7 +12,7 @@ import pytest
 
 import cfree
 import cfree._core as _core
-from cfree.distributed import boundary
+from cfree.distributed import Sharded, boundary
 from cfree.distributed.part import Part
 from cfree.distributed.store import SceneStore, is_small, rounding, store_scene
 from cfree.distributed.trim import digest, trim_tile
@@ -48,7 +48,29 @@ def check_tiles(scene: cfree.Scene, folder: Path, counts: tuple[int, ...] = (1, 
         assert np.array_equal(np.isfinite(volume), bounded) and np.all(error[bounded] <= 1e-6 * (1 + volume[bounded]))
         assert np.all(abs(volume[bounded] - space.volumes[bounded]) <= (error + space.volume_errors)[bounded])
         assert found.cells.caged.tolist() == [cell.caged for cell in space.cells]
+        if tiles <= 7:
+            check_cells_of_poses(found, space)
     assert len(digests) == 1
+
+
+def check_cells_of_poses(found: Sharded, space: cfree.FreeSpace) -> None:
+    """Of poses anywhere, and of those in contact, in line with vertices, at critical orientations and chart borders."""
+    scene, rng = space.boundary.scene, random.Random(5)
+    points = [p for polygon in (*scene.obstacles, scene.workspace) if polygon for p in polygon.exact_vertices]
+    points = points or [(Fraction(0), Fraction(0))]
+    x0, y0, x1, y1 = (float(f(p[k] for p in points)) + s for f, s in ((min, -2), (max, 2)) for k in (0, 1))
+    poses = cfree.Poses(
+        [(rng.uniform(x0, x1), rng.uniform(y0, y1)) for _ in range(100)], [rng.uniform(0, 7) for _ in range(100)]
+    )
+    assert found.locate(poses).tolist() == space.locate(poses).tolist()
+    special = []
+    for tau in ("0", "1", "-1", "inf", "1/2", "-3"):
+        turned = cfree.Pose(0, 0, {"tau": tau}).apply_exact([rng.choice(scene.robot[0].exact_vertices)])[0]
+        for p, q in (rng.choices(points, k=2) for _ in range(8)):
+            special += [cfree.Pose(p[0] - turned[0], y - turned[1], {"tau": tau}) for y in (p[1], q[1])]
+            special.append(cfree.Pose(rng.uniform(x0, x1), q[1] - turned[1], {"tau": tau}))
+    special += [pose for pose in (scene.start, scene.goal) if pose is not None]
+    assert found.locate(special).tolist() == space.locate(special).tolist()
 
 
 @pytest.mark.parametrize(

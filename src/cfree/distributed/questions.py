@@ -20,11 +20,12 @@ def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str
     return plan_among(Surroundings(opened(folder, stamp)), start, goal, **wishes)
 
 
-def free_task(folder: str, stamp: str, poses: Poses) -> NDArray[np.bool_]:
+def free_task(folder: str, stamp: str, poses: Poses | list[Pose]) -> NDArray[np.bool_]:
     """Which poses are free among the obstacles near them."""
     known = Surroundings(opened(folder, stamp))
+    xy = (poses if isinstance(poses, Poses) else Poses.from_poses(poses)).xy
     for spans in (False, True):
-        known.numbers |= set(known.around(poses.xy, known.work.store.radius, spans=spans).tolist())
+        known.numbers |= set(known.around(xy, known.work.store.radius, spans=spans).tolist())
     return np.asarray(PoseChecker(known.scene).is_free(poses), np.bool_)
 
 

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path as FilePath
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cfree.arguments import checked
+from cfree.distributed.locating import CellsOf, cells_of, with_rational_tangents
 from cfree.distributed.planning import Surroundings, plan_among
 from cfree.distributed.questions import free_task, groups, plan_task
 from cfree.distributed.running import check_client, run
@@ -21,7 +22,8 @@ from cfree.distributed.shard import VERSION, read_json, read_shard
 from cfree.distributed.tasks import TRIMMED, Work
 from cfree.distributed.verifying import summary, verify_task
 from cfree.errors import FormatError
-from cfree.exact.pose import PoseLike, Poses, to_pose
+from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
+from cfree.free.space import FORBIDDEN, NO_CELL
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import Preferences
 from cfree.planning.separation import Separated
@@ -235,6 +237,60 @@ class Sharded(Value):
         result = np.zeros(len(poses), np.bool_)
         for k, free in run(free_task, asked, client):
             result[parts[k]] = free
+        return result
+
+    @overload
+    def locate(self, poses: OnePose, *, client: Any = None) -> int: ...
+    @overload
+    def locate(self, poses: Poses | Iterable[PoseLike], *, client: Any = None) -> Ints: ...
+    @checked
+    def locate(self, poses: OnePose | Poses | Iterable[PoseLike], *, client: Any = None) -> int | Ints:
+        """Cell of each pose, exactly, as of `cfree.FreeSpace.locate`.
+
+        Only tiles on the way from a pose to the nearest face on its left are read; where it is on a face, or its
+        orientation is critical, all to its left. `tiles_read` says how many.
+
+        Parameters
+        ----------
+        poses : Pose or (x, y, theta), Poses, or sequence of the former
+        client : distributed.Client, optional
+            As of `boundary`.
+
+        Returns
+        -------
+        int, or (n,) int64
+            Number of the cell; -1 if forbidden. A pose on the boundary is free: the first cell that a face through it
+            bounds. -2 if it is free and on no face: an exact fit, which is in the closure of no cell.
+        """
+        check_client(client)
+        if (pose := one_pose(poses, "poses")) is not None:
+            return int(self._locate([pose], client)[0])
+        if isinstance(poses, Poses):
+            return self._locate(with_rational_tangents(poses), client)
+        return self._locate([to_pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)], client)  # type: ignore[arg-type]
+
+    def _locate(self, poses: Sequence[Pose], client: Any) -> Ints:
+        work, here = self.work, (str(self.folder), self.work.stamp)
+        parts = groups(work, Poses.from_poses(poses))
+        asked = [(k, (*here, [poses[n] for n in part])) for k, part in enumerate(parts)]
+        free = np.zeros(len(poses), np.bool_)
+        for k, found in run(free_task, asked, client):
+            free[parts[k]] = found
+        which, table, rest = np.flatnonzero(free), self._table, work.store.rest
+        places = [rest.in_chart(poses[k]) for k in which.tolist()]
+        first, read = table["first"], set[int]()
+
+        def ask(task: Any, questions: Mapping[int, list[int]]) -> Iterator[tuple[int, list[Any]]]:
+            read.update(questions)
+            return run(task, [(tile, (*here, tile, table["surface"][first[tile] : first[tile + 1]],
+                                      [places[k] for k in numbers])) for tile, numbers in questions.items()],
+                       client)  # fmt: skip
+
+        known = CellsOf(table["parent"], table["cell_of"], table["free_inside"], NO_CELL if rest.rim is not None else 0)
+        present = np.flatnonzero(np.diff(first))
+        result = np.full(len(poses), FORBIDDEN, np.int64)
+        result[which] = cells_of(places, present, work.division.boxes, float(rest.scale), ask, known, client is None)
+        self.tiles_read = len(read)
         return result
 
     @checked
