@@ -14,7 +14,7 @@ SOURCE = Path(__file__).parents[1] / "src"
 CORE = "cfree._core"
 ORDER = """
     lazy errors collector value arguments palette
-    exact polygons scene contact collision forbidden geometry free paths planning analysis formats
+    exact polygons curves scene contact collision forbidden geometry free paths planning analysis formats
     verify distributed rational arrangements ompl plot figures film viewer cli __main__
 """.split()  # noqa: SIM905
 """Each imports only from those before it."""

@@ -7,13 +7,16 @@
       FormatError         (ValueError)     unreadable file; carries path, line, column
       UnsupportedError    (NotImplementedError)  a documented limit of the method
       IncompleteError     (RuntimeError)   a question to a boundary whose computation was stopped by a limit
-        UndecidedError                     a question about a clearance too near to the largest; carries lo and hi
+        UndecidedError                     a clearance too near to the largest, carries lo and hi; or round shapes too
+                                           near to each other, carries error
       InvariantError      (RuntimeError)   our bug, please report; carries the smallest state seen
 
 Messages give the place, the value and the remedy.
 """
 
 from __future__ import annotations
+
+import math
 
 
 class CfreeError(Exception):
@@ -69,19 +72,22 @@ class IncompleteError(CfreeError, RuntimeError):
 
 
 class UndecidedError(IncompleteError):
-    """Whether a path keeps a clearance, and that is too near to the largest that one keeps.
+    """Whether a path keeps a clearance too near to the largest that one keeps; or what polygons do not tell.
 
     Parameters
     ----------
     message : str
     lo, hi : float
-        Some path keeps `lo`, or it is 0; none keeps more than `hi`, or it is infinite.
+        Of a clearance: some path keeps `lo`, or it is 0; none keeps more than `hi`, or it is infinite.
+    error : float
+        Of polygons for round shapes: the least that was tried where it mattered, or 0.
     """
 
-    def __init__(self, message: str, *, lo: float, hi: float) -> None:
+    def __init__(self, message: str, *, lo: float = 0.0, hi: float = math.inf, error: float = 0.0) -> None:
         super().__init__(message)
         self.lo = lo
         self.hi = hi
+        self.error = error
 
 
 class InvariantError(CfreeError, RuntimeError):

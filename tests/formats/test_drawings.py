@@ -10,11 +10,10 @@ import shapely
 
 import cfree
 import drawings
+from cfree.curves.drawn import Arc, Cubic, Line, Ring, bulged, ends, point_of
+from cfree.curves.hulls import Outline, polygon_of
 from cfree.errors import FormatError
 from cfree.formats import source
-from cfree.formats.curve_polygons import Outline, polygon_of
-from cfree.formats.segments import Arc, Cubic, Line, Ring, bulged, ends, point_of
-from cfree.formats.source import Source
 
 
 @pytest.fixture
@@ -106,7 +105,7 @@ def test_polygons_are_around_curves_or_inside_and_near(name: str, error: float) 
     curve = shapely.Polygon(sampled(RINGS[name]))
     points = shapely.points(sampled(RINGS[name]))
     for inside in (False, True):
-        polygon = polygon_of(Source(""), Outline(RINGS[name]), error, inside).to_shapely()
+        polygon = polygon_of(Outline(RINGS[name]), error, inside).to_shapely()
         assert shapely.distance(polygon.boundary, points).max() <= error
         assert polygon.boundary.hausdorff_distance(curve.boundary) <= error + 1e-4
         strangers = points[

@@ -16,7 +16,8 @@ import shapely
 import cfree.verify
 from cfree import InvalidPoseError, Path, Pose, Scene, Separated, UndecidedError, UnsupportedError, load, plan, save
 from cfree.planning.clearance import SIDES
-from cfree.scene.dilation import around_disc, cores, inside_disc
+from cfree.polygons.disc import around_disc, inside_disc
+from cfree.scene.dilation import cores
 from cfree.verify.inside import is_near, strictly_inside
 from cfree.verify.leeway import is_around_disc
 from compared import scene_of

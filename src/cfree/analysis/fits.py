@@ -21,7 +21,7 @@ from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.critical_angle import critical_angle
 from cfree.planning.core_ways import from_numbers
-from cfree.scene.scene import Scene, polygons_of
+from cfree.scene.scene import Scene, shapes_in
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def fits(part: Any, hole: Any) -> tuple[Fit, ...]:
     >>> fits(wider, square)
     ()
     """
-    scene = Scene(polygons_of(part, "part"), workspace=polygons_of(hole, "hole"))
+    scene = Scene(shapes_in(part, "part"), workspace=shapes_in(hole, "hole"))
     return Orientations(boundary(scene)).fits()
 
 

@@ -219,21 +219,22 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     is_flag=True,
     help="Of a proof: which single obstacles, taken away, open a way; the picture shows these.",
 )
+@click.option("--tolerance", type=float, metavar="E", help="Of round shapes: the least error of polygons for them.")
 @file_option("--part", metavar="JSON", help="Of a folder: write the scene with the obstacles that were needed.")
 @options.max_seconds
 @options.as_json
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, step: str | None,
     turn: str | None, speed: str | None, clearance: str | None, improve: str | None, objective: str, prefer: str | None,
-    picture: Path | None, film: Path | None, miss: bool, what_if: bool, part: Path | None, max_seconds: float | None,
-    as_json: bool,
+    picture: Path | None, film: Path | None, miss: bool, what_if: bool, tolerance: float | None, part: Path | None,
+    max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
     Each motion is proved free. SCENE is JSON, GeoJSON or WKT, a boundary written by cfree boundary -o, or a folder
     written by cfree boundary --folder, of which only what is near the way is read. Exit code 0:
     a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch, or a clearance that is
-    too near to the largest.
+    too near to the largest, or round shapes that all but touch.
     """
     with one_line_faults():
         from cfree.cli.answering import Answering, Sampling
@@ -250,7 +251,9 @@ def plan(
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
-        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer))
+        planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), tolerance)
+        if (miss or what_if) and planner.scene.curved:
+            raise ValueError("--nearest-miss, --what-if: of polygons; give what cfree convert --inner writes")
         found = Answering.of(planner, ends, written, options)
         if output:
             found.write(output, poses)

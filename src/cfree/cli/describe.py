@@ -7,12 +7,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from cfree.collision.pose_checker import PoseChecker
+from cfree.collision.approximations import Approximations
+from cfree.collision.pose_checker import PoseChecker, is_free
+from cfree.curves.curved import Curved
 from cfree.exact.pose import Pose
 from cfree.forbidden.kinds import KINDS
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, scene_features
+from cfree.scene.scene import shapes_of
 
 if TYPE_CHECKING:
     from cfree.forbidden.slice import Slice
@@ -31,7 +34,8 @@ def describe(scene: Scene) -> dict[str, Any]:
     -------
     dict
         ``robot`` and ``obstacles`` hold counts; ``removed`` the points of the input that are no vertices;
-        ``patches`` the contact patches before trimming, by kind; ``start`` and ``goal`` whether they are free.
+        ``patches`` the contact patches before trimming, by kind; ``start`` and ``goal`` whether they are free. With
+        round shapes these are counts of polygons around them, and ``round`` is how many there are.
 
     Examples
     --------
@@ -42,6 +46,8 @@ def describe(scene: Scene) -> dict[str, Any]:
     >>> facts["goal"]
     {'x': 3.4, 'y': 2.2, 'degrees': 90.0, 'free': True}
     """
+    if scene.curved:
+        return _describe_curved(scene)
     features = scene_features(scene)
     checker = PoseChecker(scene, features) if scene.start or scene.goal else None
     shapes = [
@@ -68,6 +74,17 @@ def describe(scene: Scene) -> dict[str, Any]:
         "goal": _pose_facts(checker, scene.goal),
         "goals": [_goal_facts(scene, goal) for goal in scene.goals],
     }
+
+
+def _describe_curved(scene: Scene) -> dict[str, Any]:
+    """The same of polygons around, those with which a plan begins; whether poses are free is known to a tolerance."""
+    around = Approximations(scene).scene(outward=True)
+    facts = describe(around) | {key: getattr(scene, key) for key in ("note", "source")}
+    facts["round"] = sum(isinstance(shape, Curved) for shape in shapes_of(scene))
+    for key, pose in (("start", scene.start), ("goal", scene.goal)):
+        if pose is not None:
+            facts[key]["free"] = is_free(scene, pose)
+    return facts
 
 
 def describe_slice(cut: Slice) -> dict[str, int | float]:

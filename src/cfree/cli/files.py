@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from cfree.cli.folders import FolderPlanner
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.preferences import Preferences
+    from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
 
 
@@ -35,9 +36,12 @@ def boundary_of(
         return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
 
 
-def planner_of(source: Path, max_seconds: float | None, preferences: Preferences) -> Planner | FolderPlanner:
+def planner_of(
+    source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
+) -> Planner | CurvedPlanner | FolderPlanner:
     """For the scene in a file, with its free space if the file is a boundary; or for a folder."""
     from cfree.formats.scene_file import load_scene
+    from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
 
     if source.is_dir():
@@ -53,7 +57,8 @@ def planner_of(source: Path, max_seconds: float | None, preferences: Preferences
         return Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
     with bar("reading"):
         scene = load_scene(source)
-    return Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
+    planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
+    return CurvedPlanner(planner, tolerance) if scene.curved else planner
 
 
 @contextmanager

@@ -36,13 +36,15 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     patches = facts["patches"]
     kinds = ", ".join(f"{patches[kind]:,} {kind}" for kind in ("v-e", "e-v", "bound"))
     yield f"patches    {patches['total']:,} before trimming: {kinds}"
+    if facts.get("round"):
+        yield f"round      {facts['round']:,} shapes; counted are polygons around them"
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]
         yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
     goals = {f"goal {k}": pose for k, pose in enumerate(facts["goals"])}
     for name, pose in {"start": facts["start"], "goal": facts["goal"], **goals}.items():
         if pose:
-            verdict = "free" if pose["free"] else "FORBIDDEN"
+            verdict = {True: "free", False: "FORBIDDEN", None: "undecided"}[pose["free"]]
             theta = "any theta" if pose["degrees"] is None else f"theta {pose['degrees']:g} degrees"
             yield f"{name:<10} x {pose['x']:g}, y {pose['y']:g}, {theta}: {verdict}"
     for point in facts["removed"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -71,14 +72,17 @@ def check(
     "cfree convert map.yaml scene.json --robot nav2_params.yaml",
     'cfree convert map.yaml scene.json --unknown free --robot "[[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]]"',
     "cfree convert scene.json scene.svg",
+    "cfree convert round.json polygons.json --outer 0.01",
 ))  # fmt: skip
 @click.argument("source", type=FILE, metavar="IN")
 @click.argument("target", type=FILE, metavar="OUT")
 @_reading
+@click.option("--outer", type=float, metavar="E", help="Polygons around round shapes, within E.")
+@click.option("--inner", type=float, metavar="E", help="Polygons inside of round shapes, within E.")
 @options.as_json
 def convert(
     source: Path, target: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None,
-    as_json: bool,
+    outer: float | None, inner: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Read a scene of one kind and write it as another.
 
@@ -93,8 +97,10 @@ def convert(
         check_scene_path(target)
         written = check_outputs(source, {"scene": target})
         shapes, scene = _read(source, tolerance, unknown, roles, robot)
-        rounded = save_scene(scene, target)
         facts = _facts(shapes)
+        scene, changed = _straight(scene, outer, inner, tolerance, target)
+        facts["changed"] += changed
+        rounded = save_scene(scene, target)
         facts["changed"] += list(rounded)
         facts |= {"robot": len(scene.robot), "obstacles": len(scene.obstacles)}
         if as_json:
@@ -121,6 +127,30 @@ def _read(
         how: dict[str, Any] = {"tolerance": tolerance, "unknown": unknown, "roles": named}
         shapes = load_shapes(file, **how)
         return shapes, shapes.scene(None if robot is None else _robot(robot, tolerance))
+
+
+def _straight(
+    scene: Scene, outer: float | None, inner: float | None, tolerance: float | None, target: Path
+) -> tuple[Scene, list[str]]:
+    """With polygons for round shapes, if they are asked for, or the file can have no others."""
+    from cfree.curves.curved import Curved
+    from cfree.formats.scene_file import EXPORTS
+    from cfree.formats.source import CURVE_SHARE
+    from cfree.scene.scene import shapes_of, size_of
+
+    if outer is not None and inner is not None:
+        raise ValueError("--outer and --inner: give one of them")
+    error = outer if inner is None else inner
+    if error is not None and not 0 < error < math.inf:
+        raise ValueError(f"--{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
+    if not scene.curved or (error is None and target.suffix.lower() not in EXPORTS):
+        return scene, []
+    if error is None:
+        error = tolerance or max(size_of(shape) for shape in shapes_of(scene)) / CURVE_SHARE
+    count = sum(isinstance(shape, Curved) for shape in shapes_of(scene))
+    side = "around" if inner is None else "inside of"
+    straight = scene.outer(error) if inner is None else scene.inner(error)
+    return straight, [f"{count:,} round shapes: polygons {side} them, within {error:g}"]
 
 
 def _robot(text: str, tolerance: float | None) -> Any:

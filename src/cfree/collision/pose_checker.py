@@ -32,14 +32,24 @@ Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | 
 
 
 @overload
-def is_free(scene: Scene | PoseChecker, poses: OnePose, *, threads: int | None = None) -> bool: ...
+def is_free(
+    scene: Scene | PoseChecker, poses: OnePose, *, threads: int | None = None, tolerance: float | None = None
+) -> bool: ...
 @overload
 def is_free(
-    scene: Scene | PoseChecker, poses: Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+    scene: Scene | PoseChecker,
+    poses: Poses | Sequence[PoseLike] | ArrayLike,
+    *,
+    threads: int | None = None,
+    tolerance: float | None = None,
 ) -> NDArray[np.bool_]: ...
 @checked
 def is_free(
-    scene: Scene | PoseChecker, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
+    scene: Scene | PoseChecker,
+    poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike,
+    *,
+    threads: int | None = None,
+    tolerance: float | None = None,
 ) -> bool | NDArray[np.bool_]:
     """Are poses free? Exact; touching is free, because the forbidden space is open.
 
@@ -52,10 +62,14 @@ def is_free(
         doubles are, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
     threads : int, optional
         All cores by default. The result does not depend on it.
+    tolerance : float, optional
+        Of a scene with round shapes, as in `plan`.
 
     Returns
     -------
     bool, or (n,) bool
+        Of a scene with round shapes None where polygons within the tolerance do not tell, (n,) object: where these
+        touch, or all but do.
 
     Raises
     ------
@@ -79,8 +93,40 @@ def is_free(
     >>> is_free(scene, [[1, 0, 0], [1, 1, math.pi / 2], [1, 1, math.pi]])
     array([ True,  True, False])
     """
+    if isinstance(scene, Scene) and scene.curved:
+        found: NDArray[np.bool_] = _among_curves(scene, poses, threads, tolerance)
+        return found
+    if tolerance is not None:
+        raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     return checker.is_free(poses, threads=threads)
+
+
+def _among_curves(scene: Scene, poses: Any, threads: int | None, tolerance: float | None) -> Any:
+    """True where a pose is free among polygons around the shapes, False where it is not among those inside of them."""
+    from cfree.collision.approximations import Approximations
+
+    near = Approximations(scene, tolerance)
+    pose = one_pose(poses, "poses")
+    rows: Any = [pose] if pose is not None else poses
+    if isinstance(rows, list | tuple) and not _is_table(rows):
+        rows = [to_pose(row, f"poses[{k}]") for k, row in enumerate(rows)]
+        table = np.array([[float(row.x), float(row.y), row.theta] for row in rows])
+    else:
+        rows = table = _table(rows)
+    found, unknown = np.full(len(rows), None, dtype=object), np.arange(len(rows))
+    while len(unknown):
+        for outward in (True, False):
+            asked = [rows[k] for k in unknown] if isinstance(rows, list) else rows[unknown]
+            free = PoseChecker(near.scene(outward=outward)).is_free(asked, threads=threads)
+            found[unknown[free == outward]] = outward
+            unknown = unknown[free != outward]
+            if not len(unknown):
+                break
+        else:
+            if not near.refine(table[unknown]):
+                break
+    return found[0] if pose is not None else found
 
 
 @checked

@@ -91,6 +91,7 @@ def _in_lines(path: Path) -> Iterator[Polygon]:
                     shapes = geojson_shapes(findings, read_json(findings))
                     findings.fail_if_any()
                     for shape in shapes:
+                        assert isinstance(shape.polygon, Polygon), "GeoJSON has no others"
                         yield shape.polygon
                 number += 1
     except MemoryError as error:

@@ -14,7 +14,7 @@ from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
-from cfree.scene.digest import stamp_for
+from cfree.scene.digest import Stamp, stamp_for
 from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -109,7 +109,7 @@ def text_of(
 
     scene = scene or path.scene
     if form == "json":
-        stamp = stamp_for(file, scene, path.stamp)
+        stamp = _stamp(file, path, scene)
         return path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
     if step is None:
         raise ValueError(f"{file}: no step; give the longest distance between poses")
@@ -128,8 +128,15 @@ def text_of_proof(proof: Separated | AllSeparated, file: object) -> str:
     """What `save_separation` writes."""
     from cfree.formats.separation_text import all_separated_text, separation_text
 
-    stamp = stamp_for(file, proof.scene, proof.stamp)
+    stamp = _stamp(file, proof, proof.scene)
     return separation_text(proof, stamp) if isinstance(proof, Separated) else all_separated_text(proof, stamp)
+
+
+def _stamp(file: object, answer: Path | Separated | AllSeparated, scene: Scene | None) -> Stamp:
+    """Of the scene with round shapes, if it is for one."""
+    if answer.curved is None and answer.scene is not None and answer.stamp is not None:
+        return answer.stamp
+    return stamp_for(file, answer.curved or scene, answer.stamp)
 
 
 def save_separation(proof: Separated | AllSeparated, file: str | PathLike[str]) -> None:

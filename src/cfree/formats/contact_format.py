@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import PlainValidator
 
-from cfree.formats.scene_format import Strict
+from cfree.formats.json_types import Strict
 from cfree.formats.scene_values import Fault
 
 

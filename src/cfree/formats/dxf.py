@@ -15,12 +15,7 @@ from fractions import Fraction
 from io import BytesIO
 from typing import Any
 
-from cfree.exact.number import ExactPoint
-from cfree.formats.extras import needed
-from cfree.formats.findings import InvalidFileError
-from cfree.formats.outlines import Drawn, shapes_of_drawing
-from cfree.formats.scene_settings import read_settings
-from cfree.formats.segments import (
+from cfree.curves.drawn import (
     Affine,
     Arc,
     Cubic,
@@ -37,6 +32,11 @@ from cfree.formats.segments import (
     quadratic,
     reversed_ring,
 )
+from cfree.exact.number import ExactPoint
+from cfree.formats.extras import needed
+from cfree.formats.findings import InvalidFileError
+from cfree.formats.outlines import Drawn, shapes_of_drawing
+from cfree.formats.scene_settings import read_settings
 from cfree.formats.shapes import Shapes
 from cfree.formats.source import DEEPEST, Source, read_bytes
 

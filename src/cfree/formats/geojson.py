@@ -13,7 +13,8 @@ from pydantic import BeforeValidator, TypeAdapter, ValidationError
 from cfree.errors import InvalidPolygonError
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path
-from cfree.formats.scene_format import Point, report
+from cfree.formats.json_types import Point
+from cfree.formats.scene_format import report
 from cfree.formats.scene_settings import read_settings
 from cfree.formats.scene_values import is_encodable
 from cfree.formats.shapes import ROLES, Shape

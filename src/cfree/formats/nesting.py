@@ -19,7 +19,8 @@ from cfree.errors import InvalidPolygonError, InvalidPoseError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.formats.json_positions import Path
-from cfree.formats.scene_format import Coordinate, Point, report
+from cfree.formats.json_types import Coordinate, Point
+from cfree.formats.scene_format import report
 from cfree.formats.shapes import IGNORE, PART, Shape, Shapes, shapes_of
 from cfree.formats.source import Source
 from cfree.polygons.polygon import Polygon

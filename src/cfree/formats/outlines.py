@@ -6,14 +6,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from cfree.curves.drawn import Ring, Vector, carried, decimal, translation
+from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, rough
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.curve_polygons import Outline, area, box_of, in_range, polygon_of, rough, tolerance_of
 from cfree.formats.findings import InvalidFileError, Problem
-from cfree.formats.segments import Ring, Vector, carried, decimal, translation
 from cfree.formats.shapes import IGNORE, Shape, Shapes, role_of, shapes_of
-from cfree.formats.source import Source
+from cfree.formats.source import Source, tolerance_of
 from cfree.scene.scene import explained
 
 PIVOT = "pivot"
@@ -55,7 +55,7 @@ def shapes_of_drawing(
         for outline in nested(source, rings, item.even_odd):
             curves += outline.curved
             try:
-                polygon = polygon_of(source, outline, tolerance, inside=role == "workspace")
+                polygon = polygon_of(outline, tolerance, role == "workspace", source.spend)
             except InvalidPolygonError as error:
                 problems.append(Problem(item.line, 1, name or role, explained(error)))
             else:

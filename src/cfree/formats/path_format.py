@@ -15,21 +15,15 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Pri
 
 from cfree.collision.motion import Motion, Rotation, Translation, rotations
 from cfree.collision.slide import Slide, Touch
-from cfree.errors import InvalidPoseError
+from cfree.errors import CfreeError, InvalidPoseError
 from cfree.exact.pose import Pose
 from cfree.formats.contact_format import ContactModel
-from cfree.formats.scene_format import (
-    Bounds,
-    Configuration,
-    Coordinate,
-    Point,
-    Strict,
-    Text,
-    Version,
-)
+from cfree.formats.json_types import Coordinate, Point, Strict
+from cfree.formats.scene_format import Bounds, Configuration, PolygonModel, Text, Version
 from cfree.formats.scene_values import Fault, list_of
 from cfree.paths.path import Path
 from cfree.scene.digest import Stamp
+from cfree.scene.scene import Scene
 
 
 def _turning(value: Any) -> Any:
@@ -159,6 +153,20 @@ class StampModel(Strict):
     robot: Bounds
 
 
+class PolygonsModel(Strict):
+    """Polygons for the round shapes of a scene, and all that is with them."""
+
+    robot: Annotated[list[PolygonModel], Field(min_length=1)]
+    obstacles: Annotated[list[PolygonModel], Field(default_factory=list)]
+    workspace: PolygonModel | None = None
+    bounds: Bounds | None = None
+
+    @property
+    def made(self) -> Scene:
+        robot, obstacles = ([part.polygon for part in parts] for parts in (self.robot, self.obstacles))
+        return Scene(robot, obstacles, workspace=self.workspace and self.workspace.polygon, bounds=self.bounds)
+
+
 class AnswerModel(Strict):
     """What every answer has: the question."""
 
@@ -167,6 +175,8 @@ class AnswerModel(Strict):
     frame: Text = "world"
     answer: str
     scene: StampModel | None = None
+    polygons: PolygonsModel | None = None
+    _of_polygons: Scene | None = PrivateAttr(None)
     start: Configuration
     goal: Configuration
     exact: ExactEnds | None = None
@@ -175,6 +185,11 @@ class AnswerModel(Strict):
     def _has_a_scene(self) -> Self:
         if self.exact and not self.scene:
             raise Fault('key "scene" is missing, and needed beside "exact"; add it')
+        if self.polygons:
+            try:
+                self._of_polygons = self.polygons.made
+            except CfreeError as error:
+                raise Fault(f'"polygons": {error}') from None
         return self
 
     @property
@@ -208,4 +223,4 @@ class PathModel(AnswerModel):
         """Where the motions lead."""
         motions = (m for model in self.motions for m in model.motions)
         kept = self.clearance or Fraction(0), tuple(self.disc)
-        return Path(self.ends[0], motions, self.units, self.frame, None, self.stamp, *kept)
+        return Path(self.ends[0], motions, self.units, self.frame, self._of_polygons, self.stamp, *kept)

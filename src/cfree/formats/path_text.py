@@ -16,7 +16,9 @@ from cfree.formats.effect import Effect, Written
 from cfree.formats.json_positions import Path as Place
 from cfree.formats.json_text import json_line
 from cfree.paths.path import Path
+from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
+from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
     from cfree.planning.separation import Separated
@@ -53,10 +55,32 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "frame": answer.frame,
         "answer": kind,
         "scene": {"sha256": stamp.sha256, "robot": _exactly(stamp.robot)},
+        **({"polygons": _polygons(answer.scene)} if answer.scene and has_polygons(answer) else {}),
         "start": _numbers(decimals, ("start",), 3),
         "goal": _numbers(decimals, ("goal",), 3),
         "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
     }
+
+
+def has_polygons(answer: Path | Separated) -> bool:
+    """Is its scene one of polygons for round shapes, and not the one that it is an answer for?"""
+    return answer.curved is not None or (answer.scene is not None and answer.stamp is not None)
+
+
+def _polygons(scene: Scene) -> dict[str, Any]:
+    room = scene.workspace
+    return {
+        "robot": [*map(polygon_record, scene.robot)],
+        "obstacles": [*map(polygon_record, scene.obstacles)],
+        **({"workspace": polygon_record(room)} if room else {}),
+        **({"bounds": [*map(str, scene.bounds)]} if scene.bounds else {}),
+    }
+
+
+def polygon_record(polygon: Polygon) -> dict[str, Any]:
+    """Its rings, exactly."""
+    outer, *holes = ([[str(x), str(y)] for x, y in ring] for ring in polygon.exact_rings)
+    return {"outer": outer, "holes": holes} if holes else {"outer": outer}
 
 
 def _record(k: int, motion: Motion, decimals: Written) -> dict[str, Any]:

@@ -15,15 +15,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.curves.drawn import Ring, arc_of_circle
+from cfree.curves.hulls import Outline, polygon_of
 from cfree.errors import CfreeError, FormatError
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import Pose
-from cfree.formats.curve_polygons import Outline, polygon_of, tolerance_of
 from cfree.formats.footprints import footprint
 from cfree.formats.grid import Mask, outlines
-from cfree.formats.segments import Ring, arc_of_circle
 from cfree.formats.shapes import Shape, Shapes, shapes_of
-from cfree.formats.source import Source, read_bytes
+from cfree.formats.source import Source, read_bytes, tolerance_of
 from cfree.formats.yaml_nodes import every, members, read_nodes, written
 from cfree.polygons.polygon import Polygon
 
@@ -76,7 +76,7 @@ def _disc(source: Source, radius: Fraction) -> Polygon:
     ring: Ring = [arc_of_circle((0.0, 0.0), float(radius))]
     tolerance = tolerance_of(source, [ring])
     source.changed[f"robot_radius {float(radius):g}: a polygon around the disc, within {tolerance:g}"] += 1
-    return polygon_of(source, Outline(ring), tolerance)
+    return polygon_of(Outline(ring), tolerance, spend=source.spend)
 
 
 # maps

@@ -16,6 +16,7 @@ from typing import Literal
 
 from cfree.arguments import checked
 from cfree.collector import collection_paused
+from cfree.curves.curved import Curved
 from cfree.errors import UnsupportedError
 from cfree.exact.half_angle import Angle
 from cfree.exact.pose import Pose
@@ -28,7 +29,7 @@ from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
 from cfree.formats.source import Reading
 from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
-from cfree.scene.scene import Scene, default_name
+from cfree.scene.scene import AnyShape, Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
 EXPORTS = (".geojson", ".svg", ".dxf")
@@ -192,8 +193,8 @@ def scene_text(scene: Scene) -> str:
     """
     robot = [_shape(part) for part in scene.robot]
     obstacles = [
-        _shape(polygon, "" if name == default_name(k) else name)
-        for k, (polygon, name) in enumerate(zip(scene.obstacles, scene.obstacle_names, strict=True))
+        _shape(shape, "" if name == default_name(k) else name)
+        for k, (shape, name) in enumerate(zip(scene.obstacles, scene.obstacle_names, strict=True))
     ]
     lines = {
         "version": str(scene.version),
@@ -220,7 +221,11 @@ def scene_text(scene: Scene) -> str:
 # writing
 
 
-def _shape(polygon: Polygon, name: str = "") -> str:
+def _shape(polygon: AnyShape, name: str = "") -> str:
+    if isinstance(polygon, Curved):
+        from cfree.formats.curve_text import curved_text
+
+        return curved_text(polygon, number_text, _angle_text, f'"name": {_json(name)}' if name else "")
     rings = []
     for ring in polygon.exact_rings:
         points = (f"[{number_text(x)}, {number_text(y)}]" for x, y in ring)

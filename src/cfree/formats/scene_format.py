@@ -9,18 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from difflib import get_close_matches
-from fractions import Fraction
-from typing import Annotated, Any, Self
+from typing import TYPE_CHECKING, Annotated, Any, Self, TypeAlias
 
 from pydantic import (
     AfterValidator,
     BaseModel,
     BeforeValidator,
-    ConfigDict,
+    Discriminator,
     Field,
     ModelWrapValidatorHandler,
     PlainValidator,
     PrivateAttr,
+    Tag,
     TypeAdapter,
     ValidationError,
     ValidatorFunctionWrapHandler,
@@ -30,16 +30,17 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails
 
+from cfree.curves.curved import Curved
 from cfree.errors import InvalidPolygonError
+from cfree.formats.curve_format import ROUND_KEYS, TAGS, CurvedModel, keys_of
 from cfree.formats.findings import Findings
 from cfree.formats.json_positions import Path, shortened
+from cfree.formats.json_types import Angle, Coordinate, Point, Strict
 from cfree.formats.scene_values import (
     MAX_NAME,
     MAX_TEXT,
     VERSION,
     Fault,
-    angle,
-    coordinate,
     known_version,
     list_of,
     not_empty,
@@ -66,6 +67,7 @@ def _or_one(schema: dict[str, Any]) -> None:
     schema["anyOf"] = [parts["items"], parts]
 
 
+ROUND, STRAIGHT = "<round>", "<polygon>"
 _POLYGON = 'a polygon {"outer": [[x, y], ...], "holes": []}'
 _EXPECTED = {
     "list_type": "a list",
@@ -74,27 +76,11 @@ _EXPECTED = {
     "string_type": "text in quotes",
     "string_unicode": "text without halves of surrogate pairs",
 }
-_NUMBER_SCHEMA = {"type": ["number", "string"], "examples": [0.1, "1/3"]}
-_ANGLE_SCHEMA = {
-    "anyOf": [
-        {"type": "number", "title": "radians"},
-        {"type": "string", "examples": ["90deg"]},
-        {
-            "type": "object",
-            "properties": {"tau": _NUMBER_SCHEMA},
-            "required": ["tau"],
-            "additionalProperties": False,
-        },
-    ]
-}
-Coordinate = Annotated[Fraction, PlainValidator(coordinate), WithJsonSchema(_NUMBER_SCHEMA)]
-Point = Annotated[tuple[Coordinate, Coordinate], BeforeValidator(list_of(2, "a point [x, y]"))]
 Bounds = Annotated[
     tuple[Coordinate, Coordinate, Coordinate, Coordinate],
     BeforeValidator(list_of(4, "[xmin, ymin, xmax, ymax]")),
     AfterValidator(not_empty),
 ]
-Angle = Annotated[Any, PlainValidator(angle), WithJsonSchema(_ANGLE_SCHEMA)]
 Configuration = Annotated[
     tuple[Coordinate, Coordinate, Angle],
     BeforeValidator(list_of(3, "[x, y, theta]")),
@@ -117,20 +103,15 @@ _GOAL_SCHEMA = {"anyOf": [TypeAdapter(Configuration).json_schema(), _A_PLACE.jso
 Goal = Annotated[Configuration, WrapValidator(_place_or), WithJsonSchema(_GOAL_SCHEMA)]
 Version = Annotated[int, PlainValidator(known_version), WithJsonSchema({"const": VERSION})]
 Text = Annotated[str, Field(max_length=MAX_TEXT)]
+Name = Annotated[str, Field(max_length=MAX_NAME)]
 Plain = Annotated[dict[str, Any], AfterValidator(plain)]
-
-
-class Strict(BaseModel):
-    """Keys that are not known are faults."""
-
-    model_config = ConfigDict(extra="forbid")
 
 
 class PolygonModel(Strict):
     """A polygon: an outer ring and the holes in it, in any orientation, closing point optional."""
 
     outer: list[Point]
-    holes: list[list[Point]] = []
+    holes: list[list[Point]] = Field([])
     _polygon: Polygon = PrivateAttr()
 
     @model_validator(mode="wrap")
@@ -155,7 +136,29 @@ class PolygonModel(Strict):
 class ObstacleModel(PolygonModel):
     """An obstacle: a polygon, and a name for messages and pictures."""
 
-    name: Annotated[str, Field(max_length=MAX_NAME)] | None = None
+    name: Name | None = None
+
+
+def _kind(data: Any) -> str:
+    """Polygons have an outer ring of points and nothing else; what has other keys of round shapes is one."""
+    return ROUND if isinstance(data, dict) and data.keys() & ROUND_KEYS else STRAIGHT
+
+
+def _either(polygon: Any, curved: Any) -> Any:
+    return Annotated[Annotated[polygon, Tag(STRAIGHT)] | Annotated[curved, Tag(ROUND)], Discriminator(_kind)]
+
+
+class RoundObstacleModel(CurvedModel):
+    """An obstacle: a round shape, and a name for messages and pictures."""
+
+    name: Name | None = None
+
+
+if TYPE_CHECKING:
+    Shape: TypeAlias = PolygonModel | CurvedModel
+    Obstacle: TypeAlias = ObstacleModel | RoundObstacleModel
+else:
+    Shape, Obstacle = _either(PolygonModel, CurvedModel), _either(ObstacleModel, RoundObstacleModel)
 
 
 class SceneModel(Strict):
@@ -165,15 +168,15 @@ class SceneModel(Strict):
     name: Text = ""
     note: Text = ""
     units: Text = ""
-    source: Annotated[dict[str, Text], AfterValidator(plain)] = {}
-    robot: Annotated[list[PolygonModel], BeforeValidator(_robot_parts), Field(json_schema_extra=_or_one)]
-    obstacles: list[ObstacleModel] = []
-    workspace: PolygonModel | None = None
+    source: Annotated[dict[str, Text], AfterValidator(plain)] = Field({})
+    robot: Annotated[list[Shape], BeforeValidator(_robot_parts), Field(json_schema_extra=_or_one)]
+    obstacles: list[Obstacle] = Field([])
+    workspace: Shape | None = None
     bounds: Bounds | None = None
     start: Configuration | None = None
     goal: Goal | None = None
-    goals: list[Goal] = []
-    check: Plain = {}
+    goals: list[Goal] = Field([])
+    check: Plain = Field({})
 
 
 def scene_from_models(findings: Findings, data: object) -> Scene:
@@ -183,7 +186,7 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
         model = SceneModel.model_validate(data)
     except ValidationError as error:
         for item in error.errors(include_url=False, include_input=False):
-            path = item["loc"]
+            path = tuple(step for step in item["loc"] if step not in TAGS)
             if single_robot and path[:1] == ("robot",):
                 path = ("robot", *path[2:])
             report(findings, path, item)
@@ -193,10 +196,16 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
     findings.fail_if_any()
     robot, obstacles = ([part.polygon for part in parts] for parts in (model.robot, model.obstacles))
     workspace = model.workspace.polygon if model.workspace else None
-    if out := range_fault(robot, obstacles, workspace, model.bounds):
-        path, message = out
-        findings.under(path[:1] if path[0] == "robot" and single_robot else path, message)
+    if isinstance(workspace, Curved) and workspace.grown:
+        findings.under(("workspace",), "a grown shape is no workspace; give the ring of its lines and arcs")
         findings.fail_if_any()
+    shapes = robot, obstacles, [workspace] if workspace else []
+    if not any(isinstance(shape, Curved) for kind in shapes for shape in kind):
+        out = range_fault(robot, obstacles, workspace, model.bounds)  # type: ignore[arg-type]
+        if out:
+            path, message = out
+            findings.under(path[:1] if path[0] == "robot" and single_robot else path, message)
+            findings.fail_if_any()
     return Scene(
         robot=robot,
         obstacles=obstacles,
@@ -208,6 +217,8 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
 
 def _keys_at(path: Path) -> list[str]:
     keys = [step for step in path if isinstance(step, str)]
+    if keys and (known := keys_of(keys[-1])):
+        return known
     models: dict[tuple[str, ...], type[BaseModel]] = {(): SceneModel, ("obstacles",): ObstacleModel}
     return list(models.get(tuple(keys), PolygonModel).model_fields)
 

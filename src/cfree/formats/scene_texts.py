@@ -13,11 +13,11 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
+from cfree.curves.drawn import decimal
 from cfree.formats.atomic import replacing
 from cfree.formats.extras import needed
 from cfree.formats.number_text import number_text
 from cfree.formats.scene_settings import settings_of
-from cfree.formats.segments import decimal
 from cfree.formats.shapes import role_of
 from cfree.formats.source import Source
 from cfree.palette import OBSTACLE, ROBOT

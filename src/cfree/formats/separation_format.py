@@ -14,8 +14,9 @@ from pydantic import BeforeValidator, Field, PlainValidator, model_validator
 
 from cfree.forbidden.columns import CODED, COLUMNS, Trapezoids
 from cfree.formats.contact_format import ContactModel
+from cfree.formats.json_types import Point, Strict
 from cfree.formats.path_format import AnswerModel, Length
-from cfree.formats.scene_format import Bounds, Point, PolygonModel, Strict, Version
+from cfree.formats.scene_format import Bounds, PolygonModel, Version
 from cfree.formats.scene_values import Fault
 from cfree.formats.separation_text import KINDS
 from cfree.planning.goals import AllSeparated
@@ -140,6 +141,7 @@ class SeparationModel(AnswerModel):
             cores=tuple(part.polygon for part in self.cores),
             units=self.units,
             frame=self.frame,
+            scene=self._of_polygons,
             stamp=self.stamp,
         )
 

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import json
-from itertools import pairwise
 from typing import Any
 
 from cfree.forbidden.columns import COLUMNS
 from cfree.formats.effect import Effect
 from cfree.formats.json_text import json_line
-from cfree.formats.path_text import answer_head
+from cfree.formats.path_text import answer_head, polygon_record
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Pieces, Separated
-from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
 from cfree.scene.features import unpacked
 
@@ -30,11 +28,11 @@ def separation_text(proof: Separated, stamp: Stamp) -> str:
         "obstacles": proof.obstacles,
     }
     if proof.robot:
-        head["smaller_robot"] = [_polygon(part) for part in proof.robot]
+        head["smaller_robot"] = [polygon_record(part) for part in proof.robot]
     if proof.bounds:
         head["larger_bounds"] = [*map(str, proof.bounds)]
     if proof.clearance:
-        head |= {"clearance": str(proof.clearance), "cores": [_polygon(part) for part in proof.cores]}
+        head |= {"clearance": str(proof.clearance), "cores": [polygon_record(part) for part in proof.cores]}
     if proof.pieces.auxiliary:
         head["auxiliary"] = [
             {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
@@ -53,12 +51,6 @@ def all_separated_text(answer: AllSeparated, stamp: Stamp) -> str:
         members.append(f'"places": {json.dumps([[str(x), str(y)] for x, y in answer.places])}')
     proofs = ",\n".join(separation_text(proof, stamp).rstrip() for proof in answer.proofs)
     return "{" + ",\n ".join([*members, f'"proofs": [\n{proofs}\n]']) + "}\n"
-
-
-def _polygon(polygon: Polygon) -> dict[str, Any]:
-    points = [[str(x), str(y)] for x, y in polygon.exact_vertices]
-    outer, *holes = (points[i:j] for i, j in pairwise(polygon.ring_offsets))
-    return {"outer": outer, "holes": holes} if holes else {"outer": outer}
 
 
 def _records(pieces: Pieces) -> list[dict[str, Any]]:

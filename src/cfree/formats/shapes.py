@@ -13,10 +13,11 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from cfree.arguments import checked
+from cfree.errors import UnsupportedError
 from cfree.formats.findings import InvalidFileError, Problem
 from cfree.formats.source import Source
 from cfree.polygons.polygon import Polygon
-from cfree.scene.scene import Scene, polygons_of
+from cfree.scene.scene import AnyShape, Scene, shapes_in
 
 ROLES = ("robot", "obstacle", "workspace")
 PART, IGNORE = "part", "ignore"
@@ -25,11 +26,11 @@ _MARK = re.compile(r"(robot|obstacle|workspace)(?![a-z])", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Shape:
-    """A polygon of a file, and what it is for."""
+    """A polygon of a file, or a round shape, and what it is for."""
 
     role: str
     name: str | None
-    polygon: Polygon
+    polygon: AnyShape
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +60,10 @@ class Shapes:
     @property
     def polygons(self) -> tuple[Polygon, ...]:
         """All of them, whatever their roles."""
-        return tuple(shape.polygon for shape in self.shapes)
+        found = tuple(shape.polygon for shape in self.shapes if isinstance(shape.polygon, Polygon))
+        if len(found) < len(self.shapes):
+            raise UnsupportedError(f"{self.file}: there are round shapes; take the scene, and its outer(error)")
+        return found
 
     @checked
     def of(self, role: str) -> list[Shape]:
@@ -80,7 +84,7 @@ class Shapes:
         FormatError
             If there is no robot, or more than one workspace.
         """
-        parts = [shape.polygon for shape in self.of("robot")] if robot is None else polygons_of(robot, "robot")
+        parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
         rooms = self.of("workspace")
         if not parts:
             raise InvalidFileError(self.file, [Problem(1, 1, "", f"there is no robot; {self.remedy}")])

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, NoReturn
 
+from cfree.curves.drawn import Ring
+from cfree.curves.hulls import box_of
 from cfree.formats.findings import Findings, InvalidFileError, Problem
 
 MOST_BYTES = 1 << 26
@@ -57,6 +59,14 @@ class Source:
     def refuse(self, message: str, line: int = 1, column: int = 1, place: str = "") -> NoReturn:
         """The rest of the file cannot be understood."""
         raise InvalidFileError(self.findings.file, [Problem(line, column, place, message)])
+
+
+def tolerance_of(source: Source, rings: Sequence[Ring]) -> float:
+    """The one that is asked for, or else a part of the size of all these rings."""
+    if source.reading.tolerance:
+        return source.reading.tolerance
+    x0, y0, x1, y1 = box_of(rings)
+    return max(x1 - x0, y1 - y0) / CURVE_SHARE
 
 
 def read_bytes(path: str, most: int = MOST_BYTES) -> bytes:

@@ -15,12 +15,7 @@ from fractions import Fraction
 from math import pi, tau
 from typing import Any
 
-from cfree.exact.number import to_fraction
-from cfree.formats.extras import needed
-from cfree.formats.findings import InvalidFileError
-from cfree.formats.outlines import Drawn, shapes_of_drawing
-from cfree.formats.scene_settings import read_settings
-from cfree.formats.segments import (
+from cfree.curves.drawn import (
     IDENTITY,
     Affine,
     Arc,
@@ -35,6 +30,11 @@ from cfree.formats.segments import (
     quadratic,
     translation,
 )
+from cfree.exact.number import to_fraction
+from cfree.formats.extras import needed
+from cfree.formats.findings import InvalidFileError
+from cfree.formats.outlines import Drawn, shapes_of_drawing
+from cfree.formats.scene_settings import read_settings
 from cfree.formats.shapes import Shapes
 from cfree.formats.source import DEEPEST, Source
 from cfree.formats.xml_tree import Node, read_tree

@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from cfree.curves.drawn import point_of, turn
 from cfree.errors import InvalidPolygonError
-from cfree.formats.segments import point_of, turn
 from cfree.formats.shapes import IGNORE, Shape, Shapes, shapes_of
 from cfree.formats.source import CURVE_SHARE, Source
 from cfree.formats.xml_tree import Node, read_tree

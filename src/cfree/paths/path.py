@@ -51,6 +51,8 @@ class Path(Shown):
     disc : tuple of exact points, optional
         A convex polygon around a disc of that radius, in the robot's frame: the path is free for the robot's Minkowski
         sum with it.
+    curved : Scene, optional
+        With round shapes, if it is a path among these; `scene` has polygons around them.
 
     Examples
     --------
@@ -68,6 +70,7 @@ class Path(Shown):
     stamp: Stamp | None = field(default=None, compare=False)
     clearance: Fraction = Fraction(0)
     disc: tuple[ExactPoint, ...] = ()
+    curved: Scene | None = field(default=None, compare=False)
 
     def __init__(
         self,
@@ -79,8 +82,9 @@ class Path(Shown):
         stamp: Stamp | None = None,
         clearance: Fraction = Fraction(0),
         disc: tuple[ExactPoint, ...] = (),
+        curved: Scene | None = None,
     ) -> None:
-        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp, clearance, disc)
+        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp, clearance, disc, curved)
         for item, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, item.name, value)
 

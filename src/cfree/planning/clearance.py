@@ -23,9 +23,10 @@ from cfree.exact.pose import Pose
 from cfree.paths.path import Objective, Path
 from cfree.planning.asked import Planner
 from cfree.planning.separation import Separated
+from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
-from cfree.scene.dilation import around_disc, cores, grown_by, inside_disc
+from cfree.scene.dilation import cores, grown_by
 from cfree.scene.scene import Bounds, Scene, with_robot
 
 SIDES = (8, 28, 100)  # of the polygons: the last two differ by less than 0.1 % of the radius

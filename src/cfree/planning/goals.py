@@ -82,6 +82,11 @@ class AllSeparated(Shown):
         return self.proofs[0].scene
 
     @property
+    def curved(self) -> Scene | None:
+        """With round shapes, if it is a proof for these."""
+        return self.proofs[0].curved
+
+    @property
     def stamp(self) -> Stamp | None:
         """What the file said of the scene."""
         return self.proofs[0].stamp

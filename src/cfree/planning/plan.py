@@ -11,6 +11,7 @@ from cfree.exact.pose import Pose, PoseLike
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
+from cfree.planning.curved import CurvedPlanner
 from cfree.planning.goals import AllSeparated
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
@@ -30,6 +31,7 @@ def plan(
     preferences: Preferences | None = None,
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
+    tolerance: float | None = None,
 ) -> Path | Separated: ...
 @overload
 def plan(
@@ -43,6 +45,7 @@ def plan(
     preferences: Preferences | None = None,
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
+    tolerance: float | None = None,
 ) -> Path | Separated | AllSeparated: ...
 @checked
 def plan(
@@ -56,6 +59,7 @@ def plan(
     preferences: Preferences | None = None,
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
+    tolerance: float | None = None,
 ) -> Path | Separated | AllSeparated:
     """A path from start to goal, each motion of it proved free, or a proof that there is none.
 
@@ -80,6 +84,9 @@ def plan(
         Give up if computing the free space takes longer.
     progress : callable, optional
         Called with the share of the free space that is computed, if it has to be.
+    tolerance : float, optional
+        Of a scene with round shapes: the least error of the polygons for them; a 2**14th of the robot's size if left
+        out.
 
     Returns
     -------
@@ -92,7 +99,7 @@ def plan(
         If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance.
     IncompleteError
         If `max_seconds` were not enough. If the largest clearance of a path is within 0.1 % of the one asked for this
-        is an `UndecidedError`, which has the interval.
+        is an `UndecidedError`, which has the interval; so if polygons for round shapes do not tell, with their error.
 
     Notes
     -----
@@ -113,7 +120,10 @@ def plan(
     """
     space = scene if isinstance(scene, FreeSpace) else None
     scene = scene.boundary.scene if isinstance(scene, FreeSpace) else scene
-    planner = Planner(scene, space, max_seconds, preferences or NONE, progress)
+    of_polygons = Planner(scene, space, max_seconds, preferences or NONE, progress)
+    planner = CurvedPlanner(of_polygons, tolerance) if scene.curved else of_polygons
+    if not scene.curved and tolerance is not None:
+        raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     if goal is None and scene.goals:
         goal = scene.goals
     if goal is not None and isinstance(goals := to_goals(goal), tuple):

@@ -141,6 +141,8 @@ class Separated(Shown):
         If not 0: no path joins them that keeps at least this distance from obstacles and workspace.
     cores : tuple of Polygon
         Then: convex polygons inside the scene's robot, one for each polygon of `robot`.
+    curved : Scene, optional
+        With round shapes, if it is a proof for these; `scene` has polygons inside of them.
     """
 
     start: Pose
@@ -155,6 +157,7 @@ class Separated(Shown):
     stamp: Stamp | None = field(default=None, compare=False, repr=False)
     clearance: Fraction = field(default=Fraction(0), repr=False)
     cores: tuple[Polygon, ...] = field(default=(), repr=False)
+    curved: Scene | None = field(default=None, compare=False, repr=False)
 
     def __repr__(self) -> str:
         return f"Separated(of={self.of!r}, {len(self.pieces)} pieces of {self.obstacles})"

@@ -6,15 +6,20 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
 from typing import TYPE_CHECKING
 
+from cfree.curves.curved import Curved
+from cfree.curves.drawn import Line
+from cfree.curves.rings import Cubic, Piece
+from cfree.exact.number import ExactPoint
+from cfree.polygons.polygon import Polygon
+
 if TYPE_CHECKING:
-    from cfree.polygons.polygon import Polygon
-    from cfree.scene.scene import Bounds, Scene
+    from cfree.scene.scene import AnyShape, Bounds, Scene
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +61,16 @@ def stamp_of(scene: Scene) -> Stamp:
     ('240feabd', '0', '0', '1/3', '1')
     """
     text = "".join(f"{line}\n" for line in _lines(scene))
-    x, y = zip(*chain.from_iterable(part.exact_vertices for part in scene.robot), strict=True)
+    x, y = zip(*chain.from_iterable(map(_corners, scene.robot)), strict=True)
     return Stamp(hashlib.sha256(text.encode("ascii")).hexdigest(), (min(x), min(y), max(x), max(y)))
+
+
+def _corners(shape: AnyShape) -> Sequence[ExactPoint]:
+    """Vertices, or corners of a box around it."""
+    if isinstance(shape, Polygon):
+        return shape.exact_vertices
+    x0, y0, x1, y1 = shape.box
+    return (x0, y0), (x1, y1)
 
 
 def stamp_for(file: object, scene: Scene | None, stamp: Stamp | None) -> Stamp:
@@ -77,18 +90,36 @@ def stamp_for(file: object, scene: Scene | None, stamp: Stamp | None) -> Stamp:
 
 def _lines(scene: Scene) -> Iterator[str]:
     yield "cfree scene 1"
-    for polygon in scene.robot:
-        yield from _shape("robot", polygon)
-    for polygon in scene.obstacles:
-        yield from _shape("obstacle", polygon)
+    for shape in scene.robot:
+        yield from _shape("robot", shape)
+    for shape in scene.obstacles:
+        yield from _shape("obstacle", shape)
     if scene.workspace is not None:
         yield from _shape("workspace", scene.workspace)
     if scene.bounds is not None:
         yield f"bounds {' '.join(map(str, scene.bounds))}"
 
 
-def _shape(word: str, polygon: Polygon) -> Iterator[str]:
+def _shape(word: str, shape: AnyShape) -> Iterator[str]:
     yield word
-    for k, ring in enumerate(polygon.exact_rings):
+    if isinstance(shape, Curved):
+        for k, pieces in enumerate(shape.curves):
+            yield f"{'hole' if k else 'outer'} {' '.join(map(_piece, pieces))}"
+        if shape.grown:
+            yield f"grown {shape.grown}"
+        return
+    for k, ring in enumerate(shape.exact_rings):
         numbers = map(str, chain.from_iterable(ring))
         yield f"{'hole' if k else 'outer'} {' '.join(numbers)}"
+
+
+def _piece(piece: Piece) -> str:
+    """Of a line its end; of an ellipse center, radii, right angles and the half-angle tangent of the rest."""
+    match piece:
+        case Line(_, end):
+            numbers: list[object] = ["line", *end]
+        case Cubic((_, *points)):
+            numbers = ["cubic", *chain.from_iterable(points)]
+        case _:
+            numbers = ["arc", *piece.center, *piece.u, *piece.v, piece.quarters, piece.rest]
+    return " ".join(map(str, numbers))

@@ -18,6 +18,8 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.collector import collection_paused
+from cfree.curves.curved import Curved
+from cfree.curves.rings import Circle
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -27,6 +29,7 @@ from cfree.scene.goals import Goal, to_goals
 from cfree.value import Shown
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
+AnyShape = Polygon | Curved
 
 
 @checked
@@ -38,7 +41,7 @@ class Scene(Shown):
     ----------
     robot : shape or sequence of shapes
         One or more polygons that move together, in a frame whose origin is the reference point. A shape is a
-        `Polygon`, an (n, 2) array, a list of points, or a shapely polygon or multipolygon.
+        `Polygon`, an (n, 2) array, a list of points, a shapely polygon or multipolygon, or a `Curved`.
     obstacles : shape or sequence of shapes
         They may touch and overlap. None at all is a scene, too.
     obstacle_names : sequence of (str or None), optional
@@ -71,6 +74,11 @@ class Scene(Shown):
         If a coordinate is larger than 1e150, or all of them over one common denominator are integers of more than 1110
         bits: lengths from 1e-150 to 1e150 may meet in one scene.
 
+    Notes
+    -----
+    `plan`, `is_free`, `verify.answer` and pictures take scenes with round shapes; all else takes polygons: those of
+    `outer` or `inner`.
+
     Examples
     --------
     >>> scene = Scene(robot=[(0, 0), (1, 0), (0, 1)], obstacles=[[(3, 0), (4, 0), ("10/3", "1/3")]])
@@ -94,6 +102,7 @@ class Scene(Shown):
     source: Mapping[str, str] = field(hash=False)
     check: Mapping[str, object] = field(hash=False)
     version: int
+    curved: bool = field(init=False, compare=False)  # are some of its shapes round?
 
     def __init__(
         self,
@@ -114,7 +123,7 @@ class Scene(Shown):
         version: int = 1,
     ) -> None:
         robot_parts = [
-            polygon for k, item in enumerate(_items(robot, "robot")) for polygon in _polygons(item, f"robot[{k}]")
+            polygon for k, item in enumerate(_items(robot, "robot")) for polygon in _shapes(item, f"robot[{k}]")
         ]
         if not robot_parts:
             raise InvalidPolygonError("the robot is empty; give at least one polygon")
@@ -131,7 +140,7 @@ class Scene(Shown):
             shapes = [
                 (name, polygon)
                 for k, (item, name) in enumerate(zip(items, names, strict=True))
-                for polygon in _polygons(item, f"obstacle {k}" + (f" ({name})" if name else ""))
+                for polygon in _shapes(item, f"obstacle {k}" + (f" ({name})" if name else ""))
             ]
         values = {
             "robot": tuple(robot_parts),
@@ -149,8 +158,12 @@ class Scene(Shown):
             "check": dict(check or {}),
             "version": version,
         }
+        shown = (*robot_parts, *(shape for _, shape in shapes), values["workspace"])
+        values["curved"] = any(isinstance(shape, Curved) for shape in shown)
         for key, value in values.items():
             object.__setattr__(self, key, value)
+        if self.curved:
+            return
         if fault := range_fault(self.robot, self.obstacles, self.workspace, self.bounds):
             (kind, *index), message = fault
             place = self.obstacle_names[int(index[0])] if kind == "obstacles" else f"{kind}{index or ''}"
@@ -158,11 +171,119 @@ class Scene(Shown):
 
     def __repr__(self) -> str:
         title = f"{self.name!r}, " if self.name else ""
-        n, m = (sum(len(shape.vertices) for shape in shapes) for shapes in (self.robot, self.obstacles))
-        robot = f"{len(self.robot)} polygons, " if len(self.robot) > 1 else ""
-        count = len(self.obstacles)
-        obstacles = f"{count} obstacle{'' if count == 1 else 's'}{f': {m} vertices' if count else ''}"
-        return f"Scene({title}robot: {robot}{n} vertices; {obstacles})"
+        parts, count = len(self.robot), len(self.obstacles)
+        robot = f"{parts} {'shapes' if self.curved else 'polygons'}, " if parts > 1 else ""
+        obstacles = f"{count} obstacle{'' if count == 1 else 's'}{f': {_edges(self.obstacles)}' if count else ''}"
+        return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles})"
+
+    @checked
+    def outer(self, error: float) -> Scene:
+        """A scene of polygons in which all is forbidden that is forbidden here: a path in it is one here, too.
+
+        Robot and obstacles grow, the workspace shrinks.
+
+        Parameters
+        ----------
+        error : float
+            No point of a polygon's boundary is farther from the round shape it is for. One less than doubles can tell
+            is raised to that.
+        """
+        return with_polygons(self, [error] * _count(self), outward=True)
+
+    @checked
+    def inner(self, error: float) -> Scene:
+        """A scene of polygons in which no more is forbidden than here: what is proved impossible in it is here, too.
+
+        Robot and obstacles shrink, the workspace grows. Parameters are those of `outer`.
+        """
+        return with_polygons(self, [error] * _count(self), outward=False)
+
+    @checked
+    def grown(self, by: Number) -> Scene:
+        """The same with a larger robot: all that is so near to it belongs to it.
+
+        Raises
+        ------
+        UnsupportedError
+            If it has curves other than circles.
+
+        Examples
+        --------
+        >>> Scene([(0, 0), (1, 0), (0, 1)]).grown("1/2").robot
+        (<Curved in (-0.5, -0.5, 1.5, 1.5), 0 holes>,)
+        """
+        other = copy(self)
+        object.__setattr__(other, "robot", tuple(_grown(shape, to_fraction(by)) for shape in self.robot))
+        object.__setattr__(other, "curved", True)
+        return other
+
+
+def shapes_of(scene: Scene) -> tuple[AnyShape, ...]:
+    """Those of the robot, the obstacles, and the workspace, if there is one; polygons or not."""
+    return *scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])
+
+
+def _count(scene: Scene) -> int:
+    return len(shapes_of(scene))
+
+
+def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Scene:
+    """Polygons for round shapes, in the order of `shapes_of`, each with its error: outward more is forbidden."""
+    if not scene.curved:
+        return scene
+    given = iter(errors)
+    robot = [polygon for shape in scene.robot for polygon in polygons_for(shape, next(given), outward)]
+    named = [
+        (name, polygon)
+        for name, shape in zip(scene.obstacle_names, scene.obstacles, strict=True)
+        for polygon in polygons_for(shape, next(given), outward)
+    ]
+    room = scene.workspace
+    rooms = () if room is None else polygons_for(room, next(given), not outward)
+    if not robot or (room and not rooms):
+        raise UnsupportedError("a shape with cusps has no polygon inside of it; give another for robot or workspace")
+    settings = {key: getattr(scene, key) for key in ("bounds", "start", "units", "name")}
+    return Scene(
+        robot,
+        [polygon for _, polygon in named],
+        obstacle_names=[name for name, _ in named],
+        workspace=rooms[0] if rooms else None,
+        goals=[scene.goal] if scene.goal else scene.goals,
+        **settings,
+    )
+
+
+def polygons_for(shape: AnyShape, error: float, outward: bool) -> tuple[Polygon, ...]:
+    """Polygons around a shape, or inside of it."""
+    if isinstance(shape, Polygon):
+        return (shape,)
+    error = max(error, shape.least_error)
+    return shape.outer(error) if outward else shape.inner(error)
+
+
+def _grown(shape: AnyShape, by: Fraction) -> Curved:
+    if isinstance(shape, Polygon):
+        outer, *holes = shape.exact_rings
+        return Curved(outer, holes, grown=by)
+    if shape.grown:
+        return Curved(shape.path, shape.holes, grown=shape.grown + by)
+    if isinstance(shape.path, Circle) and not shape.holes:
+        return Curved.circle(shape.path.center, shape.path.radius + by)
+    raise UnsupportedError("grown: of polygons and circles only; give scene.outer(error) first")
+
+
+def _edges(shapes: Sequence[AnyShape]) -> str:
+    """How many vertices, and how many round shapes."""
+    count = sum(len(shape) for shape in shapes if isinstance(shape, Polygon))
+    curved = sum(isinstance(shape, Curved) for shape in shapes)
+    texts = [f"{count} vertices"] if count or not curved else []
+    return ", ".join([*texts, *([f"{curved} round"] if curved else [])])
+
+
+def size_of(shape: AnyShape) -> float:
+    """The longer side of its box."""
+    x0, y0, x1, y1 = shape.box if isinstance(shape, Curved) else shape.bounds
+    return float(max(x1 - x0, y1 - y0))
 
 
 def robot_radius(scene: Scene) -> float:
@@ -206,7 +327,7 @@ def default_name(index: int) -> str:
 
 def _items(value: Any, name: str) -> list[Any]:
     """The shapes in an argument that is one shape or many."""
-    if isinstance(value, Polygon) or hasattr(value, "geom_type") or _is_ring(value):
+    if isinstance(value, Polygon | Curved) or hasattr(value, "geom_type") or _is_ring(value):
         return [value]
     if not isinstance(value, Iterable) or isinstance(value, (str, bytes, Mapping)):
         kind = type(value).__name__
@@ -228,13 +349,13 @@ def _is_ring(value: Any) -> bool:
     )
 
 
-def _polygons(item: Any, place: str) -> list[Polygon]:
-    """The polygons of one shape; `place` begins the message if it is none."""
-    if isinstance(item, Polygon):
+def _shapes(item: Any, place: str) -> list[AnyShape]:
+    """The polygons of one shape, or the round one; `place` begins the message if it is none."""
+    if isinstance(item, Polygon | Curved):
         return [item]
     try:
         if hasattr(item, "geom_type"):
-            return _from_geometry(item)
+            return [*_from_geometry(item)]
         return [Polygon(item)]
     except InvalidPolygonError as error:
         message = f"{place}: {explained(error)}"
@@ -270,16 +391,18 @@ def explained(error: InvalidPolygonError) -> str:
     return f"{message}: {NO_INTERIOR}" if error.ring == 0 and (few or "on one line" in message) else message
 
 
-def polygons_of(value: Any, name: str) -> list[Polygon]:
-    """The polygons of one shape, or of several."""
-    return [polygon for item in _items(value, name) for polygon in _polygons(item, name)]
+def shapes_in(value: Any, name: str) -> list[AnyShape]:
+    """The polygons of one shape, or of several; or round ones."""
+    return [shape for item in _items(value, name) for shape in _shapes(item, name)]
 
 
-def _one(value: Any) -> Polygon:
-    polygons = polygons_of(value, "workspace")
-    if len(polygons) != 1:
-        raise InvalidPolygonError(f"workspace: {len(polygons)} polygons; give one, whose holes are forbidden")
-    return polygons[0]
+def _one(value: Any) -> AnyShape:
+    shapes = shapes_in(value, "workspace")
+    if len(shapes) != 1:
+        raise InvalidPolygonError(f"workspace: {len(shapes)} polygons; give one, whose holes are forbidden")
+    if isinstance(shapes[0], Curved) and shapes[0].grown:
+        raise UnsupportedError("workspace: a grown shape; give the ring of its lines and arcs")
+    return shapes[0]
 
 
 def _rectangle(bounds: Sequence[Number]) -> Bounds:

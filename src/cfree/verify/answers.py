@@ -10,13 +10,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
+from cfree.curves.curved import Curved
 from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, stamp_of
 from cfree.scene.goals import Goal
-from cfree.scene.scene import Scene
+from cfree.scene.scene import Scene, shapes_of
+from cfree.verify.curves import mismatches
 from cfree.verify.leeway import is_around_disc, roomier, with_disc
 from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
 from cfree.verify.orientations import left_out
@@ -28,7 +30,7 @@ if TYPE_CHECKING:
     from cfree.exact.pose import Pose
     from cfree.formats.answer_format import Read
 
-SCENE, ASKED, PIECES, TURNS = "scene", "poses asked for", "convex pieces", "orientations"
+SCENE, ASKED, PIECES, TURNS, ROUND = "scene", "poses asked for", "convex pieces", "orientations", "round shapes"
 NO_ROOM = {
     DECIMALS: 'they are said to be "free", and no room is enough for that; say "approximate"',
     CLEARANCE: "its polygon is not convex, or not around a disc of that radius; correct one of them",
@@ -82,7 +84,7 @@ def answer(
     assert not isinstance(given, (str, os.PathLike))
     if read and (finding := _other_scene(scene, given)):
         check = Check(SCENE, REFUTED, "nothing else was checked")
-        return Verification((check,), (finding,), (), time.perf_counter() - begin)
+        return Verification((check,), (finding,), (), _since(begin))
 
     def report(done: float) -> None:
         if progress is not None:
@@ -91,7 +93,13 @@ def answer(
     if isinstance(given, AllSeparated):
         return _all_of(scene, given, report, begin)
     findings = _other_poses(scene, given)
-    world = World(scene)
+    if scene.curved:
+        if given.scene is None:
+            finding = Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene")
+            return Verification((Check(ROUND, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
+        wrong = mismatches(scene, given.scene, outward=isinstance(given, Path))
+        findings += [Finding(ROUND, where, text) for where, text in wrong]
+    world = World(given.scene if scene.curved and given.scene else scene)
     findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
     findings += end_findings(given, world)
     if isinstance(given, Path):
@@ -108,6 +116,7 @@ def answer(
     extents = {
         **_of_scene(given if read else None),
         ASKED: "start and goal, where the scene has them",
+        **(_of_curves(scene, given) if scene.curved else {}),
         PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
         ENDS: "both are free",
         **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
@@ -119,12 +128,14 @@ def answer(
     how |= dict.fromkeys(refuted, REFUTED)
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
     proved = "" if findings else _sentence(given, read)
-    return Verification(checks, tuple(findings), (), time.perf_counter() - begin, proved)
+    return Verification(checks, tuple(findings), (), _since(begin), proved)
 
 
 def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object], begin: float) -> Verification:
     """Each proof by itself; and that at a place their goals stand for all orientations."""
-    findings, checks, world = list[Finding](), list[Check](), World(scene)
+    findings, checks = list[Finding](), list[Check]()
+    polygons = given.scene if scene.curved else scene  # that these are inside is seen to for each proof
+    world = polygons and World(polygons)
     if scene.start not in (None, given.start):
         findings.append(Finding(ASKED, "start", f"it is {_text(given.start)}, and another in the scene"))
     for goal in (scene.goal, *scene.goals):
@@ -140,7 +151,7 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
             findings.append(Finding(ASKED, f"proof {k}", "it has another start, or proves less than is said of all"))
     for place in given.places:
         poses = [proof.goal for proof in given.proofs if (proof.goal.x, proof.goal.y) == place]
-        intervals, single = left_out(world, place, poses)
+        intervals, single = left_out(world, place, poses) if world else (0, 0)
         if intervals or (single and given.of == "closed"):
             text = f"{intervals} intervals and {single} single ones of free orientations have no proof"
             findings.append(Finding(TURNS, f"({float(place[0]):g}, {float(place[1]):g})", text))
@@ -152,7 +163,11 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
     goals = ", ".join(_goal_text(goal) for goal in given.goals)
     proved = "" if findings else _none_leads(given, f"leads from {_text(given.start)} to any of {goals}")
     report(1.0)
-    return Verification(tuple(checks), tuple(findings), (), time.perf_counter() - begin, proved)
+    return Verification(tuple(checks), tuple(findings), (), _since(begin), proved)
+
+
+def _since(begin: float) -> float:
+    return time.perf_counter() - begin
 
 
 def _goal_text(goal: Goal) -> str:
@@ -190,6 +205,13 @@ def _box(stamp: Stamp) -> str:
 def _of_scene(given: Path | Separated | None) -> dict[str, str]:
     """If a file says which one it is for."""
     return {SCENE: "the one that the answer is for"} if given and given.stamp else {}
+
+
+def _of_curves(scene: Scene, given: Path | Separated) -> dict[str, str]:
+    count = sum(isinstance(shape, Curved) for shape in shapes_of(scene))
+    around, inside = ("around", "inside") if isinstance(given, Path) else ("inside", "around")
+    what = f"{count:,}: the answer's polygons are {around} those of robot and obstacles, {inside} a workspace"
+    return {ROUND: what}
 
 
 def _of_decimals(read: Read | None) -> dict[str, str]:

@@ -18,6 +18,8 @@ from cfree.exact.number import ExactPoint
 Affine = tuple[Fraction, Fraction, Fraction, Fraction, Fraction, Fraction]
 """(a, b, c, d, e, f) takes (x, y) to (a x + c y + e, b x + d y + f), as SVG writes it."""
 Vector = tuple[float, float]
+Tips = tuple[ExactPoint, ExactPoint] | None
+"""Where a curve begins and ends, if that is known better than in doubles."""
 
 IDENTITY: Affine = (Fraction(1), Fraction(0), Fraction(0), Fraction(1), Fraction(0), Fraction(0))
 
@@ -39,6 +41,7 @@ class Arc:
     v: Vector
     first: float
     last: float
+    tips: Tips = None
 
     def at(self, t: float, scale: float = 1.0) -> Vector:
         """The point at t, its distance from the center scaled."""
@@ -59,6 +62,7 @@ class Cubic:
     """A Bézier curve of degree 3."""
 
     points: tuple[Vector, Vector, Vector, Vector]
+    tips: Tips = None
 
 
 Segment = Line | Arc | Cubic
@@ -132,7 +136,7 @@ def ends(segment: Segment) -> tuple[Vector, Vector]:
             return (float(start[0]), float(start[1])), (float(end[0]), float(end[1]))
         case Arc():
             return segment.at(segment.first), segment.at(segment.last)
-        case Cubic(points):
+        case Cubic(points, _):
             return points[0], points[3]
 
 
@@ -145,10 +149,10 @@ def _reversed(segment: Segment) -> Segment:
     match segment:
         case Line(start, end):
             return Line(end, start)
-        case Arc(center, u, v, first, last):
-            return Arc(center, u, v, last, first)
-        case Cubic((a, b, c, d)):
-            return Cubic((d, c, b, a))
+        case Arc(center, u, v, first, last, tips):
+            return Arc(center, u, v, last, first, tips and tips[::-1])
+        case Cubic((a, b, c, d), tips):
+            return Cubic((d, c, b, a), tips and tips[::-1])
 
 
 def carried(ring: Sequence[Segment], by: Affine) -> Ring:
@@ -167,9 +171,9 @@ def carried(ring: Sequence[Segment], by: Affine) -> Ring:
         match segment:
             case Line(start, end):
                 moved.append(Line(applied(by, start), applied(by, end)))
-            case Arc(center, u, v, first, last):
+            case Arc(center, u, v, first, last, _):
                 moved.append(Arc(point(center), direction(u), direction(v), first, last))
-            case Cubic((p, q, r, s)):
+            case Cubic((p, q, r, s), _):
                 moved.append(Cubic((point(p), point(q), point(r), point(s))))
     return moved
 

@@ -15,15 +15,13 @@ contains the shape. Ends of straight segments stay what they are.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from itertools import pairwise
 
-from cfree.errors import InvalidPolygonError
-from cfree.exact.number import ExactPoint
-from cfree.formats.segments import (
+from cfree.curves.drawn import (
     Arc,
     Cubic,
     Line,
@@ -36,11 +34,13 @@ from cfree.formats.segments import (
     straight,
     turn,
 )
-from cfree.formats.source import CURVE_SHARE, Source
+from cfree.errors import InvalidPolygonError
+from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
 
 DEEPEST = 24  # times that a piece of a curve is halved
 FINEST = 1e-9  # of the drawing's size: the least error that doubles can promise
+Spend = Callable[[int], object]
 TRIES = 4  # with an eighth of the error each, where the polygon crosses itself
 
 
@@ -57,19 +57,19 @@ class Outline:
         return not all(map(straight, (self.outer, *self.holes)))
 
 
-def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool = False) -> Polygon:
+def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: Spend = abs) -> Polygon:
     """The polygon around a shape, or inside of it.
 
     Parameters
     ----------
-    source : Source
-        Whose steps are spent.
     outline : Outline
         In any direction.
     tolerance : float
         No point of the polygon's boundary is farther from the shape's.
     inside : bool
         For workspaces: what is outside stays outside.
+    spend : callable
+        Called with the number of steps that are taken; it may refuse.
 
     Raises
     ------
@@ -78,9 +78,9 @@ def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool 
 
     Examples
     --------
-    >>> from cfree.formats.segments import arc_of_circle
+    >>> from cfree.curves.drawn import arc_of_circle
     >>> disc = Outline([arc_of_circle((0, 0), 1)])
-    >>> around, within = (polygon_of(Source(""), disc, 0.1, inside) for inside in (False, True))
+    >>> around, within = (polygon_of(disc, 0.1, inside) for inside in (False, True))
     >>> len(around), round(float(around.exact_area), 2), round(float(within.exact_area), 2)
     (10, 3.27, 2.92)
     """
@@ -88,7 +88,7 @@ def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool 
     for attempt in range(TRIES):
         try:
             outer, *holes = (
-                _points(source, _directed(ring, k == 0), error, inside)
+                _points(_directed(ring, k == 0), error, inside, spend)
                 for k, ring in enumerate((outline.outer, *outline.holes))
             )
             return Polygon(outer, holes)
@@ -97,14 +97,6 @@ def polygon_of(source: Source, outline: Outline, tolerance: float, inside: bool 
                 raise
             error /= 8
     raise AssertionError
-
-
-def tolerance_of(source: Source, rings: Sequence[Ring]) -> float:
-    """The one that is asked for, or else a part of the size of all these rings."""
-    if source.reading.tolerance:
-        return source.reading.tolerance
-    x0, y0, x1, y1 = box_of(rings)
-    return max(x1 - x0, y1 - y0) / CURVE_SHARE
 
 
 def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
@@ -137,12 +129,12 @@ def _directed(ring: Ring, outer: bool) -> Ring:
     return ring if (area(rough(ring)) > 0) == outer else reversed_ring(ring)
 
 
-def _points(source: Source, ring: Ring, error: float, inside: bool) -> list[ExactPoint]:
+def _points(ring: Ring, error: float, inside: bool, spend: Spend) -> list[ExactPoint]:
     """Vertices of the chain to the right of a ring with the shape on its left, or to the left of it."""
     if straight(ring):
-        source.spend(len(ring))
+        spend(len(ring))
         return [segment.start for segment in ring if isinstance(segment, Line)]
-    points = _around(source, reversed_ring(ring) if inside else ring, error)
+    points = _around(reversed_ring(ring) if inside else ring, error, spend)
     return points[::-1] if inside else points
 
 
@@ -154,7 +146,7 @@ class _Vertex:
     corner: bool = False  # a vertex of a hull
 
 
-def _around(source: Source, ring: Ring, error: float) -> list[ExactPoint]:
+def _around(ring: Ring, error: float, spend: Spend) -> list[ExactPoint]:
     x0, y0, x1, y1 = box_of([ring])
     error = max(error, FINEST * max(x1 - x0, y1 - y0, *map(abs, (x0, y0, x1, y1))))
     chain: list[_Vertex] = []
@@ -168,9 +160,9 @@ def _around(source: Source, ring: Ring, error: float) -> list[ExactPoint]:
         if isinstance(before, Line):
             kept = before.end
         elif len(ring) > 1 and not _smooth(before, segment):
-            kept = point_of(*start)
+            kept = segment.tips[0] if segment.tips else point_of(*start)
         joint = isinstance(segment, Arc) and segment.closed
-        for piece in _pieces(source, segment, 0.9 * error):
+        for piece in _pieces(segment, 0.9 * error, spend):
             chain.append(_Vertex(piece[0], kept, joint))
             chain += [_Vertex(p, None, corner=True) for p in _right_of(piece)]
             kept, joint = None, True
@@ -200,20 +192,20 @@ def _on_grid(value: float, grid: Decimal) -> Fraction:
     return Fraction(round(Fraction(value) / Fraction(grid))) * Fraction(grid)
 
 
-def _pieces(source: Source, segment: Segment, error: float) -> Iterator[tuple[Vector, ...]]:
+def _pieces(segment: Segment, error: float, spend: Spend) -> Iterator[tuple[Vector, ...]]:
     """Control points of pieces with flat hulls, in their order."""
     if isinstance(segment, Arc):
         reach = max(math.hypot(*segment.u), math.hypot(*segment.v)) * math.sqrt(2)
         sweep = abs(segment.last - segment.first)
         step = min(math.pi / 4, max(1e-5, 2 * math.acos(1 / (1 + error / reach))) if reach else 1.0)
         count = max(1, math.ceil(sweep / step))
-        source.spend(count)
+        spend(count)
         yield from _divided(segment, count)
         return
     waiting = [(_control(segment), 0)]
     while waiting:
         piece, depth = waiting.pop()
-        source.spend()
+        spend(1)
         if depth >= DEEPEST or _flat(piece, error):
             yield piece
         else:
@@ -232,9 +224,9 @@ def _divided(arc: Arc, count: int) -> Iterator[tuple[Vector, ...]]:
 
 def _control(segment: Segment) -> tuple[Vector, ...]:
     match segment:
-        case Cubic(points):
+        case Cubic(points, _):
             return points
-        case Arc(center, u, v, _, _):
+        case Arc(center, u, v, _, _, _):
             x, y = (math.hypot(u[k], v[k]) for k in (0, 1))
             low, high = (center[0] - x, center[1] - y), (center[0] + x, center[1] + y)
             return segment.at(segment.first), low, high, segment.at(segment.last)

@@ -1,0 +1,266 @@
+"""Shapes with round edges: what they are, and polygons around them and inside, as near as one likes.
+
+docs/theory/curved-shapes.md has the proofs.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache
+from typing import Any
+
+from cfree.arguments import checked
+from cfree.curves import drawn
+from cfree.curves.drawn import Line
+from cfree.curves.hulls import FINEST, Outline, polygon_of
+from cfree.curves.rings import Circle, Cubic, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
+from cfree.errors import InvalidPolygonError, UnsupportedError
+from cfree.exact.half_angle import Angle
+from cfree.exact.number import ExactPoint, Number, to_fraction
+from cfree.polygons.disc import around_disc, inside_disc
+from cfree.polygons.minkowski import convex_sum
+from cfree.polygons.polygon import Polygon
+from cfree.value import Shown
+
+ROUGH = 64  # parts of its size: the error at which a shape is seen to be one
+LEAST_SIDES, MOST_SIDES = 8, 4096  # of polygons for discs
+KEPT = 4096  # polygons in memory
+REFUSED = (
+    "there are round shapes, and this takes polygons; give scene.outer(error) or scene.inner(error), "
+    "on the command line what cfree convert --outer or --inner writes"
+)
+
+
+@checked
+@dataclass(frozen=True, init=False, repr=False)
+class Curved(Shown):
+    """A shape with round edges, or one that is a polygon grown by a disc.
+
+    Parameters
+    ----------
+    path : sequence of points (x, y), `Arc`, `Bezier` and `Spline`, or a `Circle` or an `Ellipse`
+        The outer ring, in either direction. A path begins with a point; a point in it is the end of a line, and a line
+        closes it.
+    holes : sequence of the same
+    grown : number
+        All that is so near to the shape belongs to it, too; then its rings have only lines.
+
+    Raises
+    ------
+    InvalidPolygonError
+        If it is no shape: place, value and remedy.
+
+    Notes
+    -----
+    All numbers are exact, and so are the curves: what is inside is what a ring goes around. Where a ring crosses itself
+    is seen by polygons with an error of a 64th of its size and less, so that one that all but touches itself may be
+    taken for one.
+
+    Examples
+    --------
+    >>> from cfree.curves import Arc
+    >>> stadium = Curved([(0, 0), (4, 0), Arc((4, 2), center=(4, 1)), (0, 2), Arc((0, 0), center=(0, 1))])
+    >>> (around,), (within,) = stadium.outer(0.01), stadium.inner(0.01)
+    >>> [round(float(polygon.exact_area), 2) for polygon in (within, around)], round(8 + math.pi, 2)
+    ([11.11, 11.16], 11.14)
+    >>> car = Curved([(0, 0), (4, 0), (4, 1), (0, 1)], grown="1/2")
+    >>> [float(b) for b in car.box]
+    [-0.5, -0.5, 4.5, 1.5]
+    """
+
+    path: GivenRing
+    holes: tuple[GivenRing, ...]
+    grown: Fraction
+
+    def __init__(self, path: Any, holes: Iterable[Any] = (), *, grown: Number = 0) -> None:
+        values = {"path": given_ring(path), "holes": tuple(map(given_ring, holes)), "grown": to_fraction(grown)}
+        for name, value in values.items():
+            object.__setattr__(self, name, value)
+        if self.grown < 0:
+            raise InvalidPolygonError(f"grown: {grown}; give a length, 0 or more")
+        if self.grown:
+            self._base()
+        else:
+            self.outer(self.size / ROUGH)
+
+    @staticmethod
+    @checked
+    def circle(center: Point, radius: Number) -> Curved:
+        """A disc.
+
+        Examples
+        --------
+        >>> Curved.circle((1, "1/3"), 2).box
+        (Fraction(-1, 1), Fraction(-5, 3), Fraction(3, 1), Fraction(7, 3))
+        """
+        return Curved(Circle(center, radius))
+
+    @staticmethod
+    @checked
+    def ellipse(center: Point, radii: Sequence[Number], angle: Angle = 0) -> Curved:
+        """A shape within an ellipse, its first radius turned by an angle, as `cfree.Pose` takes it, from the x-axis."""
+        return Curved(Ellipse(center, radii, angle))
+
+    def __repr__(self) -> str:
+        x0, y0, x1, y1 = map(float, self.box)
+        return f"<Curved in ({x0:g}, {y0:g}, {x1:g}, {y1:g}), {len(self.holes)} holes>"
+
+    def __getattr__(self, name: str) -> Any:
+        if hasattr(Polygon, name) or name == "core":
+            raise UnsupportedError(REFUSED)
+        raise AttributeError(name)
+
+    def __len__(self) -> int:
+        raise UnsupportedError(REFUSED)
+
+    def __bool__(self) -> bool:
+        return True
+
+    @property
+    def curves(self) -> tuple[tuple[Piece, ...], ...]:
+        """The outer ring and the holes, as lines, spans of ellipses and cubic Bézier curves, exactly."""
+        return tuple(map(_pieces, (self.path, *self.holes)))
+
+    @property
+    def box(self) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+        """Around it, if not the smallest: least x and y, greatest x and y."""
+        xs, ys = zip(*(p for piece in self.curves[0] for p in _corners(piece)), strict=True)
+        return min(xs) - self.grown, min(ys) - self.grown, max(xs) + self.grown, max(ys) + self.grown
+
+    @property
+    def size(self) -> float:
+        """The longer side of the box."""
+        x0, y0, x1, y1 = self.box
+        return float(max(x1 - x0, y1 - y0))
+
+    @property
+    def least_error(self) -> float:
+        """Of polygons for it: doubles tell no less."""
+        return float(self.grown) * 2**-18 if self.grown else 4 * FINEST * self.size
+
+    @checked
+    def outer(self, error: float) -> tuple[Polygon, ...]:
+        """A polygon that contains it; of a grown shape one for each convex piece.
+
+        Parameters
+        ----------
+        error : float
+            No point of the polygon's boundary is farther from the shape.
+
+        Raises
+        ------
+        ValueError
+            If the error is less than `least_error`.
+
+        Examples
+        --------
+        >>> (octagon,) = Curved.circle((0, 0), 1).outer(0.2)
+        >>> len(octagon), all(math.hypot(x, y) > 1 for x, y in octagon.vertices)
+        (8, True)
+        """
+        return self._polygons(error, inside=False)
+
+    @checked
+    def inner(self, error: float) -> tuple[Polygon, ...]:
+        """A polygon inside of it, no point of the shape's boundary farther from it; none if it has cusps.
+
+        Parameters and errors are those of `outer`.
+
+        Examples
+        --------
+        >>> (octagon,) = Curved.circle((0, 0), 1).inner(0.2)
+        >>> len(octagon), all(math.hypot(x, y) < 1 for x, y in octagon.vertices)
+        (8, True)
+        """
+        return self._polygons(error, inside=True)
+
+    def _polygons(self, error: float, *, inside: bool) -> tuple[Polygon, ...]:
+        if not self.least_error <= error < math.inf:
+            raise ValueError(f"error {error}: give a length, {self.least_error:.3g} or more")
+        if self.grown:
+            return _grown(self._base(), self.grown, error, inside)
+        first = self.curves[0][0]
+        origin = first.center if isinstance(first, Span) else _corners(first)[0]
+        scale = Fraction(2) ** math.frexp(self.size)[1]
+        rings = tuple(tuple(_moved(piece, origin, scale) for piece in ring) for ring in self.curves)
+        found = _near(rings, float(error / scale), inside)
+        return () if found is None else (_placed(found, origin, scale),)
+
+    def _base(self) -> Polygon:
+        rings = (self.path, *self.holes)
+        if any(not isinstance(ring, tuple) or not all(isinstance(p, tuple) for p in ring) for ring in rings):
+            raise UnsupportedError("grown: of polygons only; give the larger circle, or a path of points")
+        outer, *holes = rings
+        return Polygon(outer, holes)  # type: ignore[arg-type]
+
+
+@lru_cache(KEPT)
+def _pieces(ring: GivenRing) -> tuple[Piece, ...]:
+    return tuple(exact_ring(ring))
+
+
+def _corners(piece: Piece) -> tuple[ExactPoint, ...]:
+    """Points, in whose box it is; the first is its start, unless it is of an ellipse."""
+    match piece:
+        case Line(start, end):
+            return start, end
+        case Cubic(points):
+            return points
+        case Span((x, y), (p, q), (r, s)):
+            far, high = abs(p) + abs(r), abs(q) + abs(s)
+            return (x - far, y - high), (x + far, y + high)
+    raise AssertionError
+
+
+def _moved(piece: Piece, origin: ExactPoint, scale: Fraction) -> drawn.Segment:
+    """In a frame in which doubles are enough."""
+
+    def point(p: ExactPoint) -> ExactPoint:
+        return (p[0] - origin[0]) / scale, (p[1] - origin[1]) / scale
+
+    def rounded(p: ExactPoint) -> drawn.Vector:
+        return float(p[0]), float(p[1])
+
+    match piece:
+        case Line(start, end):
+            return Line(point(start), point(end))
+        case Cubic(points):
+            p, q, r, s = map(point, points)
+            return drawn.Cubic((rounded(p), rounded(q), rounded(r), rounded(s)), (p, s))
+        case Span(center, u, v, quarters, rest):
+            (a, b), (c, d) = u, v
+            last = quarters * math.pi / 2 + 2 * math.atan(rest)
+            radii = rounded((a / scale, b / scale)), rounded((c / scale, d / scale))
+            tips = point(piece.at(0, Fraction(0))), point(piece.end)
+            return drawn.Arc(rounded(point(center)), *radii, 0.0, last, tips)
+    raise AssertionError
+
+
+@lru_cache(KEPT)
+def _near(rings: tuple[tuple[drawn.Segment, ...], ...], error: float, inside: bool) -> Polygon | None:
+    """Around them, or inside, if that does not cross itself."""
+    outer, *holes = map(list, rings)
+    try:
+        return polygon_of(Outline(outer, tuple(holes)), error, inside)
+    except InvalidPolygonError:
+        if inside:
+            return None
+        raise
+
+
+def _placed(polygon: Polygon, origin: ExactPoint, scale: Fraction) -> Polygon:
+    outer, *holes = ([(x * scale + origin[0], y * scale + origin[1]) for x, y in ring] for ring in polygon.exact_rings)
+    return Polygon(outer, holes)
+
+
+@lru_cache(KEPT)
+def _grown(polygon: Polygon, radius: Fraction, error: float, inside: bool) -> tuple[Polygon, ...]:
+    """Sums of its convex pieces and a polygon for the disc."""
+    share = error / float(radius)
+    turn = math.acos(max(0.0, 1 - share / 2) if inside else 1 / (1 + share / 2))
+    sides = min(max(LEAST_SIDES, 4 * math.ceil(math.pi / (4 * turn))), MOST_SIDES)
+    ring = (inside_disc if inside else around_disc)(radius, sides)
+    return tuple(Polygon(convex_sum([polygon.exact_vertices[k] for k in piece], ring)) for piece in polygon.pieces)
