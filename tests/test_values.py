@@ -15,6 +15,7 @@ import cfree
 import cfree.verify
 from cfree import Pose, Rotation, Translation
 from cfree.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex
+from cfree.curves import Arc, Bezier, Circle, Ellipse, Spline
 from cfree.exact import Surd
 from cfree.formats.shapes import Shape
 from cfree.rational import rational_helix, rational_range, rational_segment, rational_surface
@@ -88,6 +89,12 @@ def samples(x: int) -> dict[str, Any]:
         "Blocker": cfree.Blocker(x, path),
         "Bottleneck": cfree.analysis.Bottleneck(Pose(x, 0), (0, 1)),
         "Planner": cfree.Planner(scene),
+        "Arc": Arc((x, 0), (0, 1)),
+        "Bezier": Bezier([(x, 0), (0, 1)]),
+        "Circle": Circle((x, 0), 1),
+        "Curved": cfree.Curved.circle((x, 0), 1),
+        "Ellipse": Ellipse((x, 0), (1, 2), "30deg"),
+        "Spline": Spline([(x, 0), (0, 1), (1, 1)]),
         "Polygon": cfree.Polygon([(0, 0), (x, 0), (x + 1, 0), (0, 9)]),
         "Pose": Pose(x, 0, 1.5),
         "Poses": cfree.Poses([[x, 0], [0, 1]], [0.1, 3]),

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from cfree.collision.pose_checker import PoseChecker as PoseChecker
     from cfree.collision.pose_checker import is_free as is_free
     from cfree.collision.slide import Slide as Slide
+    from cfree.curves.curved import Curved as Curved
     from cfree.errors import CfreeError as CfreeError
     from cfree.errors import FormatError as FormatError
     from cfree.errors import IncompleteError as IncompleteError
@@ -76,6 +77,7 @@ __version__ = "0.1.0"
 _HOMES = {
     "errors": "CfreeError FormatError IncompleteError "
     "InvalidPolygonError InvalidPoseError InvariantError UndecidedError UnsupportedError",
+    "curves.curved": "Curved",
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",
     "scene.scene": "Scene",
@@ -110,7 +112,7 @@ _HOMES = {
     "viewer.notebook": "widget",
 }
 _PACKAGES = (
-    "analysis arrangements collision contact distributed exact figures film geometry "
+    "analysis arrangements collision contact curves distributed exact figures film geometry "
     "ompl planning plot rational verify viewer"
 )
 __getattr__, __dir__, _NAMES = lazy_names(__name__, _HOMES, _PACKAGES)

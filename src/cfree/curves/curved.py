@@ -6,7 +6,7 @@ docs/theory/curved-shapes.md has the proofs.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -75,7 +75,7 @@ class Curved(Shown):
     holes: tuple[GivenRing, ...]
     grown: Fraction
 
-    def __init__(self, path: Any, holes: Iterable[Any] = (), *, grown: Number = 0) -> None:
+    def __init__(self, path: Sequence[Any] | Circle | Ellipse, holes: Sequence[Any] = (), *, grown: Number = 0) -> None:
         values = {"path": given_ring(path), "holes": tuple(map(given_ring, holes)), "grown": to_fraction(grown)}
         for name, value in values.items():
             object.__setattr__(self, name, value)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from cfree.arguments import checked
 from cfree.curves.drawn import Line
 from cfree.errors import InvalidPolygonError
 from cfree.exact.half_angle import Angle
@@ -21,6 +22,7 @@ Point = Sequence[Number]
 DEGREE = 3  # of splines
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Arc:
     """Of a circle, or of an ellipse, from the point before it.
@@ -63,6 +65,7 @@ class Arc:
         object.__setattr__(self, "clockwise", clockwise)
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Bezier:
     """A Bézier curve from the point before it.
@@ -81,6 +84,7 @@ class Bezier:
         object.__setattr__(self, "points", tuple(map(exact_point, points)))
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Spline:
     """A uniform cubic B-spline from the point before it, clamped: it begins at its first control point and ends at its last.
@@ -99,6 +103,7 @@ class Spline:
         object.__setattr__(self, "points", tuple(map(exact_point, points)))
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Circle:
     """A whole circle.
@@ -117,6 +122,7 @@ class Circle:
         object.__setattr__(self, "radius", _length(radius, "radius"))
 
 
+@checked
 @dataclass(frozen=True, init=False)
 class Ellipse:
     """A whole ellipse.

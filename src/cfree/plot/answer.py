@@ -23,6 +23,7 @@ from cfree.planning.separation import Separated
 from cfree.plot.boundary import around, new_figure, new_space, plain, roomy, set_ticks, set_window, with_unit
 from cfree.plot.depth_sort import Painting
 from cfree.plot.labels import BODY, Labels, name_in_space
+from cfree.plot.looks import looks, of_polygons
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.strips import strips
@@ -130,6 +131,7 @@ def picture(
     """
     from cfree.planning.separation import Separated
 
+    scene = of_polygons(answer, scene)
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)
     track = Track.of(answer, scene)
@@ -143,13 +145,13 @@ def picture(
 
 def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     """Start, goal and the obstacles that part them; beside it the surface between them."""
-    window = _window(answer, scene)
+    window, shown = _window(answer, scene), looks(answer, scene)
     figure, ax = _new_picture(window, len(answer.pieces) > 0)
-    draw_surroundings(ax, scene)
-    _draw_barrier(ax, scene, answer.obstacles)
+    draw_surroundings(ax, shown)
+    _draw_barrier(ax, shown, answer.obstacles)
     ends = {"start": answer.start, "goal": answer.goal}
     for name, pose in ends.items():
-        draw_robot(ax, scene, pose, faint=name == "goal")
+        draw_robot(ax, shown, pose, faint=name == "goal")
     set_window(ax, window, scene.units)
     labels = Labels(ax, scene)
     labels.avoid_robot(scene, ends.values(), BODY)

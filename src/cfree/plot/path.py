@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import SAME, Travel, ghosts
 from cfree.plot.boundary import around, new_axes, plain, roomy, set_window, with_unit
 from cfree.plot.labels import BODY, GHOST, LINE, Labels
+from cfree.plot.looks import looks, of_polygons
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
@@ -142,7 +143,7 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
     >>> ax.get_title()
     '2 motions, length 7.14 m, turning 90°, clearance 0.926 m (≥ 0.924 proved)'
     """
-    track = Track.of(path, scene)
+    track = Track.of(path, of_polygons(path, scene))
     if ax is None:
         x0, y0, x1, y1 = track.window
         ax = new_axes((8, float(np.clip(1.3 + 6.2 * (y1 - y0) / (x1 - x0), 3, 9))), (0.09, 0.1, 0.78, 0.83))
@@ -156,6 +157,7 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> None:
     import shapely
     from matplotlib.collections import LineCollection, PathCollection
 
+    track = replace(track, scene=looks(track.path, track.scene))
     scene, path = track.scene, track.path
     draw_surroundings(ax, scene)
     rings = rings_of(scene.robot)

@@ -12,6 +12,7 @@ import shapely
 from numpy.typing import NDArray
 
 from cfree import palette
+from cfree.curves.curved import Curved
 from cfree.exact.pose import Pose
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.kinds import COLOURS, PatchKind
@@ -24,6 +25,7 @@ from cfree.paths.travel import Travel, ghosts
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.plot.labels import BODY, CORNERS, LINE, MAY, WALL
+from cfree.plot.looks import EDGES, smooth
 from cfree.plot.workspace import roomiest
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BOUNDS, WORKSPACE
@@ -53,7 +55,7 @@ def picture(value: object) -> str | None:
     """A value as SVG; None if there is nothing to be seen of it."""
     match value:
         case Scene():
-            return _workspace(value, [value.start], [value.goal, *value.goals], (), repr(value))
+            return _workspace(smooth(value), [value.start], [value.goal, *value.goals], (), repr(value))
         case Path():
             return _path(value)
         case Separated() | AllSeparated():
@@ -71,9 +73,10 @@ def picture(value: object) -> str | None:
             return _slices(value.free_space.surfaces, value.free_space, repr(value), value.index)
         case Mesh():
             return _mesh(value)
-        case Polygon():
-            panel = Panel(_around(value.rings), WIDTH, HEIGHT / 2)
-            panel.shapes(value.rings, OBSTACLE)
+        case Polygon() | Curved():
+            rings = _rings([value] if isinstance(value, Polygon) else value.outer(value.size / EDGES))
+            panel = Panel(_around(rings), WIDTH, HEIGHT / 2)
+            panel.shapes(rings, OBSTACLE)
             return drawing([panel], WIDTH, HEIGHT / 2, repr(value))
     raise TypeError(f"no picture of a {type(value).__name__}")
 
