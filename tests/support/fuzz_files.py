@@ -26,7 +26,7 @@ import numpy as np
 
 import cfree.verify
 import fuzz
-from answer_mutations import corridor, tee, text_of
+from answers import corridor, tee, text_of
 from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_scene, plan, save
 from cfree.errors import CfreeError
 from cfree.formats.boundary_file import load_boundary, load_space, signed

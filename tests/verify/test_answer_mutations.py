@@ -13,14 +13,10 @@ from answer_mutations import (
     OF_SEPARATIONS,
     OF_SLIDES,
     Mutation,
-    corridor,
-    distances,
-    separations,
-    tee,
-    text_of,
     tried,
     verdict,
 )
+from answers import corridor, distances, separations, tee, text_of
 
 
 @pytest.mark.slow

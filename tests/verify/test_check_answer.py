@@ -19,7 +19,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from answer_mutations import corridor, separations, tee
+from answers import corridor, separations, tee
 from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan, save
 from cfree.errors import InvalidPolygonError
 from cfree.polygons.polygon import Polygon

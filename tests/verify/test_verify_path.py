@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 import cfree.verify
 import strategies
-from answer_mutations import corridor
+from answers import corridor
 from cfree import MotionChecker, Path, Pose, Rotation, Scene, Translation, load_scene, save
 from cfree.verify.motions import _samples, is_nowhere_positive, touches
 from cfree.verify.world import World
