@@ -398,6 +398,7 @@ def test_view_writes_a_page_with_the_scene_in_it(run: Run, tmp_path: Path) -> No
     assert not (tmp_path / "other.html").exists()
 
 
+@pytest.mark.slow
 def test_figures_are_written_as_asked(run: Run, tmp_path: Path) -> None:
     result = run("figures", "-o", tmp_path / "new", "--only", "6,2", "--format", "svg,png", "--json")
     assert result.exit_code == 0

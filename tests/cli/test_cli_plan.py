@@ -138,6 +138,7 @@ def test_a_form_may_be_asked_for(run: Run, tmp_path: Path) -> None:
     assert run("plan", CONVEX, "-o", file, "--format", "xml").exit_code == 2
 
 
+@pytest.mark.slow
 def test_goals_may_be_in_the_scene(run: Run, tmp_path: Path) -> None:
     scene, picture = tmp_path / "scene.json", tmp_path / "scene.png"
     shape, walls = {"outer": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}, [{"outer": [[4, -9], [5, -9], [5, 9], [4, 9]]}]
@@ -153,6 +154,7 @@ def test_goals_may_be_in_the_scene(run: Run, tmp_path: Path) -> None:
     assert (seen[..., 0] > 2 * seen[..., 1]).sum() > 1000 < (seen[..., 1] > 1.4 * seen[..., 0]).sum()  # both kinds
 
 
+@pytest.mark.slow
 def test_the_picture_shows_what_is_in_the_way(run: Run, tmp_path: Path) -> None:
     scene, picture = tmp_path / "scene.json", tmp_path / "way.svg"
     shape = {"outer": [[-1, -1], [1, -1], [1, 1], [-1, 1]]}
@@ -191,6 +193,7 @@ def test_bad_wishes_get_one_clear_message(run: Run, arguments: list[str], messag
     assert "Traceback" not in result.output
 
 
+@pytest.mark.slow
 def test_a_path_says_where_it_does_what_is_dear(run: Run, tmp_path: Path) -> None:
     scene = tmp_path / "corridor.json"
     hall = [[0, 0], [2, 0], [2, 9], [0, 9]]
@@ -328,6 +331,7 @@ def test_poses_with_times_and_standard_output(run: Run, tmp_path: Path) -> None:
         assert result.exit_code == 2 and said in result.stderr
 
 
+@pytest.mark.slow
 def test_improving_says_what_there_was_before(run: Run) -> None:
     flat = "examples/scenes/flat.json"
     facts = json.loads(run("plan", flat, "--improve", "300ms", "--json").stdout)

@@ -130,6 +130,7 @@ def test_plans_read_what_is_near(made: Sharded) -> None:
         made.plan((-5, -5, 0), (1, 1, 0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(6))
 def test_verdicts_are_those_of_the_whole_scene(seed: int, tmp_path: Path) -> None:
     """Courtyards with and without doors, in which there are stones."""

@@ -20,7 +20,6 @@ from compared import scene_of
 from shapes import KINDS, random_scene
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
-QUICK = ("comb_hook", "degenerate_bounds_on_walls", "degenerate_island")
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 
 
@@ -76,7 +75,7 @@ def check_cells_of_poses(found: Sharded, space: cfree.FreeSpace) -> None:
 @pytest.mark.parametrize(
     "path",
     [
-        pytest.param(path, marks=() if path.stem in QUICK else pytest.mark.slow)
+        pytest.param(path, marks=() if path.stem == "degenerate_island" else pytest.mark.slow)
         for path in sorted(SCENES.glob("*.json"))
         if path.stem not in ("benchmr_warehouse", "nest_swim", "street_Berlin")
     ],
@@ -92,6 +91,7 @@ def test_random_scenes_are_the_same_in_any_tiles(kind: str, tmp_path: Path) -> N
     check_tiles(scene_of(random_scene(11, kind)), tmp_path, (1, 5))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_borders_run_through_vertices_and_along_edges(seed: int, tmp_path: Path) -> None:
     """Squares on a lattice, some of them touching, in a hall; far away from the origin, and at quotients."""
@@ -108,6 +108,7 @@ def test_borders_run_through_vertices_and_along_edges(seed: int, tmp_path: Path)
     check_tiles(cfree.Scene(robot, squares, workspace=box(-3, -3, 18, 18)), tmp_path, (1, 4, 16))
 
 
+@pytest.mark.slow
 def test_edges_and_polygons_lead_over_many_tiles(tmp_path: Path) -> None:
     """A wall along all others, and a comb around them, with bounds."""
     teeth = [p for k in range(9) for p in ((4 * k, 0), (4 * k, -3), (4 * k + 1, -3), (4 * k + 1, 0))]

@@ -53,6 +53,7 @@ def some_frames(stage: Stage, shots: list, count: int = 6) -> Iterator[None]:  #
         yield
 
 
+@pytest.mark.slow
 def test_no_text_of_a_film_touches_another(five: Boundary, hall: Boundary) -> None:
     (shots,) = shots_of([five], 60, "paper")
     films = [(Stage(five, SMALL, 4), shots), apart(hall, answer_of(hall), 12, SMALL, 4)]
@@ -65,7 +66,8 @@ def test_no_text_of_a_film_touches_another(five: Boundary, hall: Boundary) -> No
         assert list(touching(table.figure)) == [], azimuth
 
 
-@pytest.mark.parametrize("seed", [6, pytest.param(7, marks=pytest.mark.slow), pytest.param(8, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [6, 7, 8])
 def test_no_text_of_the_film_of_a_path_touches_another(seed: int) -> None:
     for scene, start, goal in scenes(seed, 4):
         path = cfree.plan(scene, start, goal)
@@ -192,6 +194,7 @@ def test_the_axes_stay_at_the_near_edges_all_around() -> None:
         box.show(False)
 
 
+@pytest.mark.slow
 def test_a_turntable_is_a_film(hall: Boundary, tmp_path: FilePath) -> None:
     cfree.film.save_film([hall], tmp_path / "turn.gif", seconds=1, fps=8, size=(160, 90), storyboard="turntable")
     with Image.open(tmp_path / "turn.gif") as film:

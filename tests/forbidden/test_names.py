@@ -94,6 +94,7 @@ def of_first(robot: list[Shape], obstacles: list[Shape], order: list[int]) -> di
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", sorted({*KINDS} - {"bounds", "workspace"}))
 def test_a_part_with_what_is_within_reach_and_far_obstacles_in_any_order(kind: str) -> None:
     crowds = (crowd(kind, seed) for seed in count())

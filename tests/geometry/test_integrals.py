@@ -144,6 +144,7 @@ def test_helices_turn_and_rulings_do_not() -> None:
 # Gauss and Bonnet
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
 def test_curvature_adds_up_to_the_euler_number_on_all_example_scenes(path: Path) -> None:
     result = boundary(load_scene(path), threads=1)

@@ -51,6 +51,7 @@ def test_what_has_room_gets_through(clearance: str) -> None:
     assert found and found.found >= float(path.clearance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clearance", ["0.5001", "0.6", 3])
 def test_what_has_none_is_proved_apart(clearance: str) -> None:
     proof = plan(gate(), UP, DOWN, clearance=clearance)

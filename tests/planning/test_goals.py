@@ -190,6 +190,7 @@ def test_files(tmp_path: FilePath) -> None:
         load(file)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_intervals_left_out_are_those_that_turning_finds(kind: str) -> None:
     """By other code; the poses that stand for them are in each."""

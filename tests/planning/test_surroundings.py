@@ -103,6 +103,7 @@ def test_cost_follows_the_answer() -> None:
     assert found.trimmed_patches < 0.05 * MotionChecker(scene).features.patches
 
 
+@pytest.mark.slow
 def test_answers_are_those_of_a_built_space() -> None:
     for name in ("nest_swim", "benchmr_parking1", "flat"):
         scene = load_scene(ROOT / f"examples/scenes/{name}.json")

@@ -35,7 +35,8 @@ def test_texts_that_touch_are_found() -> None:
     assert list(touching(figure)) == [("one", "two")]
 
 
-@pytest.mark.parametrize("seed", [1, pytest.param(2, marks=pytest.mark.slow), pytest.param(5, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 5])
 def test_no_label_of_an_answer_touches_another(seed: int) -> None:
     for k, (scene, start, goal) in enumerate(scenes(seed)):
         figure = picture(cfree.plan(scene, start, goal), scene, cfree.boundary(scene) if k % 3 == 0 else None)
@@ -58,6 +59,7 @@ def boxes_in_the_plane(figure: Figure) -> dict[str, shapely.Geometry]:
     return {text: shapely.transform(box, back) for text, box in written(figure)}
 
 
+@pytest.mark.slow
 def test_start_and_goal_are_clear_of_walls_and_robots() -> None:
     for scene, start, goal in scenes(4):
         path = cfree.plan(scene, start, goal)

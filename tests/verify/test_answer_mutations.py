@@ -30,6 +30,7 @@ def test_one_wrong_thing_is_rejected_or_still_true(mutate: Mutation) -> None:
     assert found.total() >= (2 if mutate.__name__ == "claim_more_or_less" else max(3, still_true)), found
 
 
+@pytest.mark.slow
 def test_what_is_right_is_verified() -> None:
     for scene, answer in (corridor(), tee(), *separations(), *distances()):
         assert verdict(scene, json.loads(text_of(answer))) == ""

@@ -23,7 +23,7 @@ from cfree.formats.scene_file import scene_text
 from cfree.geometry.local import local_geometry
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
-LARGE = ("benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin", "benchmr_parking1")
+QUICK = ("degenerate_island", "sofa_corner")
 NODE = shutil.which("node")
 pytestmark = pytest.mark.skipif(NODE is None, reason="node is not installed: the page's core was not run")
 
@@ -58,7 +58,7 @@ def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
 @pytest.mark.parametrize(
     "path",
     [
-        pytest.param(path, marks=pytest.mark.slow if path.stem in LARGE else ())
+        pytest.param(path, marks=() if path.stem in QUICK else pytest.mark.slow)
         for path in sorted(SCENES.glob("*.json"))
         if path.stem != "benchmr_warehouse"
     ],
@@ -72,6 +72,7 @@ def test_boundary_and_cells_have_the_same_bytes(path: Path) -> None:
         assert found[name]["sha256"] == hashlib.sha256(np.ascontiguousarray(column).tobytes()).hexdigest(), name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_fig9", "comb_hook", "sofa_corner", "degenerate_island"])
 def test_paths_of_the_page_are_free(name: str) -> None:
     scene = cfree.load_scene(SCENES / f"{name}.json")
