@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from functools import cache
 from itertools import pairwise
@@ -24,6 +24,8 @@ STEP = 0.001  # of the extent of the space; OMPL's default is 0.01
 FINER = 100
 SIMPLIFY = 0.5  # seconds
 
+Sweep = tuple[tuple[float, float, float], tuple[float, float, float]]  # where a motion begins, what it adds
+
 
 @dataclass(slots=True)
 class Runs:
@@ -37,8 +39,9 @@ class Runs:
     waypoints: list[int] = field(default_factory=list)
 
 
-def rival(fresh: Callable[[], cfree.Scene], cap: float, runs: int) -> Runs:
-    """OMPL on a scene, read anew for each run."""
+def rival(fresh: Callable[[], cfree.Scene], cap: float, runs: int, step: float = STEP) -> Runs:
+    """OMPL on a scene, read anew for each run, at most `cap` processor seconds; motions are tested every `step` of the
+    extent."""
     from ompl import geometric, util
 
     util.setLogLevel(util.LogLevel.LOG_NONE)
@@ -47,18 +50,20 @@ def rival(fresh: Callable[[], cfree.Scene], cap: float, runs: int) -> Runs:
     for _ in range(runs):
         scene = fresh()
         start = time.process_time()
-        setup = prepared(scene, STEP)
+        setup = prepared(scene, step)
         setup.setPlanner(geometric.RRTConnect(setup.getSpaceInformation()))
-        setup.solve(cap)
+        while (left := cap - (time.process_time() - start)) > 0.01 and not setup.haveExactSolutionPath():
+            setup.solve(left)  # of the clock, which other processes share; the trees go on growing
         result.seconds.append(time.process_time() - start)
         if not setup.haveExactSolutionPath():
             continue
         result.solved += 1
-        verdict = looked_at_again(checker, setup, STEP)
+        finer = step * setup.getStateSpace().getMaximumExtent() / FINER
+        verdict = looked_at_again(checker, sweeps_of(setup), finer)
         result.clip += verdict == "clips"
         result.undecided += verdict == "undecided"
         setup.simplifySolution(SIMPLIFY)
-        if looked_at_again(checker, setup, STEP) != "clips":
+        if looked_at_again(checker, sweeps_of(setup), finer) != "clips":
             result.lengths.append(length_of(setup, radius))
             result.waypoints.append(setup.getSolutionPath().getStateCount())
     return result
@@ -123,25 +128,24 @@ def prepared(scene: cfree.Scene, step: float) -> Any:
     return setup
 
 
-def looked_at_again(checker: cfree.PoseChecker, setup: Any, step: float) -> str:
-    """Whether a path of OMPL is free, clips, or comes too close to an obstacle to tell."""
-    from cfree.ompl import sweep_of
-
-    longest = step * setup.getStateSpace().getMaximumExtent() / FINER
+def looked_at_again(checker: cfree.PoseChecker, sweeps: Iterable[Sweep], finer: float) -> str:
+    """Whether a path is free, clips, or comes too close to an obstacle to tell by poses `finer` apart."""
     verdict = "free"
-    for start, goal in pairwise(setup.getSolutionPath().getStates()):
-        pose, by = sweep_of(start, goal)
+    for pose, by in sweeps:
         if checker.sweep_is_free(pose, by):
             continue
-        count = math.ceil((math.hypot(by[0], by[1]) + 0.5 * abs(by[2])) / longest) + 1
+        count = math.ceil((math.hypot(by[0], by[1]) + 0.5 * abs(by[2])) / finer) + 1
         if not checker.is_free(np.array(pose) + np.linspace(0, 1, count)[:, None] * np.array(by)).all():
             return "clips"
         verdict = "undecided"
     return verdict
 
 
-def length_of(setup: Any, scale: float) -> float:
+def sweeps_of(setup: Any) -> list[Sweep]:
     from cfree.ompl import sweep_of
 
-    steps = [sweep_of(*ends)[1] for ends in pairwise(setup.getSolutionPath().getStates())]
-    return sum(math.hypot(dx, dy) + scale * abs(turn) for dx, dy, turn in steps)
+    return [sweep_of(*ends) for ends in pairwise(setup.getSolutionPath().getStates())]
+
+
+def length_of(setup: Any, scale: float) -> float:
+    return sum(math.hypot(dx, dy) + scale * abs(turn) for _, (dx, dy, turn) in sweeps_of(setup))

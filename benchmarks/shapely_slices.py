@@ -43,10 +43,13 @@ class Pieces:
 
 
 def pieces_of(polygons: Iterable[cfree.Polygon]) -> list[Pieces]:
+    return grouped(polygon.vertices[list(piece)] for polygon in polygons for piece in polygon.pieces)
+
+
+def grouped(pieces: Iterable[Floats]) -> list[Pieces]:
     by_size: dict[int, list[Floats]] = {}
-    for polygon in polygons:
-        for piece in polygon.pieces:
-            by_size.setdefault(len(piece), []).append(polygon.vertices[list(piece)])
+    for piece in pieces:
+        by_size.setdefault(len(piece), []).append(piece)
     return [Pieces.of(np.array(corners)) for corners in by_size.values()]
 
 
