@@ -9,7 +9,7 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
-from measure import REAL, SCENES, Report, timed
+from measure import POLYGONS, REAL, SCENES, Report, timed
 
 import cfree
 from cfree.scene.features import BODY, ShapeFeatures, scene_features
@@ -32,7 +32,7 @@ def run(quick: bool) -> Report:
     if missing:
         report.notes.append(f"nothing to compare: no {', no '.join(missing)}; pip install -e '.[bench]'")
         return report
-    small = sorted(path.stem for path in SCENES.glob("*.json") if path.stem not in REAL)
+    small = sorted(path.stem for path in POLYGONS if path.stem not in REAL)
     ratios: dict[str, tuple[float, float]] = {}
     for name in ("nest_shirts", "five_convex") if quick else (*REAL, *small):
         scene = cfree.load_scene(SCENES / f"{name}.json")

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from importlib.util import find_spec
 
 from families import QUESTIONS, SEEDS
-from measure import SCENES, Report
+from measure import POLYGONS, Report
 from ompl_rival import SIMPLIFY, Runs, rival
 
 import cfree
@@ -50,7 +50,7 @@ class Row:
 def run(quick: bool) -> list[Report]:
     if missing := [name for name in ("numba", "ompl") if find_spec(name) is None]:
         return [Report("From start to goal", (), notes=[f"no {', no '.join(missing)}; pip install -e '.[bench,ompl]'"])]
-    stored = {path.stem: cfree.load_scene(path) for path in sorted(SCENES.glob("*.json"))}
+    stored = {path.stem: cfree.load_scene(path) for path in POLYGONS}
     stored = {name: scene for name, scene in stored.items() if scene.start and scene.goal}
     counted: dict[str, Callable[[], cfree.Scene]] = {
         f"{name} {seed}": lambda make=QUESTIONS[name], seed=seed: make(seed)  # type: ignore[misc]

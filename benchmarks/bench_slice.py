@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
-from measure import REAL, SCENES, Report, timed
+from measure import POLYGONS, REAL, SCENES, Report, timed
 from shapely_slices import Pieces, pieces_of, sums_by_hull, sums_by_merging
 
 import cfree
@@ -57,7 +57,7 @@ def run(quick: bool) -> list[Report]:
          "by merged edges ms", "ratios", "length differs by"),
         notes=["ratios: segments, polygons"],
     )  # fmt: skip
-    small = sorted(path.stem for path in SCENES.glob("*.json") if path.stem not in REAL)
+    small = sorted(path.stem for path in POLYGONS if path.stem not in REAL)
     ratios: dict[str, tuple[float, float, float]] = {}
     for name in ("nest_shirts", "five_convex") if quick else (*REAL, *small):
         case = Case.of(name)

@@ -23,6 +23,7 @@ import shapely
 
 ROOT = Path(__file__).resolve().parent.parent
 SCENES = ROOT / "examples" / "scenes"
+POLYGONS = [path for path in sorted(SCENES.glob("*.json")) if not path.stem.startswith("round_")]
 REAL = ("benchmr_parking1", "benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin")
 
 

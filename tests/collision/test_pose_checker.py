@@ -19,9 +19,9 @@ from cfree import InvalidPoseError, Polygon, Pose, PoseChecker, Poses, Scene, bo
 from cfree.collision.pose_checker import UNCERTAIN
 from cfree.contact import is_forbidden
 from compared import plain_of, scene_of
+from examples import POLYGONS
 from shapes import PlainScene
 
-SCENES = sorted(Path("examples/scenes").glob("*.json"))
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 TRIANGLE = [(0, 0), (2, 0), (0, 1)]
 
@@ -141,7 +141,7 @@ def test_what_doubles_are_certain_of_is_true() -> None:
     assert certain > 20 and uncertain > 20
 
 
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", POLYGONS, ids=lambda path: path.stem)
 def test_shipped_scenes_beside_areas_of_shapely(path: Path) -> None:
     scene = load_scene(path)
     robot, obstacles, bounds, workspace = plain_of(scene)

@@ -17,6 +17,7 @@ from cfree.distributed.part import Part
 from cfree.distributed.store import SceneStore, is_small, rounding, store_scene
 from cfree.distributed.trim import digest, trim_tile
 from compared import scene_of
+from examples import POLYGONS
 from shapes import KINDS, random_scene
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
@@ -76,7 +77,7 @@ def check_cells_of_poses(found: Sharded, space: cfree.FreeSpace) -> None:
     "path",
     [
         pytest.param(path, marks=() if path.stem == "degenerate_island" else pytest.mark.slow)
-        for path in sorted(SCENES.glob("*.json"))
+        for path in POLYGONS
         if path.stem not in ("benchmr_warehouse", "nest_swim", "street_Berlin")
     ],
     ids=lambda path: path.stem,

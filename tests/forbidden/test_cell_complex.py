@@ -17,10 +17,11 @@ from cfree import Boundary, Scene, boundary, load_scene
 from cfree.forbidden.cell_complex import CellComplex, glue
 from cfree.forbidden.record import glue_by
 from compared import scene_of
+from examples import POLYGONS
 from shapes import KINDS, PlainScene, box, random_scene
 
 ROOT = Path(__file__).parents[2]
-SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 20_000)
+SMALL = [path for path in POLYGONS if path.stat().st_size < 20_000]
 CASES = sorted((ROOT / "tests/cases").glob("*.json"))
 
 

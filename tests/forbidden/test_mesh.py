@@ -18,10 +18,11 @@ from cfree.forbidden.mesh import Mesh
 from cfree.formats.scene_file import load_scene
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
+from examples import POLYGONS
 
 ROOT = Path(__file__).parents[2]
 SCENES = ROOT / "examples/scenes"
-SMALL = sorted(p for p in SCENES.glob("*.json") if p.stat().st_size < 20_000)
+SMALL = [path for path in POLYGONS if path.stat().st_size < 20_000]
 CASES = sorted((ROOT / "tests/cases").glob("*.json"))
 ERRORS = (0.3, 0.03)  # in robot's radii
 

@@ -16,9 +16,9 @@ import strategies
 from cfree import boundary, load_scene
 from cfree.forbidden.patch import Contact, Patch, contact
 from compared import cross, length, minus, mistakes, placed, plain_of, rotation, scene_of
+from examples import FOLDER, POLYGONS
 from shapes import KINDS, PlainScene, box, random_scene
 
-SCENES = sorted((Path(__file__).parents[2] / "examples" / "scenes").glob("*.json"))
 thorough = settings(
     deadline=None,
     derandomize=True,
@@ -54,7 +54,7 @@ def test_slices_agree_with_united_sums_of_pieces(kind: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", POLYGONS, ids=lambda path: path.stem)
 def test_slices_of_the_shipped_scenes_agree(path: Path) -> None:
     scene = load_scene(path)
     plain, result = plain_of(scene), boundary(scene)
@@ -91,7 +91,7 @@ def test_slices_at_right_angles_are_those_just_after(angle) -> None:
 
 
 def test_slices_at_right_angles_keep_their_digits() -> None:
-    result = boundary(load_scene(SCENES[0].parent / "degenerate_collinear_walls.json"))
+    result = boundary(load_scene(FOLDER / "degenerate_collinear_walls.json"))
     now, after = result.slice("0deg"), result.slice(1e-7)
     assert np.abs(now.segments - after.segments).max() < 2e-6
 

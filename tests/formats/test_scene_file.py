@@ -20,20 +20,21 @@ from cfree.formats.json_positions import places
 from cfree.formats.scene_file import load_scene, number_text, save_scene, scene_text
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
+from examples import EXAMPLES, POLYGONS
 from scene_texts import GEOJSON, WKT, faults, read
 
 ROOT = Path(__file__).parents[2]
-SCENES = sorted((ROOT / "examples" / "scenes").glob("*.json"))
 TRIANGLE = '{"outer": [[0, 0], [1, 0], [0, 1]]}'
 
 
 # what files mean
 
 
-@pytest.mark.parametrize("file", SCENES, ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", EXAMPLES, ids=lambda file: file.stem)
 def test_shipped_scenes_load_and_survive_saving(file: Path, tmp_path: Path) -> None:
     scene = load_scene(file)
     assert scene.name == file.stem
+    assert scene.curved == (file not in POLYGONS)
     assert scene.start is not None
     assert scene.goal is not None
     save_scene(scene, tmp_path / "again.json")
@@ -43,7 +44,7 @@ def test_shipped_scenes_load_and_survive_saving(file: Path, tmp_path: Path) -> N
 
 
 def test_counts_of_the_scenes_from_elsewhere() -> None:
-    scenes = [scene for file in SCENES if (scene := load_scene(file)).source]
+    scenes = [scene for file in EXAMPLES if (scene := load_scene(file)).source]
     points = [sum(len(shape) + len(shape.removed) for shape in scene.obstacles) for scene in scenes]
     assert {s.name: (len(s.robot[0]), len(s.obstacles), n) for s, n in zip(scenes, points, strict=True)} == {
         "benchmr_parking1": (20, 13, 225),

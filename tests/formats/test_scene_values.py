@@ -14,9 +14,9 @@ from cfree.formats.json_text import read_literals, with_numbers
 from cfree.formats.scene_format import scene_from_models
 from cfree.formats.scene_values import scene_from_plain
 from cfree.scene.scene import Scene
+from examples import POLYGONS
 
 ROOT = Path(__file__).parents[2]
-SCENES = sorted((ROOT / "examples" / "scenes").glob("*.json"))
 RICH = {
     "version": 1,
     "name": "K\u00fcche",
@@ -51,7 +51,7 @@ def both(text: str) -> tuple[Scene | None, Scene | None]:
         return quick, None
 
 
-@pytest.mark.parametrize("text", [*(file.read_text() for file in SCENES), json.dumps(RICH)])
+@pytest.mark.parametrize("text", [*(file.read_text() for file in POLYGONS), json.dumps(RICH)])
 def test_a_scene_without_faults_is_read_at_once(text: str) -> None:
     quick, checked = both(text)
     assert quick is not None and quick == checked

@@ -27,12 +27,13 @@ from cfree import (
 from cfree.exact.half_angle import tau_in_chart
 from cfree.formats.boundary_file import CELL_COLUMNS, load_boundary, load_space, save_boundary
 from compared import plain_of, scene_of
+from examples import POLYGONS
 from flood import flood
 from shapes import KINDS, PlainScene, box, mapped, random_scene
 from spaces import ROD, TIGHT, hollow, space_of
 
 ROOT = Path(__file__).parents[2]
-SMALL = sorted(p for p in (ROOT / "examples/scenes").glob("*.json") if p.stat().st_size < 6_000)
+SMALL = [path for path in POLYGONS if path.stat().st_size < 6_000]
 
 
 def check_against_flood(plain: PlainScene, space: FreeSpace, steps: int) -> int:

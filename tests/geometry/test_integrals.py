@@ -28,8 +28,8 @@ from cfree.geometry import (
 )
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
+from examples import FOLDER, POLYGONS
 
-SCENES = sorted((Path(__file__).parents[2] / "examples/scenes").glob("*.json"))
 TRIANGLE = Polygon([(-1, -1), (3, -1), (0, 2)])
 SQUARE = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
 FAR = Polygon([(5, 1), (7, 2), (6, 4)])
@@ -70,7 +70,7 @@ def test_short_edges_far_away_lose_no_digits() -> None:
 @pytest.mark.parametrize("w", [0.5, 3.0])
 def test_integrals_over_trapezoids_are_those_of_other_quadrature(name: str, w: float) -> None:
     # over both parameters, with forty nodes each and the limits as Python has them
-    result = boundary(load_scene(SCENES[0].parent / f"{name}.json"), threads=1)
+    result = boundary(load_scene(FOLDER / f"{name}.json"), threads=1)
     table = result.trapezoids
     x, k = (NODES + 1) / 2, np.repeat(np.arange(len(table)), 40)
     span = table.theta_to - table.theta_from
@@ -97,7 +97,7 @@ def test_trapezoids_of_one_pair_add_up_to_its_patches() -> None:
 
 def test_geodesic_curvatures_are_those_of_sampled_curves() -> None:
     # by differences of points and the surface's normal, over the middle of sides
-    result = boundary(load_scene(SCENES[0].parent / "five_convex.json"), threads=1)
+    result = boundary(load_scene(FOLDER / "five_convex.json"), threads=1)
     cells, table, w, d = result.complex, result.trapezoids, 1.3, 1e-4
     found = gauss_bonnet(result, angle_scale=w)
     checked = 0
@@ -145,7 +145,7 @@ def test_helices_turn_and_rulings_do_not() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", SCENES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", POLYGONS, ids=lambda path: path.stem)
 def test_curvature_adds_up_to_the_euler_number_on_all_example_scenes(path: Path) -> None:
     result = boundary(load_scene(path), threads=1)
     found = gauss_bonnet(result)
@@ -168,7 +168,7 @@ def test_curvature_adds_up_on_random_surfaces_in_every_metric(kind: str) -> None
 
 
 def test_wrong_faces_at_a_vertex_leave_a_gap(monkeypatch: pytest.MonkeyPatch) -> None:
-    result = boundary(load_scene(SCENES[0].parent / "paper_fig9.json"), threads=1)
+    result = boundary(load_scene(FOLDER / "paper_fig9.json"), threads=1)
     assert gauss_bonnet(result).gap < 1e-12
     wrong = result.complex.vertex.copy()
     wrong[wrong == 0] = 1
@@ -187,7 +187,7 @@ def test_a_box_around_the_circle_is_flat() -> None:
 
 
 def test_incomplete_boundaries_have_no_sum() -> None:
-    stopped = boundary(load_scene(SCENES[0].parent / "benchmr_parking1.json"), max_seconds=0)
+    stopped = boundary(load_scene(FOLDER / "benchmr_parking1.json"), max_seconds=0)
     if not stopped.complete:
         for of in (gauss_bonnet, trapezoid_curvatures):
             with pytest.raises(IncompleteError):
@@ -216,7 +216,7 @@ def test_volumes_are_within_their_bounds_of_closed_forms() -> None:
 @pytest.mark.parametrize("name", ["degenerate_island", "sofa_corner", "flat"])
 def test_volumes_are_within_their_bounds_of_areas_of_slices(name: str) -> None:
     # of Green's formula about the origin, with thirty-two nodes over each trapezoid, and the limits as Python has them
-    space = free_space(boundary(load_scene(SCENES[0].parent / f"{name}.json"), threads=1))
+    space = free_space(boundary(load_scene(FOLDER / f"{name}.json"), threads=1))
     surfaces, table = space.surfaces, space.surfaces.trapezoids
     nodes, weights = np.polynomial.legendre.leggauss(32)
     for cell in space.cells:
@@ -237,7 +237,7 @@ def test_volumes_are_within_their_bounds_of_areas_of_slices(name: str) -> None:
 
 
 def test_areas_of_cells_are_sums_of_trapezoids() -> None:
-    space = free_space(boundary(load_scene(SCENES[0].parent / "degenerate_island.json"), threads=1))
+    space = free_space(boundary(load_scene(FOLDER / "degenerate_island.json"), threads=1))
     parts = trapezoid_areas(space.surfaces, angle_scale=2.0)
     expected = [parts[space.faces(cell.index)].sum() for cell in space.cells]
     np.testing.assert_allclose(space.areas(angle_scale=2.0), expected, rtol=1e-13)

@@ -35,11 +35,11 @@ from cfree import (
 )
 from cfree.verify import answer
 from compared import plain_of, scene_of
+from examples import EXAMPLES
 from flood import flood
 from shapes import KINDS, Shape, random_scene
 
 ROOT = FilePath(__file__).parents[2]
-EXAMPLES = sorted((ROOT / "examples/scenes").glob("*.json"))
 CLEARANCES = [Fraction(1, 10**k) for k in (1, 3, 6, 9, 12)]
 
 Case = tuple[Scene, Pose, Pose]
@@ -404,12 +404,16 @@ def test_between_two_poses_is_one_motion() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "path",
+    [pytest.param(path, marks=pytest.mark.slow if path.stem == "round_gap" else ()) for path in EXAMPLES],
+    ids=lambda path: path.stem,
+)
 def test_every_example_has_an_answer_that_verifies(path: FilePath) -> None:
     scene = load_scene(path)
     if scene.start is not None and scene.goal is not None:
         found = checked(scene, scene.start, scene.goal)
-        assert isinstance(found, Path) == (path.stem not in ("nest_swim", "street_Berlin"))
+        assert isinstance(found, Path) == (path.stem not in ("nest_swim", "street_Berlin", "round_gap"))
 
 
 def test_numbers_of_clear_paths_are_short() -> None:

@@ -29,13 +29,14 @@ from cfree.verify.surfaces import Line, Turn, Vector, cross, minus
 from cfree.verify.trapezoids import Reader
 from cfree.verify.world import World
 from compared import plain_of, scene_of
+from examples import POLYGONS
 from reading_only import READING_ONLY
 from shapes import KINDS, PlainScene, random_scene
 
 TESTS = Path(__file__).parents[1]
 SCENES = TESTS.parent / "examples" / "scenes"
 REAL = {"benchmr_parking1", "benchmr_warehouse", "nest_shirts", "nest_swim", "street_Berlin"}
-SMALL = [path for path in sorted(SCENES.glob("*.json")) if path.stem not in REAL]
+SMALL = [path for path in POLYGONS if path.stem not in REAL]
 CASES = sorted((TESTS / "cases").rglob("*.json"))
 FLAT = SCENES / "flat.json"
 TAUS = [Fraction(1, 7), Fraction(-5, 9), Fraction(2, 3)]

@@ -21,6 +21,7 @@ from cfree.collision.distance import EdgeDistances
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
 from cfree.geometry.local import local_geometry
+from examples import POLYGONS
 
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 QUICK = ("degenerate_island", "sofa_corner")
@@ -59,7 +60,7 @@ def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
     "path",
     [
         pytest.param(path, marks=() if path.stem in QUICK else pytest.mark.slow)
-        for path in sorted(SCENES.glob("*.json"))
+        for path in POLYGONS
         if path.stem != "benchmr_warehouse"
     ],
     ids=lambda path: path.stem,
