@@ -91,9 +91,8 @@ clean:
 	$(PYTHON) -m venv .venv
 
 $(INSTALLED): pyproject.toml CMakeLists.txt $(CPP) | .venv/bin/python
-	$(INSTALL) $(TOOLS)
-	$(INSTALL) $(HERE) .
-	$(BIN)/python -m compileall -q src/cfree  # what is not copied pip leaves uncompiled
+	$(INSTALL) --no-compile $(TOOLS)  # Python compiles what it imports: pip would compile all
+	$(INSTALL) --no-compile $(HERE) .
 	touch $@
 
 $(TESTED): $(INSTALLED)
