@@ -33,6 +33,7 @@ BENCHES = (
     "plan",
     "paths",
     "tight",
+    "curves",
     "fits",
     "scene",
     "start",

@@ -1,0 +1,146 @@
+"""Round shapes beside polygons with as many edges as one would give them: `cfree.plan` among curves and among 32-gons.
+
+Scenes are seeded, and none is chosen by its answer: a disc, a stadium or a rounded rectangle among at least 20 discs,
+or among ellipses and closed splines in a disc; and the examples. A 32-gon may be in the way where the disc is not, so
+only where both answers are of one kind their times are compared: the processor's, of all threads, with polygons for
+curves made anew, refinement included.
+"""
+
+from __future__ import annotations
+
+import gc
+import math
+import random
+import statistics
+import time
+from collections.abc import Callable
+
+from measure import SCENES, Report
+
+import cfree
+from cfree.curves import Arc, Ellipse, Spline, curved
+from cfree.formats.scene_file import scene_from_text, scene_text
+from cfree.polygons.polygon import Polygon
+from cfree.scene.scene import AnyShape
+
+ROUNDS, EDGES, SEEDS = 3, 32, 9
+FAR = 1 / math.cos(math.pi / EDGES) - 1  # corners of a circumscribed polygon, beyond the rim of a disc of radius 1
+COLUMNS = ("scene", "round", "answer", "32-gons", "plan ms", "32-gons ms", "ratio")
+
+
+def run(quick: bool) -> Report:
+    report = Report("Round shapes", COLUMNS, notes=[f"ms of the processor, the fastest of {ROUNDS} rounds"])
+    seeds = range(1 if quick else SEEDS)
+    made = {f"{name} {seed}": make(seed) for name, make in FAMILIES.items() for seed in seeds}
+    shipped = {path.stem: cfree.load_scene(path) for path in sorted(SCENES.glob("round_*.json"))}
+    for what, scenes in {"seeded": made, "examples": shipped}.items():
+        ratios = [ratio for name, scene in scenes.items() if (ratio := compare(name, scene, report)) is not None]
+        case = f"{len(ratios)} of {len(scenes)} {what}"
+        report.figure("plan among curves, to 32-gons, median", case, statistics.median(ratios), "<=", 3)
+        report.figure("plan among curves, to 32-gons, worst", case, max(ratios), "<=", 3)
+    return report
+
+
+def compare(name: str, scene: cfree.Scene, report: Report) -> float | None:
+    """A row of the table; the ratio of times if the answers are of one kind."""
+    texts = scene_text(scene), scene_text(straight(scene))
+    seconds, answers = zip(*(timed(text) for text in texts), strict=True)
+    same = answers[0] == answers[1]
+    shown = [f"{1e3 * s:.0f}" for s in seconds]
+    count = sum(isinstance(shape, cfree.Curved) for shape in (*scene.robot, *scene.obstacles, scene.workspace))
+    ratio = f"{seconds[0] / seconds[1]:.2f}" if same else ""
+    report.rows.append((name, str(count), *answers, *shown, ratio))
+    return seconds[0] / seconds[1] if same else None
+
+
+def timed(text: str) -> tuple[float, str]:
+    """Least seconds, and the kind of answer, from a scene just read, with no polygon for a curve in memory."""
+    found, answer = [], ""
+    for _ in range(ROUNDS):
+        scene = scene_from_text("scene", text)
+        for kept in (curved._near, curved._grown, curved._pieces):
+            kept.cache_clear()
+        gc.collect()
+        start = time.process_time()
+        try:
+            answer = type(cfree.plan(scene)).__name__
+        except (cfree.InvalidPoseError, cfree.UndecidedError) as error:
+            answer = type(error).__name__
+        found.append(time.process_time() - start)
+    return min(found), answer
+
+
+def straight(scene: cfree.Scene) -> cfree.Scene:
+    """With 32-gons around discs, and around other curves polygons as near to them; inside of a workspace."""
+
+    def of(shape: AnyShape) -> tuple[Polygon, ...]:
+        return shape.outer(error_of(shape)) if isinstance(shape, cfree.Curved) else (shape,)
+
+    room = scene.workspace
+    if isinstance(room, cfree.Curved):
+        (room,) = room.inner(error_of(room))
+    parts, obstacles = ([p for shape in shapes for p in of(shape)] for shapes in (scene.robot, scene.obstacles))
+    assert scene.start and scene.goal
+    return cfree.Scene(
+        parts, obstacles, workspace=room, bounds=scene.bounds, start=scene.start, goal=scene.goal, name=scene.name
+    )
+
+
+def error_of(shape: cfree.Curved) -> float:
+    """At which a disc of its size has 32 edges, as `Curved.outer` divides errors; of a grown shape, its disc."""
+    return 1.001 * FAR * (2 * float(shape.grown) if shape.grown else shape.size / 2 * math.sqrt(2) / 0.9)
+
+
+# scenes
+
+
+def number(value: float) -> str:
+    return f"{value:.6f}"
+
+
+def stadium(length: float, width: float) -> cfree.Curved:
+    x, y = number(length / 2), number(width / 2)
+    ends = (f"-{x}", f"-{y}"), (x, f"-{y}"), (x, y), (f"-{x}", y)
+    return cfree.Curved([ends[0], ends[1], Arc(ends[2], center=(x, 0)), ends[3], Arc(ends[0], center=(f"-{x}", 0))])
+
+
+def rounded(length: float, width: float, radius: float) -> cfree.Curved:
+    x, y = number(length / 2 - radius), number(width / 2 - radius)
+    return cfree.Curved([(f"-{x}", f"-{y}"), (x, f"-{y}"), (x, y), (f"-{x}", y)], grown=number(radius))
+
+
+def discs(robot: cfree.Curved, seed: int, count: int) -> cfree.Scene:
+    """Discs of many sizes at random in a square, none near its lower left and upper right corner."""
+    rng, found = random.Random(seed), list[cfree.Curved]()
+    while len(found) < count:
+        x, y, r = rng.uniform(0, 14), rng.uniform(0, 14), rng.uniform(0.3, 1.1)
+        if min(math.hypot(x - 1, y - 1), math.hypot(x - 13, y - 13)) > r + 1.2:
+            found.append(cfree.Curved.circle((number(x), number(y)), number(r)))
+    return cfree.Scene(robot, found, bounds=(0, 0, 14, 14), start=(1, 1, 0), goal=(13, 13, "90deg"))
+
+
+def garden(seed: int) -> cfree.Scene:
+    """Ellipses and closed splines in a disc, none near to where the stadium begins and ends."""
+    rng, found = random.Random(seed), list[cfree.Curved]()
+    while len(found) < 24:
+        x, y = (rng.uniform(-9, 9) for _ in range(2))
+        if min(math.hypot(x + 7.5, y), math.hypot(x - 7.5, y)) < 2.2:
+            continue
+        if len(found) % 2:
+            a, b, turn = number(rng.uniform(0.4, 1)), number(rng.uniform(0.3, 0.7)), f"{rng.uniform(0, 360):.1f}deg"
+            found.append(cfree.Curved(Ellipse((number(x), number(y)), (a, b), turn)))
+            continue
+        radii = [rng.uniform(0.5, 1.2) for _ in range(7)]
+        around = [(x + r * math.cos(k), y + r * math.sin(k)) for k, r in zip(map(float, range(7)), radii, strict=True)]
+        ring = [(number(p), number(q)) for p, q in around[:6]]
+        found.append(cfree.Curved([ring[0], Spline([*ring[1:], ring[0]])]))
+    ends = {"start": cfree.Pose("-7.5", 0, "90deg"), "goal": cfree.Pose("7.5", 0, "90deg")}
+    return cfree.Scene(stadium(0.7, 0.5), found, workspace=cfree.Curved.circle((0, 0), 10), **ends)
+
+
+FAMILIES: dict[str, Callable[[int], cfree.Scene]] = {
+    "disc": lambda seed: discs(cfree.Curved.circle((0, 0), number(0.35 + 0.05 * (seed % 5))), seed, 40),
+    "stadium": lambda seed: discs(stadium(1 + 0.1 * (seed % 5), 0.6), seed + 100, 36),
+    "rounded": lambda seed: discs(rounded(1.4, 0.7 + 0.05 * (seed % 5), 0.2), seed + 200, 36),
+    "garden": garden,
+}
