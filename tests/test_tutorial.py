@@ -37,3 +37,13 @@ def test_from_start_to_goal(capsys: pytest.CaptureFixture[str], monkeypatch: pyt
     said = capsys.readouterr().out
     assert "free: True" in said and "not even one that touches. verified" in said
     assert found["proof"].of == "closed" and clearance(found["clear"], found["scene"]).least > 0.01
+
+
+@pytest.mark.slow
+def test_round_shapes(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(GALLERY.parents[1])
+    found = runpy.run_path(str(GALLERY / "plot_round_shapes.py"))
+    said = capsys.readouterr().out
+    assert "is free of collisions. verified" in said and "not even one that touches. verified" in said
+    assert "[True False None]" in said
+    assert found["path"].curved is found["scene"] and found["proof"].curved is found["wide"]
