@@ -17,6 +17,7 @@ from cfree.viewer.svg import Panel
 
 ROOM = [(0, 0), (9, 0), (9, 9), (0, 9)]
 ROBOT = [(0, 0), (2, 0), (0, 1)]
+ROUND = cfree.Curved.circle((0, 0), 1)
 DRAWN = {"svg", "g", "path", "circle", "rect", "text", "image"}
 
 
@@ -43,7 +44,7 @@ def values() -> dict[str, Any]:
     path = cfree.plan(scene, goal=(1, 7, "90deg"))
     goals = cfree.plan(scene_of(goal=[(6, 1, 0), (6, 5)]))
     parts = scene, boundary, space, space.cells[0], path, cfree.plan(scene), goals, boundary.slice(0.3)
-    return {type(value).__name__: value for value in (*parts, boundary.mesh(0.5), scene.obstacles[0])}
+    return {type(value).__name__: value for value in (*parts, boundary.mesh(0.5), scene.obstacles[0], ROUND)}
 
 
 def test_values_are_drawn(values: dict[str, Any]) -> None:

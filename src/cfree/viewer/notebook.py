@@ -58,7 +58,7 @@ def live(value: object, **options: Any) -> Any:
     if not isinstance(value, Scene | Boundary | FreeSpace | Path | Separated) or find_spec("anywidget") is None:
         return None
     scene = _scene(value)
-    if scene is None or sum(map(len, (*scene.robot, *scene.obstacles))) > MOST_VERTICES:
+    if scene is None or scene.curved or sum(map(len, (*scene.robot, *scene.obstacles))) > MOST_VERTICES:
         return None
     return widget(value)._repr_mimebundle_(**options)
 

@@ -7,6 +7,8 @@ from importlib.resources import files
 
 from cfree.arguments import checked
 from cfree.collision.slide import Slide
+from cfree.curves.curved import REFUSED
+from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
 from cfree.formats.scene_file import scene_text
 from cfree.paths.path import Path
@@ -16,10 +18,23 @@ from cfree.scene.scene import Scene
 GIVEN = '<script type="application/json" id="given">null</script>'
 
 
+def text_of_polygons(scene: Scene) -> str:
+    """JSON text of a scene, which the page can read.
+
+    Raises
+    ------
+    UnsupportedError
+        If it has round shapes.
+    """
+    if scene.curved:
+        raise UnsupportedError(REFUSED)
+    return scene_text(scene)
+
+
 @checked
 def page(scene: Scene, answer: Path | Separated | None = None) -> str:
     """The page as HTML; see `view`."""
-    given: dict[str, object] = {"scene": scene_text(scene)}
+    given: dict[str, object] = {"scene": text_of_polygons(scene)}
     if answer is not None:
         given |= {"start": words(answer.start), "goal": words(answer.goal)}
     if poses := poses_text(answer):

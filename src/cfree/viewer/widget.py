@@ -16,12 +16,12 @@ except ImportError as error:
 from cfree.collision.motion import motion_between
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
-from cfree.formats.scene_file import scene_from_text, scene_text
+from cfree.formats.scene_file import scene_from_text
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene, with_ends
-from cfree.viewer.page_text import hosted_page, poses_text, words
+from cfree.viewer.page_text import hosted_page, poses_text, text_of_polygons, words
 from cfree.viewer.pictures import picture
 
 
@@ -58,7 +58,7 @@ class Widget(AnyWidget):
 
     def __init__(self, scene: Scene, answer: Path | Separated | None = None) -> None:
         ends = (scene.start, scene.goal) if answer is None else (answer.start, answer.goal)
-        super().__init__(source=scene_text(scene), start=ends[0], goal=ends[1], poses=poses_text(answer))
+        super().__init__(source=text_of_polygons(scene), start=ends[0], goal=ends[1], poses=poses_text(answer))
         self._answer: tuple[object, Path | Separated | None] = (answer and self._question, answer)
 
     @default("page")
@@ -77,7 +77,7 @@ class Widget(AnyWidget):
     @scene.setter
     def scene(self, scene: Scene) -> None:
         with self.hold_sync():
-            self.source, self.robot, self.start, self.goal = scene_text(scene), None, scene.start, scene.goal
+            self.source, self.robot, self.start, self.goal = text_of_polygons(scene), None, scene.start, scene.goal
 
     @property
     def answer(self) -> Path | Separated | None:

@@ -1,0 +1,88 @@
+"""Round shapes in JSON scenes: read, written again, and refused with their place."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import cfree
+from cfree.formats.scene_file import scene_from_text, scene_text
+from cfree.scene.digest import stamp_of
+from round_shapes import random_scene
+
+ROBOT = {"outer": [[0, 0], [1, 0], [0, 1]]}
+
+
+def read(shape: Any, role: str = "obstacles") -> cfree.Scene:
+    data = {"robot": ROBOT} | ({"obstacles": [shape]} if role == "obstacles" else {role: shape})
+    return scene_from_text("scene.json", json.dumps(data))
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_scenes_are_written_and_read_again(seed: int, tmp_path: Path) -> None:
+    scene = random_scene(seed)
+    cfree.save(scene, tmp_path / "scene.json")
+    again = cfree.load_scene(tmp_path / "scene.json")
+    assert again == scene and hash(again) == hash(scene) and stamp_of(again) == stamp_of(scene)
+    assert cfree.load(tmp_path / "scene.json") == scene
+    shapes = cfree.load_shapes(tmp_path / "scene.json")
+    assert shapes.scene() == scene
+    with pytest.raises(cfree.UnsupportedError, match="round shapes"):
+        _ = shapes.polygons
+
+
+def test_both_spellings_of_a_ring() -> None:
+    points = [[0, 0], [4, 0], [4, 1]]
+    assert read({"path": points, "grown": 1}) == read({"outer": points, "grown": 1})
+    holes = [
+        [{"circle": {"center": [2, 2], "radius": 1}}],
+        [{"path": [[1, 1], [3, 1], [2, 3]]}],
+        [[[1, 1], [3, 1], [2, 3]]],
+    ]
+    for hole in holes:
+        assert (
+            len(read({"path": [[0, 0], [9, 0], {"arc": {"to": [0, 9], "center": [0, 0]}}], "holes": hole}).obstacles)
+            == 1
+        )
+
+
+@pytest.mark.parametrize("role", ["robot", "obstacles", "workspace"])
+def test_round_shapes_stand_wherever_polygons_do(role: str) -> None:
+    scene = read({"circle": {"center": [0, 0], "radius": "1/3"}}, role)
+    assert scene.curved and scene_from_text("again.json", scene_text(scene)) == scene
+
+
+@pytest.mark.parametrize(
+    ("shape", "message"),
+    [
+        ({"circle": {"center": [0], "radius": 1}}, 'obstacles[0].circle.center: expected a point [x, y], got [0]'),
+        ({"circle": {"center": [0, 0], "radius": "x"}}, 'circle.radius: expected a number or "p/q", got "x"'),
+        ({"circle": {"center": [0, 0]}}, 'obstacles[0].circle: key "radius" is missing; add it'),
+        ({"circle": {"centre": [0, 0], "radius": 1}}, 'unknown key "centre"; did you mean "center"?'),
+        ({"circle": {"center": [0, 0], "radius": 0}}, "obstacles[0]: radius: 0; give a length above 0"),
+        ({"circle": 3}, "obstacles[0].circle: expected"),
+        ({"path": []}, "obstacles[0]: a path begins with a point"),
+        ({"path": [[0, 0], {"arc": {"to": [1]}}]}, "obstacles[0].path[1].arc.to: expected a point [x, y], got [1]"),
+        ({"path": [[0, 0], {"arc": {"to": [1, 0]}}]}, "give one of them"),
+        ({"path": [[0, 0], {"bow": {}}]}, 'obstacles[0].path[1].bow: unknown key "bow"'),
+        ({"path": [[0, 0], {}]}, 'obstacles[0].path[1]: expected one of "arc", "bezier", "spline"'),
+        ({"path": [[0, 0], {"bezier": [[1, 1]]}]}, "2 or 3 points"),
+        ({"path": [[1, 0], {"arc": {"to": [0, 1.1], "center": [0, 0]}}]}, "obstacles[0]: item 1 of the path: (0, 1.1)"),
+        ({"path": [[0, 0], [2, 2], {"arc": {"to": [2, 0], "through": [3, 1]}}, [0, 2]]}, "cross"),
+        ({"circle": {"center": [0, 0], "radius": 1}, "outer": [[0, 0], [1, 0], [0, 1]]}, "expected one of"),
+        ({"circle": {"center": [0, 0], "radius": 1}, "grown": 1}, "of polygons only"),
+        ({"outer": [[0, 0], [1, 0], [0, 1]], "grown": -1}, "0 or more"),
+        ({"ellipse": {"center": [0, 0], "radii": [1]}}, "2 radii"),
+        ({"ellipse": {"center": [0, 0], "radii": [1, 2], "angle": "x"}}, "ellipse.angle: expected radians"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said_with_its_place(shape: Any, message: str) -> None:
+    with pytest.raises(cfree.FormatError) as caught:
+        read(shape)
+    assert message in str(caught.value) and str(caught.value).startswith("scene.json:1:")
+
+
+def test_a_grown_workspace_is_refused() -> None:
+    with pytest.raises(cfree.FormatError, match=r"workspace: a grown shape"):
+        read({"outer": [[0, 0], [9, 0], [0, 9]], "grown": 1}, "workspace")
