@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely.affinity import affine_transform
 
 from cfree.curves.curved import Curved
+from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import Scene, polygons_for, shapes_of, size_of, with_polygons
 
 FIRST, FINEST = 64, 4096  # parts of a shape's size: the first error, and the least one that is started with
@@ -39,37 +42,65 @@ class Approximations:
         """With polygons around what is forbidden, or inside of it."""
         return with_polygons(self.exact, self.errors, outward=outward)
 
-    def refine(self, poses: NDArray[np.float64]) -> bool:
+    def refine(self, poses: NDArray[np.float64], others: Iterable[int] = ()) -> bool:
         """Divide the errors of what may overlap at these poses; False if they are as small as they may be.
 
-        What overlaps is looked up in doubles: it is about where to look closer, and decides nothing.
-        """
-        least = [max(self.tolerance, shape.least_error) if isinstance(shape, Curved) else 0.0 for shape in self.shapes]
-        open_ = {k for k, error in enumerate(self.errors) if error > least[k]}
-        overlapping = self._overlapping(poses)
-        chosen = overlapping & open_ if overlapping else open_
-        self.reached = max((self.errors[k] for k in overlapping or range(len(self.errors))), default=0.0)
-        for k in chosen:
-            self.errors[k] = max(self.errors[k] / FINER, least[k])
-        return bool(chosen)
+        Of two shapes that overlap the error of the one that has the larger becomes less, or that of both; then those of
+        other obstacles become as small. What overlaps is looked up in doubles: it is about where to look closer, and
+        decides nothing.
 
-    def _overlapping(self, poses: NDArray[np.float64]) -> set[int]:
-        """Which shapes, polygons around them, overlap at one of the poses."""
+        Parameters
+        ----------
+        poses : (n, 3) array
+            Rows x, y, theta.
+        others : iterable of int
+            Obstacles of the scene of polygons, by number: -2 is the workspace.
+        """
+        pairs = self._overlapping(poses)
+        concerned = {k for pair in pairs for k in pair} or set(range(len(self.shapes)))
+        self.reached = max(self.errors[k] for k in concerned)
+        wanted: dict[int, float] = {}
+        for pair in pairs or [(k,) for k in concerned]:
+            target = max(self.errors[k] for k in pair) / FINER
+            for k in pair:
+                wanted[k] = min(target, wanted.get(k, target))
+        if pairs:
+            target = min(max(wanted.values()), self.reached / FINER)
+            for k in others:
+                owner = self._owner(k)
+                wanted[owner] = min(target, wanted.get(owner, target))
+        before = list(self.errors)
+        for k, target in wanted.items():
+            if isinstance(shape := self.shapes[k], Curved):
+                self.errors[k] = min(before[k], max(target, self.tolerance, shape.least_error))
+        return self.errors != before
+
+    def _owner(self, number: int) -> int:
+        """The shape that an obstacle's polygon is for."""
+        if number == WORKSPACE:
+            return len(self.shapes) - 1
+        counts = [
+            len(polygons_for(shape, error, True))
+            for shape, error in zip(self.exact.obstacles, self.errors[len(self.exact.robot) :], strict=False)
+        ]
+        return len(self.exact.robot) + int(np.searchsorted(np.cumsum(counts), number, side="right"))
+
+    def _overlapping(self, poses: NDArray[np.float64]) -> set[tuple[int, int]]:
+        """Which two shapes, one of them round, polygons around them, overlap at one of the poses."""
         parts, count = len(self.exact.robot), len(self.exact.robot) + len(self.exact.obstacles)
         geometries = [
             shapely.union_all([polygon.to_shapely() for polygon in polygons_for(shape, error, k < count)])
             for k, (shape, error) in enumerate(zip(self.shapes, self.errors, strict=True))
         ]
-        tree, found = shapely.STRtree(geometries[parts:count]), set[int]()
+        tree, found = shapely.STRtree(geometries[parts:count]), set[tuple[int, int]]()
         for x, y, theta in poses:
             motion = [np.cos(theta), -np.sin(theta), np.sin(theta), np.cos(theta), x, y]
             for k, geometry in enumerate(geometries[:parts]):
                 placed = affine_transform(geometry, motion)
                 met = [parts + int(j) for j in tree.query(placed, predicate="intersects")]
-                met = [j for j in met if self.errors[k] or self.errors[j]]
                 if len(geometries) > count and not geometries[count].contains_properly(placed):
                     met.append(count)
-                found |= {k, *met} if met else set()
+                found |= {(k, j) for j in met if self.errors[k] or self.errors[j]}
         return found
 
 

@@ -112,17 +112,23 @@ class CurvedPlanner:
         self, ask: Callable[[Planner, float | None], Answer], ends: Sequence[Pose], improve: float | None
     ) -> Answer:
         while True:
-            outer = self._planner_of(outward=True)
-            with suppress(InvalidPoseError, UndecidedError):  # the inner scene says whether it is so here, too
-                if isinstance(found := ask(outer, improve), Path):
+            outer, apart, are_free = self._planner_of(outward=True), None, True
+            try:
+                found = ask(outer, improve)
+                if isinstance(found, Path):
                     return self._for_curves(found, outer)
+                apart = found
+            except InvalidPoseError:  # the inner scene says whether it is so here, too
+                are_free = False
+            except UndecidedError:
+                pass
             inner, within = self._planner_of(outward=False), None
             with suppress(UndecidedError):
                 found = ask(inner, 0.0)
-                if not isinstance(found, Path):
+                if are_free and not isinstance(found, Path):
                     return self._for_curves(found, inner)
-                within = found
-            if not self.near.refine(_poses(within, ends)):
+                within = found if are_free and isinstance(found, Path) else None
+            if not self.near.refine(_poses(within, ends), apart.obstacles if apart else ()):
                 error = self.near.reached
                 raise UndecidedError(
                     f"polygons within {error:.3g} of the round shapes decide neither way: these touch, or all but do; "

@@ -118,7 +118,7 @@ def answer(
         ASKED: "start and goal, where the scene has them",
         **(_of_curves(scene, given) if scene.curved else {}),
         PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
-        ENDS: "both are free",
+        ENDS: "both are free" + (" among the polygons" if scene.curved else ""),
         **(_of_path(given) if isinstance(given, Path) else _of_separation(given)),
         **_of_decimals(read),
     }
