@@ -1,9 +1,10 @@
 """Round shapes beside polygons with as many edges as one would give them: `cfree.plan` among curves and among 32-gons.
 
 Scenes are seeded, and none is chosen by its answer: a disc, a stadium or a rounded rectangle among at least 20 discs,
-or among ellipses and closed splines in a disc; and the examples. 32-gons around discs decide where there is a path
-among them, 32-gons inside where there is none among these. Only there times are compared, with that of the one that
-decides: the processor's, of all threads, with polygons for curves made anew, refinement included.
+or among ellipses and closed splines in a disc; one that just gets out of a ring; and the examples. 32-gons around discs
+decide where there is a path among them, 32-gons inside where there is none among these. Only there times are compared,
+with that of the one that decides: the processor's, of all threads, with polygons for curves made anew, refinement
+included.
 """
 
 from __future__ import annotations
@@ -120,6 +121,18 @@ def discs(robot: cfree.Curved, seed: int, count: int) -> cfree.Scene:
     return cfree.Scene(robot, found, bounds=(0, 0, 14, 14), start=(1, 1, 0), goal=(13, 13, "90deg"))
 
 
+def ring(seed: int) -> cfree.Scene:
+    """A disc in a ring of pillars, with one gap that is wider by 0.4 % to 4 %."""
+    turns, far = [2 * math.pi * k / 14 for k in range(14)], 3.4
+    radius = far * math.sin(math.pi / 14) - (1.004 + 0.004 * seed) / 2
+    found = [
+        cfree.Curved.circle((number(far * math.cos(t)), number(far * math.sin(t))), number(radius + 0.02 * (k > 1)))
+        for k, t in enumerate(turns)
+    ]
+    disc = cfree.Curved.circle((0, 0), "1/2")
+    return cfree.Scene(disc, found, bounds=(-7, -7, 7, 7), start=(0, 0, 0), goal=(6, 1, 0))
+
+
 def garden(seed: int) -> cfree.Scene:
     """Ellipses and closed splines in a disc, none near to where the stadium begins and ends."""
     rng, found = random.Random(seed), list[cfree.Curved]()
@@ -144,4 +157,5 @@ FAMILIES: dict[str, Callable[[int], cfree.Scene]] = {
     "stadium": lambda seed: discs(stadium(1 + 0.1 * (seed % 5), 0.6), seed + 100, 36),
     "rounded": lambda seed: discs(rounded(1.4, 0.7 + 0.05 * (seed % 5), 0.2), seed + 200, 36),
     "garden": garden,
+    "ring": ring,
 }
