@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from cfree.distributed.shard import read_shard, write_shard
 from cfree.distributed.store import SceneStore
-from cfree.distributed.tiles import BoxIndex, divide, grown_by, merged
+from cfree.distributed.tiles import divide, grown_by, merged, near_each
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
@@ -107,21 +107,19 @@ def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Divis
     order = np.argsort(number, kind="stable")
     sorted_features = numbers[order]
     starts = np.searchsorted(number[order], np.arange(count + 1))
-    obstacles, edges = BoxIndex(store.column("box")), []
+    edges: list[Floats] = []
     boxes, spans = np.empty((count, 4)), np.empty((count, 4))
     box = store.column("box")
-    lists: dict[str, list[Ints]] = {"obstacles": [], "neighbours": []}
     for tile in range(count):
         own = features.boxes(np.sort(sorted_features[starts[tile] : starts[tile + 1]]))
         boxes[tile] = grown_by(np.concatenate([own[:, :2].min(axis=0), own[:, 2:].max(axis=0)]), store.radius)
         edges.append(merged(own))
-        near = obstacles.near(edges[-1], store.reach)
-        lists["obstacles"].append(near)
+    obstacles = near_each(edges, box, store.reach)
+    for tile, near in enumerate(obstacles):
         spans[tile] = [*box[near, :2].min(axis=0, initial=np.inf), *box[near, 2:].max(axis=0, initial=-np.inf)]
     tile_of = np.repeat(np.arange(count), [len(e) for e in edges])
-    index = BoxIndex(np.concatenate(edges) if edges else np.zeros((0, 4)))
-    for tile in range(count):
-        lists["neighbours"].append(np.unique(tile_of[index.near(edges[tile], store.reach)]))
+    around = near_each(edges, np.concatenate([np.zeros((0, 4)), *edges]), store.reach)
+    lists = {"obstacles": obstacles, "neighbours": [np.unique(tile_of[near]) for near in around]}
     first = {"features": starts.astype(np.int64)}
     sorted_features.astype(np.int64).tofile(folder / "features.bin")
     for name, parts in lists.items():

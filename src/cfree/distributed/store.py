@@ -7,10 +7,10 @@ as they are; columns say where each line begins, where each obstacle is, and whe
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import pairwise
+from itertools import chain, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ from cfree.scene.scene import Scene, with_obstacles
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 NO_ROUNDING = (False, False, False, False)
+BLOCK = 4_000  # vertices that are written at a time
 COLUMNS: dict[str, tuple[type, int]] = {
     "line": (np.int64, 1),  # where the obstacle's line begins
     "first": (np.int64, 1),  # its first vertex among all
@@ -135,25 +136,55 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> Scen
     files = {name: (folder / f"{name}.bin").open("wb") for name in COLUMNS}
     try:
         with (folder / "polygons.jsonl").open("wb") as lines:
-            for polygon in (*head.obstacles, *obstacles):
-                whole.add(polygon.core)
-                offsets, first = polygon.ring_offsets, counts["vertices"]
-                xy = polygon.vertices
-                after = np.arange(1, len(polygon) + 1) + first
-                after[np.array(offsets[1:]) - 1] = np.array(offsets[:-1]) + first
-                low, high = np.nextafter(xy.min(axis=0), -np.inf), np.nextafter(xy.max(axis=0), np.inf)
-                rows = (lines.tell(), first, np.concatenate([low, high]), xy, after)
-                for (name, (kind, _)), row in zip(COLUMNS.items(), rows, strict=True):
-                    files[name].write(np.ascontiguousarray(row, kind).tobytes())
-                lines.write(_line(polygon))
-                counts["obstacles"] += 1
-                counts["vertices"] += len(polygon)
+            for block in _blocks(chain(head.obstacles, obstacles)):
+                for polygon in block:
+                    whole.add(polygon.core)
+                texts = [_line(polygon) for polygon in block]
+                begins = lines.tell() + _sums(map(len, texts))
+                lines.writelines(texts)
+                columns = {"line": begins[:-1]} | _columns(block, counts["vertices"])
+                for name, (kind, _) in COLUMNS.items():
+                    files[name].write(np.ascontiguousarray(columns[name], kind).tobytes())
+                counts["obstacles"] += len(block)
+                counts["vertices"] += len(columns["xy"])
     finally:
         for file in files.values():
             file.close()
     save_scene(with_obstacles(head, []), folder / "scene.json")
     write_json(folder / "facts.json", counts | {"scale": whole.scale, "box": whole.box})
     return SceneStore(folder)
+
+
+def _blocks(obstacles: Iterable[Polygon]) -> Iterator[list[Polygon]]:
+    """Obstacles in their order, `BLOCK` vertices or a little more at a time."""
+    block: list[Polygon] = []
+    vertices = 0
+    for polygon in obstacles:
+        block.append(polygon)
+        vertices += len(polygon)
+        if vertices >= BLOCK:
+            yield block
+            block, vertices = [], 0
+    if block:
+        yield block
+
+
+def _columns(block: Sequence[Polygon], vertices: int) -> dict[str, NDArray[Any]]:
+    """`COLUMNS` of some obstacles, but for their lines, after so many vertices of others."""
+    xy = np.concatenate([polygon.vertices for polygon in block])
+    first = _sums(map(len, block))
+    rings = [first[k] + np.array(polygon.ring_offsets[:-1]) for k, polygon in enumerate(block)]
+    starts = np.concatenate(rings)
+    after = np.arange(1, len(xy) + 1)
+    after[np.append(starts[1:], len(xy)) - 1] = starts
+    low, high = np.minimum.reduceat(xy, first[:-1]), np.maximum.reduceat(xy, first[:-1])
+    box = np.concatenate([np.nextafter(low, -np.inf), np.nextafter(high, np.inf)], axis=1)
+    return {"first": first[:-1] + vertices, "box": box, "xy": xy, "next": after + vertices}
+
+
+def _sums(counts: Iterable[int]) -> Ints:
+    """Of all before each, and of all."""
+    return np.cumsum([0, *counts])
 
 
 def rounding(store: SceneStore, numbers: Ints) -> tuple[bool, ...]:

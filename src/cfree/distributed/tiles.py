@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
+BLOCK = 50_000  # boxes
 
 
 def divide(points: Floats, tiles: int) -> NDArray[np.int32]:
@@ -54,6 +57,20 @@ class BoxIndex:
         if not len(grown) or not len(self._tree):
             return np.zeros(0, np.int64)
         return np.unique(self._tree.query(shapely.box(*grown.T))[1]).astype(np.int64)
+
+
+def near_each(groups: Sequence[Floats], boxes: Floats, reach: float) -> list[Ints]:
+    """Of each group what `BoxIndex(boxes).near` says of it; groups are indexed, boxes asked a block at a time."""
+    if not groups:
+        return []
+    group_of = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
+    tree = shapely.STRtree(shapely.box(*np.concatenate([grown_by(group, reach) for group in groups]).T))
+    codes = [np.zeros(0, np.int64)]
+    for begin in range(0, len(boxes), BLOCK):
+        number, met = tree.query(shapely.box(*boxes[begin : begin + BLOCK].T))
+        codes.append(np.unique(group_of[met] * len(boxes) + begin + number))
+    group, numbers = np.divmod(np.sort(np.concatenate(codes)), max(1, len(boxes)))
+    return np.split(numbers, np.searchsorted(group, np.arange(1, len(groups))))
 
 
 def merged(boxes: Floats, side: int = 8) -> Floats:
