@@ -7,7 +7,7 @@ beside it.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
@@ -113,7 +113,7 @@ class TileLines:
         return [Crossing(int(self._surface[row]), Place.of(n, d), free) for row, n, d, free in found]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, slots=True)
 class Question:
     """What a line of a surface crosses in a tile; without a line, one is begun.
 
@@ -134,14 +134,28 @@ Ends = tuple[Crossing, "Crossing | None"]
 """The last crossing of a surface on its line, and what is crossed next."""
 
 
-@dataclass(frozen=True)
+class Left(NamedTuple):
+    """What is to the left of a surface: whether its outside is free, and what bounds that, if anything does."""
+
+    is_free_before: bool
+    beyond: int = NONE
+    is_free_before_beyond: bool = False
+
+    @classmethod
+    def of(cls, last: Crossing, beyond: Crossing | None) -> Left:
+        if beyond is None:
+            return cls(last.is_free_before)
+        return cls(last.is_free_before, beyond.surface, beyond.is_free_before)
+
+
+@dataclass(frozen=True, slots=True)
 class Answer:
-    """The line and what it crosses, unless that tells the ends already."""
+    """The line and what it crosses, unless that tells already what is to the left."""
 
     surface: int
     line: Line | None = None
     crossed: list[Crossing] | None = None
-    ends: Ends | None = None
+    left: Left | None = None
 
 
 def answered(lines: TileLines, tile: int, asked: Question, boxes: NDArray[np.float64], scale: float) -> Answer:
@@ -153,7 +167,8 @@ def answered(lines: TileLines, tile: int, asked: Question, boxes: NDArray[np.flo
     if line is not None and crossed is not None:
         search = _Search(asked.attempt, line, {tile}, crossed)
         if _next(search, surface, asked.own, boxes, scale) is None:
-            return Answer(surface, ends=_ends(search, surface))
+            return Answer(surface, left=Left.of(*_ends(search, surface)))
+        crossed = _kept(search, surface, asked.own)
     return Answer(surface, line, crossed)
 
 
@@ -165,7 +180,7 @@ class Nesting:
     free_inside: NDArray[np.bool_]
 
 
-@dataclass
+@dataclass(slots=True)
 class _Search:
     """What is known of one surface's line."""
 
@@ -205,38 +220,42 @@ def nest(
             tiles_of[surface].append(here)
     for tiles in tiles_of:  # one that nothing of the surface is to the left of comes first
         tiles.sort(key=lambda tile: (boxes[tile, 0], tile))
-    searches = [_Search() for _ in tiles_of]
-    waiting = set(range(len(searches)))
-    settled: dict[int, Ends] = {}
+    left: list[Left | None] = [None] * len(tiles_of)
+    searches: dict[int, _Search] = {}  # of surfaces that more than one tile is asked about
+    waiting: Sequence[int] = range(len(tiles_of))
     while waiting:
         questions: dict[int, list[Question]] = {}
-        for surface in sorted(waiting):
-            search = searches[surface]
+        for surface in waiting:
+            search = searches.get(surface) or _Search()
             own = tiles_of[surface]
             attempt, turn = divmod(search.attempt, len(own))
-            tile: int | None = own[turn]
+            tile = own[turn]
             if search.line is not None:
-                tile = _next(search, surface, own, boxes, scale)
-            if tile is None:
-                settled[surface] = _ends(search, surface)
-                waiting.discard(surface)
-                continue
-            search.done.add(tile)
+                following = _next(search, surface, own, boxes, scale)
+                if following is None:
+                    left[surface] = Left.of(*_ends(searches.pop(surface), surface))
+                    continue
+                search.done.add(tile := following)
             questions.setdefault(tile, []).append(Question(surface, attempt, own, search.line))
         for answer in ask(questions) if questions else ():
             surface = answer.surface
-            search = searches[surface]
+            search = searches.get(surface) or _Search()
             known = None if answer.crossed is None else search.crossed + answer.crossed
-            if answer.ends is not None:
-                settled[surface] = answer.ends
-                waiting.discard(surface)
+            if answer.left is not None:
+                left[surface] = answer.left
+                searches.pop(surface, None)
             elif is_general(answer.line, known):
+                if search.line is None:
+                    search.done.add(tiles_of[surface][search.attempt % len(tiles_of[surface])])
                 search.line, search.crossed = answer.line, known or []
+                search.crossed = _kept(search, surface, tiles_of[surface])
+                searches[surface] = search
             elif search.attempt == ATTEMPTS * len(tiles_of[surface]):
                 raise InvariantError(f"no line from closed surface {surface} in general position")
             else:
                 searches[surface] = _Search(search.attempt + 1)
-    return _nested(settled, is_bounded)
+        waiting = [surface for surface in waiting if left[surface] is None]
+    return _nested([one for one in left if one is not None], is_bounded)
 
 
 def _next(search: _Search, surface: int, own: list[int], boxes: NDArray[np.float64], scale: float) -> int | None:
@@ -276,21 +295,30 @@ def _ends(search: _Search, surface: int) -> Ends:
     return last, max(others, key=lambda c: c.x, default=None)
 
 
-def _nested(settled: Mapping[int, Ends], is_bounded: bool) -> Nesting:
-    count = len(settled)
-    free_inside = np.array([not settled[k][0].is_free_before for k in range(count)], np.bool_)
+def _kept(search: _Search, surface: int, own: Sequence[int]) -> list[Crossing]:
+    """The crossings that ends still depend on: the last one is the rightmost that it can be, and those to its left."""
+    last, beyond = _ends(search, surface)
+    if search.done.issuperset(own):
+        return [c for c in search.crossed if c is last or c is beyond]
+    return [c for c in search.crossed if c is last or (c.surface != surface and c.x < last.x)]
+
+
+def _nested(left: Sequence[Left], is_bounded: bool) -> Nesting:
+    """From what is to the left of each surface."""
+    count = len(left)
+    free_inside = np.array([not one.is_free_before for one in left], np.bool_)
     parent = np.full(count, NONE, np.int64)
     beside = np.full(count, NONE, np.int64)
-    for surface, (last, beyond) in settled.items():
-        if beyond is None:
-            if last.is_free_before == is_bounded:
+    for surface, (is_free, beyond, is_free_beyond) in enumerate(left):
+        if beyond == NONE:
+            if is_free == is_bounded:
                 raise InvariantError(f"closed surface {surface} is around nothing, with the wrong side free")
             continue
         # to the right of a crossing is what is not to its left
-        if beyond.is_free_before == last.is_free_before:
-            raise InvariantError(f"closed surfaces {surface} and {beyond.surface} have no region between them")
-        inside = last.is_free_before == bool(free_inside[beyond.surface])
-        (parent if inside else beside)[surface] = beyond.surface
+        if is_free_beyond == is_free:
+            raise InvariantError(f"closed surfaces {surface} and {beyond} have no region between them")
+        inside = is_free == bool(free_inside[beyond])
+        (parent if inside else beside)[surface] = beyond
     while np.any(beside >= 0):  # as far out as those that they are beside
         which = np.flatnonzero(beside >= 0)
         target = beside[which]
