@@ -13,7 +13,7 @@ from cfree.curves.curved import Curved
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import Scene, polygons_for, shapes_of, size_of, with_polygons
 
-FIRST, FINEST = 64, 4096  # parts of a shape's size: the first error, and the least one that is started with
+FIRST, FINEST = 256, 4096  # parts of a shape's size: the first error, and the least one that is started with
 OF_ROBOT = 8  # or part of the robot's size, if that is less
 TOLERANCE = 2.0**-14  # of the robot's size, unless given
 FINER = 4  # of an error: twice as many edges
