@@ -70,12 +70,12 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector
     std::vector<Class> classes;  // in order
     const auto add = [&](std::size_t first, std::size_t next) {
         heed_stop();
-        const CriticalAngle x = critical(*named[first].second);
+        CriticalAngle x = critical(*named[first].second);
         std::size_t low = 0, high = classes.size();
         bool found = false;
         while (low < high && !found) {
             const std::size_t mid = (low + high) / 2;
-            const int o = order(scene, x, classes[mid].angle);
+            const int o = x.narrowing_order(scene, classes[mid].angle);
             found = o == 0;
             if (o == 0) low = mid;
             else (o < 0 ? high : low) = o < 0 ? mid : mid + 1;

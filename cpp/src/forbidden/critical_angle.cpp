@@ -49,6 +49,13 @@ void know(Junction& at, const Scene& scene, const CriticalAngle& angle) {
     else at.know(angle.name(scene));
 }
 
+int CriticalAngle::narrowing_order(const Scene& scene, CriticalAngle& other) {
+    if (hi < other.lo) return -1;
+    if (lo > other.hi) return 1;
+    exact(scene), other.exact(scene);
+    return compare(*root, *other.root);
+}
+
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
