@@ -78,6 +78,13 @@ def test_overlap_at_the_start_is_bad_input() -> None:
         cfree.plan(caged(0.1), (2, 0, 0), (8, 8, 0))
 
 
+def test_the_free_pose_that_is_named_is_free() -> None:
+    scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [cfree.Curved.circle((1, 0), 1)])
+    with pytest.raises(cfree.ForbiddenPoseError, match=r"overlaps obstacle 0; .* is free and near by") as caught:
+        cfree.plan(scene, (0, 0, 0), (9, 9, 0))
+    assert caught.value.free is not None and cfree.is_free(scene, caught.value.free) is True
+
+
 @pytest.mark.parametrize("distance", [Fraction(1, 10), Fraction(1, 100), Fraction(1, 1000)])
 def test_near_contact_at_the_start(distance: Fraction) -> None:
     """Polygons become finer until the start is free, or is not."""

@@ -40,6 +40,15 @@ def planner_of(
     source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
 ) -> Planner | CurvedPlanner | FolderPlanner:
     """For the scene in a file, with its free space if the file is a boundary; or for a folder."""
+    found = _planner_of(source, max_seconds, preferences, tolerance)
+    if tolerance is not None and not found.scene.curved:
+        raise ValueError(f"--tolerance: {tolerance}, of scenes with round shapes; leave it out")
+    return found
+
+
+def _planner_of(
+    source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
+) -> Planner | CurvedPlanner | FolderPlanner:
     from cfree.formats.scene_file import load_scene
     from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner

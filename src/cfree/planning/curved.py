@@ -9,7 +9,6 @@ tolerance. docs/theory/curved-shapes.md has the proofs.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -18,6 +17,7 @@ from numpy.typing import NDArray
 
 from cfree.arguments import checked
 from cfree.collision.approximations import Approximations
+from cfree.collision.nearest_free import ForbiddenPoseError
 from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.number import Number
 from cfree.exact.pose import Pose, PoseLike, to_pose
@@ -112,28 +112,32 @@ class CurvedPlanner:
         self, ask: Callable[[Planner, float | None], Answer], ends: Sequence[Pose], improve: float | None
     ) -> Answer:
         while True:
-            outer, apart, are_free = self._planner_of(outward=True), None, True
+            outer, apart, refused = self._planner_of(outward=True), None, None
             try:
                 found = ask(outer, improve)
                 if isinstance(found, Path):
                     return self._for_curves(found, outer)
                 apart = found
-            except InvalidPoseError:  # the inner scene says whether it is so here, too
-                are_free = False
+            except InvalidPoseError as error:  # the inner scene says whether it is so here, too
+                refused = error
             except UndecidedError:
                 pass
             inner, within = self._planner_of(outward=False), None
-            with suppress(UndecidedError):
+            try:
                 found = ask(inner, 0.0)
-                if are_free and not isinstance(found, Path):
+                if refused is None and not isinstance(found, Path):
                     return self._for_curves(found, inner)
-                within = found if are_free and isinstance(found, Path) else None
+                within = found if refused is None and isinstance(found, Path) else None
+            except ForbiddenPoseError as error:
+                raise _for_both(error, refused) from None
+            except UndecidedError:
+                pass
             if not self.near.refine(_poses(within, ends), apart.obstacles if apart else ()):
-                error = self.near.reached
+                least = self.near.reached
                 raise UndecidedError(
-                    f"polygons within {error:.3g} of the round shapes decide neither way: these touch, or all but do; "
+                    f"polygons within {least:.3g} of the round shapes decide neither way: these touch, or all but do; "
                     "give a smaller tolerance, or other shapes",
-                    error=error,
+                    error=least,
                 )
 
     def _planner_of(self, *, outward: bool) -> Planner:
@@ -144,6 +148,12 @@ class CurvedPlanner:
         if isinstance(found, AllSeparated):
             return replace(found, proofs=tuple(replace(proof, curved=self.exact) for proof in found.proofs))
         return replace(found, curved=self.exact)
+
+
+def _for_both(inner: ForbiddenPoseError, outer: InvalidPoseError | None) -> ForbiddenPoseError:
+    """What overlaps in the inner scene does; what is free in the outer one is."""
+    overlap, free = str(inner).partition(";")[0], str(outer or "").partition(";")[2]
+    return ForbiddenPoseError(f"{overlap};{free}" if free else overlap, free=getattr(outer, "free", None))
 
 
 def _poses(path: Path | None, ends: Sequence[Pose]) -> NDArray[np.float64]:
