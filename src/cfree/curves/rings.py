@@ -87,13 +87,13 @@ class Bezier:
 @checked
 @dataclass(frozen=True, init=False)
 class Spline:
-    """A uniform cubic B-spline from the point before it, clamped: it begins at its first control point and ends at its last.
+    """A clamped uniform cubic B-spline from the point before it: it begins and ends at control points.
 
     Parameters
     ----------
     points : three points (x, y) or more
         The control points after the first, which is the point before it.
-    """  # noqa: E501
+    """
 
     points: tuple[ExactPoint, ...]
 

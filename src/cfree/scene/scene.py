@@ -188,7 +188,7 @@ class Scene(Shown):
             No point of a polygon's boundary is farther from the round shape it is for. One less than doubles can tell
             is raised to that.
         """
-        return with_polygons(self, [error] * _count(self), outward=True)
+        return with_polygons(self, [error] * len(shapes_of(self)), outward=True)
 
     @checked
     def inner(self, error: float) -> Scene:
@@ -196,7 +196,7 @@ class Scene(Shown):
 
         Robot and obstacles shrink, the workspace grows. Parameters are those of `outer`.
         """
-        return with_polygons(self, [error] * _count(self), outward=False)
+        return with_polygons(self, [error] * len(shapes_of(self)), outward=False)
 
     @checked
     def grown(self, by: Number) -> Scene:
@@ -221,10 +221,6 @@ class Scene(Shown):
 def shapes_of(scene: Scene) -> tuple[AnyShape, ...]:
     """Those of the robot, the obstacles, and the workspace, if there is one; polygons or not."""
     return *scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])
-
-
-def _count(scene: Scene) -> int:
-    return len(shapes_of(scene))
 
 
 def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Scene:
