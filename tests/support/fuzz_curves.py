@@ -14,6 +14,7 @@ import math
 import random
 import time
 from collections import Counter, deque
+from contextlib import suppress
 
 import numpy as np
 import shapely
@@ -106,16 +107,17 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     counted, begin, wrong = Counter[str](), time.monotonic(), 0
-    for seed in range(options.seed, options.seed + options.count):
-        try:
-            kind, text = fault(seed)
-        except Exception as error:
-            kind, text = "error", f"{type(error).__name__}: {error}"
-        counted[kind] += 1
-        if text:
-            wrong += 1
-            print(f"scene {seed}: {kind}: {text}", flush=True)
-    print(f"{options.count} scenes, {wrong} faults, {time.monotonic() - begin:.0f} s: {dict(counted)}")
+    with suppress(KeyboardInterrupt):
+        for seed in range(options.seed, options.seed + options.count):
+            try:
+                kind, text = fault(seed)
+            except Exception as error:
+                kind, text = "error", f"{type(error).__name__}: {error}"
+            counted[kind] += 1
+            if text:
+                wrong += 1
+                print(f"scene {seed}: {kind}: {text}", flush=True)
+    print(f"{sum(counted.values())} scenes, {wrong} faults, {time.monotonic() - begin:.0f} s: {dict(counted)}")
 
 
 if __name__ == "__main__":
