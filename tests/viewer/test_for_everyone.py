@@ -113,6 +113,22 @@ def test_path_is_played_and_stopped(tried: Tried) -> None:
     tried.say("#play", "Play")
 
 
+def test_path_is_played_from_a_frame_begun_before_the_click(tried: Tried) -> None:
+    place = tried.page.evaluate("""() => new Promise((seen) => {
+      const asked = window.requestAnimationFrame;
+      window.requestAnimationFrame = (step) => asked(() => {
+        window.requestAnimationFrame = asked;
+        step(performance.now() - 1000);
+        seen(document.querySelector(".body.robot").getAttribute("transform"));
+      });
+      document.querySelector("#play").click();
+    })""")
+    tried.page.keyboard.press("Escape")
+    tried.say("#play", "Play")
+    assert place.startswith("translate(")
+    assert "NaN" not in place
+
+
 def test_patches_and_cells_are_told_of(tried: Tried) -> None:
     press(tried, "#space canvas", "f", "p")
     tried.say("#picked", "of obstacle 0")

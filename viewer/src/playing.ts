@@ -17,13 +17,12 @@ export class Player {
     if (!samples) return;
     const count = samples.length / 3, duration = Math.max(2500, Math.min(14_000, 22 * count));
     $("play").textContent = "❚❚ Pause";
-    let began = performance.now(), share = 0;
-    const step = (now: number) => {
-      share += (now - began) / duration * Number($<HTMLSelectElement>("speed").value), (began = now);
-
+    let last: number | undefined, share = 0;
+    const step = (now: number) => {  // of its frame, which may have begun before the click
+      share += (now - (last ?? now)) / duration * Number($<HTMLSelectElement>("speed").value), (last = now);
       if (share >= 1 && $<HTMLInputElement>("loop").checked) share %= 1;
-      const at = Math.min(share, 1) * (count - 1), k = Math.min(Math.floor(at), count - 2), u = at - k;
-      const c = (i: number) => samples[3 * k + i]! * (1 - u) + samples[3 * k + 3 + i]! * u;
+      const at = Math.min(share, 1) * (count - 1), k = Math.floor(at), next = Math.min(k + 1, count - 1), u = at - k;
+      const c = (i: number) => samples[3 * k + i]! * (1 - u) + samples[3 * next + i]! * u;
       session.seen.robot = { x: c(0), y: c(1), theta: c(2) };
       session.workspace.place("robot", session.seen.robot, "good"), session.space?.place(session.seen.robot, true), session.set_slider(c(2));
       void session.ask_slice();
