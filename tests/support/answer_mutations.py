@@ -15,7 +15,7 @@ from pathlib import Path as FilePath
 from typing import Any
 
 import second_opinion
-from answers import corridor, distances, separations, tee, text_of, with_ends
+from answers import corridor, distances, separations, tee, text_of
 from cfree import (
     FormatError,
     FreeSpace,
@@ -465,7 +465,7 @@ def tried(mutate: Mutation, count: int) -> Counter[str]:
                     bad = repaired(scene, bad)
             found[verdict(scene, bad)] += 1
             if isinstance(good, Path):
-                found[verdict(with_ends(scene, None, None), bad)] += 1
+                found[verdict(with_robot(scene, scene.robot, scene.bounds), bad)] += 1
     return found
 
 

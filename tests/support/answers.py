@@ -23,6 +23,7 @@ from cfree import (
     separation,
 )
 from cfree.collision import Touch
+from cfree.scene.scene import with_ends
 from compared import scene_of
 from shapes import PlainScene, box, l_shape
 from spaces import ROD, TIGHT, hollow
@@ -80,10 +81,6 @@ def distances() -> tuple[tuple[Scene, Path | Separated], ...]:
     answers = [plan(scene, (-1, 4, 0), (0, -4, 0), clearance=c) for c in ("1/4", "3/5")]
     assert [type(answer) for answer in answers] == [Path, Separated]
     return tuple((scene, answer) for answer in answers)
-
-
-def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
-    return Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace, start=start, goal=goal)
 
 
 def text_of(answer: Path | Separated) -> str:

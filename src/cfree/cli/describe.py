@@ -9,13 +9,12 @@ import numpy as np
 
 from cfree.collision.approximations import Approximations
 from cfree.collision.pose_checker import PoseChecker, is_free
-from cfree.curves.curved import Curved
 from cfree.exact.pose import Pose
 from cfree.forbidden.kinds import KINDS
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, scene_features
-from cfree.scene.scene import shapes_of
+from cfree.scene.scene import round_count, shapes_of
 
 if TYPE_CHECKING:
     from cfree.forbidden.slice import Slice
@@ -80,7 +79,7 @@ def _describe_curved(scene: Scene) -> dict[str, Any]:
     """The same of polygons around, those with which a plan begins; whether poses are free is known to a tolerance."""
     around = Approximations(scene).scene(outward=True)
     facts = describe(around) | {key: getattr(scene, key) for key in ("note", "source")}
-    facts["round"] = sum(isinstance(shape, Curved) for shape in shapes_of(scene))
+    facts["round"] = round_count(shapes_of(scene))
     for key, pose in (("start", scene.start), ("goal", scene.goal)):
         if pose is not None:
             facts[key]["free"] = is_free(scene, pose)

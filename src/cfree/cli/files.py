@@ -40,15 +40,6 @@ def planner_of(
     source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
 ) -> Planner | CurvedPlanner | FolderPlanner:
     """For the scene in a file, with its free space if the file is a boundary; or for a folder."""
-    found = _planner_of(source, max_seconds, preferences, tolerance)
-    if tolerance is not None and not found.scene.curved:
-        raise ValueError(f"--tolerance: {tolerance}, of scenes with round shapes; leave it out")
-    return found
-
-
-def _planner_of(
-    source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
-) -> Planner | CurvedPlanner | FolderPlanner:
     from cfree.formats.scene_file import load_scene
     from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
@@ -56,18 +47,23 @@ def _planner_of(
     if source.is_dir():
         from cfree.cli.folders import FolderPlanner
 
-        return FolderPlanner(source, preferences)
-    if is_archive(source):
+        found: Planner | FolderPlanner = FolderPlanner(source, preferences)
+    elif is_archive(source):
         from cfree.formats.boundary_file import load_boundary
         from cfree.free.space import free_space
 
         with bar("cells"):
             space = free_space(load_boundary(source))
-        return Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
-    with bar("reading"):
-        scene = load_scene(source)
-    planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
-    return CurvedPlanner(planner, tolerance) if scene.curved else planner
+        found = Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
+    else:
+        with bar("reading"):
+            scene = load_scene(source)
+        found = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
+        if scene.curved:
+            return CurvedPlanner(found, tolerance)
+    if tolerance is not None:
+        raise ValueError(f"--tolerance: {tolerance}, of scenes with round shapes; leave it out")
+    return found
 
 
 @contextmanager

@@ -133,10 +133,9 @@ def _straight(
     scene: Scene, outer: float | None, inner: float | None, tolerance: float | None, target: Path
 ) -> tuple[Scene, list[str]]:
     """With polygons for round shapes, if they are asked for, or the file can have no others."""
-    from cfree.curves.curved import Curved
     from cfree.formats.scene_file import EXPORTS
     from cfree.formats.source import CURVE_SHARE
-    from cfree.scene.scene import shapes_of, size_of
+    from cfree.scene.scene import largest_of, round_count, shapes_of
 
     if outer is not None and inner is not None:
         raise ValueError("--outer and --inner: give one of them")
@@ -146,8 +145,8 @@ def _straight(
     if not scene.curved or (error is None and target.suffix.lower() not in EXPORTS):
         return scene, []
     if error is None:
-        error = tolerance or max(size_of(shape) for shape in shapes_of(scene)) / CURVE_SHARE
-    count = sum(isinstance(shape, Curved) for shape in shapes_of(scene))
+        error = tolerance or largest_of(scene) / CURVE_SHARE
+    count = round_count(shapes_of(scene))
     side = "around" if inner is None else "inside of"
     straight = scene.outer(error) if inner is None else scene.inner(error)
     return straight, [f"{count:,} round shapes: polygons {side} them, within {error:g}"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from cfree.errors import UnsupportedError
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
-from cfree.scene.scene import Scene, shapes_of, size_of
+from cfree.scene.scene import Scene, largest_of
 
 EDGES = 4000  # parts of the largest shape's size that nobody sees
 
@@ -37,5 +37,5 @@ def smooth(scene: Scene, *, outward: bool = True) -> Scene:
     """Polygons that look round."""
     if not scene.curved:
         return scene
-    error = max(map(size_of, shapes_of(scene))) / EDGES
+    error = largest_of(scene) / EDGES
     return scene.outer(error) if outward else scene.inner(error)

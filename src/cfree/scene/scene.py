@@ -223,6 +223,16 @@ def shapes_of(scene: Scene) -> tuple[AnyShape, ...]:
     return *scene.robot, *scene.obstacles, *([scene.workspace] if scene.workspace else [])
 
 
+def round_count(shapes: Iterable[AnyShape]) -> int:
+    """How many of them are no polygons."""
+    return sum(isinstance(shape, Curved) for shape in shapes)
+
+
+def largest_of(scene: Scene) -> float:
+    """The longer side of the largest box around a shape."""
+    return max(map(size_of, shapes_of(scene)))
+
+
 def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Scene:
     """Polygons for round shapes, in the order of `shapes_of`, each with its error: outward more is forbidden."""
     if not scene.curved:
@@ -271,7 +281,7 @@ def _grown(shape: AnyShape, by: Fraction) -> Curved:
 def _edges(shapes: Sequence[AnyShape]) -> str:
     """How many vertices, and how many round shapes."""
     count = sum(len(shape) for shape in shapes if isinstance(shape, Polygon))
-    curved = sum(isinstance(shape, Curved) for shape in shapes)
+    curved = round_count(shapes)
     texts = [f"{count} vertices"] if count or not curved else []
     return ", ".join([*texts, *([f"{curved} round"] if curved else [])])
 

@@ -10,14 +10,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
-from cfree.curves.curved import Curved
 from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, stamp_of
 from cfree.scene.goals import Goal
-from cfree.scene.scene import Scene, shapes_of
+from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.verify.curves import mismatches
 from cfree.verify.leeway import is_around_disc, roomier, with_disc
 from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
@@ -208,7 +207,7 @@ def _of_scene(given: Path | Separated | None) -> dict[str, str]:
 
 
 def _of_curves(scene: Scene, given: Path | Separated) -> dict[str, str]:
-    count = sum(isinstance(shape, Curved) for shape in shapes_of(scene))
+    count = round_count(shapes_of(scene))
     around, inside = ("around", "inside") if isinstance(given, Path) else ("inside", "around")
     what = f"{count:,}: the answer's polygons are {around} those of robot and obstacles, {inside} a workspace"
     return {ROUND: what}
