@@ -85,6 +85,7 @@ def pool() -> list[Any]:
     ]  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "function", "parameter"), PARAMETERS, ids=[f"{x[0]}-{x[2]}" for x in PARAMETERS])
 def test_an_argument_of_a_wrong_type_is_named(
     name: str, function: Callable[..., Any], parameter: str, pool: list[Any]

@@ -39,6 +39,7 @@ def test_convex_obstacles_have_4_vertices_and_a_third_and_keep_their_density(fam
         assert np.allclose(shapely.area(shapely.convex_hull(polygons)), shapely.area(polygons))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["maze", "trap", "barrier", "field", "nest", "throat", "large"])
 def test_a_question_is_the_same_each_time_and_has_free_ends(families: ModuleType, name: str) -> None:
     scene = families.QUESTIONS[name](0)

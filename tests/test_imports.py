@@ -52,6 +52,7 @@ def test_imports_lead_down(name: str) -> None:
         assert other == CORE or ORDER.index(package(other)) <= ORDER.index(package(name)), other
 
 
+@pytest.mark.slow
 def test_no_files_import_each_other_in_a_circle() -> None:
     graph = {name: {other for other in imported(path.read_text()) if other != name} for name, path in MODULES.items()}
     try:

@@ -80,6 +80,7 @@ def test_what_planners_find_is_free(exact: Any, planner: str, kind: str) -> None
         assert exact.to_path(path, ROOM).is_free(checker)
 
 
+@pytest.mark.slow
 def test_the_car_park(exact: Any) -> None:
     scene = load_scene(ROOT / "examples/scenes/benchmr_parking1.json")
     setup = exact.simple_setup(scene)

@@ -76,6 +76,7 @@ def test_the_reference_lists_every_public_name() -> None:
     assert all(exists(f"cfree.{name}") for name in listed if not name.startswith(":"))
 
 
+@pytest.mark.slow
 def test_pages_and_names_in_sources_exist() -> None:
     titles = {title for page in PAGES for title in re.findall(r"^#+ (.*)$", page.read_text(), re.M)}
     for folder in ("src", "cpp", "tests", "tools", "examples/gallery", "benchmarks"):

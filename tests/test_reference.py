@@ -127,6 +127,7 @@ def test_a_place_is_found_on_a_line_next_to_where_it_is_at_infinity(epsilon: Fra
     assert junction.value(pack(on_vertex), (pack(on_edge), pack(slope))) == pytest.approx(1 / 2, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_bounds_hold_where_products_underflow() -> None:
     # one far vertex, so that the core's doubles of the others are about 2^-535
     for number in range(40):
@@ -286,6 +287,7 @@ def test_the_sign_of_a_polynomial_at_a_dyadic(p: fmpz_poly, tau: Fraction) -> No
     assert _core.sign_at(integers(p), dyadic(tau)) == (exact > 0) - (exact < 0)
 
 
+@pytest.mark.slow
 @given(polynomials(), polynomials())
 def test_the_common_divisor_is_that_of_flint_but_for_a_constant(p: fmpz_poly, q: fmpz_poly) -> None:
     def normal(r: fmpz_poly) -> fmpz_poly:

@@ -20,6 +20,7 @@ def pages(root: Path) -> list[Path]:
     return [first, *(first.with_name(f"{name}.md") for name in listed)]
 
 
+@pytest.mark.slow
 def test_the_examples_of_the_theory_pages_hold(request: pytest.FixtureRequest) -> None:
     session: dict[str, object] = {"__name__": "__main__"}
     attempted = 0
@@ -32,6 +33,7 @@ def test_the_examples_of_the_theory_pages_hold(request: pytest.FixtureRequest) -
     assert attempted >= 144
 
 
+@pytest.mark.slow
 def test_the_examples_for_geometers_hold(
     request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:

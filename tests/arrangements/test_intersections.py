@@ -65,6 +65,7 @@ def test_an_edge_about_two_vertices_is_a_limacon() -> None:
 # property
 
 
+@pytest.mark.slow
 @FEW
 @given(meetings.surfaces(2), st.lists(taus, min_size=3, max_size=6))
 def test_lines_meet_where_the_curve_is_and_nowhere_else(pair: tuple[Surface, Surface], at: list[Any]) -> None:
@@ -101,6 +102,7 @@ def test_lines_meet_where_the_curve_is_and_nowhere_else(pair: tuple[Surface, Sur
                     found.curve.point(tau)
 
 
+@pytest.mark.slow
 @FEW
 @given(meetings.surfaces(2))
 def test_the_order_of_surfaces_does_not_matter(pair: tuple[Surface, Surface]) -> None:
@@ -111,6 +113,7 @@ def test_the_order_of_surfaces_does_not_matter(pair: tuple[Surface, Surface]) ->
     ]
 
 
+@pytest.mark.slow
 @FEW
 @given(meetings.surfaces(2))
 def test_surfaces_are_tangent_where_it_is_said_and_nowhere_else(pair: tuple[Surface, Surface]) -> None:
@@ -147,6 +150,7 @@ def sine_squared(pair: tuple[Surface, Surface], tau: Fraction | None, x: Vec) ->
     return sum(k * k for k in normal) / sum(k * k for k in (a, b, c)) / sum(k * k for k in (d, e, f))
 
 
+@pytest.mark.slow
 @FEW
 @given(meetings.surfaces(2), taus)
 def test_harmonics_are_the_curve_and_it_is_in_lowest_terms(pair: tuple[Surface, Surface], tau: Fraction | None) -> None:
@@ -215,6 +219,7 @@ def is_end(end: VertexVertex, contact: VertexEdge | EdgeVertex) -> bool:
     return end.j == j and end.i in (i, (i + 1) % 3)
 
 
+@pytest.mark.slow
 @settings(max_examples=25)
 @given(st.data())
 def test_poses_of_a_range_have_both_contacts(data: st.DataObject) -> None:
@@ -310,6 +315,7 @@ def curves() -> dict[str, IntersectionCurve]:
     return found
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "curve"), curves().items())
 def test_tangent_curvature_and_torsion_are_those_of_the_harmonics(name: str, curve: IntersectionCurve) -> None:
     scale = 0.7
@@ -335,6 +341,7 @@ def test_tangent_curvature_and_torsion_are_those_of_the_harmonics(name: str, cur
             assert curve.torsion(theta, angle_scale=scale) == pytest.approx(normal @ d3 / (normal @ normal), rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["two v-e", "two e-v", "both", "far"])
 def test_the_length_is_that_of_a_fine_polyline_and_within_its_error(name: str) -> None:
     curve = curves()[name]
@@ -351,6 +358,7 @@ def test_the_length_is_that_of_a_fine_polyline_and_within_its_error(name: str) -
     assert curve.length(AngleInterval(ends[0], ends[0])) == (0, pytest.approx(0, abs=1e-25))
 
 
+@pytest.mark.slow
 def test_at_an_asymptote_there_is_nothing() -> None:
     slope, corner = Polygon([(0, 0), (4, 0), (0, 3)]), Polygon([(0, 0), (1, 5), (-3, 5)])
     pair = contact_surface(slope, BOX, VertexEdge(1, 0)), contact_surface(slope, corner, EdgeVertex(0, 0))

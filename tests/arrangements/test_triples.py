@@ -122,6 +122,7 @@ def interpolated(surfaces: tuple[Surface, ...]) -> list[Fraction]:
     return coefficients
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(meetings.surfaces(3))
 def test_poses_are_the_zeros_of_the_determinant_and_on_all_three_lines(three: tuple[Surface, Surface, Surface]) -> None:
@@ -172,6 +173,7 @@ def test_poses_are_the_zeros_of_the_determinant_and_on_all_three_lines(three: tu
         assert all(pair.relation == "identical" or line.angle in [a.angle for a in pair.lines] for pair in pairs)
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(meetings.surfaces(3))
 def test_the_order_of_three_does_not_matter(three: tuple[Surface, Surface, Surface]) -> None:
@@ -191,6 +193,7 @@ def test_the_order_of_three_does_not_matter(three: tuple[Surface, Surface, Surfa
 # poses made to touch
 
 
+@pytest.mark.slow
 @settings(max_examples=40)
 @given(strategies.convex_polygons(), strategies.poses(), st.data())
 def test_a_pose_with_three_contacts_is_found(shape: Any, q: Any, data: st.DataObject) -> None:

@@ -225,6 +225,7 @@ def test_the_free_area_is_that_of_bounds_without_the_region(run: Run) -> None:
 # bad input
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -260,6 +261,7 @@ def test_all_faults_of_a_file_are_listed(run: Run, tmp_path: Path) -> None:
     assert f"{file}:2:" in lines[0] and f"{file}:3:" in lines[1]
 
 
+@pytest.mark.slow
 def test_damaged_boundary_files_get_one_clear_message(run: Run, tmp_path: Path) -> None:
     file = tmp_path / "fig9.npz"
     run("boundary", FIG9, "-o", file)
@@ -298,6 +300,7 @@ def test_bad_arguments_get_one_clear_message(arguments: list[str], message: str,
 # interruption
 
 
+@pytest.mark.slow
 def test_an_interrupt_ends_with_one_line_and_leaves_nothing(tmp_path: Path) -> None:
     program = (
         "import os, signal, sys, time, cfree.forbidden.boundary\n"
@@ -425,6 +428,7 @@ def test_bad_wishes_for_figures_write_nothing(options: tuple[str, str], message:
     assert list(tmp_path.iterdir()) == []
 
 
+@pytest.mark.slow
 def test_figures_in_space_say_who_would_draw_them_better(
     run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -131,6 +131,7 @@ def test_paths_for_other_programs(run: Run, tmp_path: Path, name: str) -> None:
         assert json.loads(file.read_text())["type"] == "FeatureCollection"
 
 
+@pytest.mark.slow
 def test_a_form_may_be_asked_for(run: Run, tmp_path: Path) -> None:
     file = tmp_path / "poses.txt"
     assert run("plan", CONVEX, "-o", file, "--format", "ros").exit_code == 0
@@ -267,6 +268,7 @@ def test_an_interrupt_while_filming_leaves_no_film(tmp_path: Path) -> None:
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_clearances_and_several_goals(run: Run, tmp_path: Path) -> None:
     """Verdicts, exit codes, files that are verified, and what is said of bad ones."""
     walls = [[(-9, -1), (-1, -1), (-1, 1), (-9, 1)], [(1, -1), (9, -1), (9, 1), (1, 1)]]
@@ -297,6 +299,7 @@ def test_clearances_and_several_goals(run: Run, tmp_path: Path) -> None:
         assert result.exit_code == 2 and said in result.stderr, result.stderr
 
 
+@pytest.mark.slow
 def test_poses_with_times_and_standard_output(run: Run, tmp_path: Path) -> None:
     """As close as asked for, no point faster than the speed; the report goes elsewhere."""
     rod, block = [(0, -1), (5, -1), (5, 1), (0, 1)], [(9, 9), (10, 9), (10, 10)]

@@ -209,6 +209,7 @@ def test_names_from_files_are_shown_and_not_obeyed(tmp_path: Path) -> None:
     assert "\x1b" not in run("check", file).stderr
 
 
+@pytest.mark.slow
 def test_letters_that_the_output_cannot_write_are_escaped(tmp_path: Path) -> None:
     file = tmp_path / "scene.json"
     file.write_text(f'{{"robot": {TRIANGLE}, "obstacles": [], "name": "Bühne"}}', encoding="utf-8")

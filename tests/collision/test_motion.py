@@ -97,6 +97,7 @@ def test_motions_are_free_as_exact_poses_between_all_critical_ones_are(
     check(Scene(robot=robot, obstacles=obstacles), pose, motion)
 
 
+@pytest.mark.slow
 @settings(max_examples=30, deadline=None)
 @given(strategies.convex_polygons(3), strategies.simple_polygons(6), poses, motions)
 def test_bounds_and_workspaces_hold(
@@ -106,6 +107,7 @@ def test_bounds_and_workspaces_hold(
     check(scene, pose, motion)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["shared_edge", "identical", "square_pair", "two_part_robot", "workspace_with_hole", "l_in_u"]
 )
@@ -202,6 +204,7 @@ def test_the_angle_of_the_first_contact_is_that_of_a_sine() -> None:
         assert 2 * math.atan(u / ((1 - u) * turn.first + u)) == pytest.approx(math.asin(height / 7), abs=1e-14)
 
 
+@pytest.mark.slow
 @settings(max_examples=100, deadline=None)
 @given(poses, motions)
 def test_motions_are_displacements(pose: Pose, motion: Motion) -> None:

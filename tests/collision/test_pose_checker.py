@@ -141,6 +141,7 @@ def test_what_doubles_are_certain_of_is_true() -> None:
     assert certain > 20 and uncertain > 20
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", POLYGONS, ids=lambda path: path.stem)
 def test_shipped_scenes_beside_areas_of_shapely(path: Path) -> None:
     scene = load_scene(path)

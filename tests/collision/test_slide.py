@@ -166,6 +166,7 @@ def test_huge_turns_have_an_angle() -> None:
 # --- is it free? ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tau", ["1/16", "1/2", 1])
 def test_a_square_turns_in_corridors_as_wide_as_it(tau: object) -> None:
     assert verdicts(TEE, START, turning(tau)) == (True, True)
@@ -194,6 +195,7 @@ def test_slides_are_free_where_all_their_poses_are(plain: PlainScene, pose: Pose
     assert MotionChecker(scene).is_free(slide.apply(pose), slide.reversed()) == by_core
 
 
+@pytest.mark.slow
 @settings(max_examples=60, deadline=None)
 @given(strategies.scenes(), st.randoms(use_true_random=False))
 def test_slides_along_contacts_are_free_where_all_their_poses_are(plain: PlainScene, rng: random.Random) -> None:

@@ -91,6 +91,7 @@ def test_edges_slide_along_each_other_until_a_reflex_vertex() -> None:
 # properties: the paper
 
 
+@pytest.mark.slow
 @settings(max_examples=30)
 @given(st.lists(strategies.fractions(5), min_size=3, max_size=6, unique=True), strategies.convex_polygons())
 def test_remark_4_for_vertices_on_a_circle(tangents: list[Fraction], shape: Shape) -> None:
@@ -120,6 +121,7 @@ def test_a_convex_pair_has_2nm_patches_nm_helices_and_nm_segments(shapes: tuple[
     assert sum(isinstance(curve, VertexVertex) for curve in curves) == n * m
 
 
+@pytest.mark.slow
 @given(pairs)
 def test_widths_are_those_of_the_paper(shapes: tuple[Shape, Shape]) -> None:
     A, O = polygons(shapes)
@@ -196,6 +198,7 @@ def test_helices_begin_and_end_where_patches_do(shapes: tuple[Shape, Shape]) -> 
                     assert compare_directions(angle_range(A, O, last).end, r.end) is Order.SAME
 
 
+@pytest.mark.slow
 @given(pairs)
 def test_the_domain_of_equation_6_lies_in_one_turn_and_has_the_stated_width(shapes: tuple[Shape, Shape]) -> None:
     A, O = polygons(shapes)
@@ -211,6 +214,7 @@ def test_the_domain_of_equation_6_lies_in_one_turn_and_has_the_stated_width(shap
         assert r.locate(r.start) is r.locate(r.end) is Location.BOUNDARY
 
 
+@pytest.mark.slow
 @given(pairs, strategies.half_tangents())
 def test_turning_the_robot_shifts_every_range(shapes: tuple[Shape, Shape], tau: Fraction | None) -> None:
     from cfree.exact.pose import Pose

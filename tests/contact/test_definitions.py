@@ -68,6 +68,7 @@ def test_containment_is_forbidden_without_any_contact() -> None:
     assert is_forbidden(RING, small, pose.inverse())
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(strategies.polygons(), strategies.polygons(), poses)
 def test_interiors_meet_exactly_if_shapely_finds_a_common_area(one: Shape, other: Shape, pose: Pose) -> None:
@@ -79,6 +80,7 @@ def test_interiors_meet_exactly_if_shapely_finds_a_common_area(one: Shape, other
         assert area < 1e-9
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(strategies.polygons(), strategies.polygons(), poses)
 def test_the_roles_of_robot_and_obstacle_can_be_exchanged(one: Shape, other: Shape, pose: Pose) -> None:
@@ -94,6 +96,7 @@ def test_the_roles_of_robot_and_obstacle_can_be_exchanged(one: Shape, other: Sha
     assert is_forbidden(A, O, pose) == is_forbidden(O, A, pose.inverse())
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(
     strategies.convex_polygons(),

@@ -25,6 +25,7 @@ def around_and_inside(shape: Any, error: float) -> list[Any]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(60))
 def test_polygons_are_around_and_inside_and_near(seed: int) -> None:
     rng = random.Random(f"near {seed}")

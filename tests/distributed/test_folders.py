@@ -31,6 +31,7 @@ class Ended(Exception):
     """What a user, or a crash, does."""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("stage", ["read", "trim", "glue", "join", "nest"])
 def test_what_was_ended_goes_on(stage: str, made: Sharded, tmp_path: Path) -> None:
     def stop(at: str, done: int, of: int) -> None:
@@ -47,6 +48,7 @@ def test_what_was_ended_goes_on(stage: str, made: Sharded, tmp_path: Path) -> No
     assert all(path.stat().st_mtime_ns == time for path, time in before.items())
 
 
+@pytest.mark.slow
 def test_damaged_shards_are_found_and_made_again(made: Sharded, tmp_path: Path) -> None:
     found = boundary(SCENE, folder=tmp_path / "x", tiles=6)
     path = Work(found.folder).path("trim", 2)
@@ -77,6 +79,7 @@ def test_a_folder_of_something_else_is_refused(made: Sharded, tmp_path: Path) ->
         boundary(SCENE, folder=tmp_path, client="tcp://localhost")
 
 
+@pytest.mark.slow
 def test_obstacles_come_from_many_files(made: Sharded, tmp_path: Path) -> None:
     head = cfree.Scene(ROBOT, bounds=SCENE.bounds, start=SCENE.start, goal=SCENE.goal)
     cfree.save(head, tmp_path / "head.json")
@@ -172,6 +175,7 @@ def test_poses_are_located_where_tiles_are_needed(made: Sharded) -> None:
     assert made.locate([]).shape == (0,)
 
 
+@pytest.mark.slow
 def test_a_pose_that_fits_exactly_is_in_no_cell(tmp_path: Path) -> None:
     """A square in a hole of its size, one that touches a corner of a room, and one in the middle of it."""
     square, block = [(0, 0), (2, 0), (2, 2), (0, 2)], [(10, 0), (20, 0), (20, 9), (10, 9)]
@@ -186,6 +190,7 @@ def test_a_pose_that_fits_exactly_is_in_no_cell(tmp_path: Path) -> None:
         assert cells == space.locate(poses).tolist() == [-2, -2, 0, 0, -1, 0, 0]
 
 
+@pytest.mark.slow
 def test_shards_are_verified(made: Sharded, tmp_path: Path) -> None:
     result = made.verify()
     assert result.verified and all(check.how != "SKIPPED" for check in result.checks)
@@ -193,6 +198,7 @@ def test_shards_are_verified(made: Sharded, tmp_path: Path) -> None:
     assert sampled.verified and "SAMPLED" in str(sampled)
 
 
+@pytest.mark.slow
 def test_the_command_makes_asks_and_checks_folders(tmp_path: Path) -> None:
     def run(*words: Any) -> Any:
         return CliRunner().invoke(app, [str(word) for word in words])

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from cfree import Polygon, Scene
 from cfree.distributed.division import divide_scene
@@ -34,6 +35,7 @@ def most_held(count: int, folder: Path) -> tuple[int, int]:
         tracemalloc.stop()
 
 
+@pytest.mark.slow
 def test_obstacles_are_not_held(tmp_path: Path) -> None:
     few, many = 1_100, 2_500  # both more than is written at a time
     most_held(few, tmp_path / "first")

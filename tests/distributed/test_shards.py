@@ -73,6 +73,7 @@ def check_cells_of_poses(found: Sharded, space: cfree.FreeSpace) -> None:
     assert found.locate(special).tolist() == space.locate(special).tolist()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "path",
     [

@@ -26,6 +26,7 @@ def test_arctangents_err_less_than_is_said(value: Fraction, power: int, bits: in
         )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("bits", [10, 128, 1000, 20_000])
 def test_pi_errs_less_than_is_said(bits: int) -> None:
     with ctx.workprec(bits + 200):

@@ -1,5 +1,6 @@
 from fractions import Fraction
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -51,6 +52,7 @@ def test_directions_are_ordered_round_the_circle() -> None:
             assert compare_directions(u, (2 * v[0], 2 * v[1])) is expected
 
 
+@pytest.mark.slow
 @given(directions, directions, directions)
 def test_the_order_of_directions_is_total(u: Vector, v: Vector, w: Vector) -> None:
     assert compare_directions(u, v) is REVERSE[compare_directions(v, u)]

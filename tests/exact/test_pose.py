@@ -129,6 +129,7 @@ def test_a_rotation_has_determinant_one(q: Pose) -> None:
     assert math.isclose(float(q.sin), math.sin(q.theta), abs_tol=1e-15)
 
 
+@pytest.mark.slow
 @given(poses, poses, poses)
 def test_poses_form_a_group(p: Pose, q: Pose, r: Pose) -> None:
     assert (p @ q) @ r == p @ (q @ r)
@@ -137,6 +138,7 @@ def test_poses_form_a_group(p: Pose, q: Pose, r: Pose) -> None:
     assert hash(p @ Pose(0, 0)) == hash(p)
 
 
+@pytest.mark.slow
 @given(poses, poses, st.lists(st.tuples(numbers, numbers), max_size=4))
 def test_composition_is_application_twice(p: Pose, q: Pose, points: list[tuple[Fraction, Fraction]]) -> None:
     assert (p @ q).apply_exact(points) == p.apply_exact(q.apply_exact(points))

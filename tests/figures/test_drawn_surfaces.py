@@ -70,6 +70,7 @@ def on_surface(S: Surface, points: np.ndarray) -> np.ndarray:
     return t
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [0, 2])
 def test_figure_9_draws_all_patches_helices_and_segments_of_two_triangles(k: int) -> None:
     # each curve is painted with both patches beside it
@@ -85,6 +86,7 @@ def test_figure_9_draws_all_patches_helices_and_segments_of_two_triangles(k: int
         assert placed.distance(O.to_shapely()) < 0.01 and placed.intersection(O.to_shapely()).area < 0.01
 
 
+@pytest.mark.slow
 def test_figure_9_names_the_patches_that_are_seen() -> None:
     named: set[str] = set()
     for k in (0, 2):
@@ -117,6 +119,7 @@ def test_figure_12_draws_five_obstacles_and_both_poses() -> None:
     assert space.get_zlim() == (0, 360) and len(strokes(12, palette.HELIX, 1)) > 100
 
 
+@pytest.mark.slow
 def test_figure_12_shows_where_the_pillars_of_two_obstacles_meet() -> None:
     found, (_, space) = scenes.five_boundary(), figure(12).axes
     (painting,) = [c for c in space.collections if isinstance(c, Painting)]

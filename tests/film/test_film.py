@@ -93,6 +93,7 @@ def test_every_pose_is_free(told: tuple[Boundary, list[Shot]]) -> None:
         assert all(is_free(result.checker, moment.pose) for moment in shot.moments)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PAPER)
 def test_no_pose_of_the_papers_scenes_is_forbidden_by_any_obstacle(name: str) -> None:
     result, shots = tale(name)
@@ -138,6 +139,7 @@ def test_shots_without_contact_have_no_caption(told: tuple[Boundary, list[Shot]]
     assert caption(None) == "no contact"
 
 
+@pytest.mark.slow
 def test_a_helix_keeps_its_vertex_in_place(fig9: Boundary) -> None:
     shot = shot_of("paper_fig9", "helix")
     contact = shot.moments[0].contact
@@ -176,6 +178,7 @@ def test_more_frames_mean_smaller_steps(fig9: Boundary) -> None:
     assert largest(1200) < 0.25 * largest(200)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", PAPER)
 def test_the_papers_scenes_are_told_without_cuts(name: str) -> None:
     _, shots = tale(name)
@@ -292,6 +295,7 @@ def test_a_full_turn_has_room_where_it_is_made(five: Boundary) -> None:
 # frames
 
 
+@pytest.mark.slow
 def test_what_is_swept_appears_and_stays(fig9: Boundary) -> None:
     (shots,) = shots_of([fig9], 120, "paper")
     stage = Stage(fig9, (160, 90), 25)

@@ -174,6 +174,7 @@ def test_a_lost_trapezoid_is_noticed() -> None:
             _core.glue(part.core, 1)
 
 
+@pytest.mark.slow
 def test_any_number_of_threads_gives_the_same_complex() -> None:
     scene = load_scene(ROOT / "examples/scenes/benchmr_parking1.json")  # several blocks of everything
     found = []

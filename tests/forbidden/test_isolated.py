@@ -251,6 +251,7 @@ def test_regularized_leaves_out_what_has_no_width() -> None:
     assert slit.complex.components > 0 and slit.regularized.complex.components > 0
 
 
+@pytest.mark.slow
 def test_regularized_boundaries_are_closed() -> None:
     for seed in range(30):
         assert np.all(boundary(scene_of(random_scene(seed, "bounds")), threads=1).regularized.complex.euler <= 2)

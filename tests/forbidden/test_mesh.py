@@ -158,6 +158,7 @@ def distances(result: Boundary, trapezoid: Any, points: Any, scale: float, reach
     return least
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [0.2, 1.0, 5.0])
 def test_error_holds_in_the_metric_asked_for(triangles: Boundary, scale: float) -> None:
     for error in (0.2, 0.02, 0.002):
@@ -176,6 +177,7 @@ def test_robots_far_from_their_reference_point(triangles: Boundary) -> None:
             check_error(mesh, result)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "name", ["paper_fig9", "five_convex", "degenerate_island", "degenerate_hexagons", "sofa_corner"]
 )
@@ -238,6 +240,7 @@ def test_vertices_next_to_a_side_stay_on_the_surface_where_it_is_steep() -> None
     check_error(mesh, result)
 
 
+@pytest.mark.slow
 def test_half_the_error_is_not_met(triangles: Boundary) -> None:
     # the bound is sharp: with few triangles to spare, some points are almost as far as allowed
     mesh = triangles.mesh(0.001)
@@ -249,6 +252,7 @@ def test_half_the_error_is_not_met(triangles: Boundary) -> None:
 # how many triangles
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "limits"),
     [("paper_fig9", {1e-2: 1.34, 1e-3: 1.2, 1e-4: 1.13}), ("degenerate_hexagons", {1e-2: 1.48, 1e-3: 1.22})],
@@ -280,6 +284,7 @@ def ratios_of_large_patches(mesh: Mesh, result: Boundary) -> Any:
     return count[count >= 100] / least[count >= 100]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("corners", "middle", "most"), [((3, 4), 1.23, 1.6), ((5, 7), 1.32, 1.75)])
 def test_large_patches_of_convex_pairs_are_near_the_best_known_density(
     corners: tuple[int, int], middle: float, most: float
@@ -296,6 +301,7 @@ def test_large_patches_of_convex_pairs_are_near_the_best_known_density(
     assert np.median(found) < middle and max(found) < most
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("kind", "middle"), [("nonconvex", 1.6), ("workspace", 1.6)])
 def test_large_patches_cut_by_others_need_more_for_their_curves(kind: str, middle: float) -> None:
     result = boundary(make(shapes.random_scene(1, kind)), threads=1)
@@ -303,6 +309,7 @@ def test_large_patches_cut_by_others_need_more_for_their_curves(kind: str, middl
     assert len(found) > 20 and np.median(found) < middle and min(found) < 1.25
 
 
+@pytest.mark.slow
 def test_no_scene_needs_more_than_it_did_with_fewer_ways_to_lay_out_points() -> None:
     # counts at a hundredth of the robot's radius with rows and lattices, but neither columns nor bounds by edges
     for name, before in (
@@ -407,6 +414,7 @@ def test_counts_of_the_papers_example(triangles: Boundary) -> None:
     assert set(np.unique(mesh.triangles)) == set(range(len(mesh.vertices)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1.0, 2.5])
 def test_volume_inside_is_that_of_theory(triangles: Boundary, scale: float) -> None:
     # divergence theorem for (x, y, 0) / 2: the sections at the seam do not count
@@ -418,6 +426,7 @@ def test_volume_inside_is_that_of_theory(triangles: Boundary, scale: float) -> N
     assert volume == pytest.approx(expected, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_areas_of_edge_vertex_patches_are_those_of_theory(triangles: Boundary) -> None:
     # docs/theory/errata.md: area = phi_range * integral of sqrt(1 + s^2) ds along the robot's edge, angle_scale 1
     mesh = triangles.mesh(2e-4, angle_scale=1)

@@ -81,6 +81,7 @@ def test_places_name_polygon_ring_and_vertex_of_the_input() -> None:
         assert patch.robot.index < len(scene.robot[patch.robot.polygon].vertices)
 
 
+@pytest.mark.slow
 def test_trapezoids_lie_in_the_orientations_of_their_patch() -> None:
     for result in results():
         patch = result.trapezoids.patch
@@ -166,6 +167,7 @@ def squarefree(value: Callable[[Fraction], Fraction]) -> Callable[[Fraction], Fr
     return at
 
 
+@pytest.mark.slow
 def test_critical_angles_are_isolated_roots_of_their_conditions() -> None:
     rng = random.Random(3)
     checked = 0

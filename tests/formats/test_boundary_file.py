@@ -36,6 +36,7 @@ def saved(result: Boundary, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_saving_and_loading_changes_nothing(kind: str, tmp_path: Path) -> None:
     first, path = boundary(scene_of(random_scene(11, kind)), threads=1), tmp_path / "b.npz"
@@ -75,6 +76,7 @@ def test_truncated_files_are_refused(saved: Path, tmp_path: Path) -> None:
         refused(path)
 
 
+@pytest.mark.slow
 def test_damaged_files_are_refused_or_the_same(result: Boundary, saved: Path, tmp_path: Path) -> None:
     whole, path = saved.read_bytes(), tmp_path / "damaged.npz"
     rng = np.random.default_rng(0)
@@ -209,6 +211,7 @@ def test_one_flipped_bit_in_any_column_is_refused(saved: Path, tmp_path: Path) -
         assert "not what was written" in refused(tmp_path / "flipped.npz")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["from_place", "to_place", "chart"])
 def test_angles_that_are_none_are_refused(saved: Path, tmp_path: Path, name: str) -> None:
     # gluing would look for them for ever

@@ -99,6 +99,7 @@ def sampled(ring: Ring) -> list[tuple[float, float]]:
     return points
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", RINGS)
 @pytest.mark.parametrize("error", [0.3, 0.001])
 def test_polygons_are_around_curves_or_inside_and_near(name: str, error: float) -> None:
@@ -159,6 +160,7 @@ def test_what_cannot_be_read_is_one_error_with_its_place(
     assert message in str(caught.value)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_fig9", "flat", "street_Berlin", "degenerate_workspace", "benchmr_parking1"])
 @pytest.mark.parametrize("suffix", [".geojson", ".svg", ".dxf"])
 def test_written_scenes_are_read_as_they_were(name: str, suffix: str, tmp_path: Path) -> None:

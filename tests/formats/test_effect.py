@@ -47,6 +47,7 @@ def doubles_of(data: dict[str, Any]) -> dict[str, Any]:
     return json.loads(json.dumps(kept, default=float))  # type: ignore[no-any-return]
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(paths, st.integers(-3, 9), st.integers(0, 10**6), st.fractions(0, 50, max_denominator=9))
 def test_no_decimals_that_are_read_lead_further_astray_than_the_rule_allows(
@@ -223,6 +224,7 @@ def test_numbers_of_maps_that_doubles_do_not_hold_are_approximate(tmp_path: File
     assert deviation(scene, path, file) < 5e-10
 
 
+@pytest.mark.slow
 @settings(max_examples=20, deadline=None)
 @given(paths, st.fractions(0, 9, max_denominator=10))
 def test_what_is_written_as_free_is_verified(tmp_path_factory: pytest.TempPathFactory, path: Path, x: Fraction) -> None:

@@ -19,6 +19,7 @@ def read(shape: Any, role: str = "obstacles") -> cfree.Scene:
     return scene_from_text("scene.json", json.dumps(data))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(40))
 def test_scenes_are_written_and_read_again(seed: int, tmp_path: Path) -> None:
     scene = random_scene(seed)

@@ -286,6 +286,7 @@ def test_mutated_files_raise_format_errors_only(tmp_path: Path) -> None:
     assert refused > 1000
 
 
+@pytest.mark.slow
 @given(
     st.recursive(
         st.none() | st.booleans() | st.integers() | st.text(max_size=5),

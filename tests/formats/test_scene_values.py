@@ -58,6 +58,7 @@ def test_a_scene_without_faults_is_read_at_once(text: str) -> None:
     assert repr(quick.check) == repr(checked.check)
 
 
+@pytest.mark.slow
 def test_whatever_is_changed_both_say_the_same() -> None:
     rng, kept = random.Random(3), 0
     for _ in range(600):

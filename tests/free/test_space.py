@@ -62,6 +62,7 @@ def test_cells_of_examples_are_those_of_a_flood(path: Path) -> None:
     check_against_flood(plain_of(scene), free_space(boundary(scene, threads=1)), 120)
 
 
+@pytest.mark.slow
 def test_a_rod_in_a_tight_box_has_two_caged_cells() -> None:
     plain = PlainScene([ROD], [TIGHT])
     space = space_of(plain)
@@ -122,6 +123,7 @@ def test_an_exact_fit_longer_than_one_patch() -> None:
     assert space.locate([Pose(x + 1, 1, "90deg") for x in xs]).tolist() == [-2] * 7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_location_agrees_with_exact_overlap(kind: str) -> None:
     rng = np.random.default_rng(0)
@@ -140,6 +142,7 @@ def test_location_agrees_with_exact_overlap(kind: str) -> None:
             assert (space.locate(Pose(x, y, {"tau": tau})) != -1) == free
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_removing_an_obstacle_never_splits_a_cell(seed: int) -> None:
     plain = random_scene(seed, "bounds")

@@ -51,6 +51,7 @@ def test_a_throat_is_passed_in_its_middle(width: float) -> None:
     assert len(path.motions) <= 16
 
 
+@pytest.mark.slow
 def test_it_keeps_more_where_there_is_more() -> None:
     walls = [box(4, -9, 1, 8.45), box(4, 0.55, 1, 8.45), box(14, -9, 1, 8), box(14, 1, 1, 8)]
     robot, room = box(-0.5, -0.5, 1, 1), box(-5, -9, 30, 18)
@@ -76,6 +77,7 @@ def test_a_maze_is_passed_without_needless_turning() -> None:
     assert path.turning < math.pi and len(path.motions) <= 26 and least(path, scene) >= 0.2
 
 
+@pytest.mark.slow
 def test_a_way_that_touches_by_necessity_stays() -> None:
     walls = [box(3, -5, 2, 4.5), box(3, 0.5, 2, 4.5)]
     scene = Scene(box(-0.5, -0.5, 1, 1), walls, workspace=box(-5, -5, 15, 10), start=Pose(0, 2), goal=Pose(8, 2))
@@ -124,6 +126,7 @@ def test_the_answer_depends_on_no_thread_and_no_time() -> None:
     assert one == other == cfree.plan_many(space, [ends] * 3, threads=3)[2]
 
 
+@pytest.mark.slow
 def test_time_makes_it_shorter_not_nearer() -> None:
     scene = throat(0.1)
     first, better = found(scene), found(scene, improve=0.3)
@@ -131,6 +134,7 @@ def test_time_makes_it_shorter_not_nearer() -> None:
     assert least(better, scene) >= 0.5 * 0.05
 
 
+@pytest.mark.slow
 def test_other_ways_are_looked_for_if_there_is_time() -> None:
     """The search's first way past these racks is nearly twice as long as the shortest; each core tries others."""
     racks = [box(x, y, 4, 1) for x in (2, 8) for y in (2, 6, 10)]

@@ -41,6 +41,7 @@ def gate(turn: object = 0, robot: object = SQUARE, **more: object) -> Scene:
 UP, DOWN = Pose(0, 5), Pose(0, -5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("clearance", ["0.3", "0.4999999", "1/2"])
 def test_what_has_room_gets_through(clearance: str) -> None:
     path = plan(gate(), UP, DOWN, clearance=clearance)
@@ -59,6 +60,7 @@ def test_what_has_none_is_proved_apart(clearance: str) -> None:
     assert verified_in_a_file(gate(), proof).verified
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("objective", ["short", "clear"])
 def test_the_path_that_is_improved_keeps_it(objective: str) -> None:
     scene = gate(obstacle_names=None)
@@ -84,6 +86,7 @@ def test_a_clearance_too_near_to_the_largest_is_open(bounds: tuple[int, ...] | N
     assert isinstance(plan(scene, *ends, clearance=Fraction(1.001 * most)), Separated)
 
 
+@pytest.mark.slow
 def test_bounds_have_no_clearance() -> None:
     """They stay for the reference point, also where they leave no way but along themselves."""
     scene = Scene(SQUARE, [box(-1, 2, 1, 3)[0]], bounds=(-5, 0, 5, "5/2"))

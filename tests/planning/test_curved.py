@@ -38,6 +38,7 @@ def test_random_scenes(seed: int) -> None:
     assert fault(seed)[1] == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [0.3, 0.05, 0.01, 0.002])
 def test_a_disc_gets_through_a_gap_that_is_wide_enough(gap: float) -> None:
     scene = caged(gap)
@@ -45,6 +46,7 @@ def test_a_disc_gets_through_a_gap_that_is_wide_enough(gap: float) -> None:
     assert isinstance(path, cfree.Path) and path.curved is scene and cfree.verify.answer(scene, path).verified
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap", [-0.3, -0.05, pytest.param(-0.01, marks=pytest.mark.slow)])
 def test_a_disc_does_not_get_through_a_gap_that_is_not(gap: float) -> None:
     scene = caged(gap)
@@ -64,6 +66,7 @@ def test_a_gap_that_fits_is_left_undecided() -> None:
     assert 0 < caught.value.error <= 0.001
 
 
+@pytest.mark.slow
 def test_a_disc_in_its_own_hole() -> None:
     hole = cfree.Curved([(-3, -3), (3, -3), (3, 3), (-3, 3)], [cfree.curves.Circle((0, 0), 1)])
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [hole])
@@ -95,6 +98,7 @@ def test_near_contact_at_the_start(distance: Fraction) -> None:
         cfree.plan(closer, (0, 0, 0), (-3, 1, 1))
 
 
+@pytest.mark.slow
 def test_poses_are_free_or_not_or_undecided() -> None:
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [cfree.Curved.circle((4, 0), 1), [(0, 3), (1, 3), (1, 4)]])
     rows = np.array([[0, 0, 0], [2, 0, 0], [3, 0, 0], [2.001, 0, 2], [1.999, 0, 0], [1.99, 0, 1]])
@@ -107,6 +111,7 @@ def test_poses_are_free_or_not_or_undecided() -> None:
         cfree.is_free(cfree.Scene([(0, 0), (1, 0), (0, 1)]), Pose(0, 0), tolerance=0.1)
 
 
+@pytest.mark.slow
 def test_poses_among_random_shapes_are_free_as_in_doubles() -> None:
     from round_shapes import random_scene
 
@@ -119,6 +124,7 @@ def test_poses_among_random_shapes_are_free_as_in_doubles() -> None:
         assert not (smaller & (found == True)).any() and not (~larger & (found == False)).any()  # noqa: E712
 
 
+@pytest.mark.slow
 def test_answers_in_files(tmp_path: Path) -> None:
     for gap in (0.1, -0.1):
         scene = caged(gap)
@@ -135,6 +141,7 @@ def test_answers_in_files(tmp_path: Path) -> None:
         assert not cfree.verify.answer(other, tmp_path / "answer.json").verified
 
 
+@pytest.mark.slow
 def test_polygons_that_do_not_fit_are_found(tmp_path: Path) -> None:
     """Each vertex of them moved to the wrong side, one after the other."""
     scene = caged(0.1)
@@ -159,6 +166,7 @@ def test_polygons_that_do_not_fit_are_found(tmp_path: Path) -> None:
     assert not cfree.verify.answer(scene, tmp_path / "bad.json").verified
 
 
+@pytest.mark.slow
 def test_a_proof_needs_polygons_inside() -> None:
     scene = caged(-0.1)
     proof = cfree.plan(scene)

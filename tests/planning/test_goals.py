@@ -92,6 +92,7 @@ def test_goals_of_a_scene_are_what_is_asked() -> None:
         cfree.max_margin(several)
 
 
+@pytest.mark.slow
 def test_if_none_is_there_is_a_proof_for_each_interval() -> None:
     proof = plan(SHUT, START, [(0, -5), (8, "-4.5", 0), (0, "-2.6")])
     assert isinstance(proof, AllSeparated) and proof.of == "closed" and len(proof.proofs) == 4
@@ -104,6 +105,7 @@ def test_if_none_is_there_is_a_proof_for_each_interval() -> None:
         assert verified_in_a_file(SHUT, one).verified
 
 
+@pytest.mark.slow
 def test_a_proof_that_lacks_an_interval_is_refuted() -> None:
     proof = plan(SHUT, START, (0, "-2.6"))
     assert isinstance(proof, AllSeparated) and len(proof.proofs) == 2
@@ -157,6 +159,7 @@ def test_ends_that_are_not_free_are_named() -> None:
         plan(SHUT, START, (0, 5), clearance="0.1")
 
 
+@pytest.mark.slow
 def test_several_goals_and_a_clearance() -> None:
     goals = [(0, -5, 0), (4, 5, 0)]
     path = plan(SHUT, START, goals, clearance="1/2")
@@ -168,6 +171,7 @@ def test_several_goals_and_a_clearance() -> None:
     )
 
 
+@pytest.mark.slow
 def test_files(tmp_path: FilePath) -> None:
     proof, file = plan(SHUT, START, [(0, "-2.6"), (8, -5, 0)]), tmp_path / "proofs.json"
     save(proof, file)
@@ -209,6 +213,7 @@ def test_intervals_left_out_are_those_that_turning_finds(kind: str) -> None:
             assert left_out(world, place, middles[1:]) == (min(1, len(middles)), single)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_verdicts_are_those_of_the_cells(kind: str) -> None:
     scene, rng = scene_of(random_scene(1, kind)), random.Random(kind)

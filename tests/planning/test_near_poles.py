@@ -35,6 +35,7 @@ def test_a_small_turn_on_a_long_way_is_a_turn_and_a_translation(tau: str, y: int
     assert checker.joins(found) and max(poles(found)) <= 1000 * SIZE
 
 
+@pytest.mark.slow
 @settings(max_examples=50, deadline=None)
 @given(*[st.fractions(1, 4, max_denominator=99)] * 2, st.fractions("1e-15", "1e-6"))
 def test_paths_have_no_far_poles_where_there_is_room(x: Fraction, y: Fraction, tau: Fraction) -> None:

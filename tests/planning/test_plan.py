@@ -114,6 +114,7 @@ def test_what_fits_gets_through(name: str, clearance: Fraction) -> None:
     assert len(found.motions) < 150
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", sorted(FAMILIES.keys() - {"peg"}))
 @pytest.mark.parametrize("clearance", CLEARANCES, ids=lambda c: f"-{float(c):g}")
 def test_what_does_not_fit_is_proved_apart(name: str, clearance: Fraction) -> None:
@@ -122,6 +123,7 @@ def test_what_does_not_fit_is_proved_apart(name: str, clearance: Fraction) -> No
     assert found.of == "closed"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("sign", [1, -1])
 def test_a_rectangle_round_an_upright_corner(sign: int) -> None:
     """The longest one of width b in corridors of width w is 2 (sqrt(2) w - b) long."""
@@ -298,6 +300,7 @@ def test_many_queries_have_the_answers_of_single_ones() -> None:
             assert found == single
 
 
+@pytest.mark.slow
 def test_threads_do_not_change_answers_through_exact_fits() -> None:
     scene, start, goal = slot(Fraction(0))
     queries = [(start, Pose(goal.x + Fraction(k, 7), goal.y - Fraction(k, 3), f"{10 * k}deg")) for k in range(6)]

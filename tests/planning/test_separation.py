@@ -53,6 +53,7 @@ def test_a_throat_that_is_too_narrow(gap: Fraction | int) -> None:
     assert proved(room(gap), INSIDE, OUTSIDE).of == "closed"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gap, of", [(1, "interior"), *((1 - Fraction(1, 2**k), "closed") for k in (30, 170, 300))])
 def test_a_throat_narrower_by_however_little_is_closed(gap: Fraction | int, of: str) -> None:
     assert proved(room(gap), INSIDE, OUTSIDE).of == of
@@ -100,6 +101,7 @@ def test_a_robot_of_parts_with_holes_one_too_thin_for_the_inset() -> None:
     assert proof.of == "closed" and [len(part.ring_offsets) - 2 for part in proof.robot] == [1]
 
 
+@pytest.mark.slow
 def test_critical_orientations_and_level_vertices() -> None:
     """Rays along edges, through vertices, at critical angles and at the ends of charts."""
     space = space_of(PlainScene([box(0, 0, 1, 1)], [hollow((-4, -4, 8, 8), (-3, -3, 7, 7)), box(0, 0, 2, 2)]))
@@ -160,6 +162,7 @@ def test_real_scenes_that_are_not_connected(name: str, obstacles: tuple[int, ...
     assert cfree.verify.answer(scene, tmp_path / "proof.json").verified
 
 
+@pytest.mark.slow
 def test_ends_that_touch_and_exact_fits() -> None:
     """Of the interior: no path from there keeps a distance."""
     fit = space_of(PlainScene([box(0, 0, 1, 1)], [hollow((-1, -1, 6, 3), (0, 0, 4, 2)), box(1, 0, 4, 1)]))

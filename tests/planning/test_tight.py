@@ -74,6 +74,7 @@ def test_a_rectangle_turns_in_a_room_hardly_wider_than_its_diagonal(k: int, offs
     assert answered(scene, *ends) == "path"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("k", [30, 42, 100, 300])
 def test_a_slot_hardly_wider_than_a_rod_can_be_left(k: int) -> None:
     half = (1 + F(1, 2**k)) / 2
@@ -163,6 +164,7 @@ def test_slides_on_bounds_are_kept_by_the_reference_point() -> None:
 # --- how much is missing ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("half", [F(1, 40), F(1, 60), F(1, 1000)])
 def test_the_nearest_miss_of_a_narrow_slot(half: Fraction) -> None:
     walls = [[(-9, -1), (-half, -1), (-half, 1), (-9, 1)], [(half, -1), (9, -1), (9, 1), (half, 1)]]
@@ -182,6 +184,7 @@ def test_the_nearest_miss_of_a_sofa_whose_inset_vanishes_before_its_largest_disc
     assert miss is not None and 0.3 < miss.lo < miss.hi < 0.4
 
 
+@pytest.mark.slow
 def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
     """The bounds end where the workspace begins: only on that line the reference point may be."""
     obstacles = [[(1, 0), (1, 2), (0, 2)], [(2, 0), (2, 5), (0, 5)], [(0, 0), (2, 5), (0, 5)]]
@@ -202,6 +205,7 @@ def test_the_reference_point_slides_on_bounds_where_a_vertex_of_the_robot_is(at:
         assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tau", TURNS)
 def test_a_vertex_of_one_cell_is_on_an_edge_of_another(tau: Fraction) -> None:
     """The second has no vertex there."""

@@ -80,6 +80,7 @@ def test_the_path_of_the_car_park_is_free(car_park: Boundary, parking: Path) -> 
     assert parking.is_free(MotionChecker(car_park.scene)) and parking.goal == car_park.scene.goal
 
 
+@pytest.mark.slow
 def test_ghosts_are_poses_of_the_path(car_park: Boundary, parking: Path) -> None:
     ghosts = artists(plot_path(parking, car_park.scene))["ghosts"]
     assert isinstance(ghosts, PathCollection)
@@ -109,6 +110,7 @@ def test_ghosts_are_at_even_steps_and_there_are_none_while_turning_in_place() ->
     assert len(Track.of(around, scene).ghosts) > 5
 
 
+@pytest.mark.slow
 def test_the_trace_begins_at_the_start_and_ends_at_the_goal(car_park: Boundary, parking: Path) -> None:
     trace = artists(plot_path(parking, car_park.scene))["trace"]
     assert isinstance(trace, LineCollection)
@@ -145,6 +147,7 @@ def test_colours_are_those_of_the_clearance() -> None:
     assert near[:3].sum() < 0.6 * far[:3].sum()
 
 
+@pytest.mark.slow
 def test_start_and_goal_are_named_and_drawn_where_they_are(parking: Path, car_park: Boundary) -> None:
     ax = plot_path(parking, car_park.scene)
     assert {"start", "goal"} <= {text.get_text() for text in ax.texts}
@@ -262,6 +265,7 @@ def test_patches_far_from_the_path_are_left_out(car_park: Boundary, parking: Pat
     assert not (pieces.sort == WALL).any()
 
 
+@pytest.mark.slow
 def test_hidden_parts_are_dashed_and_the_rest_is_among_the_patches(car_park: Boundary, parking: Path) -> None:
     ax = plot_path_space(parking, car_park)
     pieces = painting_of(ax)._pieces
@@ -299,6 +303,7 @@ def test_axes_of_two_dimensions_are_refused(car_park: Boundary, parking: Path) -
         plot_path_space(parking, car_park, Figure().add_subplot())  # type: ignore[arg-type]
 
 
+@pytest.mark.slow
 def test_the_headline_says_what_it_is(car_park: Boundary, parking: Path) -> None:
     figure = picture(parking, car_park.scene, car_park)
     assert [text.get_text() for text in figure.texts] == [
@@ -318,6 +323,7 @@ ROOM = [[(0, 0), (8, 0), (8, 1), (0, 1)], [(0, 5), (8, 5), (8, 6), (0, 6)], [(0,
 BOX = [(-1, "-0.45"), (1, "-0.45"), (1, "0.45"), (-1, "0.45")]
 
 
+@pytest.mark.slow
 def test_a_separation_shows_its_barrier_and_its_surface() -> None:
     scene = Scene(robot=BOX, obstacles=ROOM, bounds=(-1, -1, 14, 7), units="m")
     answer = cfree.plan(scene, Pose(3, 3), Pose(11, 3, "90deg"))
@@ -352,6 +358,7 @@ def test_a_surface_is_made_of_contacts(tmp_path: FilePath) -> None:
                 assert placed.distance(walls.boundary) < 1e-9  # it may overlap another wall behind
 
 
+@pytest.mark.slow
 def test_separations_by_bounds_and_workspace_are_marked() -> None:
     hall = [(-9, -9), (20, -9), (20, 9), (-9, 9)]
     wall = [[(4, -10), (5, -10), (5, 10), (4, 10)]]

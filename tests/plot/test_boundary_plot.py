@@ -76,6 +76,7 @@ def test_units_are_in_the_labels() -> None:
     assert ax.get_xlabel() == "x (m)"
 
 
+@pytest.mark.slow
 def test_given_axes_are_used(fig9: Boundary) -> None:
     figure = Figure()
     space, plane = figure.add_subplot(1, 2, 1, projection="3d"), figure.add_subplot(1, 2, 2)
@@ -210,10 +211,12 @@ def drawn_area(ax: Any) -> float:
     return total
 
 
+@pytest.mark.slow
 def test_an_empty_boundary_can_be_drawn() -> None:
     plot_overview(boundary(Scene(robot=TRIANGLE))).canvas.draw()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".svg", ".pdf", ".jpg", ".webp"])
 def test_other_formats_are_written(fig9: Boundary, suffix: str, tmp_path: Path) -> None:
     file, ax = tmp_path / f"slice{suffix}", plot_slice(fig9.slice(1.0))
@@ -317,6 +320,7 @@ def magenta(image: np.ndarray) -> int:
     return int(np.count_nonzero(np.abs(image - MAGENTA).max(axis=-1) < 0.02))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "folder", ["tests/cases/fits", "tests/cases/bounds", "tests/cases/tangencies", "tests/cases/flats"]
 )
@@ -378,6 +382,7 @@ def floats(shapes: Any) -> list[tuple[Any, Any]]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["paper_fig9", "benchmr_parking1"])
 def test_numbers_of_axes_in_space_do_not_touch(name: str) -> None:
     ax = plot_boundary(boundary(load_scene(SCENES / f"{name}.json")))

@@ -44,6 +44,7 @@ def test_no_label_of_an_answer_touches_another(seed: int) -> None:
         assert list(touching(figure)) == [], (k, scene)
 
 
+@pytest.mark.slow
 def test_no_label_of_a_scene_or_a_slice_touches_another() -> None:
     for k, (scene, start, goal) in enumerate(scenes(3)):
         ends = Scene(**{name: getattr(scene, name) for name in KEPT}, start=start, goal=goal)
@@ -90,6 +91,7 @@ def _ends_at(line: Any, box: shapely.Geometry) -> bool:
     return shapely.Point(line.get_xydata()[-1]).distance(box) < 0.1
 
 
+@pytest.mark.slow
 def test_the_frame_of_the_bounds_says_what_it_is_where_it_is_seen() -> None:
     near = Scene(robot=SQUARE, obstacles=[WALL], bounds=(-4, -4, 10, 6))
     path = Path(Pose(0, 0), [Translation((5, 0))])
@@ -99,6 +101,7 @@ def test_the_frame_of_the_bounds_says_what_it_is_where_it_is_seen() -> None:
         assert FRAME not in boxes_in_the_plane(plot_path(path, scene).figure)
 
 
+@pytest.mark.slow
 def test_names_in_space_follow_the_camera() -> None:
     scene = Scene(robot=SQUARE, obstacles=[WALL])
     ax = plot_path_space(Path(Pose(0, 0), [Translation((5, 0))]), cfree.boundary(scene))

@@ -35,6 +35,7 @@ def test_axes_are_labelled() -> None:
     assert "1 (90°)" in [label.get_text() for label in rational.get_zticklabels()]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("contact", "kind"), [(VertexEdge(1, 0), 1), (EdgeVertex(1, 2), 2)])
 def test_both_halves_show_the_patch_in_its_colour(contact: VertexEdge | EdgeVertex, kind: int) -> None:
     image = pixels(contact)

@@ -157,5 +157,6 @@ def test_many_holes_are_cut_apart() -> None:
     check(grid_of_holes(30))
 
 
+@pytest.mark.slow
 def test_many_vertices_are_cut_apart() -> None:
     check(star(20_000))

@@ -74,6 +74,7 @@ def test_whatever_is_wrong_with_rings_is_said_in_the_same_words(rings: Rings, si
     same([[(x * size + place, y * size - place) for x, y in ring] for ring in rings])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("grain", [None, 1, 4])
 def test_stars_with_holes_are_those_of_the_reference(grain: int | None) -> None:
     rng = random.Random(f"stars {grain}")

@@ -26,6 +26,7 @@ def test_the_denominator_is_the_least_of_the_vertices_kept() -> None:
     assert rings.removed == (Removed(0, 1, "collinear"),)
 
 
+@pytest.mark.slow
 @given(strategies.polygons())
 def test_rings_have_their_interior_on_the_left_and_no_straight_vertex(shape: Shape) -> None:
     rings = Polygon(*shape)

@@ -61,6 +61,7 @@ def test_nets_evaluate_to_the_surface_exactly(
         assert bezier_patch(S.surface, *ends, chart=chart, dimension=2)(t, local) == (x, y)
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(pairs, ts, ts, st.data())
 def test_patches_cover_what_is_inside_phi_and_nothing_else(

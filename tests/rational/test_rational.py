@@ -60,6 +60,7 @@ from shapes import Shape
 # exactly in contact
 
 
+@pytest.mark.slow
 @given(pairs, ts, taus, st.data())
 def test_contacts_hold_with_equality(
     shapes: tuple[Shape, Shape], t: Fraction, tau: Fraction | None, data: st.DataObject
@@ -86,6 +87,7 @@ def test_a_vertex_stays_at_a_vertex_with_equality(shapes: tuple[Shape, Shape], t
             assert placed(q, A.exact_vertices[contact.i]) == O.exact_vertices[contact.j]
 
 
+@pytest.mark.slow
 @settings(max_examples=50)
 @given(pairs, inner)
 def test_edges_lie_along_edges_with_equality_in_the_field_of_one_root(
@@ -149,6 +151,7 @@ def test_remark_4_equation_7_is_solved_by_sums_of_products(shapes: tuple[Shape, 
     assert (left[0] ** 2 + left[1] ** 2) == (ux * ux + uy * uy) * phi.n
 
 
+@pytest.mark.slow
 def test_remark_4_no_function_of_an_angle_is_called() -> None:
     program = """
 import cmath, math, numpy

@@ -40,6 +40,7 @@ from rational_pairs import (
 from shapes import Shape
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(convex_pairs, inner, taus, st.data())
 def test_a_convex_pair_is_in_contact_exactly_in_phi(
@@ -55,6 +56,7 @@ def test_a_convex_pair_is_in_contact_exactly_in_phi(
     assert is_contact(A, O, C.helix.pose({"tau": tau})) is (C.locate(tau) is not Location.OUTSIDE)
 
 
+@pytest.mark.slow
 @given(pairs, taus, st.data())
 def test_intervals_of_tau_say_the_same_as_directions(
     shapes: tuple[Shape, Shape], tau: Fraction | None, data: st.DataObject
@@ -101,6 +103,7 @@ def test_a_range_through_infinity_is_two_intervals() -> None:
     assert alone.locate(None) is Location.BOUNDARY
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(pairs, st.integers(2, 60), st.data())
 def test_outer_ends_are_just_outside(shapes: tuple[Shape, Shape], bits: int, data: st.DataObject) -> None:
@@ -112,6 +115,7 @@ def test_outer_ends_are_just_outside(shapes: tuple[Shape, Shape], bits: int, dat
         assert (c * end.s - s * end.c) ** 2 <= end.n * Fraction(4, 4**bits)  # the sine of the angle between
 
 
+@pytest.mark.slow
 @settings(max_examples=60)
 @given(pairs, st.integers(1, 60), st.data())
 def test_inner_ends_are_just_inside(shapes: tuple[Shape, Shape], bits: int, data: st.DataObject) -> None:

@@ -34,6 +34,7 @@ def test_classes_number_equal_keys_alike() -> None:
     assert ranks([0, 0, 1, 0], [5, 3, 9, 4]) == [2, 0, 0, 1]
 
 
+@pytest.mark.slow
 @brief
 @given(strategies.scenes())
 def test_equal_features_and_no_others_share_an_identity(plain: PlainScene) -> None:
@@ -84,6 +85,7 @@ def test_the_core_numbers_features_as_the_reference_does(plain: PlainScene, fact
     assert found.frame == expected.frame
 
 
+@pytest.mark.slow
 @brief
 @given(strategies.scenes())
 def test_pieces_are_convex_and_cover_the_area(plain: PlainScene) -> None:

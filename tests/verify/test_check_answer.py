@@ -59,6 +59,7 @@ def test_a_line_that_cannot_be_written_refutes_nothing(tmp_path: FilePath) -> No
     assert command.returncode == 2
 
 
+@pytest.mark.slow
 def test_the_command_says_it_in_one_line_and_an_exit_code(tmp_path: FilePath) -> None:
     scene, path = corridor()
     save(scene, tmp_path / "scene.json")
@@ -82,11 +83,13 @@ def test_the_command_says_it_in_one_line_and_an_exit_code(tmp_path: FilePath) ->
         assert found[0] == code and said in found[1] and found[1].count("\n") == 1, (arguments, found)
 
 
+@pytest.mark.slow
 def test_right_answers_are_verified_by_both() -> None:
     for scene, answer in (corridor(), tee(), *separations()):
         assert verified_in_a_file(scene, answer).verified
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["comb_hook", "degenerate_exact_fit", "degenerate_workspace", "sofa_corner"])
 def test_answers_in_the_examples_are_verified_by_both(name: str) -> None:
     scene = load_scene(ROOT / f"examples/scenes/{name}.json")
@@ -129,6 +132,7 @@ def rings() -> st.SearchStrategy[list[tuple[Any, Any]]]:
     return st.lists(points, min_size=3, max_size=7)
 
 
+@pytest.mark.slow
 @settings(max_examples=300, deadline=None)
 @given(rings(), st.lists(rings(), max_size=2))
 def test_polygons_are_read_alike(outer: list[tuple[Any, Any]], holes: list[list[tuple[Any, Any]]]) -> None:
@@ -161,6 +165,7 @@ def test_angles_are_read_alike(theta: Any) -> None:
     assert check_answer.read_angle(value, "theta") == Pose(0, 0, value).tau
 
 
+@pytest.mark.slow
 @settings(max_examples=200, deadline=None)
 @given(st.lists(st.tuples(st.integers(-6, 6), st.integers(1, 4)), max_size=4), st.integers(1, 3), st.booleans())
 def test_roots_are_found_each_once(linear: list[tuple[int, int]], times: int, with_surd: bool) -> None:

@@ -278,6 +278,7 @@ def test_what_squares_leave_of_a_line() -> None:
     assert Line((0, 1), (6, -3)).key == Line((4, -1), (-2, 1)).key == (-half, 1)
 
 
+@pytest.mark.slow
 def test_a_line_crosses_a_pillar_where_it_is_over_every_edge_whatever_the_doubles_say() -> None:
     rng, found = random.Random(0), Counter[bool]()
     for _ in range(2000):
@@ -304,6 +305,7 @@ def test_a_line_crosses_a_pillar_where_it_is_over_every_edge_whatever_the_double
     assert min(found.values()) > 200
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sofa_corner", "flat", "degenerate_overlapping"])
 def test_slices_have_the_oracles_perimeter(name: str) -> None:
     scene = load_scene(SCENES / f"{name}.json")

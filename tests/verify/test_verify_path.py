@@ -110,6 +110,7 @@ def test_many_motions_among_many_obstacles() -> None:
     assert verified(bare, scene.start, *moves)
 
 
+@pytest.mark.slow
 def test_the_core_reads_the_scene_and_the_planner_is_not_used(tmp_path: FilePath) -> None:
     scene, path = corridor()
     save(scene, tmp_path / "scene.json")

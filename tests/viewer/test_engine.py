@@ -56,6 +56,7 @@ def columns_of(scene: cfree.Scene) -> dict[str, np.ndarray[Any, Any]]:
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "path",
     [
@@ -89,6 +90,7 @@ def test_paths_of_the_page_are_free(name: str) -> None:
         assert (path.start, path.goal) == (scene.start, scene.goal) and path.is_free(cfree.MotionChecker(scene))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("ends", list(permutations([Pose(-7, 1), Pose(0, "1.5", "45deg")])))
 def test_written_paths_slide_along_two_contacts(ends: tuple[Pose, Pose], tmp_path: Path) -> None:
     square, junction = (
@@ -122,6 +124,7 @@ def test_contact_is_reached_exactly() -> None:
     assert overlapping["free"]["values"] == [0] and overlapping["pair"]["values"] == [0, 0]
 
 
+@pytest.mark.slow
 def test_picked_point_is_in_contact_exactly() -> None:
     text = (SCENES / "paper_fig9.json").read_text()
     slice_ = asked(["open", text], ["boundary"], ["slice", 0.6])[-1]
@@ -134,6 +137,7 @@ def test_picked_point_is_in_contact_exactly() -> None:
     assert touching["free"]["values"] == [1] and touching["touching.obstacle"]["values"] == [0]
 
 
+@pytest.mark.slow
 def test_what_is_told_of_patches_cells_and_poses_is_what_python_says() -> None:
     path = SCENES / "comb_hook.json"
     scene = cfree.load_scene(path)
@@ -162,6 +166,7 @@ def test_what_is_told_of_patches_cells_and_poses_is_what_python_says() -> None:
     assert pose["clearance"]["values"][0] == pytest.approx(float(nearest), rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "message"),
     [

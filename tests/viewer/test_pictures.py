@@ -76,6 +76,7 @@ def test_robot_is_drawn_at_its_start() -> None:
     assert place[0] < 3200 < place[1]
 
 
+@pytest.mark.slow
 def test_many_obstacles_make_a_small_picture() -> None:
     x, y = np.divmod(np.arange(10_000), 200)
     corners = np.array([(0, 0), (2, 0.25), (1.5, 2), (0.25, 1.5)])

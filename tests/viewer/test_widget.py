@@ -46,6 +46,7 @@ def test_what_is_shown_is_read_back() -> None:
     assert len(cfree.widget(scene, path).poses.splitlines()) == len(path.poses)
 
 
+@pytest.mark.slow
 def test_values_display_themselves_as_the_page_and_as_a_picture() -> None:
     scene = scene_of()
     live, picture = "application/vnd.jupyter.widget-view+json", "image/svg+xml"
