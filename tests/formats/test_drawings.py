@@ -1,5 +1,6 @@
 """SVG and DXF: what is drawn is what is read; curves are surrounded; what cannot be read is one error with its line."""
 
+import gzip
 import math
 import xml.etree.ElementTree as ElementTree
 from fractions import Fraction
@@ -66,6 +67,56 @@ def test_dxf_is_read_as_it_is_drawn(folder: Path) -> None:
     assert shapes.dropped[0] == "CIRCLE on layer off, which is off"
 
 
+def test_packed_svg_is_read_like_its_text(folder: Path, tmp_path: Path) -> None:
+    packed = gzip.compress(drawings.SVG.encode())
+    (tmp_path / "b.svgz").write_bytes(packed)
+    assert cfree.load_shapes(tmp_path / "b.svgz").shapes == cfree.load_shapes(folder / "a.svg").shapes
+    for content, message in (
+        (packed[:-20], "its end is missing; pack it anew"),
+        (packed[:40] + b"\xff" + packed[41:], "damaged: "),
+        (gzip.compress(bytes(source.MOST_BYTES + 1)), "more than 65,536 KiB when unpacked"),
+    ):
+        (tmp_path / "b.svgz").write_bytes(content)
+        with pytest.raises(FormatError, match=message):
+            cfree.load_shapes(tmp_path / "b.svgz")
+
+
+def test_entities_that_are_names_of_namespaces_are_read(tmp_path: Path) -> None:
+    names = '<!DOCTYPE svg [<!ENTITY ns_svg "http://www.w3.org/2000/svg">\n<!ENTITY ns_ai "http://ns.adobe.com/">]>'
+    text = '<svg xmlns="&ns_svg;" xmlns:i="&ns_ai;"><i:x/><rect width="2" height="1"/></svg>'
+    (tmp_path / "a.svg").write_text(names + text)
+    assert [shape.polygon.exact_area for shape in cfree.load_shapes(tmp_path / "a.svg").shapes] == [2]
+
+
+def test_lines_that_are_drawn_twice_or_are_points_count_once(tmp_path: Path) -> None:
+    ezdxf = pytest.importorskip("ezdxf")
+    document = ezdxf.new()
+    space = document.modelspace()
+    corners = [(0, 0), (4, 0), (4, 3), (0, 3)]
+    for k, a in enumerate(corners):
+        space.add_line(a, corners[k - 1])
+        space.add_line(corners[k - 1], a)
+    space.add_line((9, 9), (9 + 1e-12, 9))
+    space.add_line((6, 0), (7, 0))  # there and back: no ring of two points
+    space.add_line((7, 0), (6, 0))
+    for first in (0, 180, 180):  # two half circles have the same ends
+        space.add_arc((20, 0), 2, first, first + 180)
+    document.saveas(tmp_path / "a.dxf")
+    shapes = cfree.load_shapes(tmp_path / "a.dxf")
+    assert [round(float(shape.polygon.exact_area)) for shape in shapes.shapes] == [12, 13]
+    twice, point, open_line = shapes.dropped
+    assert twice == "line that is drawn twice: once (6 times)"
+    assert point.startswith("line so short") and open_line.startswith("open line")
+
+
+@pytest.mark.parametrize("path", ["M0 0 L4 0 L2 0 Z", "M0 0 L4 0 L2 0 Z M0 0 L4 4 L4 4 Z"])
+def test_rings_on_a_line_are_dropped(path: str, tmp_path: Path) -> None:
+    (tmp_path / "a.svg").write_text(f"<svg><path d='{path}'/><rect width='1' height='1'/></svg>")
+    shapes = cfree.load_shapes(tmp_path / "a.svg")
+    assert len(shapes.shapes) == 1
+    assert "ring on a line: it forbids nothing; give it width" in shapes.dropped[0]
+
+
 def test_roles_can_be_given(folder: Path) -> None:
     shapes = cfree.load_shapes(folder / "a.dxf", roles={"hatch": "ignore", "part": "robot"})
     assert (of(shapes, "hatch"), len(shapes.of("robot"))) == ([], 2)
@@ -130,8 +181,11 @@ def test_polygons_are_around_curves_or_inside_and_near(name: str, error: float) 
         (
             "a.svg",
             '<!DOCTYPE svg [<!ENTITY a "b">\n<!ENTITY c "&a;&a;">]><svg>&c;</svg>',
-            "entity a: entities are not read; write what they stand for",
+            "entity c: only texts of up to 200 characters are read",
         ),
+        ("a.svg", f'<!DOCTYPE svg [<!ENTITY a "{"b" * 201}">]><svg/>', "entity a: only texts of up to 200 characters"),
+        ("a.svg", '<!DOCTYPE svg [<!ENTITY a SYSTEM "/etc/passwd">]><svg>&a;</svg>', "entity a: only texts of up"),
+        ("a.svg", "<svg><path d='M0 0 L4 4 L4 0 L0 4 Z M9 9h1v1z'/></svg>", "edges 1 and 3 cross"),
         (
             "a.svg",
             '<svg><g id="a0"><rect width="1" height="1"/></g>'

@@ -140,6 +140,18 @@ def ends(segment: Segment) -> tuple[Vector, Vector]:
             return points[0], points[3]
 
 
+def middle(segment: Segment) -> Vector:
+    """The point between the ends, half way of its parameter."""
+    match segment:
+        case Line():
+            (x0, y0), (x1, y1) = ends(segment)
+            return (x0 + x1) / 2, (y0 + y1) / 2
+        case Arc():
+            return segment.at((segment.first + segment.last) / 2)
+        case Cubic((a, b, c, d), _):
+            return (a[0] + 3 * b[0] + 3 * c[0] + d[0]) / 8, (a[1] + 3 * b[1] + 3 * c[1] + d[1]) / 8
+
+
 def reversed_ring(ring: Sequence[Segment]) -> Ring:
     """The same ring in the other direction."""
     return [_reversed(segment) for segment in reversed(ring)]

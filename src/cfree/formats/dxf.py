@@ -27,6 +27,7 @@ from cfree.curves.drawn import (
     bulged,
     carried,
     ends,
+    middle,
     point_of,
     polyline,
     quadratic,
@@ -128,6 +129,7 @@ class _Walk:
 
     def joined(self, pieces: Ring) -> list[Ring]:
         """Rings of the pieces that meet end to end; a piece that goes on nowhere is dropped."""
+        pieces = self.once(pieces)
         at: dict[ExactPoint, list[tuple[int, bool]]] = defaultdict(list)
         for k, piece in enumerate(pieces):
             for last, end in enumerate(ends(piece)):
@@ -155,6 +157,17 @@ class _Walk:
         if len(pieces) > used:
             self.source.dropped["open line: it forbids nothing; close it, or give it width"] += len(pieces) - used
         return rings
+
+    def once(self, pieces: Ring) -> Ring:
+        """Without those that are a point, or drawn already."""
+        kept: dict[tuple[frozenset[ExactPoint], ExactPoint], Segment] = {}
+        for piece in pieces:
+            joints, between = frozenset(map(_joint, ends(piece))), _joint(middle(piece))
+            if joints == {between}:
+                self.source.dropped["line so short that it is a point"] += 1
+            elif kept.setdefault((joints, between), piece) is not piece:
+                self.source.dropped["line that is drawn twice: once"] += 1
+        return [*kept.values()]
 
     def goes_on(self, layer: str, pieces: Ring) -> None:
         """Keep pieces with two ends; a ValueError if an end is no point."""

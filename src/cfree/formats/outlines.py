@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from cfree.curves.drawn import Ring, Vector, carried, decimal, translation
+from cfree.curves.drawn import Ring, Vector, carried, decimal, translation, turn
 from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, rough
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
@@ -90,11 +90,13 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     """
     import shapely
 
-    if len(rings) == 1:
-        return [Outline(rings[0])]
     points: list[list[Vector]] = [rough(ring) for ring in rings]
+    kept = [k for k in range(len(rings)) if not _is_flat(points[k])]
+    if len(kept) < len(rings):
+        source.dropped["ring on a line: it forbids nothing; give it width"] += len(rings) - len(kept)
+    if len(kept) == 1:
+        return [Outline(rings[kept[0]])]
     areas = [area(part) for part in points]
-    kept = [k for k in range(len(rings)) if len(points[k]) > 2 and areas[k]]
     order = sorted(kept, key=lambda k: -abs(areas[k]))
     bodies = [shapely.Polygon(points[k]) for k in order]
     tree = shapely.STRtree(bodies)
@@ -120,6 +122,15 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
         else:
             source.changed["a ring inside of a filled one: filled already"] += 1
     return [Outline(rings[k], tuple(rings[j] for j in sorted(inner))) for k, inner in sorted(holes.items())]
+
+
+def _is_flat(points: Sequence[Vector]) -> bool:
+    """Are they all on the line of the first two that differ?"""
+    if len(points) < 3:
+        return True
+    p = points[0]
+    q = next((other for other in points if other != p), p)
+    return all(turn(p, q, r) == 0 for r in points)
 
 
 def _inside(source: Source, outer: list[Vector], inner: list[Vector]) -> bool:

@@ -19,6 +19,7 @@ from cfree.scene.scene import Scene
 
 DRAWINGS = {
     ".svg": "svg.read_svg",
+    ".svgz": "svg.read_svg",
     ".dxf": "dxf.read_dxf",
     ".yaml": "ros.read_yaml",
     ".yml": "ros.read_yaml",

@@ -1,12 +1,21 @@
-"""XML as a tree of small nodes with their lines. Entities are refused, and nothing outside of the file is opened."""
+"""XML as a tree of small nodes with their lines, packed by gzip or not.
+
+Entities are short texts of the file itself, as drawing programs write them for the names of their namespaces; nothing
+outside of the file is opened.
+"""
 
 from __future__ import annotations
 
+import zlib
 from dataclasses import dataclass, field
 from xml.parsers import expat
 
 from cfree.formats.findings import InvalidFileError
 from cfree.formats.source import DEEPEST, MOST_BYTES, Source, read_bytes
+
+LONGEST_ENTITY = 200
+MOST_WITH_ENTITIES = 1 << 22
+"""Bytes of a file with entities: written out they are no more than fifty times as many."""
 
 
 @dataclass(slots=True)
@@ -37,12 +46,18 @@ def read_tree(source: Source) -> Node:
     def end(name: str) -> None:
         open_nodes.pop()
 
-    def entity(name: str, *rest: object) -> None:
-        source.refuse(f"entity {name}: entities are not read; write what they stand for", parser.CurrentLineNumber)
+    def entity(name: str, is_parameter: int, value: str | None, *rest: object) -> None:
+        plain = not is_parameter and value is not None and "&" not in value and len(value) <= LONGEST_ENTITY
+        if not plain or len(raw) > MOST_WITH_ENTITIES:
+            source.refuse(
+                f"entity {name}: only texts of up to {LONGEST_ENTITY} characters are read, in files of up to "
+                f"{MOST_WITH_ENTITIES >> 10:,} KiB; write what it stands for",
+                parser.CurrentLineNumber,
+            )
 
     parser.StartElementHandler, parser.EndElementHandler = start, end
     parser.EntityDeclHandler = entity
-    raw = read_bytes(source.findings.file, MOST_BYTES)
+    raw = _unpacked(source, read_bytes(source.findings.file, MOST_BYTES))
     try:
         parser.Parse(raw, True)
     except expat.ExpatError as error:
@@ -52,3 +67,18 @@ def read_tree(source: Source) -> Node:
     except (ValueError, LookupError) as error:  # an encoding that is none
         source.refuse(f"{error}; save the file as UTF-8 text")
     return top.children[0]
+
+
+def _unpacked(source: Source, raw: bytes) -> bytes:
+    if not raw.startswith(b"\x1f\x8b"):
+        return raw
+    packed = zlib.decompressobj(wbits=zlib.MAX_WBITS | 16)
+    try:
+        text = packed.decompress(raw, MOST_BYTES + 1)
+    except zlib.error as error:
+        source.refuse(f"damaged: {error}; pack it anew by gzip")
+    if len(text) > MOST_BYTES:
+        source.refuse(f"more than {MOST_BYTES >> 10:,} KiB when unpacked; give a smaller file")
+    if not packed.eof:
+        source.refuse("its end is missing; pack it anew by gzip")
+    return text
