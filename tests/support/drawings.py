@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import gzip
 from functools import cache
 from io import BytesIO, StringIO
 from pathlib import Path
 
+NAMESPACE = "http://www.w3.org/2000/svg"
 SVG = """<?xml version="1.0"?>
 <svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
      xmlns:xlink="http://www.w3.org/1999/xlink" width="210mm" height="297mm" viewBox="0 0 105 148.5">
@@ -96,8 +98,10 @@ def dxf() -> str:
 
 def files() -> dict[str, bytes]:
     """Names with contents."""
+    head = f'<!DOCTYPE svg [<!ENTITY ns "{NAMESPACE}">]>'
+    named = head + SVG[SVG.index("<svg") :].replace(NAMESPACE, "&ns;")
     texts = {"a.svg": SVG, "nav.yaml": NAV2, "r.urdf": URDF, "n.json": NESTING, "a.dxf": dxf(), "map.yaml": MAP}
-    return {name: text.encode() for name, text in texts.items()}
+    return {name: text.encode() for name, text in texts.items()} | {"b.svgz": gzip.compress(named.encode(), mtime=0)}
 
 
 def put(folder: Path) -> None:

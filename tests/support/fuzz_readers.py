@@ -8,6 +8,7 @@ File k is the same for ever. What is neither shapes nor an error of cfree is sho
 from __future__ import annotations
 
 import argparse
+import gzip
 import random
 import resource
 import sys
@@ -15,6 +16,7 @@ import tempfile
 import time
 import traceback
 from collections import Counter
+from contextlib import suppress
 from pathlib import Path
 
 import drawings
@@ -55,6 +57,8 @@ def damaged(number: int) -> tuple[str, bytes, bytes]:
     image = drawings.PGM.encode() if rng.random() < 0.5 else drawings.png([[0, 254], [205, 0]])
     if name == "map.yaml" and rng.random() < 0.5:
         return name, content, changed(rng, image)
+    if name == "b.svgz" and rng.random() < 0.8:
+        return name, gzip.compress(changed(rng, gzip.decompress(content)), mtime=0), image
     return name, changed(rng, content), image
 
 
@@ -118,7 +122,7 @@ def main() -> int:
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     begin, slowest = time.process_time(), (0.0, 0)
     kinds, wrong = Counter[tuple[str, str]](), set()
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, suppress(KeyboardInterrupt):
         for number in range(options.seed, options.seed + options.count):
             start = time.process_time()
             name, came, text = used(number, Path(folder))
@@ -133,7 +137,7 @@ def main() -> int:
     for (name, came), count in sorted(kinds.items()):
         print(f"{name:<9} {came:<20} {count:>9,}")
     print(
-        f"{options.count:,} files, {options.count / seconds:,.0f} a second; slowest: {slowest[1]}, {slowest[0]:.2f} s"
+        f"{kinds.total():,} files, {kinds.total() / seconds:,.0f} a second; slowest: {slowest[1]}, {slowest[0]:.2f} s"
     )
     print(f"{most:,} MiB; {len(wrong)} faults")
     return int(bool(wrong))
