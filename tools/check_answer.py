@@ -76,7 +76,7 @@ LARGEST = 10**150  # of a coordinate
 MAX_BITS = 1110  # of a scene's coordinates over their common denominator
 QUOTIENT = re.compile(r"\s*([+-]?[0-9]+)\s*/\s*([+-]?[0-9]+)\s*")
 BITS = 1300  # of angles: there may be 1024 in front of the point
-REQUIRED = object()
+REQUIRED, ROUND = object(), {"circle", "ellipse", "path", "grown"}  # keys of shapes that are no polygons
 
 def decoded(text: str) -> Any:
     """A JSON value: decimals as `Decimal`, integers as int."""
@@ -100,7 +100,7 @@ def members(value: Any, place: str, /, **known: Any) -> dict[str, Any]:
     """The members of an object; `known` holds the keys, each with what counts if it is not there."""
     refuse_if(not isinstance(value, dict), f"{place}: expected an object")
     for key in value:
-        refuse_if(key not in known, f"{place}: unknown key {key!a}")
+        refuse_if(key not in known, f"{place}: unknown key {key!a}" + "; `cfree verify` reads it" * (key in ROUND))
     for key, default in known.items():
         refuse_if(default is REQUIRED and key not in value, f"{place}: {key!a} is missing")
     return {key: value.get(key, default) for key, default in known.items()}
