@@ -7,7 +7,7 @@
 #include <string>
 
 #include "arrangement/touching_points.hpp"
-#include "arrangement/union_find.hpp"
+#include "support/union_find.hpp"
 #include "forbidden/curve_sides.hpp"
 #include "forbidden/level_sides.hpp"
 #include "forbidden/loops.hpp"

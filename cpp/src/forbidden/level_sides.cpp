@@ -6,6 +6,7 @@
 #include <span>
 
 #include "support/parallel.hpp"
+#include "support/union_find.hpp"
 
 namespace cfree {
 
@@ -21,6 +22,7 @@ struct Place {
 struct Level {
     Index trapezoid;
     bool is_above;
+    Feature contact;
     Code low_code, high_code;
     Index low, high;    // its ends among the places, in the order of its own line
     int along = 1;      // direction of its line against that of the line's first level
@@ -33,7 +35,7 @@ struct Sheet {
     std::vector<Index> levels;  // in order, as lists of numbers are everywhere below
     Feature contact;            // of the first
     int along = 1;              // direction against that of the first sheet parallel to it
-    Interval offset;            // from that one
+    Interval offset;            // from that one; of the first on a line
 };
 
 class LevelGluer {
@@ -46,10 +48,10 @@ public:
     Parts parts;
 
 private:
-    Feature contact(const Level& of) const { return surface_of(patches, trapezoids, of.trapezoid).contact; }
     std::vector<Sheet> sheets_of(std::vector<Index>&& chosen) const;
     void find_places(Sheet& sheet, Junction& at);
     std::vector<std::vector<Sheet*>> parallels(std::vector<Sheet>& sheets, Junction& at) const;
+    std::vector<std::vector<Sheet*>> lines_of(const std::vector<Sheet*>& parallel) const;
     void glue_parallels(const std::vector<Sheet*>& sheets, Junction& at);
     void glue_line(std::span<Sheet* const> sheets, Junction& at);
     void number_places(const Feature& line, std::vector<Index>& on_it, Junction& at);
@@ -74,9 +76,10 @@ void LevelGluer::glue(Index rank, std::span<const Index> sides) {
     for (const Index s : sides) {
         const Index k = s / 2;
         const bool is_above = s % 2 == 0;
-        know(at, scene, is_above ? angle_from(patches, trapezoids, k) : angle_to(patches, trapezoids, k));
-        levels.push_back({k, is_above, code(scene, unpacked(trapezoids.lower[k])), code(scene, unpacked(trapezoids.upper[k])),
-                          0, 0, 1, 0, 0});
+        const Surface on = surface_of(patches, trapezoids, k);
+        know(at, scene, is_above ? angle_from(on, trapezoids, k) : angle_to(on, trapezoids, k));
+        const Code low = code(scene, unpacked(trapezoids.lower[k])), high = code(scene, unpacked(trapezoids.upper[k]));
+        levels.push_back({k, is_above, on.contact, low, high, 0, 0, 1, 0, 0});
     }
     std::vector<Index> all(levels.size());
     std::iota(all.begin(), all.end(), 0);
@@ -89,11 +92,11 @@ void LevelGluer::glue(Index rank, std::span<const Index> sides) {
 
 std::vector<Sheet> LevelGluer::sheets_of(std::vector<Index>&& chosen) const {
     std::vector<std::pair<Code, Index>> by_code;
-    for (const Index k : chosen) by_code.push_back({code(scene, contact(levels[k])), k});
+    for (const Index k : chosen) by_code.push_back({code(scene, levels[k].contact), k});
     std::sort(by_code.begin(), by_code.end());
     std::vector<Sheet> result;
     for (const auto& [own, k] : by_code) {
-        if (result.empty() || result.back().code != own) result.push_back({own, {}, contact(levels[k]), 1, {}});
+        if (result.empty() || result.back().code != own) result.push_back({own, {}, levels[k].contact, 1, {}});
         result.back().levels.push_back(k);
     }
     return result;
@@ -117,7 +120,7 @@ void LevelGluer::find_places(Sheet& sheet, Junction& at) {
         if (k == 0 || ends[k - 1].curve != curve) {
             const Index trapezoid = levels[of].trapezoid;
             const Feature named = unpacked((is_high ? trapezoids.upper : trapezoids.lower)[trapezoid]);
-            const Spot spot = at.spot(contact(levels[of]), named);
+            const Spot spot = at.spot(levels[of].contact, named);
             places.push_back({spot, at.range(sheet.contact, spot), 0});
         }
         (is_high ? levels[of].high : levels[of].low) = static_cast<Index>(places.size()) - 1;
@@ -184,22 +187,39 @@ std::vector<std::vector<Sheet*>> LevelGluer::parallels(std::vector<Sheet>& sheet
     return result;
 }
 
+// Parallel sheets with a helix in common are on one line.
+std::vector<std::vector<Sheet*>> LevelGluer::lines_of(const std::vector<Sheet*>& parallel) const {
+    std::vector<std::pair<Code, Index>> helices;
+    for (std::size_t k = 0; k < parallel.size(); ++k)
+        for (const int end : {0, 1})
+            helices.push_back({code(scene, end_helix(scene, parallel[k]->contact, end)), static_cast<Index>(k)});
+    std::sort(helices.begin(), helices.end());
+    UnionFind joined(parallel.size());
+    for (std::size_t k = 1; k < helices.size(); ++k)
+        if (helices[k - 1].first == helices[k].first) joined.unite(helices[k - 1].second, helices[k].second);
+    std::vector<Index> line;
+    std::vector<std::vector<Sheet*>> lines(static_cast<std::size_t>(joined.number(line)));
+    for (std::size_t k = 0; k < parallel.size(); ++k) lines[line[k]].push_back(parallel[k]);
+    return lines;
+}
+
 // Line after line, from right to left of the first.
 void LevelGluer::glue_parallels(const std::vector<Sheet*>& sheets, Junction& at) {
     const Feature& front = sheets[0]->contact;
-    for (Sheet* s : sheets) {
-        s->along = s == sheets[0] ? 1 : at.parallel(front, s->contact);
-        s->offset = at.offset(front, s->contact);
-    }
-    const auto is_right = [&](const Sheet* x, const Sheet* y) {
-        if (x->offset.hi < y->offset.lo || y->offset.hi < x->offset.lo) return x->offset.hi < y->offset.lo;
-        return at.side(x->contact, y->contact) * x->along > 0;
+    for (Sheet* s : sheets) s->along = s == sheets[0] ? 1 : at.parallel(front, s->contact);
+    std::vector<std::vector<Sheet*>> lines = lines_of(sheets);
+    for (const auto& line : lines) line[0]->offset = at.offset(front, line[0]->contact);
+    const auto is_right = [&](const std::vector<Sheet*>& of, const std::vector<Sheet*>& other) {
+        const Sheet &x = *of[0], &y = *other[0];
+        if (x.offset.hi < y.offset.lo || y.offset.hi < x.offset.lo) return x.offset.hi < y.offset.lo;
+        return at.side(x.contact, y.contact) * x.along > 0;
     };
-    std::vector<Sheet*> sorted = sheets;
-    std::stable_sort(sorted.begin(), sorted.end(), is_right);
-    for (std::size_t begin = 0, end; begin < sorted.size(); begin = end) {
-        for (end = begin + 1; end < sorted.size() && !is_right(sorted[begin], sorted[end]);) ++end;
-        glue_line(std::span(sorted).subspan(begin, end - begin), at);
+    std::stable_sort(lines.begin(), lines.end(), is_right);
+    for (std::size_t begin = 0, end; begin < lines.size(); begin = end) {
+        std::vector<Sheet*> line = lines[begin];
+        for (end = begin + 1; end < lines.size() && !is_right(lines[begin], lines[end]); ++end)
+            line.insert(line.end(), lines[end].begin(), lines[end].end());
+        glue_line(line, at);
     }
 }
 
@@ -209,7 +229,7 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
         for (const Index k : s->levels) chosen.push_back(k), levels[k].along = s->along;
     if (std::none_of(chosen.begin(), chosen.end(), [&](Index k) { return whole[levels[k].trapezoid]; })) return;
     std::sort(chosen.begin(), chosen.end());
-    const Feature line = contact(levels[chosen[0]]);
+    const Feature line = levels[chosen[0]].contact;
     const int along = levels[chosen[0]].along;
     std::vector<Index> on_it;
     for (const Index k : chosen) {
@@ -242,7 +262,7 @@ void LevelGluer::glue_line(std::span<Sheet* const> sheets, Junction& at) {
             const bool forwards = level.along > 0;
             const Side side = level.is_above ? Side::first : Side::last;
             const Spot& start = places[on_it[is_forwards(side) == forwards ? k : k + 1]].spot;
-            live.push_back({&level, parts.add(level.trapezoid, side, !forwards, at.value(contact(level), start))});
+            live.push_back({&level, parts.add(level.trapezoid, side, !forwards, at.value(level.contact, start))});
         }
         pair_around_line(live, places[on_it[k]].spot, places[on_it[k + 1]].spot, at);
     }
@@ -272,7 +292,7 @@ void LevelGluer::pair_around_line(const std::vector<std::pair<const Level*, Inde
     if (around == Around::all && live.size() <= 2) return parts.pair(live.front().second, live.back().second);
     auto sorted = live;
     const auto is_left = [&](const Level* x, const Level* y) {  // x further left than y, of two above or two below
-        const int s = at.across(contact(*x), contact(*y), p, q, x->is_above) * y->along;
+        const int s = at.across(x->contact, y->contact, p, q, x->is_above) * y->along;
         return s != 0 ? s > 0 : x->along > y->along;  // one slit: what is left of its left sheet is forbidden
     };
     // stable: a merge stays within its arrays whatever sheets from outside say of their order

@@ -2,8 +2,8 @@
 #pragma once
 #include <functional>
 #include <memory>
-#include <set>
 
+#include "cfree/predicates/meeting_names.hpp"
 #include "cfree/predicates/predicates.hpp"
 
 namespace cfree {
@@ -92,7 +92,7 @@ private:
     std::function<RealRoot()> exact;
     mutable std::optional<RealRoot> root;  // once needed
     mutable std::optional<Ball> few_digits;
-    std::set<std::array<Code, 3>> known;
+    MeetingNames known;
 };
 
 }  // namespace cfree
