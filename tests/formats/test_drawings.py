@@ -117,6 +117,14 @@ def test_rings_on_a_line_are_dropped(path: str, tmp_path: Path) -> None:
     assert "ring on a line: it forbids nothing; give it width" in shapes.dropped[0]
 
 
+def test_small_shapes_far_away_are_no_lines(tmp_path: Path) -> None:
+    x = 10**12
+    points = f"{x}.00000001 3, {x}.00000003 3, {x}.00000002 3.00000001"
+    (tmp_path / "a.svg").write_text(f"<svg><polygon points='{points}'/></svg>")
+    (shape,) = cfree.load_shapes(tmp_path / "a.svg").shapes
+    assert shape.polygon.exact_area == Fraction(1, 10**16)
+
+
 def test_roles_can_be_given(folder: Path) -> None:
     shapes = cfree.load_shapes(folder / "a.dxf", roles={"hatch": "ignore", "part": "robot"})
     assert (of(shapes, "hatch"), len(shapes.of("robot"))) == ([], 2)

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from cfree.curves.drawn import Ring, Vector, carried, decimal, translation, turn
+from cfree.curves.drawn import Line, Ring, Vector, carried, decimal, straight, translation, turn
 from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, rough
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint
@@ -91,7 +91,7 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     import shapely
 
     points: list[list[Vector]] = [rough(ring) for ring in rings]
-    kept = [k for k in range(len(rings)) if not _is_flat(points[k])]
+    kept = [k for k in range(len(rings)) if not _is_flat(rings[k])]
     if len(kept) < len(rings):
         source.dropped["ring on a line: it forbids nothing; give it width"] += len(rings) - len(kept)
     if len(kept) == 1:
@@ -124,8 +124,9 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     return [Outline(rings[k], tuple(rings[j] for j in sorted(inner))) for k, inner in sorted(holes.items())]
 
 
-def _is_flat(points: Sequence[Vector]) -> bool:
-    """Are they all on the line of the first two that differ?"""
+def _is_flat(ring: Ring) -> bool:
+    """Are its points all on the line of the first two that differ?"""
+    points: Sequence[Sequence[Any]] = [s.start for s in ring if isinstance(s, Line)] if straight(ring) else rough(ring)
     if len(points) < 3:
         return True
     p = points[0]
