@@ -96,9 +96,9 @@ def boundary(
 ) -> None:  # fmt: skip
     """Compute the boundary of the forbidden space.
 
-    Every contact patch, trimmed. SCENE is JSON, GeoJSON or WKT. If a limit stops the work, what was done so far is
-    written, marked as incomplete, and the exit code is 3. Into a folder it is computed tile by tile, of any size and
-    by any number of processes; ended at any moment, the same command goes on.
+    Every contact patch, trimmed. SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads. If a limit
+    stops the work, what was done so far is written, marked as incomplete, and the exit code is 3. Into a folder it is
+    computed tile by tile, of any size and by any number of processes; ended at any moment, the same command goes on.
     """
     with one_line_faults():
         if folder is not None:
@@ -231,10 +231,10 @@ def plan(
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
-    Each motion is proved free. SCENE is JSON, GeoJSON or WKT, a boundary written by cfree boundary -o, or a folder
-    written by cfree boundary --folder, of which only what is near the way is read. Exit code 0:
-    a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch, or a clearance that is
-    too near to the largest, or round shapes that all but touch.
+    Each motion is proved free. SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, a boundary
+    written by cfree boundary -o, or a folder written by cfree boundary --folder, of which only what is near the way is
+    read. Exit code 0: a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch, or a
+    clearance that is too near to the largest, or round shapes that all but touch.
     """
     with one_line_faults():
         from cfree.cli.answering import Answering, Sampling
@@ -290,7 +290,7 @@ def plan(
 def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, threads: int | None, as_json: bool) -> None:
     """Cut the forbidden space at one orientation of the robot.
 
-    SCENE is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o.
+    SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, or a boundary written by cfree boundary -o.
     """
     with one_line_faults():
         angle = read_angle(theta)
@@ -338,7 +338,8 @@ def film(
     """Make a film of the robot and of its configuration.
 
     The robot among the obstacles, and the point it is in the configuration space. Scenes are shown one after the
-    other; each is JSON, GeoJSON or WKT, or a boundary written by cfree boundary -o.
+    other; each is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, or a boundary written by cfree
+    boundary -o.
     """
     with one_line_faults():
         from cfree.film import SECONDS, SECONDS_OF, save_film
@@ -369,7 +370,7 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
     """Show a scene in the browser, to be dragged and turned.
 
     Beside it its configuration space, exact like all answers. ANSWER is a path or a proof written by cfree plan -o.
-    SCENE is JSON, GeoJSON or WKT.
+    SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads.
     """
     with one_line_faults():
         from cfree.formats.files import load
