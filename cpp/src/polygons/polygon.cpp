@@ -96,37 +96,57 @@ InvalidPolygon::InvalidPolygon(Index ring_at_fault, const std::string& message, 
     : std::invalid_argument(name_of(ring_at_fault) + ": " + message), ring(ring_at_fault), edges(std::move(edges_at_fault)) {}
 
 Polygon::Polygon(std::vector<RatioRing> rings) {
-    std::map<Int, Int> factors;  // by denominator
-    const Int* last = nullptr;
     for (std::size_t r = 0; r < rings.size(); ++r) {
         if (rings[r].size() > 1 && rings[r].front() == rings[r].back()) rings[r].pop_back();
         if (rings[r].size() < 3)
             throw InvalidPolygon(static_cast<Index>(r), std::to_string(rings[r].size()) + " points; give at least 3");
-        for (const auto& point : rings[r])
-            for (const Int* d : {&point.x.d, &point.y.d})
-                if (!last || *last != *d) last = &factors.try_emplace(*d).first->first;
     }
+    const auto for_each = [&](const auto& use) {
+        for (const RatioRing& ring : rings)
+            for (const auto& point : ring) use(point.x), use(point.y);
+    };
+    const auto points = [&](auto&& whole) {
+        std::vector<Points> result;
+        for (const RatioRing& ring : rings) {
+            std::vector<Int> x, y;
+            x.reserve(ring.size()), y.reserve(ring.size());
+            for (const auto& point : ring) x.push_back(whole(point.x)), y.push_back(whole(point.y));
+            result.emplace_back(std::move(x), std::move(y));
+        }
+        return result;
+    };
+    unsigned most = 0;
+    bool is_binary = true, is_least = false;  // doubles are
+    for_each([&](const Ratio& c) {
+        const auto exponent = static_cast<unsigned>(msb(c.d));
+        is_binary = is_binary && exponent == lsb(c.d);
+        if (exponent > most) most = exponent, is_least = false;
+        if (exponent == most && bit_test(abs(c.n), 0)) is_least = true;
+    });
+    if (is_binary) {
+        denominator <<= most;
+        check(points([&](const Ratio& c) { return Int(c.n << (most - static_cast<unsigned>(msb(c.d)))); }), is_least);
+        return;
+    }
+    std::map<Int, Int> factors;  // by denominator
+    const Int* last = nullptr;
+    for_each([&](const Ratio& c) {
+        if (!last || *last != c.d) last = &factors.try_emplace(c.d).first->first;
+    });
     for (const auto& [d, factor] : factors) denominator = lcm(denominator, d);
     if (msb(denominator) >= 4 * most_digits)
         throw InvalidPolygon("the common denominator of the coordinates is too long; give decimals or fractions of fewer denominators");
     for (auto& [d, factor] : factors) factor = denominator / d;
-    auto whole = [&, known = factors.begin()](const Ratio& c) mutable {
-        if (known->first != c.d) known = factors.find(c.d);
-        return Int(c.n * known->second);
-    };
-    std::vector<Points> points;
-    for (const RatioRing& ring : rings) {
-        std::vector<Int> x, y;
-        x.reserve(ring.size()), y.reserve(ring.size());
-        for (const auto& point : ring) x.push_back(whole(point.x)), y.push_back(whole(point.y));
-        points.emplace_back(std::move(x), std::move(y));
-    }
-    check(std::move(points));
+    check(points([&, known = factors.begin()](const Ratio& c) mutable {
+              if (known->first != c.d) known = factors.find(c.d);
+              return Int(c.n * known->second);
+          }),
+          false);
 }
 
-Polygon::Polygon(std::vector<Points> rings, const Int& common) : denominator(common) { check(std::move(rings)); }
+Polygon::Polygon(std::vector<Points> rings, const Int& common) : denominator(common) { check(std::move(rings), false); }
 
-void Polygon::check(std::vector<Points>&& rings) {
+void Polygon::check(std::vector<Points>&& rings, bool is_least) {
     // clean
     std::vector<Cleaned> kept;
     std::vector<Int> x, y;
@@ -184,7 +204,7 @@ void Polygon::check(std::vector<Points>&& rings) {
         }
     if (turned) vertices = vertices.chosen(order);
     // points left out may leave a common factor
-    Int common = denominator;
+    Int common = is_least && removed.empty() ? Int(1) : denominator;
     for (Index k = 0; k < vertices.size() && common != 1; ++k) common = gcd(gcd(common, vertices.X[k]), vertices.Y[k]);
     if (common != 1) {
         for (auto* axis : {&vertices.X, &vertices.Y})

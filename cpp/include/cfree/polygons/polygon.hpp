@@ -56,7 +56,7 @@ public:
 private:
     bool is_convex_ring = false;
     mutable Pieces found_pieces;
-    void check(std::vector<Points>&& rings);
+    void check(std::vector<Points>&& rings, bool is_least);  // is the denominator?
 };
 
 // Is all of a polygon, its boundary included, in the interior of another?
