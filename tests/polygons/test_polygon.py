@@ -352,6 +352,13 @@ def test_coordinates_without_a_manageable_common_denominator_are_refused() -> No
         Polygon([(Fraction(k, 10**9 + k), k * k) for k in range(1000)])
 
 
+def test_denominators_that_are_powers_of_two_have_the_same_bound() -> None:
+    corner = (0, Fraction(1, 2**15999))
+    assert Polygon([(0, 0), (1, 0), corner]).denominator == 2**15999
+    with pytest.raises(InvalidPolygonError, match="common denominator of the coordinates is too long"):
+        Polygon([(0, 0), (1, 0), (0, Fraction(1, 2**16000))])
+
+
 def test_many_vertices_take_seconds() -> None:
     started = time.perf_counter()
     polygon = Polygon(star(20_000))

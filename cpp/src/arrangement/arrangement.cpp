@@ -7,11 +7,11 @@
 #include <string>
 
 #include "arrangement/touching_points.hpp"
-#include "support/union_find.hpp"
 #include "forbidden/curve_sides.hpp"
 #include "forbidden/level_sides.hpp"
 #include "forbidden/loops.hpp"
 #include "support/parallel.hpp"
+#include "support/union_find.hpp"
 
 namespace cfree {
 

@@ -115,6 +115,10 @@ Polygon::Polygon(std::vector<RatioRing> rings) {
         }
         return result;
     };
+    const auto refuse_if_long = [](std::size_t bits) {
+        if (bits >= 4 * most_digits)
+            throw InvalidPolygon("the common denominator of the coordinates is too long; give decimals or fractions of fewer denominators");
+    };
     unsigned most = 0;
     bool is_binary = true, is_least = false;  // doubles are
     for_each([&](const Ratio& c) {
@@ -124,6 +128,7 @@ Polygon::Polygon(std::vector<RatioRing> rings) {
         if (exponent == most && bit_test(abs(c.n), 0)) is_least = true;
     });
     if (is_binary) {
+        refuse_if_long(most);
         denominator <<= most;
         check(points([&](const Ratio& c) { return Int(c.n << (most - static_cast<unsigned>(msb(c.d)))); }), is_least);
         return;
@@ -134,8 +139,7 @@ Polygon::Polygon(std::vector<RatioRing> rings) {
         if (!last || *last != c.d) last = &factors.try_emplace(c.d).first->first;
     });
     for (const auto& [d, factor] : factors) denominator = lcm(denominator, d);
-    if (msb(denominator) >= 4 * most_digits)
-        throw InvalidPolygon("the common denominator of the coordinates is too long; give decimals or fractions of fewer denominators");
+    refuse_if_long(msb(denominator));
     for (auto& [d, factor] : factors) factor = denominator / d;
     check(points([&, known = factors.begin()](const Ratio& c) mutable {
               if (known->first != c.d) known = factors.find(c.d);

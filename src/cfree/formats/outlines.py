@@ -91,7 +91,7 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     import shapely
 
     points: list[list[Vector]] = [rough(ring) for ring in rings]
-    kept = [k for k in range(len(rings)) if not _is_flat(rings[k])]
+    kept = [k for k in range(len(rings)) if not _is_flat(rings[k], points[k])]
     if len(kept) < len(rings):
         source.dropped["ring on a line: it forbids nothing; give it width"] += len(rings) - len(kept)
     if len(kept) == 1:
@@ -124,9 +124,10 @@ def nested(source: Source, rings: Sequence[Ring], even_odd: bool) -> list[Outlin
     return [Outline(rings[k], tuple(rings[j] for j in sorted(inner))) for k, inner in sorted(holes.items())]
 
 
-def _is_flat(ring: Ring) -> bool:
-    """Are its points all on the line of the first two that differ?"""
-    points: Sequence[Sequence[Any]] = [s.start for s in ring if isinstance(s, Line)] if straight(ring) else rough(ring)
+def _is_flat(ring: Ring, rough_points: Sequence[Vector]) -> bool:
+    """Are its points all on the line of the first two that differ? Those of lines are exact."""
+    exact = [segment.start for segment in ring if isinstance(segment, Line)]
+    points: Sequence[Sequence[Any]] = exact if straight(ring) else rough_points
     if len(points) < 3:
         return True
     p = points[0]
