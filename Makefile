@@ -16,7 +16,7 @@ REBUILT := --config-settings=editable.rebuild=true --config-settings=editable.ve
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: demo test ctest ctest-sanitize sanitize fuzz fuzz-answers fuzz-files lint bench docs viewer dev stub clean
+.PHONY: demo test ctest sanitize fuzz fuzz-answers fuzz-files lint bench docs viewer dev stub clean
 
 demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot get out, both verified, into demo/
 	mkdir -p demo
@@ -29,17 +29,12 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 test: $(TESTED) ctest lint  ## every test
 	$(BIN)/python -m pytest -n 2
 
-ctest: $(INSTALLED)  ## the core's own tests, without Python
-	$(BIN)/cmake -S . -B build/ctest -DCFREE_UNITY=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
+ctest: $(INSTALLED)  ## the core's own tests, without Python, under the address and undefined-behaviour sanitizers
+	$(BIN)/cmake -S . -B build/ctest -DCFREE_SANITIZE=ON -DCFREE_UNITY=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest.log
 	$(BIN)/cmake --build build/ctest -j 2 >> build/ctest.log
 	$(BIN)/ctest --test-dir build/ctest --output-on-failure
 
-ctest-sanitize: $(INSTALLED)  ## the same under the address and undefined-behaviour sanitizers
-	$(BIN)/cmake -S . -B build/ctest-sanitize -DCFREE_SANITIZE=ON -DCFREE_UNITY=ON -DPython_EXECUTABLE=$(CURDIR)/$(BIN)/python > build/ctest-sanitize.log
-	$(BIN)/cmake --build build/ctest-sanitize -j 2 >> build/ctest-sanitize.log
-	$(BIN)/ctest --test-dir build/ctest-sanitize --output-on-failure
-
-sanitize: $(TESTED) ctest-sanitize  ## tests in Python under them, with an extension and an environment of their own
+sanitize: $(TESTED) ctest  ## tests in Python under them, with an extension and an environment of their own
 	$(PYTHON) -m venv build/sanitize
 	$(BIN)/python -c "import sysconfig; print(sysconfig.get_path('purelib'))" \
 	  > $$(build/sanitize/bin/python -c "import sysconfig; print(sysconfig.get_path('purelib'))")/installed.pth

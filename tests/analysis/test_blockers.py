@@ -77,7 +77,7 @@ def test_with_a_clearance() -> None:
 def test_all_of_them_and_no_others(kind: str) -> None:
     """In random scenes, with a frame of four walls around half of each so that something separates."""
     asked = 0
-    for seed in range(3):
+    for seed in range(2):
         plain, rng = scene_named(kind, seed), random.Random(f"{kind} {seed}")
         walls = [box(-3, -3, 6, "-2.5"), box(-3, 5, 6, "5.5"), box(-3, -3, "-2.5", 5), box("5.5", -3, 6, 5)]
         scene = scene_of(plain._replace(obstacles=[*plain.obstacles, *walls]))

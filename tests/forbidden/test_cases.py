@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 from functools import cache
+from itertools import islice
 
 import pytest
 
@@ -53,8 +54,9 @@ def test_slices_of_cases_are_those_of_shapely(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_cases_elsewhere_have_the_same_topology(name: str) -> None:
+    """Each in a third of the variants, those that its turn brings."""
     plain, result = case(name)
-    for variant in variants(plain):
+    for variant in islice(variants(plain), NAMES.index(name) % 3, None, 3):
         try:
             other = boundary(scene_of(variant.plain), threads=1)
         except UnsupportedError:  # the scene is close to the largest there is

@@ -40,7 +40,7 @@ UNIT = box(0, 0, 1, 1)
 ZERO = Fraction(0)
 slow = settings(
     deadline=None,
-    max_examples=40,
+    max_examples=15,
     suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
     phases=[Phase.explicit, Phase.generate],  # `fuzz.reduced` is quicker at making scenes small
 )
@@ -163,11 +163,11 @@ def test_slices_are_exact(kind: str) -> None:
 @pytest.mark.parametrize("kind", fuzz.KINDS)
 def test_slices_of_the_kinds_that_are_fuzzed_are_exact(kind: str) -> None:
     compared = 0
-    for number in range(12):
+    for number in range(5):
         wrong, slices = fuzz.mistakes(fuzz.scene(kind, number), f"{kind} {number}")
         assert not wrong, f"{kind} {number}"
         compared += slices
-    assert compared > 30
+    assert compared > 12
 
 
 # --- the comparison, and what fuzz does with a difference ---

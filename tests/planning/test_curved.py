@@ -33,7 +33,7 @@ def caged(gap: float) -> cfree.Scene:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(5))
 def test_random_scenes(seed: int) -> None:
     assert fault(seed)[1] == ""
 
@@ -47,7 +47,7 @@ def test_a_disc_gets_through_a_gap_that_is_wide_enough(gap: float) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("gap", [-0.3, -0.05, pytest.param(-0.01, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("gap", [-0.3, -0.05])
 def test_a_disc_does_not_get_through_a_gap_that_is_not(gap: float) -> None:
     scene = caged(gap)
     proof = cfree.plan(scene)

@@ -391,7 +391,7 @@ export class Space {
     this.frames += 1;
     const { clientWidth: width, clientHeight: height } = this.host;
     if (!width || !height) return;
-    if (this.size !== `${width} ${height} ${ratio}`) this.renderer.setPixelRatio(ratio), this.renderer.setSize(width, height, false);
+    if (this.size !== `${width} ${height} ${ratio}`) this.renderer.setDrawingBufferSize(width, height, ratio);
     this.size = `${width} ${height} ${ratio}`;
     this.parts.surface.children.forEach((child, k) => { child.visible = k === 0 || !(is_coarse || this.parts.barrier.children.length); });
     this.parts.barrier.children.forEach((child, k) => { child.visible = k === 0 || !is_coarse; });
