@@ -40,9 +40,11 @@ struct Growth {
     std::priority_queue<Item, std::vector<Item>, std::greater<>> queue;
     enum class Seen : char { no, queued, explored };
     std::vector<Seen> seen;
+    std::vector<double> way;  // to each that is explored
     Index target = -1;
     Vec<double> goal{};
-    Index explored = 0, glued = 0;  // how many, and how many when they were glued last
+    Index explored = 0, surely = 0;  // how many, and how many of them gluing has led to
+    Index trust = 64;                // so many more before it is glued again
     bool has(Index k) const { return k >= 0 && k < static_cast<Index>(seen.size()) && seen[k] == Seen::explored; }
 };
 
@@ -62,6 +64,7 @@ struct SurfaceExplorer::State {
     void explore(Index k);
     Growth& growth(Index seed);
     void look_at(Growth& of, Index k, double way) const;
+    double step(const Growth& of, Index k, Index next) const { return of.target < 0 ? 1 : apart(middle(k), middle(next)); }
     GluedPart glued(Growth& of, Index seed, Index target);
     Vec<double> middle(Index k) const;
     Ends ends(Index k, double tau) const;
@@ -222,7 +225,7 @@ Growth& SurfaceExplorer::State::growth(Index seed) {
 }
 
 void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
-    if (g.seen.size() < rows.size()) g.seen.resize(rows.size());
+    if (g.seen.size() < rows.size()) g.seen.resize(rows.size()), g.way.resize(rows.size());
     if (g.seen[k] != Growth::Seen::no) return;
     g.seen[k] = Growth::Seen::queued;
     constexpr double haste = 2;  // a way as short as possible is not asked for
@@ -233,7 +236,6 @@ void SurfaceExplorer::State::look_at(Growth& g, Index k, double way) const {
 // what only seemed to be across its sides is forgotten. Glued is what may be reached from the seed over sides: of what has been
 // explored for it, or on the way to a target of all that is whole.
 GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
-    g.glued = g.explored;
     const bool is_reached = g.has(target);
     const auto is_whole = [&](Index k) { return is_reached ? whole[k] != 0 : g.has(k); };
     std::vector<Index> number(rows.size(), -1), chosen{seed};
@@ -252,8 +254,16 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
         number[k] = static_cast<Index>(some.size()), some.push_row(rows, k), some_whole.push_back(is_whole(k));
     GluedPart part = glue_part(boundary(std::move(some)), std::move(some_whole), {number[seed]}, is_reached ? number[target] : -1);
     if (part.missing.empty() || part.complex) return part;
-    g.seen.assign(rows.size(), Growth::Seen::no), g.queue = {};
+    g.seen.assign(rows.size(), Growth::Seen::no), g.way.resize(rows.size()), g.queue = {};
+    g.surely = static_cast<Index>(part.faces.size());
+    const bool has_leaked = 10 * g.surely < 9 * g.explored;
+    g.explored = g.surely, g.trust = std::max(64, (has_leaked ? 2 : 8) * g.surely);
+    std::vector<char> is_missing(rows.size(), 0);
+    for (const Index k : part.missing) is_missing[chosen[k]] = 1;
     for (const Index k : part.faces) g.seen[chosen[k]] = Growth::Seen::explored;
+    for (const Index k : part.faces)
+        for (const Index next : around[chosen[k]].beside)
+            if (is_missing[next]) look_at(g, next, g.way[chosen[k]] + step(g, chosen[k], next));
     for (const Index k : part.missing) look_at(g, chosen[k], 0);
     return part;
 }
@@ -292,17 +302,17 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
     if (g.target < 0 && target >= 0) g.target = target, g.goal = s.middle(target);
     for (;;) {
         heed_stop();
-        if (g.queue.empty() || (g.has(target) && 4 * g.explored >= 5 * g.glued)) {
+        // glued again and again: what only seemed to be across a side may lead far into other surfaces
+        const Index new_ones = g.explored - g.surely;
+        if (g.queue.empty() || new_ones > g.trust || (g.has(target) && 4 * new_ones >= g.surely)) {
             if (GluedPart part = s.glued(g, seed, target); part.complex) return {part.complex, part.missing.empty()};
         }
         const auto [cost, way, k] = g.queue.top();
         if (!s.whole[k] && most-- == 0) return {};
         g.queue.pop();
         if (!s.whole[k]) s.explore(k);
-        g.seen[k] = Growth::Seen::explored, ++g.explored;
-        const Vec<double> here = s.middle(k);
-        for (const Index next : s.around[k].beside)
-            s.look_at(g, next, way + (g.target < 0 ? 1 : apart(here, s.middle(next))));
+        g.seen[k] = Growth::Seen::explored, g.way[k] = way, ++g.explored;
+        for (const Index next : s.around[k].beside) s.look_at(g, next, way + s.step(g, k, next));
     }
 }
 
