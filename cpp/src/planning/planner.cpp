@@ -12,7 +12,7 @@ namespace cfree {
 
 namespace {
 
-constexpr int search_guesses = 40000;  // of motions, at most, before all of the free space is built
+constexpr int search_guesses = 40000;  // of motions, at most: each looks at all of the trees
 constexpr int quick_guesses = 2000;    // before anything exact is
 constexpr int guesses_each = 45;       // that take no longer than a patch of a surface
 
@@ -107,11 +107,14 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
     }
     const Phase phase(listener, "surfaces around the two poses");
     std::optional<Poses> way;
+    int left = search_guesses;
     const auto in_turns = [&](Connecting& joined) {
         std::size_t trimmed = joined.around->trimmed_patches();
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
-            if (const Route route = search.run_on(guesses_each * static_cast<int>(trimmed - before)); !route.empty()) way = searcher.poses(route);
+            const int guesses = std::min(left, guesses_each * static_cast<int>(trimmed - before));
+            left -= guesses;
+            if (const Route route = search.run_on(guesses); !route.empty()) way = searcher.poses(route);
             if (!way) deadline.heed();
             return !way;
         });
