@@ -44,7 +44,7 @@ struct Growth {
     Index target = -1;
     Vec<double> goal{};
     Index explored = 0, surely = 0;  // how many, and how many of them gluing has led to
-    Index trust = 64;                // so many more before it is glued again
+    Index trust = 512;               // so many more before it is glued again
     bool has(Index k) const { return k >= 0 && k < static_cast<Index>(seen.size()) && seen[k] == Seen::explored; }
 };
 
@@ -257,7 +257,7 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     g.seen.assign(rows.size(), Growth::Seen::no), g.way.resize(rows.size()), g.queue = {};
     g.surely = static_cast<Index>(part.faces.size());
     const bool has_leaked = 10 * g.surely < 9 * g.explored;
-    g.explored = g.surely, g.trust = std::max(64, (has_leaked ? 2 : 8) * g.surely);
+    g.explored = g.surely, g.trust = std::max(512, (has_leaked ? 2 : 8) * g.surely);
     std::vector<char> is_missing(rows.size(), 0);
     for (const Index k : part.missing) is_missing[chosen[k]] = 1;
     for (const Index k : part.faces) g.seen[chosen[k]] = Growth::Seen::explored;
