@@ -47,7 +47,7 @@ def test_a_disc_gets_through_a_gap_that_is_wide_enough(gap: float) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("gap", [-0.3, -0.05])
+@pytest.mark.parametrize("gap", [-0.3, -0.05, pytest.param(-0.01, marks=pytest.mark.slow)])
 def test_a_disc_does_not_get_through_a_gap_that_is_not(gap: float) -> None:
     scene = caged(gap)
     proof = cfree.plan(scene)
