@@ -44,7 +44,8 @@ struct Growth {
     Index target = -1;
     Vec<double> goal{};
     Index explored = 0, surely = 0;  // how many, and how many of them gluing has led to
-    Index trust = 512;               // so many more before it is glued again
+    static constexpr Index least_trust = 512;
+    Index trust = least_trust;  // so many more before it is glued again
     bool has(Index k) const { return k >= 0 && k < static_cast<Index>(seen.size()) && seen[k] == Seen::explored; }
 };
 
@@ -64,7 +65,7 @@ struct SurfaceExplorer::State {
     void explore(Index k);
     Growth& growth(Index seed);
     void look_at(Growth& of, Index k, double way) const;
-    double step(const Growth& of, Index k, Index next) const { return of.target < 0 ? 1 : apart(middle(k), middle(next)); }
+    double step(const Growth& of, const Vec<double>& from, Index next) const { return of.target < 0 ? 1 : apart(from, middle(next)); }
     GluedPart glued(Growth& of, Index seed, Index target);
     Vec<double> middle(Index k) const;
     Ends ends(Index k, double tau) const;
@@ -257,13 +258,15 @@ GluedPart SurfaceExplorer::State::glued(Growth& g, Index seed, Index target) {
     g.seen.assign(rows.size(), Growth::Seen::no), g.way.resize(rows.size()), g.queue = {};
     g.surely = static_cast<Index>(part.faces.size());
     const bool has_leaked = 10 * g.surely < 9 * g.explored;
-    g.explored = g.surely, g.trust = std::max(512, (has_leaked ? 2 : 8) * g.surely);
+    g.explored = g.surely, g.trust = std::max(Growth::least_trust, (has_leaked ? 2 : 8) * g.surely);
     std::vector<char> is_missing(rows.size(), 0);
     for (const Index k : part.missing) is_missing[chosen[k]] = 1;
     for (const Index k : part.faces) g.seen[chosen[k]] = Growth::Seen::explored;
-    for (const Index k : part.faces)
+    for (const Index k : part.faces) {
+        const Vec<double> here = middle(chosen[k]);
         for (const Index next : around[chosen[k]].beside)
-            if (is_missing[next]) look_at(g, next, g.way[chosen[k]] + step(g, chosen[k], next));
+            if (is_missing[next]) look_at(g, next, g.way[chosen[k]] + step(g, here, next));
+    }
     for (const Index k : part.missing) look_at(g, chosen[k], 0);
     return part;
 }
@@ -312,7 +315,8 @@ SurfaceExplorer::Grown SurfaceExplorer::grow(Index seed, Index most, Index targe
         g.queue.pop();
         if (!s.whole[k]) s.explore(k);
         g.seen[k] = Growth::Seen::explored, g.way[k] = way, ++g.explored;
-        for (const Index next : s.around[k].beside) s.look_at(g, next, way + s.step(g, k, next));
+        const Vec<double> here = s.middle(k);
+        for (const Index next : s.around[k].beside) s.look_at(g, next, way + s.step(g, here, next));
     }
 }
 
