@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import cfree
-from cfree import MotionChecker, Pose, Rotation, Scene, is_free, turn_in_place
+from cfree import MotionChecker, Pose, PoseChecker, Rotation, Scene, turn_in_place
 from cfree.exact import AngleInterval
 from cfree.exact.angle_set import union_of_intersections, where_not_positive
 from compared import scene_of
@@ -29,7 +29,7 @@ def rotation(start: Fraction | None, stop: Fraction | None, pole: tuple[Fraction
 def check_by_motions(scene: Scene, interval: AngleInterval, pose: Pose, pole: tuple[Fraction, Fraction]) -> None:
     """Turning from just inside one end to just inside the other is free; a bit beyond an end is not."""
     assert interval.start is not None and interval.stop is not None
-    checker, bits = MotionChecker(scene), 40
+    poses, checker, bits = PoseChecker(scene), MotionChecker(scene), 40
 
     def at(tau: Fraction | None) -> Pose:
         return Rotation(pole, {"tau": (Pose(0, 0, {"tau": tau}) @ Pose(0, 0, {"tau": pose.tau}).inverse()).tau}).apply(
@@ -39,7 +39,7 @@ def check_by_motions(scene: Scene, interval: AngleInterval, pose: Pose, pole: tu
     first, last = interval.start.neighbours(bits)[1], interval.stop.neighbours(bits)[0]
     if interval.is_single:
         if len(interval.start.polynomial) == 2:
-            assert is_free(scene, at(first))
+            assert poses.is_free(at(first))
     elif interval.theta[1] - interval.theta[0] > 1e-9:
         q = at(first)
         for turn in rotation(first, last, pole):
@@ -47,7 +47,7 @@ def check_by_motions(scene: Scene, interval: AngleInterval, pose: Pose, pole: tu
             q = turn.apply(q)
     step = Pose(0, 0, {"tau": Fraction(1, 1 << 30)})
     before, after = step.inverse() @ Pose(0, 0, {"tau": first}), step @ Pose(0, 0, {"tau": last})
-    assert not is_free(scene, at(before.tau)) and not is_free(scene, at(after.tau))
+    assert not poses.is_free(at(before.tau)) and not poses.is_free(at(after.tau))
 
 
 @pytest.mark.slow
@@ -58,7 +58,7 @@ def test_sampled_orientations_are_free_exactly_in_the_intervals(kind: str, own_p
     some = 0
     for seed in range(4):
         scene = scene_of(random_scene(seed, kind))
-        xy = np.concatenate([polygon.vertices for polygon in scene.obstacles])
+        xy, checker = np.concatenate([polygon.vertices for polygon in scene.obstacles]), PoseChecker(scene)
         for _ in range(8):
             x, y = (Fraction(round(4 * c), 4) for c in rng.uniform(xy.min(0), xy.max(0)))
             pose = Pose(x, y, {"tau": Fraction(int(rng.integers(-9, 9)), 7)})
@@ -67,7 +67,7 @@ def test_sampled_orientations_are_free_exactly_in_the_intervals(kind: str, own_p
             turns = [Rotation(pole, {"tau": Fraction(k, 60)}) for k in range(-60, 60, 3)]
             for turn in turns:
                 for q in (turn.apply(pose), Rotation(pole, {"tau": None}).apply(turn.apply(pose))):
-                    assert is_free(scene, q) == any(interval.contains({"tau": q.tau}) for interval in found)
+                    assert checker.is_free(q) == any(interval.contains({"tau": q.tau}) for interval in found)
             for interval in found:
                 if interval.start is not None:
                     some += 1

@@ -13,11 +13,12 @@ from cfree import Boundary
 from cfree.contact.kind import Kind
 from cfree.forbidden.columns import Trapezoids
 from cfree.forbidden.patch import contact
-from cfree.scene.features import ShapeFeatures, unpacked
-from compared import Point, cross, minus, plain_of, rotation, turned
+from cfree.scene.features import SceneFeatures, ShapeFeatures, unpacked
+from compared import Point, cross, minus, plain_of, turned
 from exact_slices import Segments, both, common, ends, exact_slice, on_some, oriented, united, without
 from shapes import PlainScene
 
+Whole = tuple[int, int]
 BEFORE, AFTER = -1, 1
 
 
@@ -85,57 +86,79 @@ def slice_ends(result: Boundary, half_tangent: Fraction | None, side: int) -> It
         own = own_code(result, int(columns.patch[k]))
         low, high = (limit(result, own, int(curve[k]), at) for curve in (columns.lower, columns.upper))
         assert 0 <= low <= high <= 1, f"trapezoid {k} at {at}: t from {low} to {high}"
-        (x, y), (ux, uy) = _placed(result, own, at)
-        yield (x + low * ux, y + low * uy), (x + high * ux, y + high * uy)
+        yield _on(result, own, low, at), _on(result, own, high, at)
 
 
 def limit(result: Boundary, own: int, curve: int, at: Orientation) -> Fraction:
     """Where a curve is on a patch's line: t = N / D, its limit where both vanish."""
     numerator, denominator = _quotient(result, own, curve, at)
     if denominator:
-        return numerator / denominator
+        return Fraction(numerator, denominator)
     # N and D are quadratics in tau: their values and their first and second differences say what they do near by
     (n0, d0), (n1, d1) = (_quotient(result, own, curve, at._replace(tau=at.tau + step)) for step in (-1, 1))
     before = numerator
     for n, d in ((n1 - n0, d1 - d0), (n1 + n0, d1 + d0)):  # the values themselves are 0
         assert before == 0, f"{contact(result, curve)} has no limit on {contact(result, own)} at {at}"
         if d:
-            return n / d
+            return Fraction(n, d)
         before = n
     raise AssertionError(f"{contact(result, curve)} lies on the surface of {contact(result, own)}")
 
 
-def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> Point:
-    """N and D, as polynomials in tau."""
-    (origin, along), (point, direction) = _placed(result, own, at), _placed(result, curve, at)
-    u, norm = minus(point, origin), 1 + at.tau * at.tau
+def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> tuple[int, int]:
+    """N and D, as polynomials in tau, times a positive constant: one for all tau with the same denominator."""
+    first, second = _placed(result.features, own, at), _placed(result.features, curve, at)
+    (origin, along), (point, direction), w = first, second, at.tau.numerator**2 + at.tau.denominator**2
+    u = minus(point, origin)
     if curve >> 61 == Kind.VERTEX_VERTEX:
         assert cross(u, along) == 0, f"{contact(result, curve)} is not on the surface of {contact(result, own)}"
         return u[0] * along[0] + u[1] * along[1], along[0] ** 2 + along[1] ** 2
-    return norm * cross(u, direction), norm * cross(along, direction)
+    # R a x R g = a x g, so that one of the two w's that a product has is a factor of it
+    n, d = (divmod(cross(vector, direction), w) for vector in (u, along))
+    assert n[1] == d[1] == 0
+    return n[0], d[0]
 
 
 @lru_cache(maxsize=10_000)
-def _placed(result: Boundary, code: int, at: Orientation) -> tuple[Point, Point]:
-    """A contact's point and direction in a slice: forbidden on its left. Frames have corners without a name."""
+def _placed(features: SceneFeatures, code: int, at: Orientation) -> tuple[Whole, Whole]:
+    """A packed pair's point and direction in a slice, forbidden on its left; of two edges, their directions.
+
+    In integers, times the scale and w. By number and not by place: corners of the frame have none.
+    """
     kind, i, j = unpacked(code)
-    turn, robot, obstacles = rotation(*at), result.features.robot, result.features.obstacles
-    a, b = (
-        (_corner(robot, robot.v[i]), _corner(obstacles, j))
-        if kind == Kind.EDGE_VERTEX
-        else (_corner(robot, i), _corner(obstacles, obstacles.v[j] if kind == Kind.VERTEX_EDGE else j))
-    )
-    direction: Point = Fraction(0), Fraction(0)
+    robot, obstacles = features.robot, features.obstacles
+    p, q = at.tau.numerator, at.tau.denominator
+    w, sign = _w(at), -1 if at.chart else 1
+    turn = sign * (q * q - p * p), sign * 2 * p * q
+
+    def fixed(vector: Whole) -> Whole:
+        return w * vector[0], w * vector[1]
+
+    def edge(shape: ShapeFeatures, k: int) -> Whole:
+        return minus(shape.vertices[shape.w[k]], shape.vertices[shape.v[k]])
+
+    if kind == Kind.EDGE_EDGE:
+        return turned(turn, edge(robot, i)), fixed(edge(obstacles, j))
+    a = robot.vertices[robot.v[i] if kind == Kind.EDGE_VERTEX else i]
+    b = obstacles.vertices[obstacles.v[j] if kind == Kind.VERTEX_EDGE else j]
+    direction = 0, 0
     if kind == Kind.VERTEX_EDGE:
-        direction = minus(_corner(obstacles, obstacles.w[j]), b)
+        direction = fixed(edge(obstacles, j))
     if kind == Kind.EDGE_VERTEX:
-        direction = turned(turn, minus(a, _corner(robot, robot.w[i])))
-    return minus(b, turned(turn, a)), direction
+        direction = turned(turn, minus((0, 0), edge(robot, i)))
+    return minus(fixed(b), turned(turn, a)), direction
 
 
-def _corner(shape: ShapeFeatures, vertex: int) -> Point:
-    x, y = shape.vertices[vertex]
-    return Fraction(x, shape.scale), Fraction(y, shape.scale)
+def _w(at: Orientation) -> int:
+    return at.tau.numerator**2 + at.tau.denominator**2
+
+
+def _on(result: Boundary, own: int, t: Fraction, at: Orientation) -> Point:
+    """The point t of a contact's line."""
+    (x, y), (u, v) = _placed(result.features, own, at)
+    n, d = t.numerator, t.denominator
+    size = result.features.scale * _w(at) * d
+    return Fraction(d * x + n * u, size), Fraction(d * y + n * v, size)
 
 
 def isolated_at(result: Boundary, half_tangent: Fraction | None) -> tuple[Segments, set[Point]]:
@@ -159,9 +182,7 @@ def isolated_at(result: Boundary, half_tangent: Fraction | None) -> tuple[Segmen
 
 def _point(result: Boundary, patch: int, curve: int, at: Orientation) -> Point:
     own = own_code(result, patch)
-    (x, y), (ux, uy) = _placed(result, own, at)
-    t = limit(result, own, curve, at)
-    return x + t * ux, y + t * uy
+    return _on(result, own, limit(result, own, curve, at), at)
 
 
 def trapezoids_at(result: Boundary, at: Orientation, side: int) -> list[int]:
@@ -209,15 +230,14 @@ def rational_angles(result: Boundary, digits: int = 3) -> list[Fraction | None]:
     return sorted(found, key=lambda tau: (tau is None, tau or 0))
 
 
-def condition(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fraction) -> Fraction:
-    """Zero where a row begins or ends: edges parallel, a helix on its surface, three lines through one point.
-
-    By number and not by place, as corners of the frame that stands for what is outside the bounds have no place.
-    """
+def condition(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Fraction) -> int:
+    """Zero where a row begins or ends: edges parallel, a helix on its surface, three lines through one point."""
     codes = [int(getattr(columns, f"{end}_{name}")[k]) for name in ("first", "second")]
     patch = getattr(columns, f"{end}_patch", columns.patch)  # an isolated part's angles may be named on others
-    turn = rotation(int(columns.chart[k]), tau)
-    own, first, *second = (numbered(result, code, turn) for code in (own_code(result, int(patch[k])), *codes) if code)
+    at = Orientation(int(columns.chart[k]), tau)
+    own, first, *second = (
+        _placed(result.features, code, at) for code in (own_code(result, int(patch[k])), *codes) if code
+    )
     if codes[0] >> 61 == Kind.EDGE_EDGE:
         return cross(*first)
     (p, u), (q, v) = own, first
@@ -234,23 +254,3 @@ def condition(result: Boundary, columns: Trapezoids, k: int, end: str, tau: Frac
 def own_code(result: Boundary, patch: int) -> int:
     kind, i, j = (int(column[patch]) for column in (result.contact_kind, result.contact_robot, result.contact_obstacle))
     return kind << 61 | i << 31 | j
-
-
-def numbered(result: Boundary, code: int, turn: Point) -> tuple[Point, Point]:
-    """A packed pair's point and direction in a slice, or, of two edges, their two directions."""
-    kind, i, j = unpacked(code)
-    robot, obstacles = result.features.robot, result.features.obstacles
-
-    def vector(shape: ShapeFeatures, edge: int) -> Point:
-        return minus(shape.vertices[shape.w[edge]], shape.vertices[shape.v[edge]])
-
-    if kind == Kind.EDGE_EDGE:
-        return turned(turn, vector(robot, i)), vector(obstacles, j)
-    a = robot.vertices[robot.v[i] if kind == Kind.EDGE_VERTEX else i]
-    b = obstacles.vertices[obstacles.v[j] if kind == Kind.VERTEX_EDGE else j]
-    direction: Point = (Fraction(0), Fraction(0))
-    if kind == Kind.VERTEX_EDGE:
-        direction = vector(obstacles, j)
-    if kind == Kind.EDGE_VERTEX:
-        direction = turned(turn, minus((0, 0), vector(robot, i)))
-    return minus(b, turned(turn, a)), direction

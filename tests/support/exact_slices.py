@@ -276,11 +276,11 @@ def _merged(intervals: Iterable[Interval]) -> list[Interval]:
 
 def oriented(p: Point, q: Point) -> tuple[Line, Interval]:
     """The segment from p to q, distinct rational points."""
-    vx, vy = Fraction(q[0] - p[0]), Fraction(q[1] - p[1])
-    m = math.lcm(vx.denominator, vy.denominator)
-    g = math.gcd(int(vx * m), int(vy * m))
-    ux, uy = int(vx * m) // g, int(vy * m) // g
-    return (ux, uy, Fraction(ux * p[1] - uy * p[0])), (Fraction(ux * p[0] + uy * p[1]), Fraction(ux * q[0] + uy * q[1]))
+    m = math.lcm(*(v.denominator for v in (*p, *q)))
+    x, y, x1, y1 = (v.numerator * (m // v.denominator) for v in (*p, *q))
+    g = math.gcd(x1 - x, y1 - y)
+    ux, uy = (x1 - x) // g, (y1 - y) // g
+    return (ux, uy, Fraction(ux * y - uy * x, m)), (Fraction(ux * x + uy * y, m), Fraction(ux * x1 + uy * y1, m))
 
 
 def ends(segments: Segments) -> list[tuple[Point, Point]]:

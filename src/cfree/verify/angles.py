@@ -34,6 +34,8 @@ def orientation(reader: Reader, seed: int, number: int) -> Turn:
         return anywhere(rng)
     if number % 4 == 3:
         return just_after_a_critical_angle(reader, rng)
+    if number // 2 < len(first := likely_angles(reader)):
+        return first[number // 2]
     critical = critical_angles(reader, seed)
     return critical[number // 2 % len(critical)]
 
@@ -54,19 +56,24 @@ def just_after_a_critical_angle(reader: Reader, rng: random.Random) -> Turn:
 
 
 @lru_cache(maxsize=1)
+def likely_angles(reader: Reader) -> list[Turn]:
+    """Those of the file's isolated parts, and right angles."""
+    found = angles_of(reader, reader.isolated, range(len(reader.isolated)))
+    found += [Turn.of(chart, Fraction(tau)) for chart in (0, 1) for tau in (0, 1)]
+    return list({turn.key: turn for turn in found}.values())
+
+
+@lru_cache(maxsize=1)
 def critical_angles(reader: Reader, seed: int) -> list[Turn]:
-    """Those of the file's isolated parts; right angles; then others, of file and scene, shuffled."""
+    """The likely ones; then others, of file and scene, shuffled."""
     rng = random.Random(seed)
-    first = angles_of(reader, reader.isolated, range(len(reader.isolated)))
-    first += [Turn.of(chart, Fraction(tau)) for chart in (0, 1) for tau in (0, 1)]
     others = angles_of(reader, reader.table, some(rng, range(len(reader.table))))
-    for form in {*parallel(reader.world, rng), *facing(reader.world, rng)}:
+    for form in sorted({*parallel(reader.world, rng), *facing(reader.world, rng)}):
         for chart in (0, 1):
             if any(form):
                 others += [Turn(chart, root) for root, _ in roots(polynomial(form, chart), Fraction(-1), Fraction(1))]
-    others.sort(key=lambda turn: (turn.chart, turn.root))
     rng.shuffle(others)
-    return list({turn.key: turn for turn in first + others}.values())
+    return list({turn.key: turn for turn in likely_angles(reader) + others}.values())
 
 
 def angles_of(reader: Reader, columns: Any, rows: Sequence[int]) -> list[Turn]:
