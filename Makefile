@@ -13,6 +13,8 @@ HERE = --no-build-isolation --config-settings=build-dir=$(if $(wildcard $(DEV)),
 ONCE := --config-settings=cmake.define.CFREE_UNITY=ON
 REBUILT := --config-settings=editable.rebuild=true --config-settings=editable.verbose=false
 
+unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
+
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 

@@ -84,7 +84,8 @@ def check_cells_of_poses(found: Sharded, space: cfree.FreeSpace) -> None:
     ids=lambda path: path.stem,
 )
 def test_example_scenes_are_the_same_in_any_tiles(path: Path, tmp_path: Path) -> None:
-    check_tiles(cfree.load_scene(path), tmp_path)
+    """Every other one in 64, which takes as long as the rest."""
+    check_tiles(cfree.load_scene(path), tmp_path, (1, 7, 64)[: 2 + POLYGONS.index(path) % 2])
 
 
 @pytest.mark.slow

@@ -111,7 +111,7 @@ def test_segments_are_free_and_forbidden_on_their_left_exactly(plain: PlainScene
     cut = result.slice({"tau": "inf" if whole is None else str(whole)})
     hulls = oracles.exact_hulls(plain.robot, plain.obstacles, whole)
     ends = []
-    for k in cut.trapezoids[:40].tolist():
+    for k in cut.trapezoids[:12].tolist():
         origin, along = placed(scene, contact_of(result.patches[int(columns.patch[k])]), turn)
         t = []
         for curve in (contact(result, int(columns.lower[k])), contact(result, int(columns.upper[k]))):

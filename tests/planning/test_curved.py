@@ -47,7 +47,7 @@ def test_a_disc_gets_through_a_gap_that_is_wide_enough(gap: float) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("gap", [-0.3, -0.05, pytest.param(-0.01, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("gap", [-0.3, -0.01])
 def test_a_disc_does_not_get_through_a_gap_that_is_not(gap: float) -> None:
     scene = caged(gap)
     proof = cfree.plan(scene)
@@ -126,7 +126,7 @@ def test_poses_among_random_shapes_are_free_as_in_doubles() -> None:
 
 @pytest.mark.slow
 def test_answers_in_files(tmp_path: Path) -> None:
-    for gap in (0.1, -0.1):
+    for gap in (0.1, -0.5):
         scene = caged(gap)
         answer = cfree.plan(scene)
         assert not isinstance(answer, cfree.AllSeparated)
@@ -181,17 +181,17 @@ def test_a_proof_needs_polygons_inside() -> None:
 def test_several_goals_and_places() -> None:
     scene = caged(0.1)
     assert isinstance(cfree.plan(scene, (0, 0, 0), [(8, 8, 0), (9, 9)]), cfree.Path)
-    shut = dataclasses.replace(caged(-0.1), goal=None)
+    shut = dataclasses.replace(caged(-0.5), goal=None)
     proof = cfree.plan(shut, (0, 0, 0), [(8, 8, 0), (9, 9)])
     assert isinstance(proof, cfree.AllSeparated) and proof.curved is shut and cfree.verify.answer(shut, proof).verified
 
 
 @pytest.mark.slow
 def test_a_clearance_among_round_shapes() -> None:
-    scene = caged(0.2)
-    path = cfree.plan(scene, clearance=0.09)
+    scene = caged(1)
+    path = cfree.plan(scene, clearance=0.45)
     assert isinstance(path, cfree.Path) and cfree.verify.answer(scene, path).verified
-    proof = cfree.plan(scene, clearance=0.11)
+    proof = cfree.plan(scene, clearance=0.55)
     assert isinstance(proof, cfree.Separated) and cfree.verify.answer(scene, proof).verified
 
 

@@ -214,7 +214,7 @@ def replaced(scene: Scene, **parts: Any) -> Scene:
 
 @pytest.mark.slow
 def test_fewer_obstacles_never_separate() -> None:
-    for scene in random_questions(12):
+    for scene in random_questions(8):
         if reachable(scene):
             for k in range(len(scene.obstacles)):
                 rest = [polygon for i, polygon in enumerate(scene.obstacles) if i != k]
@@ -223,7 +223,7 @@ def test_fewer_obstacles_never_separate() -> None:
 
 @pytest.mark.slow
 def test_the_way_back_exists_as_the_way_there_does() -> None:
-    for scene in random_questions(12):
+    for scene in random_questions(8):
         assert scene.start and scene.goal
         assert isinstance(plan(scene, scene.goal, scene.start), Path) == reachable(scene)
 
@@ -231,7 +231,7 @@ def test_the_way_back_exists_as_the_way_there_does() -> None:
 @pytest.mark.slow
 def test_moving_everything_changes_nothing() -> None:
     turn = Pose(3, "-7/2", {"tau": "1/3"})
-    for scene in random_questions(12):
+    for scene in random_questions(8):
         if scene.bounds is not None:
             continue
         assert scene.start and scene.goal

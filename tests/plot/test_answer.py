@@ -205,9 +205,8 @@ def test_a_path_of_500_motions_is_drawn() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ["five_convex", "comb_hook"])
-def test_found_paths_are_drawn_in_every_format(name: str, tmp_path: FilePath) -> None:
-    scene = load_scene(SCENES / f"{name}.json")
+def test_found_paths_are_drawn_in_every_format(tmp_path: FilePath) -> None:
+    scene = load_scene(SCENES / "comb_hook.json")
     path, found = cfree.plan(scene), boundary(scene)
     figure = picture(path, scene, found)
     for suffix in (".png", ".svg", ".pdf"):
@@ -384,12 +383,12 @@ def test_names_that_look_like_formulas_or_control_characters_are_shown_as_writte
     box = [(3, -9), (5, -9), (5, 9), (3, 9)]
     scene = Scene(SQUARE, [box], obstacle_names=[name], bounds=(0, -3, 8, 3), name=name, units="$\\b")
     blocked, path = cfree.plan(scene, (1, 1, 0), (6, 1, 0)), Path(Pose(1, 1), [Translation((0, -1))])
-    for answer in (blocked, path):
+    for answer, suffix in ((blocked, ".svg"), (path, ".png")):
         figure = picture(answer, scene)
-        save_figure(figure, tmp_path / "answer.svg")
+        save_figure(figure, tmp_path / f"answer{suffix}")
         assert figure.texts[0].get_text().startswith(r"\$\bad{\$\x1b: ")
     whole = boundary(scene)
-    save_figure(plot_overview(whole), tmp_path / "boundary.svg")
+    save_figure(plot_overview(whole), tmp_path / "boundary.png")
     cfree.film.film_path(path, scene, tmp_path / "path.gif", seconds=0.4, fps=5, size=(160, 90))
     contact = Contact("e-v", Place(0, "robot", 0, 0, 1), Place(0, name, 0, 0))
     assert caption(contact).endswith(" of $O_{1}$")
