@@ -34,10 +34,11 @@ def orientation(reader: Reader, seed: int, number: int) -> Turn:
         return anywhere(rng)
     if number % 4 == 3:
         return just_after_a_critical_angle(reader, rng)
-    if number // 2 < len(first := likely_angles(reader)):
-        return first[number // 2]
+    k, likely = number // 2, likely_angles(reader)
+    if k < len(likely):
+        return likely[k]
     critical = critical_angles(reader, seed)
-    return critical[number // 2 % len(critical)]
+    return critical[k % len(critical)]
 
 
 def anywhere(rng: random.Random) -> Turn:
