@@ -28,7 +28,8 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 	$(BIN)/cfree verify $(SWIM) demo/swim.json
 	$(BIN)/cfree boundary $(PARKING) -o demo/parking.npz --mesh demo/parking.glb
 
-test: $(TESTED) ctest lint  ## every test
+test: $(TESTED)  ## every test
+	$(MAKE) -j 2 --output-sync ctest lint
 	$(BIN)/python -m pytest -n 2
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python, under the address and undefined-behaviour sanitizers

@@ -52,14 +52,14 @@ def check_against_flood(plain: PlainScene, space: FreeSpace, steps: int) -> int:
 def test_cells_are_those_of_a_flood(kind: str) -> None:
     for seed in range(2):
         plain = random_scene(seed, kind)
-        check_against_flood(plain, space_of(plain), 90)
+        check_against_flood(plain, space_of(plain), 60)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("path", SMALL, ids=lambda path: path.stem)
 def test_cells_of_examples_are_those_of_a_flood(path: Path) -> None:
     scene = load_scene(path)
-    check_against_flood(plain_of(scene), free_space(boundary(scene, threads=1)), 120)
+    check_against_flood(plain_of(scene), free_space(boundary(scene, threads=1)), 80)
 
 
 @pytest.mark.slow

@@ -165,7 +165,7 @@ def test_decisions_are_those_of_a_flood(kind: str) -> None:
         plain = random_scene(seed, kind)
         scene = scene_of(plain)
         space = free_space(boundary(scene, threads=1))
-        found = flood(plain, 90)
+        found = flood(plain, 60)
         poses = list(Poses(found.xy, found.theta))
         rng = np.random.default_rng(seed)
         for _ in range(6 if poses else 0):
