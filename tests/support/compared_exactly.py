@@ -108,7 +108,7 @@ def limit(result: Boundary, own: int, curve: int, at: Orientation) -> Fraction:
 def _quotient(result: Boundary, own: int, curve: int, at: Orientation) -> tuple[int, int]:
     """N and D, as polynomials in tau, times a positive constant: one for all tau with the same denominator."""
     first, second = _placed(result.features, own, at), _placed(result.features, curve, at)
-    (origin, along), (point, direction), w = first, second, at.tau.numerator**2 + at.tau.denominator**2
+    (origin, along), (point, direction), w = first, second, _w(at)
     u = minus(point, origin)
     if curve >> 61 == Kind.VERTEX_VERTEX:
         assert cross(u, along) == 0, f"{contact(result, curve)} is not on the surface of {contact(result, own)}"
