@@ -28,9 +28,9 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 	$(BIN)/cfree verify $(SWIM) demo/swim.json
 	$(BIN)/cfree boundary $(PARKING) -o demo/parking.npz --mesh demo/parking.glb
 
-test: $(TESTED)  ## every test
+test: $(INSTALLED)  ## every test
 	$(MAKE) -j 2 --output-sync ctest lint
-	$(BIN)/python -m pytest -n 2
+	$(BIN)/python -m pytest -n 2 --dist worksteal  # files of tests stay together as long as there are enough
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python, under the address and undefined-behaviour sanitizers
 	$(BIN)/cmake -S . -B build/ctest -DCFREE_SANITIZE=ON -DCFREE_UNITY=ON -DCMAKE_CXX_FLAGS_RELEASE=-O0 \

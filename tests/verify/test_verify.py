@@ -111,9 +111,10 @@ def flat(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.mark.slow
-def test_progress_is_reported(flat: Path) -> None:
+def test_progress_is_reported() -> None:
     shares: list[float] = []
-    one, two = (cfree.verify.boundary(flat, slices=5, progress=call) for call in (None, shares.append))
+    found = boundary(load_scene(FLAT.with_name("five_convex.json")))
+    one, two = (cfree.verify.boundary(found, slices=20, progress=call) for call in (None, shares.append))
     assert one.verified and replace(one, seconds=0) == replace(two, seconds=0)
     assert shares == sorted(shares) and shares[-1] == 1 and len(shares) > 20
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib.resources import files
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -12,7 +11,7 @@ import pytest
 from pages import CHROMIUM, SWIFTSHADER, Tried
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Any]:
     playwright = pytest.importorskip(
         "playwright.sync_api", reason="playwright is not installed: the page was not tried"
@@ -25,10 +24,10 @@ def browser() -> Iterator[Any]:
         found.close()
 
 
-@pytest.fixture
-def tried(browser: Any, tmp_path: Path) -> Iterator[Tried]:
+@pytest.fixture(scope="module")
+def tried(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tried]:
     """The page as it is without a scene of one's own."""
-    page = tmp_path / "page.html"
+    page = tmp_path_factory.mktemp("page") / "page.html"
     page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
     tried = Tried(browser, page)
     tried.ready("paper_fig9")

@@ -94,7 +94,11 @@ $("save").addEventListener("change", () => {
   $<HTMLSelectElement>("save").value = "";
   void save(session, what);
 });
-$<HTMLInputElement>("file").addEventListener("change", (event) => void open_file((event.target as HTMLInputElement).files?.[0]));
+$<HTMLInputElement>("file").addEventListener("change", (event) => {
+  const input = event.target as HTMLInputElement, file = input.files?.[0];
+  input.value = "";  // else the same file, changed, is not opened again
+  void open_file(file);
+});
 $("colour").addEventListener("change", () => {
   const by = $<HTMLSelectElement>("colour").value;
   const patches = by === "clearance" ? "contact" : by as ColourBy;

@@ -50,18 +50,31 @@ Way Way::asking(Marked along, std::vector<double> what) const {
     return {checker, nearness, grid, limits, costs, per_motion, std::move(along), std::move(what), std::move(at)};
 }
 
-std::size_t Way::nearest(const Place& at, double from, double to) const {
+std::size_t Way::nearest(const Place& at, double from, double to, std::size_t guess) const {
     const auto& mark = ridge.mark;
     const double around = radii_around * costs.weight;
     const auto begin = std::lower_bound(mark.begin(), mark.end(), from - around), end = std::upper_bound(begin, mark.end(), to + around);
-    auto best = static_cast<std::size_t>(std::min(begin, mark.end() - 1) - mark.begin());
+    if (begin == end) return static_cast<std::size_t>(std::min(begin, mark.end() - 1) - mark.begin());
+    const auto apart = [&](std::size_t k) {
+        const double dx = places[k].x - at.x, dy = places[k].y - at.y;
+        return dx * dx + dy * dy;
+    };
+    const auto square = [&](std::size_t k) {
+        const double turn = costs.weight * wrapped(places[k].theta - at.theta);
+        return apart(k) + turn * turn;
+    };
+    const auto index = [&](auto place) { return static_cast<std::size_t>(place - mark.begin()); };
+    const double bound = square(std::clamp(guess, index(begin), index(end) - 1));
+    std::size_t best = index(begin);
     double least = HUGE_VAL;
-    for (auto k = static_cast<std::size_t>(begin - mark.begin()); k < static_cast<std::size_t>(end - mark.begin()); ++k) {
-        const Place& q = places[k];
-        const double dx = q.x - at.x, dy = q.y - at.y, apart = dx * dx + dy * dy;
-        if (apart >= least) continue;
-        const double turn = costs.weight * wrapped(q.theta - at.theta);
-        if (const double square = apart + turn * turn; square < least) least = square, best = k;
+    for (auto place = begin; place < end;) {
+        const std::size_t k = index(place);
+        const double here = apart(k), enough = std::min(least, bound);
+        if (here < least)
+            if (const double s = square(k); s < least) least = s, best = k;
+        // poses are not farther apart than their marks
+        const double beyond = mark[k] + (here > enough ? (1 - 1e-9) * (std::sqrt(here) - std::sqrt(enough)) : 0);
+        if (++place < end && *place < beyond) place = std::lower_bound(place, end, beyond);
     }
     return best;
 }
@@ -69,8 +82,10 @@ std::size_t Way::nearest(const Place& at, double from, double to) const {
 bool Way::joins(const Configuration& a, const Configuration& b, double from, double to) const {
     if (!nearness) return is_free(a, b);
     double least = HUGE_VAL;
+    std::size_t last = 0;
     const auto need = [&](double share) {
-        const double distance = distances[nearest(along(a, b, share), from, to)];
+        last = nearest(along(a, b, share), from, to, last);
+        const double distance = distances[last];
         least = std::min(least, distance);
         return distance;
     };
@@ -105,7 +120,7 @@ Marked Way::marked(Route route, double from, double to) const {
     std::vector<double> mark{from};
     for (std::size_t k = 1; k + 1 < route.size(); ++k) {
         const Configuration& q = route[k];
-        const double there = ridge.mark.empty() ? from : ridge.mark[nearest({q.px, q.py, q.theta}, from, to)];
+        const double there = ridge.mark.empty() ? from : ridge.mark[nearest({q.px, q.py, q.theta}, from, to, 0)];
         mark.push_back(std::clamp(there, mark.back(), to));
     }
     mark.push_back(to);

@@ -26,7 +26,8 @@ from cfree.planning.core_ways import end_of, from_numbers
 from cfree.scene.scene import Scene
 
 REFINE = 400  # motions checked to improve a path if no time is given
-BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance
+BALANCE = 50  # the same for each pose, before and after, of a path that keeps a distance,
+MOST = 300  # but for no more poses before: each takes the longer the longer the path is
 DEAR = 3  # times as many where something is preferred: there is more to try
 OTHERS = 30  # other ways looked for by each core
 SEARCH = 50_000  # motions guessed about for one of them
@@ -95,7 +96,7 @@ class Improver:
 
     def _balanced(self, poses: Sequence[Pose], seed: int) -> Better:
         found = self.searcher.balanced([*map(end_of, poses)], seed)
-        found.run((DEAR if self._prefers else 1) * BALANCE * (len(found.path()) + len(poses)))
+        found.run((DEAR if self._prefers else 1) * BALANCE * (len(found.path()) + min(MOST, len(poses))))
         return found
 
     def _least(self, found: Better) -> float:

@@ -45,8 +45,8 @@ struct Way {
     std::vector<Place> places = {};      // of these poses
 
     Way asking(Marked along, std::vector<double> what) const;
-    // The pose of the ridge nearest to a place, of those with marks about from a number to another.
-    std::size_t nearest(const Place& at, double from, double to) const;
+    // The pose of the ridge nearest to a place, of those with marks about from a number to another; quick if the guess is near.
+    std::size_t nearest(const Place& at, double from, double to, std::size_t guess) const;
     // Is the motion free, and does it keep a distance? What keeps one that means something is free, within limits.
     bool keeps(const Configuration& a, const Configuration& b, double distance) const;
     // The same of what is asked from mark to mark.
