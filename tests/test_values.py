@@ -3,9 +3,9 @@
 import copy
 import inspect
 import pickle
-import tempfile
 from fractions import Fraction
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -34,7 +34,7 @@ def scene_of(x: int) -> cfree.Scene:
     return cfree.Scene(ROBOT, [wall], workspace=ROOM, name="a room", check={"of": [1]}, **ends)
 
 
-def samples(x: int) -> dict[str, Any]:
+def samples(x: int, folder: Path) -> dict[str, Any]:
     """One of each class, for a wall at x: never equal to that of another x."""
     scene, step = scene_of(x), Fraction(1, x)
     boundary = cfree.boundary(scene, threads=x % 2 + 1)
@@ -106,7 +106,7 @@ def samples(x: int) -> dict[str, Any]:
         "Rotation": Rotation((x, 0), "30deg"),
         "Scene": scene,
         "Separated": separated,
-        "Sharded": cfree.distributed.boundary(scene, folder=tempfile.mkdtemp(), tile=x),
+        "Sharded": cfree.distributed.boundary(scene, folder=folder, tile=x),
         "Shapes": cfree.Shapes("SVG", (Shape("robot", str(x), TRIANGLE),), {"units": str(x)}),
         "SharedLine": cfree.arrangements.intersection(floor, below).lines[0],
         "Slice": boundary.slice({"tau": step}),
@@ -134,22 +134,22 @@ TOUCH = cfree.collision.Touch("vertex-edge", (0, 0), (0, 2))
 
 
 @pytest.fixture(scope="module")
-def values() -> dict[str, Any]:
-    return samples(4)
+def values(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    return samples(4, tmp_path_factory.mktemp("values"))
 
 
 @pytest.fixture(scope="module")
-def again() -> dict[str, Any]:
+def again(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     """The same, made anew, and asked for everything."""
-    made = samples(4)
+    made = samples(4, tmp_path_factory.mktemp("again"))
     for value in made.values():
         ask(value)
     return made
 
 
 @pytest.fixture(scope="module")
-def others() -> dict[str, Any]:
-    return samples(5)
+def others(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+    return samples(5, tmp_path_factory.mktemp("others"))
 
 
 def ask(value: Any) -> None:
