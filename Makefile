@@ -96,5 +96,5 @@ $(INSTALLED): pyproject.toml CMakeLists.txt $(CPP) | .venv/bin/python
 	touch $@
 
 $(TESTED): $(INSTALLED)
-	$(INSTALL) $(HERE) '.[test]'
+	$(INSTALL) --no-compile $(HERE) '.[test]'
 	touch $@

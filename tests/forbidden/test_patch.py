@@ -51,20 +51,23 @@ def test_surfaces_are_those_of_the_features_named() -> None:
     rng = random.Random(1)
     for result in results():
         scene = result.scene
+        places, expected, found = [], [], []
         for patch in result.patches:
             t, phi = rng.random(), rng.uniform(0, 6)
             c, s = math.cos(phi), math.sin(phi)
             if patch.kind == "e-v":
-                (ax, ay), (dx, dy) = (np.array(v, float) for v in edge(scene, patch.robot, of_robot=True))
+                (ax, ay), (dx, dy) = ((float(x), float(y)) for x, y in edge(scene, patch.robot, of_robot=True))
                 ax, ay = ax + t * dx, ay + t * dy
                 bx, by = map(float, vertex(scene, patch.obstacle, of_robot=False))
             else:
                 ax, ay = map(float, vertex(scene, patch.robot, of_robot=True))
-                p, v = (np.array(v, float) for v in edge(scene, patch.obstacle, of_robot=False))
-                bx, by = p + t * v
-            expected = [bx - (c * ax - s * ay), by - (s * ax + c * ay)]
-            assert np.allclose(patch.surface(t, phi)[:2], expected, atol=1e-12)
-            assert np.allclose(result.evaluate([patch.index], [t], [phi])[0], expected, atol=1e-12)
+                (bx, by), (dx, dy) = ((float(x), float(y)) for x, y in edge(scene, patch.obstacle, of_robot=False))
+                bx, by = bx + t * dx, by + t * dy
+            places.append((patch.index, t, phi))
+            expected.append((bx - (c * ax - s * ay), by - (s * ax + c * ay)))
+            found.append(patch.surface(t, phi)[:2])
+        assert np.allclose(found, expected, atol=1e-12)
+        assert np.allclose(result.evaluate(*zip(*places, strict=True))[:, :2], expected, atol=1e-12)
 
 
 def test_places_name_polygon_ring_and_vertex_of_the_input() -> None:

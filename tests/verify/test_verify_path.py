@@ -49,8 +49,8 @@ def test_paths_are_free_where_the_core_says_so(
 @settings(max_examples=300, deadline=None)
 @given(st.tuples(*[st.integers(-9, 9)] * 3), st.integers(0, 6), st.integers(1, 6))
 def test_a_quadratic_is_nowhere_positive(q: tuple[int, int, int], a: int, length: int) -> None:
-    places = [Fraction(1000 * a + length * k, 7000) for k in range(1001)]
-    values = [q[0] + q[1] * u + q[2] * u * u for u in places]
+    places = [1000 * a + length * k for k in range(1001)]  # times 7000, and values times 7000^2
+    values = [q[0] * 7000**2 + q[1] * 7000 * u + q[2] * u * u for u in places]
     if max(values) > 0:
         assert not is_nowhere_positive(q, (a, a + length, 7))
     elif q[2] >= 0 or 4 * q[0] * q[2] >= q[1] ** 2:  # convex, or without two roots

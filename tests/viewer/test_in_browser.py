@@ -16,6 +16,7 @@ from pages import Tried
 
 pytestmark = pytest.mark.slow
 
+OTHER = b'{"name": "other", "robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "start": [0, 0, 0]}'
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 
 
@@ -34,8 +35,8 @@ def fig9(page_of_fig9: Tried) -> Tried:
     page = page_of_fig9.page
     if page.locator("#edit-shapes").get_attribute("aria-pressed") == "true":
         page.locator("#edit-shapes").click()
-    page.select_option("#scenes", "sofa_corner")
-    page_of_fig9.ready("sofa_corner")
+    page.set_input_files("#file", {"name": "other.json", "mimeType": "application/json", "buffer": OTHER})
+    page_of_fig9.ready("other")
     page.set_input_files("#file", SCENES / "paper_fig9.json")
     page_of_fig9.ready("paper_fig9")
     return page_of_fig9
