@@ -62,6 +62,8 @@ def test_a_closed_pipe_has_the_exit_code_of_its_signal(command: str) -> None:
     [
         ("raise MemoryError", 3, "error: out of memory\n"),
         ("os.kill(os.getpid(), signal.SIGINT); import time; time.sleep(9)", 130, "error: interrupted;"),
+        ("raise ImportError('initialization failed') from KeyboardInterrupt()", 130, "error: interrupted;"),
+        ("exec('raise KeyboardInterrupt')", 130, "error: interrupted;"),
         ("raise RuntimeError('\\x1b[2J')", 4, "error: this is a bug in cfree, please report it\n"),
         ("raise RecursionError", 4, "error: this is a bug in cfree, please report it\n"),
         ("raise AssertionError", 4, "error: this is a bug in cfree, please report it\n"),

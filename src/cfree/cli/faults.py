@@ -52,11 +52,10 @@ def one_line_faults() -> Iterator[None]:
     from cfree.errors import CfreeError, InvariantError
 
     try:
-        yield
+        with _interrupts():
+            yield
     except click.exceptions.Exit:
         raise
-    except KeyboardInterrupt:
-        fail("interrupted; no file was left half-written", INTERRUPTED)
     except InvariantError as error:
         from cfree.scene.scene import Scene
 
@@ -82,6 +81,21 @@ def one_line_faults() -> Iterator[None]:
             fail(str(error), BAD_INPUT)
         _say("".join(traceback.format_exception(error)))
         fail("this is a bug in cfree, please report it", BUG)
+
+
+@contextmanager
+def _interrupts() -> Iterator[None]:
+    """Ctrl-C, also where something else has come of it, as of a compiled module that was not imported to its end."""
+    try:
+        yield
+    except (KeyboardInterrupt, Exception) as error:
+        links: list[BaseException] = [error]
+        while (link := links[-1].__cause__ or links[-1].__context__) and link not in links:
+            links.append(link)
+        if not any(isinstance(link, KeyboardInterrupt) for link in links):
+            raise
+        exec("")  # else Python, interrupted in an exec of dataclasses, would end by the signal, whatever the code
+        fail("interrupted; no file was left half-written", INTERRUPTED)
 
 
 def _contradicts_itself(scene: Scene) -> bool:
