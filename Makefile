@@ -29,7 +29,7 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 	$(BIN)/cfree boundary $(PARKING) -o demo/parking.npz --mesh demo/parking.glb
 
 test: $(INSTALLED)  ## every test
-	$(MAKE) -j 2 --output-sync ctest lint
+	$(MAKE) -j 2 --output-sync $(TESTED) ctest lint
 	$(BIN)/python -m pytest -n 2 --dist worksteal  # files of tests stay together as long as there are enough
 
 ctest: $(INSTALLED)  ## the core's own tests, without Python, under the address and undefined-behaviour sanitizers

@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
 CHROMIUM = Path("/usr/bin/chromium")
 SWIFTSHADER = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
+
+
+def bare_page(folder: Path) -> Path:
+    """The page of the package, without a scene of one's own, as a file."""
+    page = folder / "page.html"
+    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
+    return page
 
 
 class Tried:
@@ -28,6 +36,10 @@ class Tried:
 
     def ready(self, name: str) -> None:
         self.page.locator(f"body[data-ready='{name}']").wait_for(timeout=120_000)
+
+    def give(self, text: str, name: str = "scene.json") -> None:
+        """A file, by the button that opens files."""
+        self.page.set_input_files("#file", {"name": name, "mimeType": "application/json", "buffer": text.encode()})
 
     def say(self, which: str, text: str) -> None:
         self.page.locator(which).filter(has_text=text).wait_for(timeout=30_000)

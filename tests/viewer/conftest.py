@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.resources import files
 from typing import Any
 
 import pytest
 
-from pages import CHROMIUM, SWIFTSHADER, Tried
+from pages import CHROMIUM, SWIFTSHADER, Tried, bare_page
 
 
 @pytest.fixture(scope="session")
@@ -27,9 +26,7 @@ def browser() -> Iterator[Any]:
 @pytest.fixture(scope="module")
 def tried(browser: Any, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Tried]:
     """The page as it is without a scene of one's own."""
-    page = tmp_path_factory.mktemp("page") / "page.html"
-    page.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
-    tried = Tried(browser, page)
+    tried = Tried(browser, bare_page(tmp_path_factory.mktemp("page")))
     tried.ready("paper_fig9")
     yield tried
     tried.close()

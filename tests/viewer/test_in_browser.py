@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +11,11 @@ import pytest
 
 import cfree
 from cfree import view
-from pages import Tried
+from pages import Tried, bare_page
 
 pytestmark = pytest.mark.slow
 
-OTHER = b'{"name": "other", "robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "start": [0, 0, 0]}'
+OTHER = '{"name": "other", "robot": {"outer": [[0, 0], [1, 0], [0, 1]]}, "start": [0, 0, 0]}'
 SCENES = Path(__file__).parents[2] / "examples" / "scenes"
 
 
@@ -35,7 +34,7 @@ def fig9(page_of_fig9: Tried) -> Tried:
     page = page_of_fig9.page
     if page.locator("#edit-shapes").get_attribute("aria-pressed") == "true":
         page.locator("#edit-shapes").click()
-    page.set_input_files("#file", {"name": "other.json", "mimeType": "application/json", "buffer": OTHER})
+    page_of_fig9.give(OTHER)
     page_of_fig9.ready("other")
     page.set_input_files("#file", SCENES / "paper_fig9.json")
     page_of_fig9.ready("paper_fig9")
@@ -89,9 +88,7 @@ def test_link_brings_the_state_back(browser: Any, fig9: Tried, tmp_path: Path) -
     fig9.page.wait_for_timeout(900)
     fragment = "#" + fig9.page.url.partition("#")[2]
     place = fig9.page.locator(".body.start").get_attribute("transform")
-    bare = tmp_path / "bare.html"
-    bare.write_bytes(files("cfree.viewer").joinpath("page.html").read_bytes())
-    linked = Tried(browser, bare, fragment)
+    linked = Tried(browser, bare_page(tmp_path), fragment)
     linked.ready("paper_fig9")
     assert linked.page.locator(".body.start").get_attribute("transform") == place
     linked.close()

@@ -21,6 +21,7 @@ PLACES = {
     "paper_fig9": ROOT / "examples/scenes",
     "peg_in_hole": ROOT / "viewer/gallery",
     "caged_part": ROOT / "viewer/gallery",
+    "nest_swim": ROOT / "examples/scenes",
 }
 
 
