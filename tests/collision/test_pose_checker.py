@@ -88,6 +88,24 @@ def test_degenerate_scenes_and_poses(plain: PlainScene, poses: list[tuple], seed
     assert thrice(checker, rounded) == [oracle(plain, pose) for pose in rounded]
 
 
+def test_poses_on_the_limits() -> None:
+    """Where a grid ends: bounds on an obstacle, and workspaces, most of them squares."""
+    rng = random.Random(1)
+    for _ in range(60):
+        width, height = (rng.randint(1, 999) / rng.choice((1, 2, 64, 10, 7)) for _ in "xy")
+        height = rng.choice((width, width, height))
+        x, y = (rng.choice((0, rng.uniform(-9, 9))) for _ in "xy")
+        room = [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+        robot = [(0, 0), (1, 0), (1, rng.choice((2, 0.3, 17))), (0, 2)]
+        rim = Polygon([(x - 99, y - 99), (x + 1999, y - 99), (x + 1999, y + 1999), (x - 99, y + 1999)])
+        among = Scene(robot, [rim], bounds=(x, y, x + width, y + height))
+        for checker in (PoseChecker(among), PoseChecker(Scene(robot, workspace=room))):
+            x0, y0, x1, y1 = map(float, checker.limits)
+            poses = [(u, v, 0.0) for u in (x0, (x0 + x1) / 2, x1) for v in (y0, (y0 + y1) / 2, y1)]
+            inside = [Pose(*pose) for pose in poses]
+            assert checker.is_free(np.array(poses)).tolist() == [checker.is_free(pose) for pose in inside]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", shapes.KINDS)
 def test_random_scenes(kind: str) -> None:

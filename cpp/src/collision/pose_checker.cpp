@@ -249,7 +249,8 @@ void PoseChecker::fill(Grid& g, double most_cells) const {
     const double side = std::max({std::sqrt(width / most_cells) * std::sqrt(height), width / most_cells, height / most_cells,
                                   reach / cells_in_reach});
     g.x0 = around.x0, g.y0 = around.y0, g.per_unit = 1 / side;
-    g.nx = static_cast<Index>(width / side) + 1, g.ny = static_cast<Index>(height / side) + 1;
+    // one more than whole cells and the rest: rounding takes a pose on the upper rim, which may be a limit, into it
+    g.nx = static_cast<Index>(width / side) + 2, g.ny = static_cast<Index>(height / side) + 2;
     const auto cell = [&](double offset, Index n) {
         return static_cast<Index>(std::clamp(offset * g.per_unit, 0.0, static_cast<double>(n - 1)));
     };
