@@ -19,6 +19,8 @@ from functools import lru_cache
 from itertools import pairwise, product
 from typing import Any, NamedTuple
 
+from flint import fmpq
+
 from oracles import edges, exact_hull, exact_rotation, orient, ring_area
 from shapes import PlainScene, Shape, box
 
@@ -110,19 +112,25 @@ def _uncovered(p: Point, q: Point, regions: Sequence[Region]) -> list[Interval]:
             if x1 <= u0 or u1 <= x0 or y1 <= v0 or v1 <= y0:
                 continue
         inside = _inside(p, q, region.sides)
-        if inside == (-1, 2):
-            return []
         if inside:
+            if inside[0] < 0 and inside[1] > 1:
+                return []
             covered.append(inside)
-    left, reach = [], Fraction(0)
+    left, reach = [], fmpq(0)
     for low, high in sorted(covered):
         if low >= reach:
             left.append((reach, low))
         reach = max(reach, high)
-    return [*left, (reach, Fraction(1))] if reach <= 1 else left
+    if reach <= 1:
+        left.append((reach, fmpq(1)))
+    return [(_fraction(low), _fraction(high)) for low, high in left]
 
 
-def _inside(p: Point, q: Point, sides: Sequence[tuple[int, int, int]]) -> Interval | None:
+def _fraction(x: fmpq) -> Fraction:
+    return Fraction(int(x.p), int(x.q))
+
+
+def _inside(p: Point, q: Point, sides: Sequence[tuple[int, int, int]]) -> tuple[fmpq, fmpq] | None:
     """The open interval of t where p + t (q - p) is left of all sides; beyond [0, 1] it ends at -1 or 2."""
     low, low_by, high, high_by = -1, 1, 2, 1
     for ux, uy, offset in sides:
@@ -134,7 +142,7 @@ def _inside(p: Point, q: Point, sides: Sequence[tuple[int, int, int]]) -> Interv
                 low, low_by = -at_p, at_q - at_p
         elif at_q <= 0 and at_p * high_by < high * (at_p - at_q):
             high, high_by = at_p, at_p - at_q
-    return (Fraction(low, low_by), Fraction(high, high_by)) if low * high_by < high * low_by else None
+    return (fmpq(low, low_by), fmpq(high, high_by)) if low * high_by < high * low_by else None
 
 
 def _sum(wall: Sequence[Point], part: Sequence[Point]) -> Ring:
