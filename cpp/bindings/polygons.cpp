@@ -100,6 +100,20 @@ std::shared_ptr<Polygon> polygon_of(nb::handle rings) {
     return read.empty() ? nullptr : std::make_shared<Polygon>(std::move(read));
 }
 
+// Polygons without holes, one for each ring; none for what is to be looked at by itself, or is wrong.
+std::vector<std::shared_ptr<Polygon>> polygons_of(nb::list outers) {
+    std::vector<std::shared_ptr<Polygon>> found(outers.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        std::vector<cfree::RatioRing> read(1);
+        if (!read_ring(nb::object(outers[k]).ptr(), read[0])) continue;
+        try {
+            found[k] = std::make_shared<Polygon>(std::move(read));
+        } catch (const cfree::InvalidPolygon&) {  // said where its place is known
+        }
+    }
+    return found;
+}
+
 cfree::SceneShapes shapes_of(std::vector<std::shared_ptr<Polygon>> robot, std::vector<std::shared_ptr<Polygon>> obstacles,
                              std::shared_ptr<Polygon> workspace, std::optional<std::array<nb::object, 4>> bounds) {
     cfree::SceneShapes shapes{{robot.begin(), robot.end()}, {obstacles.begin(), obstacles.end()}, std::move(workspace), {}};
@@ -157,6 +171,7 @@ void bind_polygons(nb::module_& m) {
         .def_prop_ro("pieces", &Polygon::pieces)
         .def("is_inside", &cfree::is_inside, "outer"_a)
         .def("__len__", [](const Polygon& p) { return p.vertices.size(); });
+    m.def("polygons_of", &polygons_of, "outers"_a, nb::sig("def polygons_of(outers: list[typing.Any]) -> list[Polygon | None]"));
     nb::class_<cfree::Owners> owners(m, "Owners");
     column(owners, "polygon", &cfree::Owners::polygon);
     column(owners, "vertex", &cfree::Owners::vertex);

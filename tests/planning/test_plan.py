@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from fractions import Fraction
+from functools import cache
 from itertools import pairwise
 from pathlib import Path as FilePath
 from typing import Any
@@ -193,8 +193,10 @@ def reachable(scene: Scene) -> bool:
     return isinstance(plan(scene), Path)
 
 
-def random_questions(count: int) -> Iterator[Scene]:
+@cache
+def random_questions(count: int) -> tuple[Scene, ...]:
     """Scenes with start and goal, in cells of their own as often as in one."""
+    scenes = []
     for seed in range(count):
         plain = random_scene(seed, KINDS[seed % len(KINDS)])
         found = flood(plain, 45)
@@ -203,8 +205,8 @@ def random_questions(count: int) -> Iterator[Scene]:
         rng = np.random.default_rng(seed)
         i, j = rng.integers(len(found.theta), size=2).tolist()
         poses = Poses(found.xy, found.theta)
-        scene = scene_of(plain)
-        yield replaced(scene, start=poses[i], goal=poses[j])
+        scenes.append(replaced(scene_of(plain), start=poses[i], goal=poses[j]))
+    return tuple(scenes)
 
 
 def replaced(scene: Scene, **parts: Any) -> Scene:

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
@@ -23,7 +24,7 @@ from cfree.curves.rings import Circle
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
-from cfree.polygons.polygon import Polygon
+from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
 from cfree.value import Shown
@@ -137,10 +138,13 @@ class Scene(Shown):
         aim = aims if isinstance(aims, Pose) else aims[0] if len(aims) == 1 else None
         aim = aim if isinstance(aim, Pose) else None
         with collection_paused():
+            plain = _core.polygons_of(items)  # lists of points, all at once
             shapes = [
                 (name, polygon)
-                for k, (item, name) in enumerate(zip(items, names, strict=True))
-                for polygon in _shapes(item, f"obstacle {k}" + (f" ({name})" if name else ""))
+                for k, (item, name, core) in enumerate(zip(items, names, plain, strict=True))
+                for polygon in (
+                    [polygon_of(core)] if core else _shapes(item, f"obstacle {k}" + (f" ({name})" if name else ""))
+                )
             ]
         values = {
             "robot": tuple(robot_parts),
