@@ -147,6 +147,7 @@ void bind_polygons(nb::module_& m) {
     });
     nb::class_<Polygon>(m, "Polygon")
         .def_static("of", &polygon_of, "rings"_a, nb::sig("def of(rings: Sequence[typing.Any]) -> Polygon | None"))
+        .def_static("of_each", &polygons_of, "outers"_a, nb::sig("def of_each(outers: list[typing.Any]) -> list[Polygon | None]"))
         .def_prop_ro("numerators", [](const Polygon& p) { return integers(p.vertices.X, p.vertices.Y); },
                      nb::for_getter(nb::sig("def numerators(self) -> tuple[tuple[int, int], ...]")))
         .def_prop_ro("denominator", [](const Polygon& p) { return integer(p.denominator); })
@@ -171,7 +172,6 @@ void bind_polygons(nb::module_& m) {
         .def_prop_ro("pieces", &Polygon::pieces)
         .def("is_inside", &cfree::is_inside, "outer"_a)
         .def("__len__", [](const Polygon& p) { return p.vertices.size(); });
-    m.def("polygons_of", &polygons_of, "outers"_a, nb::sig("def polygons_of(outers: list[typing.Any]) -> list[Polygon | None]"));
     nb::class_<cfree::Owners> owners(m, "Owners");
     column(owners, "polygon", &cfree::Owners::polygon);
     column(owners, "vertex", &cfree::Owners::vertex);

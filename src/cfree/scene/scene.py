@@ -138,7 +138,7 @@ class Scene(Shown):
         aim = aims if isinstance(aims, Pose) else aims[0] if len(aims) == 1 else None
         aim = aim if isinstance(aim, Pose) else None
         with collection_paused():
-            plain = _core.polygons_of(items)  # lists of points, all at once
+            plain = _core.Polygon.of_each(items)  # lists of points, all at once
             shapes = [
                 (name, polygon)
                 for k, (item, name, core) in enumerate(zip(items, names, plain, strict=True))
