@@ -38,13 +38,13 @@ static SampleTuple sample(const cfree::Sample& at) {
 }
 static FilteredTuple filtered(const cfree::Filtered& f) { return {f.a, f.b, f.c, f.err}; }
 
-static std::vector<EventTuple> events(const cfree::Event* at, int count) {
+static std::vector<EventTuple> events(const cfree::Few<cfree::Event, 4>& at) {
     std::vector<EventTuple> list;
-    for (int k = 0; k < count; ++k) list.push_back(event(at[k]));
+    for (const cfree::Event& x : at) list.push_back(event(x));
     return list;
 }
 static std::pair<std::vector<EventTuple>, bool> roots(const cfree::Predicates::Roots& r) {
-    return {events(r.at, r.count), r.all_zero};
+    return {events(r.at), r.all_zero};
 }
 
 namespace {
@@ -130,7 +130,7 @@ static void bind_signs(nb::module_& m) {
         .def("compare", [](OnScene& p, Code x, bool x_flipped, Code y, bool y_flipped, const EventTuple& from,
                            const EventTuple& to) {
             const auto r = p.decide.compare(p.curve(x, x_flipped), p.curve(y, y_flipped), event(from), event(to));
-            return std::tuple(events(r.at, r.count), std::vector<int>(r.sign, r.sign + r.count + 1), r.strict);
+            return std::tuple(events(r.at), std::vector<int>(r.sign, r.sign + r.at.size() + 1), r.strict);
         }, "x"_a, "x_flipped"_a, "y"_a, "y_flipped"_a, "from_"_a, "to"_a)
         .def("order_at", [](const OnScene& p, Code x, Code y, const SampleTuple& at) {
             return p.decide.order_at(cfree::unpacked(x), cfree::unpacked(y), sample(at));

@@ -21,13 +21,13 @@ static void parallels_are_found_and_ordered() {
     Predicates p(triangles, {{Kind::vertex_edge, 0, 0}, 0});
     // E_1 = (-2, 1) is parallel to (3, 0) at tan(theta) = 1/2
     const auto roots = p.parallel_roots(1, 0, first, last);
-    CHECK(roots.count == 1);
+    CHECK(roots.at.size() == 1);
     const double tau = std::tan(std::atan(0.5) / 2);
     CHECK(roots.at[0].lo < tau && tau < roots.at[0].hi);
     CHECK(p.order(first, roots.at[0]) < 0 && p.order(roots.at[0], last) < 0);
     CHECK(p.order(roots.at[0], roots.at[0]) == 0);
     // G . F = 0: the roots are the ends of the chart, and not inside
-    CHECK(p.parallel_roots(2, 0, first, last).count == 0);
+    CHECK(p.parallel_roots(2, 0, first, last).at.empty());
 }
 
 static void a_sample_lies_between() {
@@ -44,7 +44,7 @@ static void identical_curves_compare_equal() {
     const Curve low = p.curve({Kind::vertex_vertex, 0, 0}), high = p.curve({Kind::vertex_vertex, 0, 1});
     CHECK(p.compare(low, low, first, last).sign[0] == 0);
     const auto order = p.compare(low, high, first, last);
-    CHECK(order.count == 0 && order.sign[0] == -1);
+    CHECK(order.is(-1));
     // the next edge through b_1 meets this surface in the helix of b_1: t = 1, by arithmetic
     Curve next = p.curve({Kind::vertex_edge, 0, 1});
     next.N = -next.N, next.D = -next.D, next.flipped = true;

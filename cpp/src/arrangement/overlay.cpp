@@ -130,8 +130,8 @@ void Overlay::note_touch(const Overlap& x) {
         const Predicates::Order& order = x.orders[w];
         const auto [p, q] = pairs_of[w];
         if (order.sign[0] == 0) continue;  // one curve, or not asked
-        for (int r = 0; r < order.count; ++r)
-            if (order.at[r].is_touch) touched.push_back(intern(order.at[r]));
+        for (const Event& at : order.at)
+            if (at.is_touch) touched.push_back(intern(at));
         if (order.strict) continue;
         for (const Index end : {x.from, x.to})
             if (before(area.from, end) && before(end, area.to) && order_at(end, p, q) == 0) touched.push_back(end);
@@ -141,8 +141,8 @@ void Overlay::note_touch(const Overlap& x) {
 // False if the band does not meet the piece. Its parts are added to `cut_up`, those inside with negated holders.
 bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std::vector<Bit>& open_bits) {
     const Area &area = piece.area, &of = band.area;
-    Overlap x{area, band, -1, -1, {}, {}};
-    const bool meets = compare(x);
+    Overlap x(area, band);
+    const bool meets = may_meet(area, of) && compare(x);
     if (x.to >= 0 && before(x.from, x.to)) note_touch(x);
     if (!meets) return false;
     sort_cuts(x);
@@ -184,10 +184,10 @@ bool Overlay::split(const Piece& piece, const Band& band, bool along_curve, std:
         else if (below) go_on_with(at, {low, inside}, tips);
         else if (above) go_on_with(at, {inside, high}, tips);
         else go_on_with(at, {inside}, tips);
-        if (k == x.count) break;
+        if (k == x.cuts.size()) break;
         tips = 0;  // on to the next angle, over all cuts that are there
         do tips |= 1u << x.cuts[k].which, ++x.position[x.cuts[k].which], ++k;
-        while (k < x.count && equal(x.cuts[k].event, x.cuts[k - 1].event));
+        while (k < x.cuts.size() && equal(x.cuts[k].event, x.cuts[k - 1].event));
     }
     if (x.to != area.to) go_on_with(x.to, {{x.to, area.lower, area.upper, false}}, 0);
     go_on_with(area.to, {}, 0);

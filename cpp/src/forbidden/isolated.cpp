@@ -171,12 +171,12 @@ private:
         Predicates here(scene, surface);
         const Event from = angle_from(patches, live, k).event(here), to = angle_to(patches, live, k).event(here);
         std::vector<Event> events{from, to};
-        const auto add = [&](const Predicates::Order& order) { events.insert(events.end(), order.at, order.at + order.count); };
+        const auto add = [&](const Predicates::Order& order) { events.insert(events.end(), order.at.begin(), order.at.end()); };
         add(here.compare(here.curve(lower), here.curve(c), from, to)), add(here.compare(here.curve(upper), here.curve(c), from, to));
         if (c.kind != Kind::vertex_vertex && c.kind != on.kind) {  // where it has no place on the surface
             const auto roots = on.kind == Kind::vertex_edge ? here.parallel_roots(c.robot, on.obstacle, from, to)
                                                             : here.parallel_roots(on.robot, c.obstacle, from, to);
-            events.insert(events.end(), roots.at, roots.at + roots.count);
+            events.insert(events.end(), roots.at.begin(), roots.at.end());
         }
         std::sort(events.begin(), events.end(), [&](const Event& x, const Event& y) { return here.order(x, y) < 0; });
         const auto angle = [&](const Event& x) { return CriticalAngle(surface, x, here.place(x)); };

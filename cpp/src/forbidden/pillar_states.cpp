@@ -21,6 +21,7 @@ void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& 
         Span span = whole;
         State state = at.fine ? state_at<Int>(p, k, at) : state_at<double>(p, k, at);
         const double lo = events[whole.from].lo, hi = events[whole.to].hi;
+        if (state.meets == Meets::crosses) find_curves(state);
         if (state.meets == Meets::crosses && !part.may_pinch && is_beyond(state, slices, lo, hi)) continue;
         Verdict verdict = lifetime(state, at, span);
         for (int attempt = 0; verdict != Verdict::holds; ++attempt) {
@@ -29,6 +30,7 @@ void Trimmer::cover(Index p, Index k, const Slices& slices, const Slices::Part& 
                 at = decide.between(events[whole.from], events[whole.to], attempt + 1);
             span = whole;
             state = state_at<Int>(p, k, at);
+            if (state.meets == Meets::crosses) find_curves(state);
             verdict = lifetime(state, at, span);
             if (verdict == Verdict::wrong) throw std::logic_error("an exact state contradicts its own conditions");
         }
@@ -261,8 +263,7 @@ bool Trimmer::is_beyond(const State& state, const Slices& slices, double lo, dou
     const auto sign = [&](Index g, Index f) { return Predicates::sign_on(decide.parallel(g, f), lo, hi); };
     for (const PillarEdge* e : {&state.lower, &state.upper}) {
         const bool is_lower = e == &state.lower;
-        const Feature f = normal_form(e->feature);
-        const Curve& curve = curves[curve_of(f, !is_lower && f.kind != Kind::vertex_vertex)];
+        const Curve& curve = curves[state.curves[is_lower ? 0 : 1]];
         if (is_lower ? !(extreme(curve, lo, hi, false) > high) : !(extreme(curve, lo, hi, true) < low)) continue;
         if (e->around[0] < 0) return true;
         if (e->feature.kind == Kind::vertex_edge
@@ -297,19 +298,16 @@ Trimmer::Verdict Trimmer::lifetime(const State& state, const Sample& sample, Spa
             continue;
         }
         if (at == 0) return Verdict::resample;
-        for (int r = 0; r < roots.count; ++r) {
-            if (!roots.at[r].is_touch || state.meets == Meets::crosses) continue;
-            const Index at_touch = intern(roots.at[r]);
+        for (const Event& root : roots.at) {
+            if (!root.is_touch || state.meets == Meets::crosses) continue;
+            const Index at_touch = intern(root);
             if (touches_along(state)) pinches.push_back(at_touch);
             else meet(state, at_touch);
         }
-        for (int r = 0; r < roots.count; ++r) {
-            if (decide.order(roots.at[r], sample) < 0) {
-                span.from = intern(roots.at[r]);
-            } else {
-                span.to = intern(roots.at[r]);
-                break;
-            }
+        for (const Event& root : roots.at) {
+            const bool is_before = decide.order(root, sample) < 0;
+            (is_before ? span.from : span.to) = intern(root);
+            if (!is_before) break;
         }
     }
     return Verdict::holds;

@@ -10,9 +10,9 @@
 namespace cfree {
 
 Trimmer::Trimmer(const Scene& s, const Surface& on, const Event& from, const Event& to)
-    : decide(s, on), scene(s), surface(on) {
+    : decide(s, on), scene(s), surface(on), ends{end_helix(s, on.contact, 0), end_helix(s, on.contact, 1)} {
     events = {from, to};
-    const Index t0 = curve_of(end_helix(s, on.contact, 0), false), t1 = curve_of(end_helix(s, on.contact, 1), false);
+    const Index t0 = curve_of(ends[0], false), t1 = curve_of(ends[1], false);
     live.push_back({0, 1, t0, t1, 0, 1});
 }
 
@@ -29,8 +29,7 @@ Feature Trimmer::normal_form(const Feature& f) const {
     const auto touches = [](const Shape& s, Index e, Index v) {
         return s.point[s.v[e]] == s.point[v] || s.point[s.w[e]] == s.point[v];
     };
-    for (const int end : {0, 1}) {
-        const Feature helix = end_helix(scene, surface.contact, end);
+    for (const Feature& helix : ends) {
         const bool through = f.kind == Kind::vertex_edge
                                  ? A.point[f.robot] == A.point[helix.robot] && touches(O, f.obstacle, helix.obstacle)
                                  : O.point[f.obstacle] == O.point[helix.obstacle] && touches(A, f.robot, helix.robot);
@@ -109,10 +108,14 @@ void Trimmer::left(Slices& slices) {
         }
 }
 
+// Along the line, t grows: it enters by an edge with D > 0 and leaves by one with D < 0.
+void Trimmer::find_curves(State& state) {
+    const Feature l = normal_form(state.lower.feature), u = normal_form(state.upper.feature);
+    state.curves[0] = curve_of(l, false), state.curves[1] = curve_of(u, u.kind != Kind::vertex_vertex);
+}
+
 void Trimmer::add_band(const State& state, const Span& span, Index p, Index k) {
-    // along the line, t grows: it enters by an edge with D > 0 and leaves by one with D < 0
-    Feature l = normal_form(state.lower.feature), u = normal_form(state.upper.feature);
-    Area band{span.from, span.to, curve_of(l, false), curve_of(u, u.kind != Kind::vertex_vertex), 0, 1};
+    Area band{span.from, span.to, state.curves[0], state.curves[1], 0, 1};
     bounds(band);
     if (band.t_max < 0 || band.t_min > 1) return;
     take({band, p, k, &state});
@@ -135,10 +138,7 @@ void Trimmer::split(const Feature& helix) {
     const Index t = curve_of(helix, false);
     Area seam{0, 1, t, t, 0, 1};
     bounds(seam);
-    next.clear();
-    for (const Area& area : live)
-        if (!subtract_from(area, {seam, -1, -1, nullptr})) next.push_back(area);
-    live.swap(next);
+    subtract_from_live({seam, -1, -1, nullptr});
 }
 
 // Whether the band covers the inside of its segment at this one of its angles.
@@ -179,13 +179,21 @@ int Trimmer::order_at(Index event, Index p, Index q) {
 
 void Trimmer::subtract(const Band& taken) {
     if (!thin.empty()) subtract_from_thin(taken), has_changed = true;
-    next.clear(), fresh.clear();
-    for (const Area& area : live) {
-        if (subtract_from(area, taken)) has_changed = true;
-        else next.push_back(area);
+    fresh.clear();
+    subtract_from_live(taken);
+    thin.insert(thin.end(), fresh.begin(), fresh.end());
+}
+
+void Trimmer::subtract_from_live(const Band& taken) {
+    std::size_t first = 0;
+    while (first < live.size() && !may_meet(live[first], taken.area)) ++first;
+    if (first == live.size()) return;
+    next.assign(live.begin(), live.begin() + static_cast<std::ptrdiff_t>(first));
+    for (std::size_t k = first; k < live.size(); ++k) {
+        if (may_meet(live[k], taken.area) && subtract_from(live[k], taken)) has_changed = true;
+        else next.push_back(live[k]);
     }
     live.swap(next);
-    thin.insert(thin.end(), fresh.begin(), fresh.end());
 }
 
 // Areas that are open end at an angle, but for those that stay; the others begin there. After a tip, where the width is zero, all
@@ -211,14 +219,14 @@ void Trimmer::go_on(Index at, std::initializer_list<std::array<Index, 2>> parts,
 //
 // Between two cuts the four orders are constant: the area is kept, or what is below and what is above the band.
 bool Trimmer::subtract_from(const Area& area, const Band& taken) {
-    Overlap x{area, taken, -1, -1, {}, {}};
+    Overlap x(area, taken);
     if (!compare(x)) return false;
     sort_cuts(x);
     open.clear();
     if (x.from != area.from) go_on(area.from, {{area.lower, area.upper}}, false);
     Cover last{};
     for (int k = 0;;) {
-        const Index start = k == 0 ? x.from : x.cuts[k - 1].event, end = k == x.count ? x.to : x.cuts[k].event;
+        const Index start = k == 0 ? x.from : x.cuts[k - 1].event, end = k == x.cuts.size() ? x.to : x.cuts[k].event;
         const Cover cover{x.sign(Overlap::lower_to_upper) < 0 && x.sign(Overlap::upper_to_lower) > 0,
                           x.sign(Overlap::lower_to_lower) < 0, x.sign(Overlap::upper_to_upper) > 0};
         keep_around(x, start, cover);
@@ -228,13 +236,13 @@ bool Trimmer::subtract_from(const Area& area, const Band& taken) {
             else if (x.from == area.from) keep_at(x, start, nullptr, &cover);
         }
         last = cover;
-        if (k == x.count) break;
+        if (k == x.cuts.size()) break;
         // on to the next angle, over all cuts that are there
         x.low_meets = x.high_meets = false;
         do {
             x.low_meets |= x.cuts[k].which == Overlap::lower_to_lower, x.high_meets |= x.cuts[k].which == Overlap::upper_to_upper;
             ++x.position[x.cuts[k].which], ++k;
-        } while (k < x.count && equal(x.cuts[k].event, x.cuts[k - 1].event));
+        } while (k < x.cuts.size() && equal(x.cuts[k].event, x.cuts[k - 1].event));
     }
     if (taken.state != nullptr && x.to == area.to) keep_at(x, x.to, &last, nullptr);
     if (x.to != area.to) go_on(x.to, {{area.lower, area.upper}}, false);
@@ -242,21 +250,23 @@ bool Trimmer::subtract_from(const Area& area, const Band& taken) {
     return true;
 }
 
+bool Trimmer::may_meet(const Area& area, const Area& band) const {
+    return band.t_max >= area.t_min && band.t_min <= area.t_max && events[area.to].hi >= events[band.from].lo &&
+           events[area.from].lo <= events[band.to].hi;
+}
+
 // The angles where both are, and the four orders there; false if the band covers nothing of the area, as far as can be seen.
 bool Trimmer::compare(Overlap& x) {
     const Area &area = x.area, &band = x.band.area;
-    if (events[area.to].hi < events[band.from].lo || events[area.from].lo > events[band.to].hi || band.t_max < area.t_min ||
-        band.t_min > area.t_max)
-        return false;
     x.from = before(area.from, band.from) ? band.from : area.from;
     x.to = before(band.to, area.to) ? band.to : area.to;
     if (!before(x.from, x.to)) return false;
     const auto order = [&](Index p, Index q) { return decide.compare(curves[p], curves[q], events[x.from], events[x.to]); };
     auto& orders = x.orders;
     orders[Overlap::lower_to_upper] = order(band.lower, area.upper);
-    if (orders[Overlap::lower_to_upper].count == 0 && x.sign(Overlap::lower_to_upper) >= 0) return false;
+    if (orders[Overlap::lower_to_upper].at.empty() && x.sign(Overlap::lower_to_upper) >= 0) return false;
     orders[Overlap::upper_to_lower] = order(band.upper, area.lower);
-    if (orders[Overlap::upper_to_lower].count == 0 && x.sign(Overlap::upper_to_lower) <= 0) return false;
+    if (orders[Overlap::upper_to_lower].at.empty() && x.sign(Overlap::upper_to_lower) <= 0) return false;
     orders[Overlap::lower_to_lower] = order(band.lower, area.lower);
     orders[Overlap::upper_to_upper] = order(band.upper, area.upper);
     return true;
@@ -265,11 +275,11 @@ bool Trimmer::compare(Overlap& x) {
 // The changes of the four orders in one list.
 void Trimmer::sort_cuts(Overlap& x) {
     for (int w = 0; w < 4; ++w) {
-        for (int r = 0; r < x.orders[w].count; ++r) {
-            const Overlap::Cut cut{intern(x.orders[w].at[r]), w};
-            int k = x.count++;
-            for (; k > 0 && before(cut.event, x.cuts[k - 1].event); --k) x.cuts[k] = x.cuts[k - 1];
-            x.cuts[k] = cut;
+        for (const Event& at : x.orders[w].at) {
+            const Overlap::Cut cut{intern(at), w};
+            int k = x.cuts.size();
+            while (k > 0 && before(cut.event, x.cuts[k - 1].event)) --k;
+            x.cuts.insert(k, cut);
         }
     }
 }
@@ -342,8 +352,8 @@ void Trimmer::subtract_from_thin(const Band& taken) {
             bool is_low;
         };
         std::vector<Cut> cuts;
-        for (int r = 0; r < low.count; ++r) cuts.push_back({intern(low.at[r]), true});
-        for (int r = 0; r < high.count; ++r) cuts.push_back({intern(high.at[r]), false});
+        for (const Event& e : low.at) cuts.push_back({intern(e), true});
+        for (const Event& e : high.at) cuts.push_back({intern(e), false});
         std::stable_sort(cuts.begin(), cuts.end(), [&](const Cut& p, const Cut& q) { return before(p.event, q.event); });
         Index start = x.from;   // of what is kept
         bool keeps = from != x.from, was_covered = false;

@@ -82,7 +82,7 @@ Predicates::Roots Predicates::parallel_roots(Index g, Index f, const Event& from
     const ParallelAngle p = parallel_angle(scene, g, f, counters);
     if (p.side == 0) return result;
     const Event x{{Kind::edge_edge, g, f}, {}, p.tau - p.half, p.tau + p.half};
-    if (order(from, x) < 0 && order(x, to) < 0) result.at[result.count++] = x;
+    if (order(from, x) < 0 && order(x, to) < 0) result.at.push_back(x);
     return result;
 }
 

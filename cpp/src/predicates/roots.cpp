@@ -139,11 +139,8 @@ std::array<double, 2> refine(const Balls& form, double lo, double hi) {
     }
 }
 
-struct Brackets {
-    static constexpr int enough = 8;
-    double at[enough][2];
-    int count = 0;
-};
+constexpr int enough = 8;
+using Brackets = Few<std::array<double, 2>, enough>;
 
 // Brackets of the roots in [lo, hi], in order; false if certain signs do not tell.
 template <class Form>
@@ -155,7 +152,7 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
     int top = 0;
     stack[top++] = {lo, hi};
     int budget = 60;
-    found.count = 0;
+    found = {};
     while (top > 0) {
         const Span s = stack[--top];
         int sign[5];
@@ -164,9 +161,8 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
         if (inside == Found::none) continue;
         if (inside == Found::hopeless) return false;
         if (inside == Found::one) {
-            const auto bracket = refine(form, s.lo, s.hi);
-            found.at[found.count][0] = bracket[0], found.at[found.count][1] = bracket[1];
-            if (++found.count == Brackets::enough) return false;
+            found.push_back(refine(form, s.lo, s.hi));
+            if (found.size() == enough) return false;
             continue;
         }
         if (--budget == 0 || s.hi - s.lo < least || top > 60 || form.may_touch()) return false;
@@ -191,8 +187,7 @@ bool isolate_around(const Balls& form, double lo, double hi, Brackets& found) {
 
 // Roots in the interval and a little beyond it.
 struct Predicates::Candidates {
-    Event at[Brackets::enough];
-    int count = 0;
+    Few<Event, enough> at;
     bool all_zero = false;
 };
 
@@ -210,8 +205,7 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     if (*sign < 0) return result;
     Brackets found;
     if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
-    for (; result.count < found.count; ++result.count)
-        result.at[result.count] = {first, second, found.at[result.count][0], found.at[result.count][1], -1, *sign == 0};
+    for (const auto& [below, above] : found) result.at.push_back({first, second, below, above, -1, *sign == 0});
     return result;
 }
 
@@ -244,10 +238,8 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
     };
     Brackets found;
     if (isolate_around(Balls(simple), lo, hi, found)) {
-        for (; result.count < found.count; ++result.count) {
-            const auto [l, h] = found.at[result.count];
-            result.at[result.count] = {first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))};
-        }
+        for (const auto& [l, h] : found)
+            result.at.push_back({first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))});
         return result;
     }
     const Sturm sturm(simple);
@@ -268,7 +260,7 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
             x.fine = static_cast<Index>(fine.size());
             fine.push_back({below, above});
         }
-        result.at[result.count++] = x;
+        result.at.push_back(x);
     }
     return result;
 }
@@ -279,8 +271,7 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
     Brackets found;
     if (isolate_around(f, from.lo, to.hi, found) || double_only) {
         ++counters.filter;
-        for (; all.count < found.count; ++all.count)
-            all.at[all.count] = {first, second, found.at[all.count][0], found.at[all.count][1]};
+        for (const auto& [below, above] : found) all.at.push_back({first, second, below, above});
     } else {
         all = settled(counters, [&]<class T>() -> std::optional<Candidates> {
             if constexpr (std::is_same_v<T, Ball>) return roots_by_balls(first, second, from.lo, to.hi);
@@ -289,11 +280,8 @@ Predicates::Roots Predicates::roots(const Form& f, const Feature& first, const F
     }
     Roots result;
     result.all_zero = all.all_zero;
-    for (int k = 0; k < all.count; ++k) {
-        if (order(from, all.at[k]) >= 0 || order(all.at[k], to) >= 0) continue;
-        if (result.count == 4) throw std::logic_error("more roots than the degree");
-        result.at[result.count++] = all.at[k];
-    }
+    for (const Event& x : all.at)
+        if (order(from, x) < 0 && order(x, to) < 0) result.at.push_back(x);
     return result;
 }
 
@@ -325,16 +313,14 @@ Predicates::Roots Predicates::crossings(const Form& f, const Feature& p, const F
     // one line both ways is one curve
     const bool on_one_line = p.kind == q.kind && (p.kind == Kind::vertex_edge ? O.direction[p.obstacle] == O.direction[q.obstacle]
                                                                              : A.direction[p.robot] == A.direction[q.robot]);
-    if (on_one_line) return {0, true, {}};
+    if (on_one_line) return {{}, true};
     Roots result = offset_roots(a, b, offset(a, b), from, to);
     if (result.all_zero || p.kind == q.kind) return result;
     const Roots parallel = parallel_roots(q.robot, p.obstacle, from, to);
-    for (int k = 0; k < parallel.count; ++k) {
-        int at = result.count;
-        while (at > 0 && order(parallel.at[k], result.at[at - 1]) < 0) --at;
-        if (at > 0 && order(parallel.at[k], result.at[at - 1]) == 0) continue;
-        for (int m = result.count++; m > at; --m) result.at[m] = result.at[m - 1];
-        result.at[at] = parallel.at[k];
+    for (const Event& x : parallel.at) {
+        int at = result.at.size();
+        while (at > 0 && order(x, result.at[at - 1]) < 0) --at;
+        if (at == 0 || order(x, result.at[at - 1]) != 0) result.at.insert(at, x);
     }
     return result;
 }
@@ -353,10 +339,9 @@ Predicates::Order Predicates::compare(const Curve& p, const Curve& q, const Even
     const Roots r = crossings(f, p.feature, q.feature, from, to);
     if (r.all_zero) return constant(0);
     const int flip = p.flipped != q.flipped ? -1 : 1;
-    result.count = r.count;
-    for (int k = 0; k <= r.count; ++k) {
-        if (k < r.count) result.at[k] = r.at[k];
-        const Event &before = k == 0 ? from : r.at[k - 1], &after = k == r.count ? to : r.at[k];
+    result.at = r.at;
+    for (int k = 0; k <= r.at.size(); ++k) {
+        const Event &before = k == 0 ? from : r.at[k - 1], &after = k == r.at.size() ? to : r.at[k];
         result.sign[k] = 0;
         for (int attempt = 0; result.sign[k] == 0; ++attempt) {  // a sample may be where the curves touch
             if (attempt == most_attempts) throw std::logic_error("two different curves are equal at every sample");
@@ -375,7 +360,7 @@ bool Predicates::are_limits(const Feature& lower, const Feature& upper, const Ev
         const Feature& on = surface.contact;
         if (f.kind != Kind::vertex_vertex && f.kind != on.kind) {
             const bool on_edge = on.kind == Kind::vertex_edge;
-            if (parallel_roots(on_edge ? f.robot : on.robot, on_edge ? on.obstacle : f.obstacle, from, to).count > 0) return {};
+            if (!parallel_roots(on_edge ? f.robot : on.robot, on_edge ? on.obstacle : f.obstacle, from, to).at.empty()) return {};
         }
         const int sign = cfree::sign_at(polynomial(curve_trig<Int>(f)[1]), middle.exact());
         if (sign < 0) result.N = -result.N, result.D = -result.D, result.flipped = true;
@@ -384,7 +369,7 @@ bool Predicates::are_limits(const Feature& lower, const Feature& upper, const Ev
     const auto ordered = [&](const std::optional<Curve>& p, const std::optional<Curve>& q) {
         if (!p || !q) return false;
         const Order found = compare(*p, *q, from, to);
-        return std::all_of(found.sign, found.sign + found.count + 1, [](int s) { return s <= 0; });
+        return std::all_of(found.sign, found.sign + found.at.size() + 1, [](int s) { return s <= 0; });
     };
     const auto low = limit(lower), high = limit(upper);
     return ordered(limit(end_helix(scene, surface.contact, 0)), low) && ordered(low, high) &&

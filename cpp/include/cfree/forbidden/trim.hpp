@@ -73,7 +73,8 @@ protected:
     enum class Meets { never_left, never_right, crosses };  // whether the line passes through the open pillar
     struct State {
         Meets meets;
-        PillarEdge lower, upper;  // crosses
+        PillarEdge lower, upper;  // crosses; the curves of both
+        Index curves[2];
         Index s, v;               // else: the pillar's vertex nearest to the line
         Index robot_around[2], obstacle_around[2];
     };
@@ -94,9 +95,10 @@ protected:
 
     // A band against an area, between the angles where both are.
     struct Overlap {
+        Overlap(const Area& of, const Band& with) : area(of), band(with) {}
         const Area& area;
         const Band& band;
-        Index from, to;
+        Index from = -1, to = -1;
         // Of the band's lower (upper) curve against the area's, and where an order changes.
         enum Which { lower_to_upper, upper_to_lower, lower_to_lower, upper_to_upper };
         Predicates::Order orders[4];
@@ -104,8 +106,7 @@ protected:
             Index event;
             int which;
         };
-        Cut cuts[16];
-        int count = 0;
+        Few<Cut, 16> cuts;
         int position[4] = {0, 0, 0, 0};  // among the signs of each order
         bool low_meets = false, high_meets = false;  // whether two lower, two upper curves meet at the last cut
         int sign(Which which) const { return orders[which].sign[position[which]]; }
@@ -125,6 +126,7 @@ protected:
     bool is_beyond(const State& state, const Slices& slices, double lo, double hi);
     int conditions(const State& state, Condition* out, bool& wrong);
     bool lies_on_line(Index s, Index v) const;
+    void find_curves(State& state);
     void add_band(const State& state, const Span& span, Index p, Index k);
     bool covers_at(const Band& band, Index event);
     bool crosses_at(const Band& band, Index event);
@@ -141,6 +143,8 @@ protected:
     // In such a state, an angle at which the nearest vertex just touches the line.
     virtual void meet(const State&, Index) {}
     void subtract(const Band& band);
+    void subtract_from_live(const Band& band);
+    bool may_meet(const Area& area, const Area& band) const;
     bool subtract_from(const Area& area, const Band& band);
     bool compare(Overlap& x);
     void sort_cuts(Overlap& x);
@@ -156,6 +160,7 @@ protected:
 
     const Scene& scene;
     Surface surface;
+    Feature ends[2];  // the helices at t = 0 and t = 1
     std::vector<Event> events;
     std::vector<Curve> curves;
     std::vector<Index> slots;  // of a hash table of curves; -1: empty

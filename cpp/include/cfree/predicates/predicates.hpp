@@ -15,6 +15,7 @@
 
 #include "cfree/exact/algebraic.hpp"
 #include "cfree/scene/scene.hpp"
+#include "cfree/support/few.hpp"
 
 namespace cfree {
 
@@ -115,18 +116,17 @@ public:
     // Roots strictly between two angles, in order, those without a change of sign among them.
     // all_zero: the polynomial vanishes identically.
     struct Roots {
-        int count = 0;
+        Few<Event, 4> at;
         bool all_zero = false;
-        Event at[4];
     };
     Roots offset_roots(Index s, Index v, const Filtered& f, const Event& from, const Event& to);
     Roots parallel_roots(Index g, Index f, const Event& from, const Event& to);
     // Order of two curves between two angles: where it may change, and the sign of p - q before, between and after.
     struct Order {
-        int count = 0;
-        Event at[4];
-        int sign[5];  // all 0 if the curves are one
+        Few<Event, 4> at;
+        int sign[5]{};        // all 0 if the curves are one
         bool strict = false;  // the same sign at the two ends, too
+        bool is(int everywhere) const { return at.empty() && sign[0] == everywhere; }
     };
     Order compare(const Curve& p, const Curve& q, const Event& from, const Event& to);
 
