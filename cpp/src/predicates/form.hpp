@@ -8,12 +8,7 @@
 namespace cfree {
 
 inline constexpr double u = 0x1p-53;
-// Coefficients are one cross or dot product of differences: at most 6 roundings in a row. The polar form adds 5 and at
-// most doubles the magnitude: 22 u would do.
-inline constexpr double coefficient_error = 32 * u;
 inline constexpr double product_error = 8 * u;
-// More than any underflow loses: coefficients are far above it or zero.
-inline constexpr double tiny = 0x1p-900;
 
 inline std::optional<int> certain_sign(const Int& n) { return n.sign(); }
 

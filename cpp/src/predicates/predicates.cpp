@@ -25,25 +25,6 @@ Feature end_helix(const Scene& scene, const Feature& contact, int end) {
 
 // --- the quadratics, one formula for every number type ---------------------------------------------------------------
 
-template <class T>
-Trig<T> Predicates::offset_trig(Index s, Index v) const {
-    const Shape &A = scene.robot, &O = scene.obstacles;
-    const Index i = surface.contact.robot, j = surface.contact.obstacle;
-    if (surface.contact.kind == Kind::vertex_edge) {  // E_j x (b_v - b_j - R (a_s - a_i))
-        const auto E = edge<T>(O, j), w = difference<T>(O, v, O.v[j]), d = difference<T>(A, s, i);
-        return {cross(E, w), -cross(E, d), -dot(E, d)};
-    }
-    // -R E_i x (b_v - b_j - R (a_s - a_i))
-    const auto E = edge<T>(A, i), w = difference<T>(O, v, j), d = difference<T>(A, s, A.v[i]);
-    return {cross(E, d), -cross(E, w), dot(E, w)};
-}
-
-template <class T>
-Trig<T> Predicates::parallel_trig(Index g, Index f) const {
-    const auto G = edge<T>(scene.robot, g), F = edge<T>(scene.obstacles, f);
-    return {T{}, cross(G, F), -dot(G, F)};
-}
-
 // The half-plane of a pillar's edge e cuts the surface's line P + t U, P = b_j - R a_i, where e's direction V and point Q give
 // V x (P - Q) + t (V x U) = 0, so t = N / D with N = -V x (P - Q), D = V x U.
 template <class T>
@@ -70,11 +51,6 @@ std::array<Trig<T>, 2> Predicates::curve_trig(const Feature& f) const {
     return {N, Trig<T>{cross(G, E), T{}, T{}}};
 }
 
-Filtered Predicates::filtered(const Trig<Approx>& f) const {
-    return {f.a.v, kappa * f.b.v, kappa * f.c.v, double_only ? 0 : coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
-}
-Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
-Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
 Curve Predicates::curve(const Feature& f) const {
     const auto [N, D] = curve_trig<Approx>(f);
     const bool constant = f.kind == Kind::vertex_vertex;
@@ -85,8 +61,6 @@ template Trig<Ball> Predicates::offset_trig(Index, Index) const;
 template Trig<Int> Predicates::offset_trig(Index, Index) const;
 template std::array<Trig<Ball>, 2> Predicates::curve_trig(const Feature&) const;
 template std::array<Trig<Int>, 2> Predicates::curve_trig(const Feature&) const;
-template Trig<Approx> Predicates::offset_trig(Index, Index) const;
-template Trig<Approx> Predicates::parallel_trig(Index, Index) const;
 template std::array<Trig<Approx>, 2> Predicates::curve_trig(const Feature&) const;
 
 Predicates::Form Predicates::form(const Curve& p, const Curve& q) const {
@@ -100,13 +74,6 @@ Predicates::Form Predicates::form(const Event& x) const {
 }
 
 // --- signs -----------------------------------------------------------------------------------------------------------
-
-int Predicates::sign_on(const Filtered& f, double lo, double hi) {
-    const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
-    if (p > f.err && q > f.err && r > f.err) return 1;
-    if (p < -f.err && q < -f.err && r < -f.err) return -1;
-    return 0;
-}
 
 template <class T>
 Coefficients<T> Predicates::coefficients(const Trig<T>& f) const {

@@ -208,4 +208,44 @@ private:
     std::size_t misses = 0;        // since it has its size
 };
 
+// --- the quadratics of which there are most, one formula for every number type; the others are in predicates.cpp ----------------
+
+// Coefficients are one cross or dot product of differences: at most 6 roundings in a row. The polar form adds 5 and at
+// most doubles the magnitude: 22 times 2^-53 would do.
+inline constexpr double coefficient_error = 0x1p-48;
+// More than any underflow loses: coefficients are far above it or zero.
+inline constexpr double tiny = 0x1p-900;
+
+template <class T>
+Trig<T> Predicates::offset_trig(Index s, Index v) const {
+    const Shape &A = scene.robot, &O = scene.obstacles;
+    const Index i = surface.contact.robot, j = surface.contact.obstacle;
+    if (surface.contact.kind == Kind::vertex_edge) {  // E_j x (b_v - b_j - R (a_s - a_i))
+        const auto E = edge<T>(O, j), w = difference<T>(O, v, O.v[j]), d = difference<T>(A, s, i);
+        return {cross(E, w), -cross(E, d), -dot(E, d)};
+    }
+    // -R E_i x (b_v - b_j - R (a_s - a_i))
+    const auto E = edge<T>(A, i), w = difference<T>(O, v, j), d = difference<T>(A, s, A.v[i]);
+    return {cross(E, d), -cross(E, w), dot(E, w)};
+}
+
+template <class T>
+Trig<T> Predicates::parallel_trig(Index g, Index f) const {
+    const auto G = edge<T>(scene.robot, g), F = edge<T>(scene.obstacles, f);
+    return {T{}, cross(G, F), -dot(G, F)};
+}
+
+inline Filtered Predicates::filtered(const Trig<Approx>& f) const {
+    return {f.a.v, kappa * f.b.v, kappa * f.c.v, double_only ? 0 : coefficient_error * (f.a.m + f.b.m + f.c.m) + tiny};
+}
+inline Filtered Predicates::offset(Index s, Index v) const { return filtered(offset_trig<Approx>(s, v)); }
+inline Filtered Predicates::parallel(Index g, Index f) const { return filtered(parallel_trig<Approx>(g, f)); }
+
+inline int Predicates::sign_on(const Filtered& f, double lo, double hi) {
+    const double p = f.polar(lo, lo), q = f.polar(lo, hi), r = f.polar(hi, hi);
+    if (p > f.err && q > f.err && r > f.err) return 1;
+    if (p < -f.err && q < -f.err && r < -f.err) return -1;
+    return 0;
+}
+
 }  // namespace cfree
