@@ -78,7 +78,7 @@ def against_generic(exact: Core, rounds: int) -> Report:
     return report
 
 
-RUNGS = ("identity", "doubles", "intervals (ms)", "exact (ms)")
+RUNGS = ("identity", "doubles", "intervals", "exact (ms)")
 
 
 WITH_LIBRARY = f"""
@@ -132,7 +132,7 @@ class Run:
         return (
             f"{s['decided_by_identity']:,}",
             f"{s['decided_by_filter']:,}",
-            f"{s['decided_by_intervals']:,} ({1e3 * seconds['intervals']:.1f})",
+            f"{s['decided_by_intervals']:,}",
             f"{s['decided_exactly']:,} ({1e3 * seconds['exact']:.1f})",
         )
 

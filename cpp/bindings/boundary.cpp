@@ -88,7 +88,6 @@ static void bind_tally(nb::module_& m) {
         .def_ro("trim_seconds", &Tally::trim_seconds)
         .def_ro("collect_seconds", &Tally::collect_seconds)
         .def_ro("isolated_seconds", &Tally::isolated_seconds)
-        .def_prop_ro("intervals_seconds", [](const Tally& t) { return t.decisions.interval_seconds; })
         .def_prop_ro("exact_seconds", [](const Tally& t) { return t.decisions.exact_seconds; });
 }
 

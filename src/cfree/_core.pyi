@@ -408,9 +408,6 @@ class Tally:
     def isolated_seconds(self) -> float: ...
 
     @property
-    def intervals_seconds(self) -> float: ...
-
-    @property
     def exact_seconds(self) -> float: ...
 
 class Boundary:

@@ -59,6 +59,7 @@ int CriticalAngle::narrowing_order(const Scene& scene, CriticalAngle& other) {
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
+    if (x.name(scene) == y.name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
     RealRoot p = x.exact(scene), q = y.exact(scene);
     return compare(p, q);
 }

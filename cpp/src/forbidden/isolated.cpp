@@ -56,12 +56,13 @@ public:
         std::vector<std::vector<Ridge>> found_ridges(count);
         std::atomic<Index> next{0};
         const auto work = [&] {
+            Near near;
             for (Index k = next++; k < count && !stop; k = next++) {
                 const CriticalAngle from = angle_from(patches, thin, k), to = angle_to(patches, thin, k);
                 const Index patch = thin.patch[k];
                 const Feature lower = unpacked(thin.lower[k]), upper = unpacked(thin.upper[k]);
-                if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, from, lower, upper);
-                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch}, hashes[k]);
+                if (order(scene, from, to) == 0) found_flats[k] = flats_of(patch, from, lower, upper, near);
+                else found_ridges[k] = ridges_of({patch, lower, from, to, patch, patch}, hashes[k], near);
             }
         };
         in_parallel(std::min(threads, count / 64 + 1), stop, work);
@@ -77,13 +78,20 @@ private:
         return {scene, angle.chart(), angle.lo, angle.hi, [&] { return angle.exact(scene); }};
     }
 
-    // Live trapezoids of patches whose obstacle feature is within twice the robot's reach of this one's.
-    template <class F>
-    void for_each_near(Index patch, F&& report) const {
-        tree.query(grown(edge_box(scene.obstacles, patches.obstacle[patch]), 2 * reach), [&](Index near) {
-            for (Index p = first_patch[near]; p < first_patch[near + 1]; ++p)
-                for (Index k = first_live[p]; k < first_live[p + 1]; ++k) report(p, k);
+    // Patches with live trapezoids whose obstacle feature is within twice the robot's reach of another: asked for many times in a row.
+    struct Near {
+        Index obstacle = -1;
+        std::vector<Index> list;
+    };
+    const std::vector<Index>& patches_near(Index patch, Near& near) const {
+        const Index obstacle = patches.obstacle[patch];
+        if (near.obstacle == obstacle) return near.list;
+        near.obstacle = obstacle, near.list.clear();
+        tree.query(grown(edge_box(scene.obstacles, obstacle), 2 * reach), [&](Index j) {
+            for (Index p = first_patch[j]; p < first_patch[j + 1]; ++p)
+                if (first_live[p] < first_live[p + 1]) near.list.push_back(p);
         });
+        return near.list;
     }
 
     // Whether a trapezoid reaches an angle, ends included; chart ends are in both charts.
@@ -99,17 +107,14 @@ private:
 
     // --- at one angle ---
 
-    std::vector<Flat> flats_of(Index patch, const CriticalAngle& angle, const Feature& lower, const Feature& upper) const {
+    std::vector<Flat> flats_of(Index patch, const CriticalAngle& angle, const Feature& lower, const Feature& upper,
+                               Near& near) const {
         Junction at = junction(angle);
         const Feature own = contact(patch);
         Spot low = at.spot(own, lower), high = at.spot(own, upper);
         const bool is_point = at.order(own, low, high) == 0;
         std::vector<Flat> left{{patch, angle, patch, {low, patch}, {high, patch}, is_point}}, next;
-        for_each_near(patch, [&](Index p, Index k) {
-            if (left.empty() || !may_reach(k, angle)) return;
-            const Feature other = contact(p);
-            const int along = at.parallel(own, other);
-            if (along != 0 ? at.side(own, other) != 0 : !is_point || at.side(other, own, low) != 0) return;
+        const auto take_away = [&](Index p, Index k, const Feature& other, int along) {
             if (!reaches(k, angle)) return;
             End first{at.spot(other, unpacked(live.lower[k])), p}, last{at.spot(other, unpacked(live.upper[k])), p};
             if (along == 0) {  // a point, and a line across
@@ -131,7 +136,20 @@ private:
                 }
             }
             left.swap(next);
-        });
+        };
+        for (const Index p : patches_near(patch, near)) {
+            Index k = first_live[p];
+            const Index end = first_live[p + 1];
+            while (k < end && !may_reach(k, angle)) ++k;
+            if (k == end) continue;
+            const Feature other = contact(p);
+            const int along = at.parallel(own, other);
+            if (along != 0 ? at.side(own, other) != 0 : !is_point || at.side(other, own, low) != 0) continue;
+            for (; k < end; ++k) {
+                take_away(p, k, other, along);
+                if (left.empty()) return left;
+            }
+        }
         for (Flat& f : left)  // the end of one chart is the start of the other
             if (angle.is_chart_end() && angle.chart() == 1) f.angle = CriticalAngle(0, angle.lo > 0 ? -1 : 1);
         return left;
@@ -139,15 +157,14 @@ private:
 
     // --- along theta ---
 
-    std::vector<Ridge> ridges_of(const Ridge& whole, const CurveHash& hash) const {
+    std::vector<Ridge> ridges_of(const Ridge& whole, const CurveHash& hash, Near& near) const {
         std::vector<Ridge> left{whole}, next;
         const NamedCurve curve{contact(whole.patch), whole.curve};
-        for_each_near(whole.patch, [&](Index p, Index k) {
-            const Feature on = contact(p);
-            if (left.empty() || live.chart[k] != whole.from.chart() || live.to_hi[k] < whole.from.lo ||
-                live.from_lo[k] > whole.to.hi || !hashes.may_lie_on(on, hash) || !lies_on(scene, curve, on))
-                return;
-            for (const auto& [from, to] : stays_in(k, on, curve)) {
+        const auto may_meet = [&](Index k) {
+            return live.chart[k] == whole.from.chart() && live.to_hi[k] >= whole.from.lo && live.from_lo[k] <= whole.to.hi;
+        };
+        const auto take_away = [&](Index p, Index k) {
+            for (const auto& [from, to] : stays_in(k, contact(p), curve)) {
                 next.clear();
                 for (const Ridge& r : left) {
                     if (order(scene, to, r.from) <= 0 || order(scene, r.to, from) <= 0) {
@@ -159,7 +176,17 @@ private:
                 }
                 left.swap(next);
             }
-        });
+        };
+        for (const Index p : patches_near(whole.patch, near)) {
+            Index k = first_live[p];
+            const Index end = first_live[p + 1];
+            while (k < end && !may_meet(k)) ++k;
+            if (k == end || !hashes.may_lie_on(contact(p), hash) || !lies_on(scene, curve, contact(p))) continue;
+            for (; k < end; ++k) {
+                if (may_meet(k)) take_away(p, k);
+                if (left.empty()) return left;
+            }
+        }
         return left;
     }
 

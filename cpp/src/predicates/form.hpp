@@ -15,15 +15,12 @@ inline std::optional<int> certain_sign(const Int& n) { return n.sign(); }
 // What the filter leaves open, one formula for both number types: balls, and exact integers where they are uncertain.
 template <class Question>
 auto settled(Counters& counters, Question&& question) {
-    using Clock = std::chrono::steady_clock;
-    const auto seconds = [](auto from, auto to) { return std::chrono::duration<double>(to - from).count(); };
-    const auto start = Clock::now();
     const auto by_balls = question.template operator()<Ball>();
-    const auto middle = Clock::now();
-    counters.interval_seconds += seconds(start, middle);
     if (by_balls) return ++counters.interval, *by_balls;
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
     const auto exactly = question.template operator()<Int>();
-    counters.exact_seconds += seconds(middle, Clock::now());
+    counters.exact_seconds += std::chrono::duration<double>(Clock::now() - start).count();
     return ++counters.exact, *exactly;
 }
 

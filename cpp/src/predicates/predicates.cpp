@@ -126,6 +126,11 @@ int Predicates::parallel_sign(Index g, Index f, const Filtered& value, const Sam
 }
 
 int Predicates::order_at(const Feature& p, const Feature& q, const Sample& at) const {
+    if (!double_only && !at.fine) {
+        const Curve x = curve(p), y = curve(q);
+        const int sign = form(x, y).sign(at.tau), first = sign_on(x.D, at.tau, at.tau), second = sign_on(y.D, at.tau, at.tau);
+        if (sign * first * second != 0) return sign * first * second;
+    }
     return cfree::sign_at(polynomial(p, q), at.exact()) * denominator_sign(p, at) * denominator_sign(q, at);
 }
 

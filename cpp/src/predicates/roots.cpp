@@ -191,6 +191,37 @@ struct Predicates::Candidates {
     bool all_zero = false;
 };
 
+// Where doubles say that a simple root is: between certain, opposite signs.
+std::optional<std::array<double, 2>> straddling(const Coefficients<Ball>& p, double t) {
+    double delta = 2 * u * std::max(1.0, std::abs(t));
+    for (int k = 0; k < 32 && std::isfinite(t); ++k, delta *= 2) {
+        const auto below = sign_at(p, t - delta), above = sign_at(p, t + delta);
+        if (!below || !above || *below * *above == 0) continue;
+        if (*below != *above) return {{t - delta, t + delta}};
+        break;
+    }
+    return {};
+}
+
+// All roots of a quadratic with a certain discriminant: one that counts twice, or two. False if their places are not certain.
+bool isolate_quadratic(const Coefficients<Ball>& p, const Ball& discriminant, Brackets& found) {
+    const auto leading = certain_sign(p.c[2]);
+    if (!leading || *leading == 0) return false;
+    const double A = p.c[2].hi, B = 0.5 * p.c[1].hi, C = p.c[0].hi;
+    if (certain_sign(discriminant) == 0) {
+        const auto root = straddling(derivative(p), -B / A);
+        if (root) found.push_back(*root);
+        return root.has_value();
+    }
+    const double s = 0.5 * std::sqrt(discriminant.hi), q = B > 0 ? -(B + s) : s - B;
+    const auto first = straddling(p, q / A), second = straddling(p, C / q);
+    if (!first || !second) return false;
+    const bool in_order = (*first)[1] < (*second)[0];
+    if (!in_order && !((*second)[1] < (*first)[0])) return false;
+    found.push_back(in_order ? *first : *second), found.push_back(in_order ? *second : *first);
+    return true;
+}
+
 // Of a quadratic, whose touch is the root of its derivative. Of a quartic multiple roots are divided out first, exactly.
 std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& first, const Feature& second, double lo,
                                                                  double hi) const {
@@ -200,11 +231,15 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     for (int i = 0; i < p.count; ++i) result.all_zero &= certain_sign(p.c[i]) == 0;
     if (result.all_zero) return result;
     if (p.count > 3) return {};
-    const auto sign = certain_sign(p.c[1] * p.c[1] - Ball(4.0) * (p.c[0] * p.c[2]));
+    const Ball discriminant = p.c[1] * p.c[1] - Ball(4.0) * (p.c[0] * p.c[2]);
+    const auto sign = certain_sign(discriminant);
     if (!sign) return {};
     if (*sign < 0) return result;
     Brackets found;
-    if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
+    if (!isolate_quadratic(p, discriminant, found)) {
+        found = {};
+        if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
+    }
     for (const auto& [below, above] : found) result.at.push_back({first, second, below, above, -1, *sign == 0});
     return result;
 }

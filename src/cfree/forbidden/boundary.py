@@ -29,7 +29,7 @@ from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
 from cfree.value import Shown
 
-PHASES = ("trim", "collect", "isolated", "intervals", "exact")
+PHASES = ("trim", "collect", "isolated", "exact")
 DECIDED = ("decided_by_identity", "decided_by_filter", "decided_by_intervals", "decided_exactly")
 COUNTS = ("live_patches", "pairs", *DECIDED)
 

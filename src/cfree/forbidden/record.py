@@ -40,8 +40,8 @@ class Stats:
         Signs and orders, by the rung that decided them: equal features; doubles with an error bound; intervals in
         twice their precision; exact integers.
     seconds : dict of str to float
-        By phase: features, trim, collect, isolated, and total, of all. `intervals` and `exact` are the parts of
-        `trim` that those two rungs took, summed over threads. Empty for a boundary read from a file.
+        By phase: features, trim, collect, isolated, and total, of all. `exact` is the part of `trim` that
+        exact integers took, summed over threads. Empty for a boundary read from a file.
     """
 
     patches: int

@@ -77,13 +77,13 @@ struct Sample {
     Ball ball() const { return fine ? cfree::ball(fine->n, static_cast<int>(fine->k)) : Ball(tau); }
 };
 
-// Decisions by the rung that took them, and the time of the slow rungs.
+// Decisions by the rung that took them, and the time of the slowest.
 struct Counters {
     std::int64_t identity = 0, filter = 0, interval = 0, exact = 0;
-    double interval_seconds = 0, exact_seconds = 0;
+    double exact_seconds = 0;
     void operator+=(const Counters& o) {
         identity += o.identity, filter += o.filter, interval += o.interval, exact += o.exact;
-        interval_seconds += o.interval_seconds, exact_seconds += o.exact_seconds;
+        exact_seconds += o.exact_seconds;
     }
 };
 
