@@ -73,7 +73,8 @@ using PlaceTuple = std::pair<Code, Code>;  // a surface, and the curve on it tha
 class AtAngle {  // a junction at a critical angle of a surface
 public:
     AtAngle(const OnScene& on, const EventTuple& x, bool knows)
-        : exact(on.angle(x)), at(on.scene, on.surface.chart, exact.lo, exact.hi, [this, &on] { return exact.exact(on.scene); }) {
+        : exact(on.angle(x)), at(on.scene, on.surface.chart, exact.lo, exact.hi, [this, &on] { return exact.exact(on.scene); },
+                                 [this, &on] { return exact.bracket(on.scene); }) {
         if (knows) know(at, on.scene, exact);
     }
     AtAngle(const AtAngle&) = delete;

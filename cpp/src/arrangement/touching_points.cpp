@@ -18,7 +18,8 @@ public:
     AtOneAngle(const Boundary& b, const std::vector<PieceCorner>& c, Index rank)
         : boundary(b), scene(b.scene->near()), corners(c), chart(rank > b.angles().middle ? 1 : 0),
           at(scene, chart, b.angles().lo(rank, chart), b.angles().hi(rank, chart),
-             [&b, rank, in = chart] { return b.angles().critical(rank, in).exact(b.scene->near()); }) {}
+             [&b, rank, in = chart] { return b.angles().critical(rank, in).exact(b.scene->near()); },
+             [&b, rank, in = chart] { return b.angles().critical(rank, in).bracket(b.scene->near()); }) {}
 
     void know_of(Index corner) {
         const PieceCorner& x = corners[corner];

@@ -44,6 +44,11 @@ const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     return *root;
 }
 
+std::optional<Predicates::Bracket> CriticalAngle::bracket(const Scene& scene) const {
+    if (is_chart_end() || place != 0) return {};
+    return Predicates(scene, surface).bracket({first, second, lo, hi});
+}
+
 void know(Junction& at, const Scene& scene, const CriticalAngle& angle) {
     if (angle.first.kind == Kind::edge_edge) at.know_parallel(angle.first.robot, angle.first.obstacle);
     else at.know(angle.name(scene));

@@ -75,7 +75,7 @@ public:
 private:
     Feature contact(Index patch) const { return patches.contact(patch); }
     Junction junction(const CriticalAngle& angle) const {
-        return {scene, angle.chart(), angle.lo, angle.hi, [&] { return angle.exact(scene); }};
+        return {scene, angle.chart(), angle.lo, angle.hi, [&] { return angle.exact(scene); }, [&] { return angle.bracket(scene); }};
     }
 
     // Patches with live trapezoids whose obstacle feature is within twice the robot's reach of another: asked for many times in a row.

@@ -71,7 +71,8 @@ void LevelGluer::glue(Index rank, std::span<const Index> sides) {
     if (std::none_of(sides.begin(), sides.end(), [&](Index s) { return whole[s / 2]; })) return;
     const int chart = rank > angles.middle ? 1 : 0;
     Junction at(scene, chart, angles.lo(rank, chart), angles.hi(rank, chart),
-                [&] { return angles.critical(rank, chart).exact(scene); });
+                [&] { return angles.critical(rank, chart).exact(scene); },
+                [&] { return angles.critical(rank, chart).bracket(scene); });
     levels.clear(), places.clear();
     for (const Index s : sides) {
         const Index k = s / 2;

@@ -77,7 +77,8 @@ PlacedPose place_of(const Boundary& boundary, Index k, Side side, double start) 
     const double lo = angles.lo(rank, chart), hi = angles.hi(rank, chart), tau = 0.5 * (lo + hi);
     double t = start;
     if (side == Side::upper || side == Side::lower) {
-        const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); });
+        const Junction at(scene, chart, lo, hi, [&, in = chart] { return angles.critical(rank, in).exact(scene); },
+                          [&, in = chart] { return angles.critical(rank, in).bracket(scene); });
         t = at.value(contact, at.spot(contact, unpacked((side == Side::upper ? trapezoids.upper : trapezoids.lower)[k])));
     }
     const auto R = rotation_by(chart, tau);

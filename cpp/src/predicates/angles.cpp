@@ -196,7 +196,6 @@ std::optional<Coefficients<Ball>> Predicates::simple(const Event& x) const {
     return derivative(p);
 }
 
-// The root's bracket shrunk to about the precision of balls: certain, opposite signs at its ends.
 const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
     constexpr std::size_t least = 16, most = 256;  // most patches have few such angles
     const auto empty_of = [this](std::size_t size) { recent.assign(size, {{{}, {}, 2, 2}, {}}), misses = 0; };
@@ -214,11 +213,11 @@ const std::optional<Predicates::Bracket>& Predicates::narrowed(const Event& x) {
     if (const Narrowed& known = recent[place()]; is_known(known.x)) return known.bracket;
     if (++misses > recent.size() && recent.size() < most) empty_of(4 * recent.size());
     Narrowed& next = recent[place()];
-    next = {x, found_narrowed(x)};
+    next = {x, bracket(x)};
     return next.bracket;
 }
 
-std::optional<Predicates::Bracket> Predicates::found_narrowed(const Event& x) const {
+std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
     if (x.first.kind == Kind::none) return Bracket{Ball(x.lo), Ball(x.hi)};
     const auto factor = simple(x);
     if (!factor) return {};

@@ -30,8 +30,9 @@ Trig<T> sum(const Trig<T>& f, const Trig<T>& g) { return {f.a + g.a, f.b + g.b, 
 
 }  // namespace
 
-Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number)
-    : scene(s), chart(in), lo(from), hi(to), exact(std::move(number)) {}
+Junction::Junction(const Scene& s, int in, double from, double to, std::function<RealRoot()> number,
+                   std::function<std::optional<Predicates::Bracket>()> narrower)
+    : scene(s), chart(in), lo(from), hi(to), exact(std::move(number)), bracket(std::move(narrower)) {}
 
 Poly Junction::polynomial(const Trig<Int>& f) const { return on({}).polynomial(f); }
 Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtered(f); }
@@ -40,9 +41,29 @@ Filtered Junction::filtered(const Trig<Approx>& f) const { return on({}).filtere
 template <class F>
 int Junction::sign(const F& trig) const {
     if (const int s = Predicates::sign_on(filtered(trig(Approx{})), lo, hi); s != 0) return s;
-    if (const Ball* tau = dyadic())
-        if (const auto s = certain_sign(value_at(trig(Ball{}), *tau))) return *s;
-    return sign_at(polynomial(trig(Int{})), here());
+    const auto s = by_balls([&](const Ball& tau) { return certain_sign(value_at(trig(Ball{}), tau)); });
+    return s ? *s : sign_at(polynomial(trig(Int{})), here());
+}
+
+// In a ball around the angle, which most often is enough where doubles are not; then at the angle, if it has few digits.
+template <class Question>
+std::optional<int> Junction::by_balls(const Question& question) const {
+    if (const Ball* tau = narrow())
+        if (const auto s = question(*tau)) return s;
+    const Ball* tau = dyadic();
+    return tau ? question(*tau) : std::nullopt;
+}
+
+const Ball* Junction::narrow() const {
+    if (bracket) {
+        if (const auto found = bracket()) {
+            const auto& [below, above] = *found;
+            const Ball width = above - below, middle = Ball(0.5) * (below + above);
+            narrowed = Ball{middle.hi, middle.lo, middle.radius + 0.75 * (width.hi + width.radius)};
+        }
+        bracket = nullptr;
+    }
+    return narrowed ? &*narrowed : nullptr;
 }
 
 // The angle, if it is a number of few digits: then balls often decide, ties as well.
@@ -298,13 +319,15 @@ int Junction::order(const Feature& line, const Spot& p, const Spot& q) {
 }
 
 int Junction::order_exactly(const Feature& line, const Spot& p, const Spot& q) {
-    if (const Ball* tau = dyadic()) {
+    const auto found = by_balls([&](const Ball& tau) -> std::optional<int> {
         const auto [Np, Dp] = position<Ball>(line, p);
         const auto [Nq, Dq] = position<Ball>(line, q);
-        const Ball dp = value_at(Dp, *tau), dq = value_at(Dq, *tau);
-        const auto s = certain_sign(value_at(Np, *tau) * dq - value_at(Nq, *tau) * dp), of_p = certain_sign(dp), of_q = certain_sign(dq);
+        const Ball dp = value_at(Dp, tau), dq = value_at(Dq, tau);
+        const auto s = certain_sign(value_at(Np, tau) * dq - value_at(Nq, tau) * dp), of_p = certain_sign(dp), of_q = certain_sign(dq);
         if (s && of_p && of_q) return *s * *of_p * *of_q;
-    }
+        return {};
+    });
+    if (found) return *found;
     const auto [Np, Dp] = position<Int>(line, p);
     const auto [Nq, Dq] = position<Int>(line, q);
     const Poly np = polynomial(Np), dp = polynomial(Dp), nq = polynomial(Nq), dq = polynomial(Dq);

@@ -26,8 +26,9 @@ struct Interval {
 
 class Junction {
 public:
-    // At an angle of a chart, in an interval, and exactly when asked for.
-    Junction(const Scene& scene, int chart, double lo, double hi, std::function<RealRoot()> exact);
+    // At an angle of a chart, in an interval; in a narrow one, and exactly, when asked for.
+    Junction(const Scene& scene, int chart, double lo, double hi, std::function<RealRoot()> exact,
+             std::function<std::optional<Predicates::Bracket>()> bracket);
 
     // Three surfaces, or a helix and a surface and nothing, known to meet here: see CriticalAngle::name.
     void know(const std::array<Code, 3>& name) { known.insert(name); }
@@ -72,6 +73,9 @@ private:
     Interval range(const Filtered& f) const;
     RealRoot& here() const;
     const Ball* dyadic() const;
+    const Ball* narrow() const;
+    template <class Question>
+    std::optional<int> by_balls(const Question& question) const;
     Ball value_at(const Trig<Ball>& f, const Ball& tau) const;
     int order_exactly(const Feature& line, const Spot& p, const Spot& q);
     std::array<Code, 2> helices(const Feature& f) const;  // both ends of a surface, or the helix itself
@@ -92,6 +96,8 @@ private:
     std::function<RealRoot()> exact;
     mutable std::optional<RealRoot> root;  // once needed
     mutable std::optional<Ball> few_digits;
+    mutable std::function<std::optional<Predicates::Bracket>()> bracket;  // until asked
+    mutable std::optional<Ball> narrowed;
     MeetingNames known;
 };
 

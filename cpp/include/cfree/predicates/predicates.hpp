@@ -150,6 +150,10 @@ public:
     bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
     // The angle as an exact number.
     RealRoot root_of(const Event& x) const;
+    // Its interval shrunk to about the precision of balls, where that can be done: between certain, opposite signs.
+    using Bracket = std::array<Ball, 2>;
+    std::optional<Bracket> bracket(const Event& x) const;
+    const std::optional<Bracket>& narrowed(const Event& x);  // remembered
 
     // Where a patch's range begins or ends: the angle(-E_f) - angle(E_g) of the paper's phi_min and phi_max, and its chart.
     struct RangeEnd {
@@ -186,11 +190,8 @@ private:
     Roots roots(const Form& f, const Feature& first, const Feature& second, const Event& from, const Event& to);
     Roots crossings(const Form& f, const Feature& p, const Feature& q, const Event& from, const Event& to);
     int sign_at(double value, double err, const Feature& first, const Feature& second, const Sample& at);
-    using Bracket = std::array<Ball, 2>;
     bool is_touch_of_quadratic(const Event& x) const;
     std::optional<Coefficients<Ball>> simple(const Event& x) const;
-    const std::optional<Bracket>& narrowed(const Event& x);
-    std::optional<Bracket> found_narrowed(const Event& x) const;
     bool same_polynomial(const Event& x, const Event& y);
     template <class T>
     std::optional<bool> meets_parallel(const Event& parallel, const Event& x) const;
