@@ -44,9 +44,10 @@ const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     return *root;
 }
 
-std::optional<Predicates::Bracket> CriticalAngle::bracket(const Scene& scene) const {
-    if (is_chart_end() || place != 0) return {};
-    return Predicates(scene, surface).bracket({first, second, lo, hi});
+const std::optional<Predicates::Bracket>& CriticalAngle::bracket(const Scene& scene) const {
+    if (!narrow && (is_chart_end() || place != 0)) narrow.emplace();
+    if (!narrow) narrow = Predicates(scene, surface).bracket({first, second, lo, hi});
+    return *narrow;
 }
 
 void know(Junction& at, const Scene& scene, const CriticalAngle& angle) {
@@ -65,6 +66,10 @@ int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
     if (x.name(scene) == y.name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
+    if (const auto &p = x.bracket(scene), &q = y.bracket(scene); p && q) {
+        if (is_below((*p)[1], (*q)[0])) return -1;
+        if (is_below((*q)[1], (*p)[0])) return 1;
+    }
     RealRoot p = x.exact(scene), q = y.exact(scene);
     return compare(p, q);
 }

@@ -25,7 +25,7 @@ public:
     // Of angles with one name: whether they are seen to be one. Each is the only root of one polynomial in its interval.
     static bool are_one(const Scene& scene, const std::vector<CriticalAngle>& same);
     const RealRoot& exact(const Scene& scene) const;
-    std::optional<Predicates::Bracket> bracket(const Scene& scene) const;
+    const std::optional<Predicates::Bracket>& bracket(const Scene& scene) const;
     // Sign of this one minus another of its chart; of both more is known afterwards.
     int narrowing_order(const Scene& scene, CriticalAngle& other);
     Event event(Predicates& on) const { return on.restored({first, second, lo, hi}, place); }
@@ -34,6 +34,7 @@ public:
 private:
     Surface surface;
     mutable std::shared_ptr<RealRoot> root;  // once needed
+    mutable std::optional<std::optional<Predicates::Bracket>> narrow;
 };
 
 // What meets at an angle, told to a junction there.
