@@ -1,4 +1,4 @@
-// Boxes of pieces along and across a patch's line, slice by slice; theory, "The trimmed boundary".
+// Octagons around pieces, along and across a patch's line, slice by slice; theory, "The trimmed boundary".
 #include "forbidden/shadows.hpp"
 
 #include <algorithm>
@@ -37,6 +37,12 @@ bool contains(const std::vector<Index>& list, Index from, Index to, Index what) 
 double larger(const Vec<double>& d) { return std::max(std::abs(d.x), std::abs(d.y)); }
 
 }  // namespace
+
+void Shadows::Diagonal::add(double along, double across) {
+    const double sum = along + across, difference = along - across;
+    sum0 = std::min(sum0, sum), sum1 = std::max(sum1, sum);
+    difference0 = std::min(difference0, difference), difference1 = std::max(difference1, difference);
+}
 
 void Shadows::look(const Shape& s, Index origin, Index piece, Side& side) const {
     const Vec<double> o{s.x[origin], s.y[origin]};
@@ -83,13 +89,14 @@ void Shadows::turn(double sign) {
             cosine[n] = (1 - x * y) * w, sine[n] = sign * (x + y) * w;
         }
         for (Index q = 0; q < count; ++q) {
-            Strip box{infinity, -infinity, infinity, -infinity};
+            Strip box{infinity, -infinity, infinity, -infinity, {infinity, -infinity, infinity, -infinity}};
             for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
                 for (int n = 0; n < 3; ++n) {
                     const double along = cosine[n] * turning.along[v] - sine[n] * turning.across[v];
                     const double across = cosine[n] * turning.across[v] + sine[n] * turning.along[v];
                     box.along0 = std::min(box.along0, along), box.along1 = std::max(box.along1, along);
                     box.across0 = std::min(box.across0, across), box.across1 = std::max(box.across1, across);
+                    box.diagonal.add(along, across);
                 }
             turned.push_back(box);
         }
@@ -100,17 +107,20 @@ void Shadows::stand(const Shape& s, Index edge, bool of_robot) {
     const auto count = static_cast<std::size_t>(still.count());
     for (auto* column : {&along0, &along1, &across0, &across1}) column->resize(count);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    parallel.assign(count, {none, none}), has_edge.resize(count);
+    parallel.assign(count, {none, none}), has_edge.resize(count), diagonals.resize(count);
     any_parallel = false;
     for (Index x = 0; x < still.count(); ++x) {
         const Index first = still.start[x], size = still.start[x + 1] - first, piece = s.piece[of_robot ? x : near[x]];
-        Strip box{infinity, -infinity, infinity, -infinity};
+        Strip box{infinity, -infinity, infinity, -infinity, {infinity, -infinity, infinity, -infinity}};
         for (Index v = first; v < first + size; ++v) {
+            box.diagonal.add(still.along[v], still.across[v]);
             box.along0 = std::min(box.along0, still.along[v]), box.along1 = std::max(box.along1, still.along[v]);
             box.across0 = std::min(box.across0, still.across[v]), box.across1 = std::max(box.across1, still.across[v]);
         }
         along0[x] = box.along0 - slack, along1[x] = box.along1 + slack;
         across0[x] = box.across0 - slack, across1[x] = box.across1 + slack;
+        diagonals[x] = {box.diagonal.sum0 - 2 * slack, box.diagonal.sum1 + 2 * slack, box.diagonal.difference0 - 2 * slack,
+                        box.diagonal.difference1 + 2 * slack};
         has_edge[x] = size > 1 && contains(s.piece_edge, piece, piece + size, edge);
         int found = 0;
         for (Index n = 0; size > 1 && n < size && found < 2; ++n)
@@ -146,18 +156,26 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
     // With |E.x|, |E.y| <= e and |d.x|, |d.y| <= m they are within 2 u e and 8 u m of the truth, 6 u m of which by clipping; what is
     // along and across within 25 u e m, and at most 2 e m; cosines and sines, at most 1.1, within 6 u. So what is turned is
     // within 2 (27.5 + 12 + 2.2) u e m + 4.4 u e m < 90 u e m, what stands still within 25 u e m, what they are compared with,
-    // at most e^2 apart, within 16 u e^2; sums of two add 6 u of their size. 128 u would do for all.
+    // at most e^2 apart, within 16 u e^2; sums of two add 6 u of their size. 128 u would do for all, and twice that for diagonals.
     const double e = own.rounded ? 2 * std::max(larger(v), larger(w)) : larger(E);
     slack = 0x1p-45 * e * (turning.size + still.size + e) + 0x1p-900;
     length = dot(E, E);
     turn(on_edge ? 1 : -1), stand(own, edge, !on_edge);
-    pillars.clear();
+    pillars.clear(), ranges.clear();
     for (Index q = 0; q < turning.count(); ++q) add_pillars(q, contact);
     std::sort(pillars.begin(), pillars.end(), [&](const Pillar& x, const Pillar& y) {
         if (x.cover != y.cover) return x.cover > y.cover;
         return x.p != y.p ? x.p < y.p : on_edge ? x.still < y.still : x.turning < y.turning;
     });
     return pillars;
+}
+
+// What a piece that stands still and one that turns may cover of the line in a slice: (s, 0) is in both octagons' difference.
+Shadows::Range Shadows::range_of(int slice, Index q, Index x) const {
+    const Strip& box = strip(slice, q);
+    const Diagonal &d = diagonals[x], &e = box.diagonal;
+    return {std::max({along0[x] - box.along1, d.sum0 - e.sum1, d.difference0 - e.difference1}),
+            std::min({along1[x] - box.along0, d.sum1 - e.sum0, d.difference1 - e.difference0})};
 }
 
 void Shadows::add_pillars(Index q, const Feature& contact) {
@@ -186,15 +204,18 @@ void Shadows::add_pillars(Index q, const Feature& contact) {
         if (A.piece_layer[p] != O.piece_layer[k]) continue;
         const bool pinches = any_parallel && may_pinch(q, x);
         if (meeting[x] == 0 && !pinches) continue;
-        Pillar pillar{p, k, q, x, pinches, static_cast<std::uint32_t>(pinches ? crossing[x] : meeting[x]), 0};
-        for (int s = 0; s < slices.count; ++s) {  // as if it were an ellipse in its box
-            const Strip& box = strip(s, q);
-            const double c0 = across0[x] - box.across1, c1 = across1[x] - box.across0, off = (c0 + c1) / (c1 - c0);
-            const double a0 = along0[x] - box.along1, a1 = along1[x] - box.along0, middle = 0.5 * (a0 + a1);
-            const double half = 0.5 * (a1 - a0) * std::sqrt(std::max(0.0, 1 - off * off));
-            pillar.cover += std::max(0.0, std::min(middle + half, length) - std::max(middle - half, 0.0));
+        Pillar pillar{p, k, q, x, pinches, 0, ranges.size(), 0};
+        ranges.resize(pillar.ranges + static_cast<std::size_t>(slices.count));
+        for (int s = 0; s < slices.count; ++s) {
+            if (!((pinches ? crossing[x] : meeting[x]) >> s & 1)) continue;
+            const Range& range = ranges[pillar.ranges + static_cast<std::size_t>(s)] = range_of(s, q, x);
+            if (!(range.low <= range.high)) continue;  // the line passes beside it
+            const double cover = std::min(range.high, length) - std::max(range.low, 0.0);
+            if (cover >= 0 || pinches) pillar.slices |= std::uint32_t{1} << s;
+            pillar.cover += std::max(0.0, cover);
         }
-        pillars.push_back(pillar);
+        if (pillar.slices != 0) pillars.push_back(pillar);
+        else ranges.resize(pillar.ranges);
     }
 }
 
@@ -202,9 +223,8 @@ Slices::Part Shadows::part(const Pillar& pillar) const {
     Slices::Part result{slices.count, -1, pillar.may_pinch};
     for (int s = 0; s < slices.count; ++s) {
         if (!(pillar.slices >> s & 1) || slices.low[s] > slices.high[s]) continue;
-        const Strip& box = strip(s, pillar.turning);
-        const bool meets = along1[pillar.still] - box.along0 >= slices.low[s] * length &&
-                           along0[pillar.still] - box.along1 <= slices.high[s] * length;
+        const Range& range = ranges[pillar.ranges + static_cast<std::size_t>(s)];
+        const bool meets = range.high >= slices.low[s] * length && range.low <= slices.high[s] * length;
         if (meets || pillar.may_pinch) result.first = std::min(result.first, s), result.last = s;
     }
     return result;

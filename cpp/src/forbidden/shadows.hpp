@@ -1,10 +1,10 @@
-// Where on a patch pillars may cover something: boxes in (t, theta), rounded outwards. This decides nothing.
+// Where on a patch pillars may cover something: octagons around their pieces, rounded outwards. This decides nothing.
 //
 // At an orientation the line of a patch is fixed to one shape: to the obstacle whose edge E it is, or to the robot. Along it and
 // across it, seen from where t = 0 and times |E|, pillar (p, k) covers
 //   v-e: O_k - b_j (+) -R (A_p - a_i),    e-v: A_p - a_i (+) -R^-1 (O_k - b_j),
-// the sum of one piece that stands still and one that turns. Boxes of both are found once a patch, for every slice of its range,
-// and a pair costs comparisons.
+// the sum of one piece that stands still and one that turns. Boxes of both, and boxes half way between their axes, are found once a
+// patch, for every slice of its range, and a pair costs comparisons.
 #pragma once
 #include <cstdint>
 
@@ -24,6 +24,7 @@ public:
         Index turning, still;  // places of its two pieces
         bool may_pinch;        // may touch the surface along the line, which counts wherever on the line that is
         std::uint32_t slices;  // where its shadow meets the patch, by bit
+        std::size_t ranges;    // by slice: where on the line
         double cover;          // about how much of the patch
     };
     // Pillars that may cover some of a patch between two angles of a chart, in the order in which they are best taken away.
@@ -34,8 +35,17 @@ public:
     Slices::Part part(const Pillar& pillar) const;
 
 private:
+    // Of along + across and along - across.
+    struct Diagonal {
+        double sum0, sum1, difference0, difference1;
+        void add(double along, double across);
+    };
     struct Strip {
         double along0, along1, across0, across1;
+        Diagonal diagonal;
+    };
+    struct Range {
+        double low, high;
     };
     // Vertices of one piece after another, seen from one of the shape's vertices.
     struct Side {
@@ -51,6 +61,7 @@ private:
     void turn(double sign);
     void stand(const Shape& shape, Index edge, bool of_robot);
     bool may_pinch(Index turning_piece, Index still_piece) const;
+    Range range_of(int slice, Index turning_piece, Index still_piece) const;
     void add_pillars(Index turning_piece, const Feature& contact);
     const Strip& strip(int slice, Index piece) const { return turned[static_cast<std::size_t>(slice * turning.count() + piece)]; }
 
@@ -60,6 +71,7 @@ private:
     Side obstacles, within_reach;  // the near pieces, and of them what the robot can touch
     std::vector<Strip> turned;                             // by slice and piece
     std::vector<double> along0, along1, across0, across1;  // of what stands still, by piece
+    std::vector<Diagonal> diagonals;
     std::vector<char> has_edge;                            // whether it has the patch's edge
     std::vector<std::array<double, 2>> parallel;           // how far across its edges along the line are; NaN: none
     bool any_parallel = false;
@@ -67,6 +79,7 @@ private:
     double slack = 0, length = 0;                          // of rounding; |E|^2
     std::vector<std::uint64_t> crossing, meeting;          // slices, by piece that stands still
     std::vector<Pillar> pillars;
+    std::vector<Range> ranges;
 };
 
 }  // namespace cfree
