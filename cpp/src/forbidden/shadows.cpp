@@ -11,8 +11,6 @@ namespace cfree {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Of a convex polygon, what is where |x| and |y| are at most `reach`.
 void clip(std::vector<Vec<double>>& polygon, double reach) {
     std::vector<Vec<double>> rest;
@@ -37,12 +35,6 @@ bool contains(const std::vector<Index>& list, Index from, Index to, Index what) 
 double larger(const Vec<double>& d) { return std::max(std::abs(d.x), std::abs(d.y)); }
 
 }  // namespace
-
-void Shadows::Diagonal::add(double along, double across) {
-    const double sum = along + across, difference = along - across;
-    sum0 = std::min(sum0, sum), sum1 = std::max(sum1, sum);
-    difference0 = std::min(difference0, difference), difference1 = std::max(difference1, difference);
-}
 
 void Shadows::look(const Shape& s, Index origin, Index piece, Side& side) const {
     const Vec<double> o{s.x[origin], s.y[origin]};
@@ -75,31 +67,35 @@ void Shadows::measure(const Vec<double>& E, Side& side) const {
     for (const Vec<double>& d : side.seen) side.along.push_back(dot(E, d)), side.across.push_back(cross(E, d));
 }
 
+// All pieces at the point of the angles of x and y: see `turn`.
+void Shadows::turn_to(double x, double y, double sign, std::vector<Octagon>& out) const {
+    const double w = slices.kappa / (1 + x * y), cosine = (1 - x * y) * w, sine = sign * (x + y) * w;
+    out.clear();
+    for (Index q = 0; q < turning.count(); ++q) {
+        Octagon around;
+        for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
+            around.add(cosine * turning.along[v] - sine * turning.across[v], cosine * turning.across[v] + sine * turning.along[v]);
+        out.push_back(around);
+    }
+}
+
 // An arc lies in the triangle of its ends and of the point where their tangents meet, which for the angles of x and y is
 // (1 - x y, x + y) / (1 + x y).
 void Shadows::turn(double sign) {
     const Index count = turning.count();
+    auto &before = corners[0], &after = corners[1];
     turned.clear();
+    turn_to(slices.at[0], slices.at[0], sign, before);
     for (int s = 0; s < slices.count; ++s) {
         const double from = slices.at[s], to = slices.at[s + 1];
-        const double knots[3][2] = {{from, from}, {from, to}, {to, to}};
-        double cosine[3], sine[3];
-        for (int n = 0; n < 3; ++n) {
-            const double x = knots[n][0], y = knots[n][1], w = slices.kappa / (1 + x * y);
-            cosine[n] = (1 - x * y) * w, sine[n] = sign * (x + y) * w;
-        }
+        turn_to(from, to, sign, after);
+        turned.insert(turned.end(), after.begin(), after.end());
+        turn_to(to, to, sign, after);
         for (Index q = 0; q < count; ++q) {
-            Strip box{infinity, -infinity, infinity, -infinity, {infinity, -infinity, infinity, -infinity}};
-            for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
-                for (int n = 0; n < 3; ++n) {
-                    const double along = cosine[n] * turning.along[v] - sine[n] * turning.across[v];
-                    const double across = cosine[n] * turning.across[v] + sine[n] * turning.along[v];
-                    box.along0 = std::min(box.along0, along), box.along1 = std::max(box.along1, along);
-                    box.across0 = std::min(box.across0, across), box.across1 = std::max(box.across1, across);
-                    box.diagonal.add(along, across);
-                }
-            turned.push_back(box);
+            Octagon& around = turned[static_cast<std::size_t>(s * count + q)];
+            around.add(before[static_cast<std::size_t>(q)]), around.add(after[static_cast<std::size_t>(q)]);
         }
+        before.swap(after);
     }
 }
 
@@ -107,20 +103,15 @@ void Shadows::stand(const Shape& s, Index edge, bool of_robot) {
     const auto count = static_cast<std::size_t>(still.count());
     for (auto* column : {&along0, &along1, &across0, &across1}) column->resize(count);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    parallel.assign(count, {none, none}), has_edge.resize(count), diagonals.resize(count);
+    parallel.assign(count, {none, none}), has_edge.resize(count), standing.resize(count);
     any_parallel = false;
     for (Index x = 0; x < still.count(); ++x) {
         const Index first = still.start[x], size = still.start[x + 1] - first, piece = s.piece[of_robot ? x : near[x]];
-        Strip box{infinity, -infinity, infinity, -infinity, {infinity, -infinity, infinity, -infinity}};
-        for (Index v = first; v < first + size; ++v) {
-            box.diagonal.add(still.along[v], still.across[v]);
-            box.along0 = std::min(box.along0, still.along[v]), box.along1 = std::max(box.along1, still.along[v]);
-            box.across0 = std::min(box.across0, still.across[v]), box.across1 = std::max(box.across1, still.across[v]);
-        }
-        along0[x] = box.along0 - slack, along1[x] = box.along1 + slack;
-        across0[x] = box.across0 - slack, across1[x] = box.across1 + slack;
-        diagonals[x] = {box.diagonal.sum0 - 2 * slack, box.diagonal.sum1 + 2 * slack, box.diagonal.difference0 - 2 * slack,
-                        box.diagonal.difference1 + 2 * slack};
+        Octagon around;
+        for (Index v = first; v < first + size; ++v) around.add(still.along[v], still.across[v]);
+        for (int i = 0; i < 4; ++i) around.low[i] -= (i < 2 ? 1 : 2) * slack, around.high[i] += (i < 2 ? 1 : 2) * slack;
+        along0[x] = around.low[0], along1[x] = around.high[0], across0[x] = around.low[1], across1[x] = around.high[1];
+        standing[x] = around;
         has_edge[x] = size > 1 && contains(s.piece_edge, piece, piece + size, edge);
         int found = 0;
         for (Index n = 0; size > 1 && n < size && found < 2; ++n)
@@ -172,10 +163,9 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
 
 // What a piece that stands still and one that turns may cover of the line in a slice: (s, 0) is in both octagons' difference.
 Shadows::Range Shadows::range_of(int slice, Index q, Index x) const {
-    const Strip& box = strip(slice, q);
-    const Diagonal &d = diagonals[x], &e = box.diagonal;
-    return {std::max({along0[x] - box.along1, d.sum0 - e.sum1, d.difference0 - e.difference1}),
-            std::min({along1[x] - box.along0, d.sum1 - e.sum0, d.difference1 - e.difference0})};
+    const Octagon &a = standing[x], &b = in_slice(slice, q);
+    return {std::max({a.low[0] - b.high[0], a.low[2] - b.high[2], a.low[3] - b.high[3]}),
+            std::min({a.high[0] - b.low[0], a.high[2] - b.low[2], a.high[3] - b.low[3]})};
 }
 
 void Shadows::add_pillars(Index q, const Feature& contact) {
@@ -184,11 +174,11 @@ void Shadows::add_pillars(Index q, const Feature& contact) {
     const auto count = static_cast<std::size_t>(still.count());
     crossing.assign(count, 0), meeting.assign(count, 0);
     for (int s = 0; s < slices.count; ++s) {
-        const Strip& box = strip(s, q);
-        const double low = box.along0, high = box.along1 + length;
+        const Octagon& box = in_slice(s, q);
+        const double low = box.low[0], high = box.high[0] + length, below = box.low[1], above = box.high[1];
         const std::uint64_t bit = std::uint64_t{1} << s;
         for (std::size_t x = 0; x < count; ++x) {
-            const bool crosses = (across1[x] >= box.across0) & (across0[x] <= box.across1);
+            const bool crosses = (across1[x] >= below) & (across0[x] <= above);
             crossing[x] |= crosses ? bit : 0;
             meeting[x] |= crosses & (along1[x] >= low) & (along0[x] <= high) ? bit : 0;
         }

@@ -7,6 +7,7 @@
 // patch, for every slice of its range, and a pair costs comparisons.
 #pragma once
 #include <cstdint>
+#include <limits>
 
 #include "cfree/forbidden/trim.hpp"
 
@@ -35,14 +36,23 @@ public:
     Slices::Part part(const Pillar& pillar) const;
 
 private:
-    // Of along + across and along - across.
-    struct Diagonal {
-        double sum0, sum1, difference0, difference1;
-        void add(double along, double across);
-    };
-    struct Strip {
-        double along0, along1, across0, across1;
-        Diagonal diagonal;
+    // Between which values are: along, across, their sum, their difference.
+    struct Octagon {
+        static constexpr double infinity = std::numeric_limits<double>::infinity();
+        double low[4] = {infinity, infinity, infinity, infinity}, high[4] = {-infinity, -infinity, -infinity, -infinity};
+        void add(double along, double across) {
+            const double value[4] = {along, across, along + across, along - across};
+            for (int i = 0; i < 4; ++i) {
+                low[i] = value[i] < low[i] ? value[i] : low[i];
+                high[i] = high[i] < value[i] ? value[i] : high[i];
+            }
+        }
+        void add(const Octagon& o) {
+            for (int i = 0; i < 4; ++i) {
+                low[i] = o.low[i] < low[i] ? o.low[i] : low[i];
+                high[i] = high[i] < o.high[i] ? o.high[i] : high[i];
+            }
+        }
     };
     struct Range {
         double low, high;
@@ -59,19 +69,21 @@ private:
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
     void measure(const Vec<double>& E, Side& side) const;
     void turn(double sign);
+    void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
     void stand(const Shape& shape, Index edge, bool of_robot);
     bool may_pinch(Index turning_piece, Index still_piece) const;
     Range range_of(int slice, Index turning_piece, Index still_piece) const;
     void add_pillars(Index turning_piece, const Feature& contact);
-    const Strip& strip(int slice, Index piece) const { return turned[static_cast<std::size_t>(slice * turning.count() + piece)]; }
+    const Octagon& in_slice(int slice, Index piece) const { return turned[static_cast<std::size_t>(slice * turning.count() + piece)]; }
 
     const Scene& scene;
     std::vector<Index> near;
     Side turning, still;
     Side obstacles, within_reach;  // the near pieces, and of them what the robot can touch
-    std::vector<Strip> turned;                             // by slice and piece
-    std::vector<double> along0, along1, across0, across1;  // of what stands still, by piece
-    std::vector<Diagonal> diagonals;
+    std::vector<Octagon> turned;                           // by slice and piece
+    std::vector<Octagon> corners[2];                       // scratch: of the angles between two slices
+    std::vector<Octagon> standing;                         // of what stands still, by piece
+    std::vector<double> along0, along1, across0, across1;  // the first half of that
     std::vector<char> has_edge;                            // whether it has the patch's edge
     std::vector<std::array<double, 2>> parallel;           // how far across its edges along the line are; NaN: none
     bool any_parallel = false;
