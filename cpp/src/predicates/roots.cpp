@@ -203,7 +203,8 @@ std::optional<std::array<double, 2>> straddling(const Coefficients<Ball>& p, dou
     return {};
 }
 
-// All roots of a quadratic with a certain discriminant: one that counts twice, or two. False if their places are not certain.
+// All roots of a quadratic with a certain discriminant: one that counts twice, or two, one each in disjoint intervals around which the
+// sign changes. False if their places are not certain.
 bool isolate_quadratic(const Coefficients<Ball>& p, const Ball& discriminant, Brackets& found) {
     const auto leading = certain_sign(p.c[2]);
     if (!leading || *leading == 0) return false;
