@@ -51,7 +51,8 @@ export class Session {
 
   // A file's text: read, shown, its boundary computed while ways are looked for.
   async open(source: string, of?: Partial<State>): Promise<void> {
-    this.stop_playing();
+    const { ready } = document.body.dataset;
+    this.stop_playing(), this.is_ready(undefined);
     try {
       const read = await this.quick.open(source);
       const file: SceneText = JSON.parse(string(read, "file"));
@@ -61,17 +62,20 @@ export class Session {
       const robot = of?.robot ?? start ?? { x: middle(0), y: middle(1), tau: "0" };
       const state: State = { source, opened: ++this.opened, robot, ...(start && { start }), ...(goal && { goal }), ...(of?.gallery && { gallery: of.gallery }) };
       if (this.history) this.history.push(state); else this.history = new History(state);
-      this.take(read, true);
+      this.take(read);
     } catch (error) {
+      if (!(error instanceof Cancelled)) this.is_ready(ready);
       return fault("edit", error);
     }
     this.remember();
     await this.build(true);
   }
 
-  // What the state says, with the scene that was read; seen anew or from where it was seen.
-  private take(read: Columns, is_other: boolean): void {
-    const { now } = this;
+  // What the state says, with the scene that was read; another one is seen anew, an edited one from where it was seen.
+  private shown?: number;
+  private take(read: Columns): void {
+    const { now } = this, is_other = now.opened !== this.shown;
+    this.shown = now.opened;
     this.scene = read, (this.file = JSON.parse(string(read, "file")));
     this.is_built = false, (this.last_free = undefined);
     this.seen = { robot: seen_of(now.robot), ...(now.start && { start: seen_of(now.start) }), ...(now.goal && { goal: seen_of(now.goal) }) };
@@ -140,8 +144,13 @@ export class Session {
     this.space?.fade(false), this.workspace.fade(false);
     this.show_way(this.last_way);
     await Promise.all([this.ask_slice(), this.ask_robot(this.now.robot)]);
-    if (is_fine) document.body.dataset.ready = this.now.gallery ?? this.file.name;
+    if (is_fine) this.is_ready(this.now.gallery ?? this.file.name);
     document.body.dataset.built = String(Number(document.body.dataset.built ?? 0) + 1);
+  }
+
+  // Whoever looks on from outside sees the name of the scene when everything of it is shown.
+  private is_ready(name: string | undefined): void {
+    if (name === undefined) delete document.body.dataset.ready; else document.body.dataset.ready = name;
   }
 
   set_slider(theta: number): void {
@@ -272,7 +281,7 @@ export class Session {
       const read = source === this.now.source ? undefined : await this.quick.open(source);
       const { gallery: _, ...now } = this.now;
       this.keep(read ? { ...now, source } : this.now, done);
-      if (read) this.take(read, false);
+      if (read) this.take(read);
       else say("edit", { tone: "plain", text: "" });
       if (read || done) await Promise.race([this.build(done), new Promise((next) => setTimeout(next, 30))]);
     } catch (error) {
@@ -314,11 +323,12 @@ export class Session {
     return this.restore(() => { this.history.push({ ...this.now, ...of }); return this.now; });
   }
   private async restore(step: () => State | undefined): Promise<void> {
-    const { source, opened } = this.now, state = step();
+    const { source } = this.now, state = step();
     if (!state) return;
     this.stop_playing();
     if (state.source !== source) {
-      this.take(await this.quick.open(state.source), state.opened !== opened);
+      this.is_ready(undefined);
+      try { this.take(await this.quick.open(state.source)); } catch (error) { return fault("edit", error); }
       void this.build(true);
     } else {
       this.seen = { robot: seen_of(state.robot), ...(state.start && { start: seen_of(state.start) }), ...(state.goal && { goal: seen_of(state.goal) }) };
