@@ -241,14 +241,10 @@ void Assembly::find_vertices(std::int64_t most) {
 void Assembly::place_vertices(const std::vector<Index>& chosen) {
     result.xy.resize(2 * chosen.size()), result.theta.resize(chosen.size());
     const double unit = boundary.scene->near().unit();
-    constexpr std::size_t block = 4096;
-    for_each_in_parallel(threads, (chosen.size() + block - 1) / block, [&](std::size_t b) {
-        heed_stop();
-        for (std::size_t v = b * block; v < std::min(chosen.size(), (b + 1) * block); ++v) {
-            const Index h = chosen[v];
-            const auto [xy, theta] = place_of(boundary, loops.face[h], side(h), loops.start[h]);
-            result.xy[2 * v] = unit * xy.x, result.xy[2 * v + 1] = unit * xy.y, result.theta[v] = theta;
-        }
+    for_each_block_in_parallel(threads, chosen.size(), [&](std::size_t v) {
+        const Index h = chosen[v];
+        const auto [xy, theta] = place_of(boundary, loops.face[h], side(h), loops.start[h]);
+        result.xy[2 * v] = unit * xy.x, result.xy[2 * v + 1] = unit * xy.y, result.theta[v] = theta;
     });
 }
 

@@ -33,7 +33,7 @@ void AngleTable::sort_chart(int chart, int threads) {
     std::sort(ends.begin(), ends.end(), [](const Angle& x, const Angle& y) {
         return std::tuple(x.lo, x.trapezoid, x.is_to) < std::tuple(y.lo, y.trapezoid, y.is_to);
     });
-    constexpr std::size_t block = 4096;  // or more: of whole clusters, runs of intervals that overlap
+    const std::size_t block = block_of(ends.size());  // or more: of whole clusters, runs of intervals that overlap
     std::vector<std::size_t> clusters, first;  // where they start, and the first clusters of blocks
     double reach = -2;
     for (std::size_t k = 0; k < ends.size(); ++k) {

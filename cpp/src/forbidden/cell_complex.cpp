@@ -76,12 +76,7 @@ void Assembly::find_vertices() {
         ++result.vertices;
     }
     result.xy.resize(2 * best.size()), result.theta.resize(best.size());
-    constexpr std::size_t block = 4096;
-    for_each_in_parallel(threads, (best.size() + block - 1) / block, [&](std::size_t b) {
-        heed_stop();
-        for (std::size_t v = b * block; v < std::min(best.size(), (b + 1) * block); ++v)
-            place_vertex(static_cast<Index>(v), best[v]);
-    });
+    for_each_block_in_parallel(threads, best.size(), [&](std::size_t v) { place_vertex(static_cast<Index>(v), best[v]); });
     free_memory(start);
 }
 

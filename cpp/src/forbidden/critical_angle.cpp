@@ -28,6 +28,12 @@ bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>
     return Predicates(scene, x.surface).changes_sign({x.first, x.second, x.lo, x.hi}, low, high);
 }
 
+bool CriticalAngle::are_one_simple(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
+    if (x.is_chart_end() || y.is_chart_end() || x.place != 0 || y.place != 0) return false;
+    const Predicates on_y(scene, y.surface);
+    return Predicates(scene, x.surface).are_one_simple({x.first, x.second, x.lo, x.hi}, on_y, {y.first, y.second, y.lo, y.hi});
+}
+
 const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     if (root) return *root;
     root = std::make_shared<RealRoot>();
@@ -66,6 +72,7 @@ int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
     if (x.name(scene) == y.name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
+    if (CriticalAngle::are_one_simple(scene, x, y)) return 0;
     if (const auto &p = x.bracket(scene), &q = y.bracket(scene); p && q) {
         if (is_below((*p)[1], (*q)[0])) return -1;
         if (is_below((*q)[1], (*p)[0])) return 1;

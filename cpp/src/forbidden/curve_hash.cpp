@@ -41,21 +41,17 @@ bool are_parallel(const Scene& scene, const Feature& x, const Feature& y) {
 
 CurveHashes::CurveHashes(const Scene& sc, std::size_t count, const std::function<NamedCurve(std::size_t)>& curve, int threads)
     : scene(sc), reduced{&sc, {}, {}}, hashes(count) {
-    constexpr std::size_t block = 4096;
     std::atomic<bool> unlucky = count > 0;
     for (unsigned attempt = 0; unlucky; ++attempt) {
         choose(attempt);
         unlucky = false;
-        for_each_in_parallel(threads, (count + block - 1) / block, [&](std::size_t b) {
-            heed_stop();
-            for (std::size_t k = b * block; k < std::min(count, (b + 1) * block) && !unlucky; ++k) {
-                const NamedCurve next = curve(k);
-                const auto hash = of(next);
-                if (!hash && are_parallel(scene, next.on, next.other))
-                    throw std::logic_error("a curve of two parallel surfaces");
-                if (hash) hashes[k] = *hash;
-                else unlucky = true;
-            }
+        for_each_block_in_parallel(threads, count, [&](std::size_t k) {
+            if (unlucky) return;
+            const NamedCurve next = curve(k);
+            const auto hash = of(next);
+            if (!hash && are_parallel(scene, next.on, next.other)) throw std::logic_error("a curve of two parallel surfaces");
+            if (hash) hashes[k] = *hash;
+            else unlucky = true;
         });
     }
 }

@@ -331,7 +331,7 @@ std::vector<Parts> glue_levels(const Boundary& b, const Whole& whole, Around aro
     for (Index k = 0; k < n; ++k)
         sides[place[round(angles.from[k])]++] = 2 * k, sides[place[round(angles.to[k])]++] = 2 * k + 1;
     // lists of whole angles, of about so many sides
-    constexpr Index block = 4096;
+    const auto block = static_cast<Index>(block_of(sides.size()));
     std::vector<Index> first{0};
     for (Index rank = 0; rank < ranks; ++rank)
         if (start[rank + 1] - start[first.back()] >= block || rank + 1 == ranks) first.push_back(rank + 1);

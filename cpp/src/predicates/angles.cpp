@@ -133,6 +133,18 @@ bool Predicates::changes_sign(const Event& x, double lo, double hi) const {
     return f.sign(lo) * f.sign(hi) < 0;
 }
 
+// Whether two polynomials are one, up to a factor.
+template <class T>
+std::optional<bool> are_proportional(const Coefficients<T>& p, const Coefficients<T>& q) {
+    const int count = std::max(p.count, q.count);
+    for (int i = 0; i + 1 < count; ++i)
+        for (int j = i + 1; j < count; ++j) {
+            const auto sign = certain_sign(p.c[i] * q.c[j] - p.c[j] * q.c[i]);
+            if (!sign || *sign != 0) return sign ? std::optional(false) : std::nullopt;
+        }
+    return true;
+}
+
 // Whether two angles are roots of one polynomial for a reason of identity.
 bool Predicates::same_polynomial(const Event& x, const Event& y) {
     if (x.first.kind == Kind::none || y.first.kind == Kind::none) return false;
@@ -243,6 +255,15 @@ std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
     return {};
 }
 
+// Whether two angles, each alone in its interval, are seen to be one number of few digits: in axis-parallel scenes most are.
+bool Predicates::are_one_simple(const Event& x, const Predicates& other, const Event& y) const {
+    if (x.fine >= 0 || y.fine >= 0) return false;
+    const double t = std::nearbyint(16 * x.lo) / 16;
+    if (t < std::max(x.lo, y.lo) || t > std::min(x.hi, y.hi)) return false;
+    return cfree::sign_at(coefficients<Ball>(x.first, x.second), t) == 0 &&
+           cfree::sign_at(other.coefficients<Ball>(y.first, y.second), t) == 0;
+}
+
 // Of two angles whose intervals overlap.
 int Predicates::order_of_close(const Event& x, const Event& y) {
     const auto sign = [](double d) { return (d > 0) - (d < 0); };
@@ -259,10 +280,13 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
     if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) {
+            if (are_one_simple(x, *this, y)) return 0;
             const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
             if (p && q && is_below((*p)[1], (*q)[0])) return -1;
             if (p && q && is_below((*q)[1], (*p)[0])) return 1;
         }
+        const auto one = are_proportional(coefficients<T>(x.first, x.second), coefficients<T>(y.first, y.second));
+        if (one.value_or(false) && alone(x)) return 0;
         const auto first = meets_parallel<T>(x, y), second = meets_parallel<T>(y, x);
         if (!first || !second) return {};
         if ((*first && alone(y)) || (*second && alone(x))) return 0;

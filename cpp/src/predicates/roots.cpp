@@ -104,6 +104,19 @@ struct Balls {
     }
     bool may_touch() const { return false; }
     int sign(double t) const { return sign_at(p, t).value_or(0); }
+    // Where two close roots are parted, if they can be: an extremum, found by Newton's method.
+    std::optional<double> extremum(double lo, double hi) const {
+        double t = 0.5 * (lo + hi);
+        for (int k = 0; k < 8; ++k) {
+            double slope = 0, bend = 0;
+            for (int i = degree; i > 0; --i) bend = bend * t + slope, slope = slope * t + i * p.c[i].hi;
+            const double next = t - slope / bend;
+            if (!(next > lo && next < hi)) return {};
+            if (std::abs(next - t) <= 4 * u) return next;
+            t = next;
+        }
+        return {};
+    }
     // Bernstein coefficients, times 2 or 12, by the polar form: elementary symmetric functions of ends of the interval.
     void signs(double lo, double hi, int* sign) const {
         for (int i = 0; i <= degree; ++i) {
@@ -167,6 +180,12 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
         }
         if (--budget == 0 || s.hi - s.lo < least || top > 60 || form.may_touch()) return false;
         double mid = 0.5 * (s.lo + s.hi);
+        if constexpr (std::is_same_v<Form, Balls>) {
+            if (const auto extremum = form.extremum(s.lo, s.hi)) {
+                mid = *extremum;
+                if (form.sign(mid) == 0) return false;
+            }
+        }
         if (form.sign(mid) == 0) mid = s.lo + 0.4375 * (s.hi - s.lo);
         stack[top++] = {mid, s.hi};
         stack[top++] = {s.lo, mid};
@@ -223,7 +242,7 @@ bool isolate_quadratic(const Coefficients<Ball>& p, const Ball& discriminant, Br
     return true;
 }
 
-// Of a quadratic, whose touch is the root of its derivative. Of a quartic multiple roots are divided out first, exactly.
+// Of a quadratic, whose touch is the root of its derivative; of a quartic whose roots are simple: multiple ones are divided out exactly.
 std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& first, const Feature& second, double lo,
                                                                  double hi) const {
     const auto p = coefficients<Ball>(first, second);
@@ -231,12 +250,16 @@ std::optional<Predicates::Candidates> Predicates::roots_by_balls(const Feature& 
     result.all_zero = true;
     for (int i = 0; i < p.count; ++i) result.all_zero &= certain_sign(p.c[i]) == 0;
     if (result.all_zero) return result;
-    if (p.count > 3) return {};
+    Brackets found;
+    if (p.count > 3) {
+        if (!isolate_around(Balls(p), lo, hi, found)) return {};
+        for (const auto& [below, above] : found) result.at.push_back({first, second, below, above});
+        return result;
+    }
     const Ball discriminant = p.c[1] * p.c[1] - Ball(4.0) * (p.c[0] * p.c[2]);
     const auto sign = certain_sign(discriminant);
     if (!sign) return {};
     if (*sign < 0) return result;
-    Brackets found;
     if (!isolate_quadratic(p, discriminant, found)) {
         found = {};
         if (!isolate_around(Balls(*sign == 0 ? derivative(p) : p), lo, hi, found)) return {};
@@ -273,7 +296,7 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
         return sign_before(p, root) == sign_after(p, root);
     };
     Brackets found;
-    if (isolate_around(Balls(simple), lo, hi, found)) {
+    if ((p.size() <= 3 || simple.size() < p.size()) && isolate_around(Balls(simple), lo, hi, found)) {
         for (const auto& [l, h] : found)
             result.at.push_back({first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))});
         return result;

@@ -50,6 +50,9 @@ void in_parallel(int threads, std::atomic<bool>& stop, Work&& work) {
     if (error) std::rethrow_exception(error);
 }
 
+// Items of one piece of work, of so many: enough pieces for all threads, none too small to be handed out.
+inline std::size_t block_of(std::size_t count) { return std::clamp<std::size_t>(count / 64, 64, 4096); }
+
 // work(0) to work(count - 1), in no order.
 template <class Work>
 void for_each_in_parallel(int threads, std::size_t count, Work&& work) {
@@ -57,6 +60,16 @@ void for_each_in_parallel(int threads, std::size_t count, Work&& work) {
     std::atomic<std::size_t> next = 0;
     in_parallel(static_cast<int>(std::min(static_cast<std::size_t>(threads), count)), stop, [&] {
         for (std::size_t k; (k = next++) < count && !stop;) work(k);
+    });
+}
+
+// The same of short work, block by block.
+template <class Work>
+void for_each_block_in_parallel(int threads, std::size_t count, Work&& work) {
+    const std::size_t block = block_of(count);
+    for_each_in_parallel(threads, (count + block - 1) / block, [&](std::size_t b) {
+        heed_stop();
+        for (std::size_t k = b * block; k < std::min(count, (b + 1) * block); ++k) work(k);
     });
 }
 

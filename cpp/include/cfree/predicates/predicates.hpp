@@ -148,6 +148,7 @@ public:
     bool isolates(const Event& x, int place) const;
     // Whether 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
     bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
+    bool are_one_simple(const Event& x, const Predicates& other, const Event& y) const;
     // The angle as an exact number.
     RealRoot root_of(const Event& x) const;
     // Its interval shrunk to about the precision of balls, where that can be done: between certain, opposite signs.
