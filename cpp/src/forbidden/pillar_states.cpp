@@ -74,7 +74,7 @@ public:
     PillarView(const Trimmer& t, Index p, Index k, const Sample& at)
         : A(t.scene.robot), O(t.scene.obstacles), R(rotation_at(at, t.surface.chart, T{})), a(&A.piece_vertex[A.piece[p]]),
           b(&O.piece_vertex[O.piece[k]]), ga(&A.piece_edge[A.piece[p]]), fb(&O.piece_edge[O.piece[k]]),
-          n(A.piece[p + 1] - A.piece[p]), m(O.piece[k + 1] - O.piece[k]), robot(t.scratch<T>()[0]), obstacle(t.scratch<T>()[1]) {
+          n(A.piece[p + 1] - A.piece[p]), m(O.piece[k + 1] - O.piece[k]), robot{t.scratch<T>()[0]}, obstacle{t.scratch<T>()[1]} {
         measure(t.surface.contact);
     }
 
@@ -82,12 +82,12 @@ public:
         Index x, y;
     };
     // Of several, any: see `last`.
-    Vertex highest() const { return {extreme(robot, n, -1), extreme(obstacle, m, 1)}; }
-    Vertex lowest() const { return {extreme(robot, n, 1), extreme(obstacle, m, -1)}; }
-    bool is_left(const Vertex& v) const { return obstacle[v.y] > robot[v.x]; }
-    bool is_right(const Vertex& v) const { return obstacle[v.y] < robot[v.x]; }
+    Vertex highest() const { return {robot.lowest, obstacle.highest}; }
+    Vertex lowest() const { return {robot.highest, obstacle.lowest}; }
+    bool is_left(const Vertex& v) const { return obstacle.at[v.y] > robot.at[v.x]; }
+    bool is_right(const Vertex& v) const { return obstacle.at[v.y] < robot.at[v.x]; }
     // Of the highest or lowest, the last in counter-clockwise order.
-    Vertex last(Vertex v) const { return {last(v.x, robot, n), last(v.y, obstacle, m)}; }
+    Vertex last(Vertex v) const { return {last(v.x, robot.at, n), last(v.y, obstacle.at, m)}; }
 
     State missed(Meets meets, const Vertex& nearest) const {
         State state{};
@@ -97,35 +97,45 @@ public:
     }
     // The edge by which the line is passed, on the way counter-clockwise down from the highest vertex, or up from the lowest.
     PillarEdge crossing(Vertex v, bool down) const {
-        PillarEdge e{};
+        Vertex from = v;
+        bool by_obstacle = false;
         for (Index steps = 0; steps <= n + m; ++steps) {
-            e.s0 = a[v.x], e.v0 = b[v.y];
-            if (is_obstacle_next(v, down)) {
-                e.feature = {Kind::vertex_edge, a[v.x], fb[v.y]};
-                set_around(v.x, n, ga, e.around);
-                v.y = after(v.y, m);
-            } else {
-                e.feature = {Kind::edge_vertex, ga[v.x], b[v.y]};
-                set_around(v.y, m, fb, e.around);
-                v.x = after(v.x, n);
-            }
-            e.s1 = a[v.x], e.v1 = b[v.y];
+            from = v;
+            by_obstacle = is_obstacle_next(v, down);
+            if (by_obstacle) v.y = after(v.y, m);
+            else v.x = after(v.x, n);
             if (down ? is_right(v) : is_left(v)) break;
         }
+        PillarEdge e{};
+        e.s0 = a[from.x], e.v0 = b[from.y], e.s1 = a[v.x], e.v1 = b[v.y];
+        if (by_obstacle) e.feature = {Kind::vertex_edge, a[from.x], fb[from.y]}, set_around(from.x, n, ga, e.around);
+        else e.feature = {Kind::edge_vertex, ga[from.x], b[from.y]}, set_around(from.y, m, fb, e.around);
         return e;
     }
 
 private:
+    // Of the vertices of a piece, over the line through `origin`; one of the highest, one of the lowest.
+    struct Heights {
+        std::vector<T>& at;
+        Index highest = 0, lowest = 0;
+        void measure(const Shape& s, const Index* vertices, Index count, Index origin, const Vec<T>& along) {
+            at.resize(static_cast<std::size_t>(count));
+            at[0] = cross(along, between_vertices<T>(s, vertices[0], origin));
+            T top = at[0], bottom = at[0];
+            for (Index x = 1; x < count; ++x) {
+                const T& height = at[x] = cross(along, between_vertices<T>(s, vertices[x], origin));
+                const bool is_top = height > top, is_bottom = height < bottom;
+                highest = is_top ? x : highest, lowest = is_bottom ? x : lowest;
+                if constexpr (std::is_same_v<T, double>) top = std::max(top, height), bottom = std::min(bottom, height);
+                else if (is_top) top = height;
+                else if (is_bottom) bottom = height;
+            }
+        }
+    };
     static Index after(Index x, Index size) { return x + 1 == size ? 0 : x + 1; }
     static Index prior(Index x, Index size) { return x == 0 ? size - 1 : x - 1; }
     static void set_around(Index x, Index size, const Index* edges, Index* around) {
         around[0] = size > 1 ? edges[prior(x, size)] : -1, around[1] = size > 1 ? edges[x] : -1;
-    }
-    static Index extreme(const std::vector<T>& heights, Index size, int sign) {
-        Index best = 0;
-        for (Index x = 1; x < size; ++x)
-            if (sign > 0 ? heights[x] > heights[best] : heights[x] < heights[best]) best = x;
-        return best;
     }
     static Index last(Index x, const std::vector<T>& heights, Index size) {
         for (Index c = 0; c < size && heights[after(x, size)] == heights[x]; ++c) x = after(x, size);
@@ -140,16 +150,14 @@ private:
         const auto E = on_edge ? between_vertices<T>(O, O.w[j], O.v[j]) : between_vertices<T>(A, A.w[i], A.v[i]);
         const Vec<T> scaled{R.w * E.x, R.w * E.y};
         const Vec<T> U = on_edge ? scaled : -R(E), V = on_edge ? R.back(E) : -scaled;
-        robot.resize(n), obstacle.resize(m);
-        for (Index x = 0; x < n; ++x) robot[x] = cross(V, between_vertices<T>(A, a[x], a0));
-        for (Index y = 0; y < m; ++y) obstacle[y] = cross(U, between_vertices<T>(O, b[y], b0));
+        robot.measure(A, a, n, a0, V), obstacle.measure(O, b, m, b0, U);
     }
 
     // Whether the next edge of the pillar, of those that lead on, is the obstacle's: by direction, where both lead on.
     bool is_obstacle_next(const Vertex& v, bool down) const {
         const Index x1 = after(v.x, n), y1 = after(v.y, m);
-        const bool by_obstacle = down ? obstacle[y1] < obstacle[v.y] : obstacle[y1] > obstacle[v.y];
-        const bool by_robot = down ? robot[x1] > robot[v.x] : robot[x1] < robot[v.x];
+        const bool by_obstacle = down ? obstacle.at[y1] < obstacle.at[v.y] : obstacle.at[y1] > obstacle.at[v.y];
+        const bool by_robot = down ? robot.at[x1] > robot.at[v.x] : robot.at[x1] < robot.at[v.x];
         if (!by_obstacle || !by_robot) return by_obstacle || n == 1;
         return cross(between_vertices<T>(O, b[y1], b[v.y]), R(between_vertices<T>(A, a[x1], a[v.x]))) < 0;
     }
@@ -158,7 +166,7 @@ private:
     const Rotation<T> R;
     const Index *a, *b, *ga, *fb;  // vertices and edges of the two pieces
     const Index n, m;
-    std::vector<T>&robot, &obstacle;
+    Heights robot, obstacle;
 };
 
 template <class T>
