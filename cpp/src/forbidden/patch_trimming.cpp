@@ -70,13 +70,18 @@ void PatchTrimming::trim(Index patch, Shadows& near, std::vector<Trapezoid>& out
     seams(contact, touching);
     const std::size_t before = out.size();
     for (int r = 0; r < range.count; ++r) {
+        const auto& pillars = near.on({contact, range.chart[r]}, range.from[r].lo, range.to[r].hi);
+        if (near.cover_all(contact)) {
+            ++tally.pairs;
+            continue;
+        }
         Trimmer trimmer(scene, {contact, range.chart[r]}, range.from[r], range.to[r]);
         for (const Feature& owner : before_it) {
             const Range shared = range_of(scene, owner, tally.decisions);
             for (int s = 0; s < shared.count; ++s)
                 if (shared.chart[s] == range.chart[r]) trimmer.cede(owner, shared.from[s], shared.to[s]);
         }
-        for (const Shadows::Pillar& pillar : near.on({contact, range.chart[r]}, range.from[r].lo, range.to[r].hi)) {
+        for (const Shadows::Pillar& pillar : pillars) {
             if (trimmer.empty()) break;
             ++tally.pairs;
             trimmer.left(near.slices);

@@ -46,10 +46,16 @@ void Shadows::look(const Shape& s, Index origin, Index piece, Side& side) const 
     side.start.push_back(static_cast<Index>(side.seen.size()));
 }
 
+void Shadows::look_at_robot(Index origin, Side& side) const {
+    side.clear();
+    for (Index p = 0; p < scene.robot.pieces(); ++p) look(scene.robot, origin, p, side);
+}
+
 // Where a contact holds, what of an obstacle the robot covers or touches on the line is within reach of its corner: the rest
 // would turn with it, and make its boxes long. What rounding may cut off too much, or too little, is part of the slack.
 void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
     near = pieces;
+    at_obstacle.is_known = false;
     obstacles.clear(), within_reach.clear();
     for (const Index k : near) look(scene.obstacles, j, k, obstacles);
     within_reach.size = obstacles.size;
@@ -62,27 +68,28 @@ void Shadows::around(Index j, const std::vector<Index>& pieces, double reach) {
     }
 }
 
-void Shadows::measure(const Vec<double>& E, Side& side) const {
-    side.along.clear(), side.across.clear();
-    for (const Vec<double>& d : side.seen) side.along.push_back(dot(E, d)), side.across.push_back(cross(E, d));
+// An arc lies in the triangle of its ends and of the point where their tangents meet, which for the angles of x and y is
+// (1 - x y, x + y) / (1 + x y).
+Vec<double> Shadows::rotation(double x, double y) const {
+    const double w = slices.kappa / (1 + x * y);
+    return {(1 - x * y) * w, (x + y) * w};
 }
 
-// All pieces at the point of the angles of x and y: see `turn`.
+// All pieces at the point of the angles of x and y.
 void Shadows::turn_to(double x, double y, double sign, std::vector<Octagon>& out) const {
-    const double w = slices.kappa / (1 + x * y), cosine = (1 - x * y) * w, sine = sign * (x + y) * w;
+    const Vec<double> R = rotation(x, y);
+    const double cosine = R.x, sine = sign * R.y;
     out.clear();
-    for (Index q = 0; q < turning.count(); ++q) {
+    for (Index q = 0; q < turning->count(); ++q) {
         Octagon around;
-        for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
-            around.add(cosine * turning.along[v] - sine * turning.across[v], cosine * turning.across[v] + sine * turning.along[v]);
+        for (Index v = turning->start[q]; v < turning->start[q + 1]; ++v)
+            around.add(cosine * along[v] - sine * across[v], cosine * across[v] + sine * along[v]);
         out.push_back(around);
     }
 }
 
-// An arc lies in the triangle of its ends and of the point where their tangents meet, which for the angles of x and y is
-// (1 - x y, x + y) / (1 + x y).
-void Shadows::turn(double sign) {
-    const Index count = turning.count();
+void Shadows::turn(double sign, double slack) {
+    const Index count = turning->count();
     auto &before = corners[0], &after = corners[1];
     turned.clear();
     turn_to(slices.at[0], slices.at[0], sign, before);
@@ -97,63 +104,70 @@ void Shadows::turn(double sign) {
         }
         before.swap(after);
     }
+    for (Octagon& around : turned)
+        for (int i = 0; i < 4; ++i) around.low[i] -= (i < 2 ? 1 : 2) * slack, around.high[i] += (i < 2 ? 1 : 2) * slack;
 }
 
-void Shadows::stand(const Shape& s, Index edge, bool of_robot) {
-    const auto count = static_cast<std::size_t>(still.count());
-    for (auto* column : {&along0, &along1, &across0, &across1}) column->resize(count);
+void Shadows::stand(const Shape& s, Index edge, const Vec<double>& E, bool of_robot, Standing& out) const {
+    const auto count = static_cast<std::size_t>(out.side.count());
+    for (auto* column : {&out.along0, &out.along1, &out.across0, &out.across1}) column->resize(count);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    parallel.assign(count, {none, none}), has_edge.resize(count), standing.resize(count);
-    any_parallel = false;
-    for (Index x = 0; x < still.count(); ++x) {
-        const Index first = still.start[x], size = still.start[x + 1] - first, piece = s.piece[of_robot ? x : near[x]];
-        Octagon around;
-        for (Index v = first; v < first + size; ++v) around.add(still.along[v], still.across[v]);
-        for (int i = 0; i < 4; ++i) around.low[i] -= (i < 2 ? 1 : 2) * slack, around.high[i] += (i < 2 ? 1 : 2) * slack;
-        along0[x] = around.low[0], along1[x] = around.high[0], across0[x] = around.low[1], across1[x] = around.high[1];
-        standing[x] = around;
-        has_edge[x] = size > 1 && contains(s.piece_edge, piece, piece + size, edge);
+    out.parallel.assign(count, {none, none}), out.has_edge.resize(count), out.octagon.assign(count, {});
+    out.is_known = true, out.any_parallel = false;
+    for (std::size_t x = 0; x < count; ++x) {
+        const Index first = out.side.start[x], size = out.side.start[x + 1] - first, piece = s.piece[of_robot ? x : near[x]];
+        Octagon& around = out.octagon[x];
+        for (Index v = first; v < first + size; ++v) around.add(dot(E, out.side.seen[v]), cross(E, out.side.seen[v]));
+        out.along0[x] = around.low[0], out.along1[x] = around.high[0], out.across0[x] = around.low[1], out.across1[x] = around.high[1];
+        out.has_edge[x] = size > 1 && contains(s.piece_edge, piece, piece + size, edge);
         int found = 0;
         for (Index n = 0; size > 1 && n < size && found < 2; ++n)
-            if (s.direction[s.piece_edge[piece + n]] == s.direction[edge]) parallel[x][found++] = std::abs(still.across[first + n]);
-        any_parallel |= found > 0;
+            if (s.direction[s.piece_edge[piece + n]] == s.direction[edge])
+                out.parallel[x][found++] = std::abs(cross(E, out.side.seen[first + n]));
+        out.any_parallel |= found > 0;
     }
-    radius.clear();
-    for (std::size_t v = 0; any_parallel && v < turning.seen.size(); ++v)
-        radius.push_back(norm(turning.along[v], turning.across[v]));
 }
 
 // Whether a turning vertex may just reach the height of an edge along the line.
-bool Shadows::may_pinch(Index q, Index x) const {
-    for (const double height : parallel[x])
-        for (Index v = turning.start[q]; v < turning.start[q + 1]; ++v)
+bool Shadows::may_pinch(Index q, Index x, double slack) const {
+    for (const double height : still->parallel[x])
+        for (Index v = turning->start[q]; v < turning->start[q + 1]; ++v)
             if (std::abs(radius[v] - height) <= slack) return true;
     return false;
 }
 
 const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double lo, double hi) {
-    const Shape &A = scene.robot, &O = scene.obstacles;
     const Feature& contact = surface.contact;
     const bool on_edge = contact.kind == Kind::vertex_edge;
-    const Shape& own = on_edge ? O : A;
-    const Index edge = on_edge ? contact.obstacle : contact.robot, a = on_edge ? contact.robot : A.v[contact.robot];
-    const Vec<double> v{own.x[own.v[edge]], own.y[own.v[edge]]}, w{own.x[own.w[edge]], own.y[own.w[edge]]}, E = w - v;
+    const Shape& own = on_edge ? scene.obstacles : scene.robot;
+    const Index edge = on_edge ? contact.obstacle : contact.robot;
+    const Vec<double> v{own.x[own.v[edge]], own.y[own.v[edge]]}, w{own.x[own.w[edge]], own.y[own.w[edge]]};
+    E = w - v;
     slices.cut(lo, hi, surface.chart);
-    Side& robot = on_edge ? turning : still;
-    robot.clear();
-    for (Index p = 0; p < A.pieces(); ++p) look(A, a, p, robot);
-    (on_edge ? still : turning) = on_edge ? obstacles : within_reach;
-    measure(E, still), measure(E, turning);
+    at_robot.resize(static_cast<std::size_t>(scene.robot.ring_vertices));
+    Standing& standing = on_edge ? at_obstacle : at_robot[edge];
+    if (!standing.is_known) {
+        if (on_edge) standing.side = obstacles;
+        else look_at_robot(own.v[edge], standing.side);
+        stand(own, edge, E, !on_edge, standing);
+    }
+    still = &standing;
+    if (on_edge) look_at_robot(contact.robot, robot);
+    turning = on_edge ? &robot : &within_reach;
+    along.clear(), across.clear(), radius.clear();
+    for (const Vec<double>& d : turning->seen) along.push_back(dot(E, d)), across.push_back(cross(E, d));
+    if (still->any_parallel)
+        for (std::size_t k = 0; k < along.size(); ++k) radius.push_back(norm(along[k], across[k]));
     // With |E.x|, |E.y| <= e and |d.x|, |d.y| <= m they are within 2 u e and 8 u m of the truth, 6 u m of which by clipping; what is
     // along and across within 25 u e m, and at most 2 e m; cosines and sines, at most 1.1, within 6 u. So what is turned is
     // within 2 (27.5 + 12 + 2.2) u e m + 4.4 u e m < 90 u e m, what stands still within 25 u e m, what they are compared with,
     // at most e^2 apart, within 16 u e^2; sums of two add 6 u of their size. 128 u would do for all, and twice that for diagonals.
     const double e = own.rounded ? 2 * std::max(larger(v), larger(w)) : larger(E);
-    slack = 0x1p-45 * e * (turning.size + still.size + e) + 0x1p-900;
+    const double slack = 0x1p-45 * e * (turning->size + still->side.size + e) + 0x1p-900;
     length = dot(E, E);
-    turn(on_edge ? 1 : -1), stand(own, edge, !on_edge);
+    turn(on_edge ? 1 : -1, slack);
     pillars.clear(), ranges.clear();
-    for (Index q = 0; q < turning.count(); ++q) add_pillars(q, contact);
+    for (Index q = 0; q < turning->count(); ++q) add_pillars(q, contact, slack);
     std::sort(pillars.begin(), pillars.end(), [&](const Pillar& x, const Pillar& y) {
         if (x.cover != y.cover) return x.cover > y.cover;
         return x.p != y.p ? x.p < y.p : on_edge ? x.still < y.still : x.turning < y.turning;
@@ -163,15 +177,17 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
 
 // What a piece that stands still and one that turns may cover of the line in a slice: (s, 0) is in both octagons' difference.
 Shadows::Range Shadows::range_of(int slice, Index q, Index x) const {
-    const Octagon &a = standing[x], &b = in_slice(slice, q);
+    const Octagon &a = still->octagon[x], &b = in_slice(slice, q);
     return {std::max({a.low[0] - b.high[0], a.low[2] - b.high[2], a.low[3] - b.high[3]}),
             std::min({a.high[0] - b.low[0], a.high[2] - b.low[2], a.high[3] - b.low[3]})};
 }
 
-void Shadows::add_pillars(Index q, const Feature& contact) {
+void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
     const Shape &A = scene.robot, &O = scene.obstacles;
     const bool robot_turns = contact.kind == Kind::vertex_edge;
-    const auto count = static_cast<std::size_t>(still.count());
+    const auto count = static_cast<std::size_t>(still->side.count());
+    const double *along0 = still->along0.data(), *along1 = still->along1.data(), *across0 = still->across0.data(),
+                 *across1 = still->across1.data();
     crossing.assign(count, 0), meeting.assign(count, 0);
     for (int s = 0; s < slices.count; ++s) {
         const Octagon& box = in_slice(s, q);
@@ -186,13 +202,13 @@ void Shadows::add_pillars(Index q, const Feature& contact) {
     const Index own = robot_turns ? q : near[q];
     const bool has_vertex = robot_turns ? contains(A.piece_vertex, A.piece[own], A.piece[own + 1], contact.robot)
                                         : contains(O.piece_vertex, O.piece[own], O.piece[own + 1], contact.obstacle);
-    for (Index x = 0; x < still.count(); ++x) {
+    for (Index x = 0; x < still->side.count(); ++x) {
         if (crossing[x] == 0) continue;
         // the pieces in contact: where the patch is, the one's vertex is extreme towards the other's edge, and the line bounds the pillar
-        if (has_vertex && has_edge[x]) continue;
+        if (has_vertex && still->has_edge[x]) continue;
         const Index p = robot_turns ? q : x, k = near[robot_turns ? x : q];
         if (A.piece_layer[p] != O.piece_layer[k]) continue;
-        const bool pinches = any_parallel && may_pinch(q, x);
+        const bool pinches = still->any_parallel && may_pinch(q, x, slack);
         if (meeting[x] == 0 && !pinches) continue;
         Pillar pillar{p, k, q, x, pinches, 0, ranges.size(), 0};
         ranges.resize(pillar.ranges + static_cast<std::size_t>(slices.count));
@@ -207,6 +223,55 @@ void Shadows::add_pillars(Index q, const Feature& contact) {
         if (pillar.slices != 0) pillars.push_back(pillar);
         else ranges.resize(pillar.ranges);
     }
+}
+
+bool Shadows::cover_all(const Feature& contact) {
+    const double most = (1 - 0x1p-20) * slices.count * length;
+    rotations.clear();
+    for (const Pillar& x : pillars) {
+        if (x.cover < most) return false;
+        if (rotations.empty()) {
+            rotations.push_back(rotation(slices.at[0], slices.at[0]));
+            for (int s = 0; s < slices.count; ++s)
+                for (const double from : {slices.at[s], slices.at[s + 1]}) rotations.push_back(rotation(from, slices.at[s + 1]));
+        }
+        if (covers_all(x, contact)) return true;
+    }
+    return false;
+}
+
+// At each angle a pillar is convex: it is enough that it covers the helices at both ends of the line.
+bool Shadows::covers_all(const Pillar& x, const Feature& contact) const {
+    const Shape& A = scene.robot;
+    const Index i = contact.robot;
+    if (contact.kind == Kind::edge_vertex) return covers_helix(x, A.v[i], {0, 0}) && covers_helix(x, A.w[i], {0, 0});
+    return covers_helix(x, i, {0, 0}) && covers_helix(x, i, E);
+}
+
+// Robot vertex a at a point of the obstacles, seen from the patch's: whether another vertex of the piece is inside the obstacle's
+// piece all the way. Its arc is in the triangles of its control points.
+bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at) const {
+    const Shape& A = scene.robot;
+    const Index place = static_cast<Index>(still == &at_obstacle ? pillar.still : pillar.turning);
+    const Index first = obstacles.start[place], size = obstacles.start[place + 1] - first;
+    if (size < 3) return false;
+    const Vec<double>* ring = &obstacles.seen[first];
+    const auto is_inside = [&](const Vec<double>& p, double margin) {
+        for (Index k = 0; k < size; ++k)
+            if (!(cross(ring[k + 1 == size ? 0 : k + 1] - ring[k], p - ring[k]) > margin)) return false;
+        return true;
+    };
+    const Vec<double> o{A.x[a], A.y[a]};
+    for (Index n = A.piece[pillar.p]; n < A.piece[pillar.p + 1]; ++n) {
+        const Vec<double> w{A.x[A.piece_vertex[n]], A.y[A.piece_vertex[n]]}, d = w - o;
+        const double reach = A.rounded ? 2 * std::max(larger(w), larger(o)) : larger(d);
+        // With |d.x|, |d.y| <= m and points of obstacles seen within M, as above: control points, at most 2.2 m from `at`, are within
+        // 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M).
+        const double margin = 0x1p-44 * obstacles.size * (reach + obstacles.size) + 0x1p-900;
+        const auto turned_by = [&](const Vec<double>& R) { return Vec<double>{R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y}; };
+        if (std::all_of(rotations.begin(), rotations.end(), [&](const Vec<double>& R) { return is_inside(turned_by(R), margin); })) return true;
+    }
+    return false;
 }
 
 Slices::Part Shadows::part(const Pillar& pillar) const {
