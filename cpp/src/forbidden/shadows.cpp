@@ -227,51 +227,56 @@ void Shadows::add_pillars(Index q, const Feature& contact, double slack) {
 
 bool Shadows::cover_all(const Feature& contact) {
     const double most = (1 - 0x1p-20) * slices.count * length;
-    rotations.clear();
+    const bool on_edge = contact.kind == Kind::vertex_edge;
+    const Index i = contact.robot;
     for (const Pillar& x : pillars) {
         if (x.cover < most) return false;
-        if (rotations.empty()) {
-            rotations.push_back(rotation(slices.at[0], slices.at[0]));
-            for (int s = 0; s < slices.count; ++s)
-                for (const double from : {slices.at[s], slices.at[s + 1]}) rotations.push_back(rotation(from, slices.at[s + 1]));
+        // at each angle a pillar is convex: it is enough that it covers the helices at both ends of the line
+        if (on_edge ? covers_helix(x, i, {0, 0}) && covers_helix(x, i, E)
+                    : covers_helix(x, scene.robot.v[i], {0, 0}) && covers_helix(x, scene.robot.w[i], {0, 0}))
+            return true;
+    }
+    return false;
+}
+
+// Robot vertex a at a point of the obstacles, seen from the patch's: whether the pieces overlap all the way, since in each slice a
+// vertex of one stays inside the other. Its arc is in the triangle of its control points.
+bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at) {
+    const auto place = still == &at_obstacle ? pillar.still : pillar.turning;
+    const std::span ring(obstacles.seen.data() + obstacles.start[place], obstacles.seen.data() + obstacles.start[place + 1]);
+    seen_robot.clear();
+    look(scene.robot, a, pillar.p, seen_robot);
+    // With coordinates seen of the robot at most m, of obstacles at most M, as above: control points, at most 2.2 m from `at`, are
+    // within 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M). The other way alike.
+    const double m = seen_robot.size, M = obstacles.size, margin = 0x1p-43 * (m + M) * (m + M) + 0x1p-900;
+    const auto is_inside = [&](std::span<const Vec<double>> polygon, const Vec<double>& p) {
+        const Vec<double>* last = &polygon.back();
+        for (const Vec<double>& v : polygon) {
+            if (!(cross(v - *last, p - *last) > margin)) return false;
+            last = &v;
         }
-        if (covers_all(x, contact)) return true;
-    }
-    return false;
-}
-
-// At each angle a pillar is convex: it is enough that it covers the helices at both ends of the line.
-bool Shadows::covers_all(const Pillar& x, const Feature& contact) const {
-    const Shape& A = scene.robot;
-    const Index i = contact.robot;
-    if (contact.kind == Kind::edge_vertex) return covers_helix(x, A.v[i], {0, 0}) && covers_helix(x, A.w[i], {0, 0});
-    return covers_helix(x, i, {0, 0}) && covers_helix(x, i, E);
-}
-
-// Robot vertex a at a point of the obstacles, seen from the patch's: whether another vertex of the piece is inside the obstacle's
-// piece all the way. Its arc is in the triangles of its control points.
-bool Shadows::covers_helix(const Pillar& pillar, Index a, const Vec<double>& at) const {
-    const Shape& A = scene.robot;
-    const Index place = static_cast<Index>(still == &at_obstacle ? pillar.still : pillar.turning);
-    const Index first = obstacles.start[place], size = obstacles.start[place + 1] - first;
-    if (size < 3) return false;
-    const Vec<double>* ring = &obstacles.seen[first];
-    const auto is_inside = [&](const Vec<double>& p, double margin) {
-        for (Index k = 0; k < size; ++k)
-            if (!(cross(ring[k + 1 == size ? 0 : k + 1] - ring[k], p - ring[k]) > margin)) return false;
-        return true;
+        return polygon.size() > 2;
     };
-    const Vec<double> o{A.x[a], A.y[a]};
-    for (Index n = A.piece[pillar.p]; n < A.piece[pillar.p + 1]; ++n) {
-        const Vec<double> w{A.x[A.piece_vertex[n]], A.y[A.piece_vertex[n]]}, d = w - o;
-        const double reach = A.rounded ? 2 * std::max(larger(w), larger(o)) : larger(d);
-        // With |d.x|, |d.y| <= m and points of obstacles seen within M, as above: control points, at most 2.2 m from `at`, are within
-        // 22 u m + 4 u M; edges, at most 2 M, within 6 u M; their product within 2 u M (77 m + 60 M).
-        const double margin = 0x1p-44 * obstacles.size * (reach + obstacles.size) + 0x1p-900;
-        const auto turned_by = [&](const Vec<double>& R) { return Vec<double>{R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y}; };
-        if (std::all_of(rotations.begin(), rotations.end(), [&](const Vec<double>& R) { return is_inside(turned_by(R), margin); })) return true;
+    const std::size_t robot_count = seen_robot.seen.size(), count = robot_count + ring.size();
+    std::size_t witness = 0;
+    for (int s = 0; s < slices.count; ++s) {
+        const double from = slices.at[s], to = slices.at[s + 1];
+        const Vec<double> rotations[] = {rotation(from, to), rotation(from, from), rotation(to, to)};
+        const auto stays = [&](std::size_t k) {
+            return std::all_of(rotations, rotations + 3, [&](const Vec<double>& R) {
+                if (k < robot_count) {
+                    const Vec<double>& d = seen_robot.seen[k];
+                    return is_inside(ring, {R.x * d.x - R.y * d.y + at.x, R.x * d.y + R.y * d.x + at.y});
+                }
+                const Vec<double> d = ring[k - robot_count] - at;
+                return is_inside(seen_robot.seen, {R.x * d.x + R.y * d.y, R.x * d.y - R.y * d.x});
+            });
+        };
+        std::size_t tried = 0;
+        for (; tried < count && !stays(witness); ++tried) witness = witness + 1 == count ? 0 : witness + 1;
+        if (tried == count) return false;
     }
-    return false;
+    return true;
 }
 
 Slices::Part Shadows::part(const Pillar& pillar) const {

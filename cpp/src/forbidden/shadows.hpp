@@ -8,6 +8,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "cfree/forbidden/trim.hpp"
 
@@ -82,8 +83,7 @@ private:
     Vec<double> rotation(double x, double y) const;
     void turn(double sign, double slack);
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;
-    bool covers_all(const Pillar& pillar, const Feature& contact) const;
-    bool covers_helix(const Pillar& pillar, Index robot_vertex, const Vec<double>& at) const;
+    bool covers_helix(const Pillar& pillar, Index robot_vertex, const Vec<double>& at);
     bool may_pinch(Index turning_piece, Index still_piece, double slack) const;
     Range range_of(int slice, Index turning_piece, Index still_piece) const;
     void add_pillars(Index turning_piece, const Feature& contact, double slack);
@@ -99,7 +99,7 @@ private:
     std::vector<double> along, across, radius;  // of what turns, by vertex
     std::vector<Octagon> turned;                // by slice and piece, rounded outwards
     std::vector<Octagon> corners[2];            // scratch: of the angles between two slices
-    std::vector<Vec<double>> rotations;         // control points of the arc, slice by slice
+    Side seen_robot;                            // scratch: one piece
     Vec<double> E;                              // of the patch's edge
     double length = 0;                          // |E|^2
     std::vector<std::uint64_t> crossing, meeting;          // slices, by piece that stands still
