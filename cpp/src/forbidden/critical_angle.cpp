@@ -28,12 +28,6 @@ bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>
     return Predicates(scene, x.surface).changes_sign({x.first, x.second, x.lo, x.hi}, low, high);
 }
 
-bool CriticalAngle::are_one_simple(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
-    if (x.is_chart_end() || y.is_chart_end() || x.place != 0 || y.place != 0) return false;
-    const Predicates on_y(scene, y.surface);
-    return Predicates(scene, x.surface).are_one_simple({x.first, x.second, x.lo, x.hi}, on_y, {y.first, y.second, y.lo, y.hi});
-}
-
 const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     if (root) return *root;
     root = std::make_shared<RealRoot>();
@@ -44,7 +38,7 @@ const RealRoot& CriticalAngle::exact(const Scene& scene) const {
     Predicates predicates(scene, surface);
     *root = predicates.root_of(event(predicates));
     // axis-parallel scenes have thousands of names for one number of few digits
-    const Dyadic simple = Dyadic::from(std::nearbyint(16 * lo) / 16);
+    const Dyadic simple = Dyadic::from(Predicates::of_few_digits_near(lo));
     if (compare(root->lo, simple) <= 0 && compare(simple, root->hi) <= 0 && sign_at(root->p, simple) == 0)
         root->lo = root->hi = simple;
     return *root;
@@ -68,11 +62,17 @@ int CriticalAngle::narrowing_order(const Scene& scene, CriticalAngle& other) {
     return compare(*root, *other.root);
 }
 
+static bool are_one_of_few_digits(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
+    if (x.is_chart_end() || y.is_chart_end() || x.place != 0 || y.place != 0) return false;
+    const Predicates on_y(scene, y.on());
+    return Predicates(scene, x.on()).are_one_of_few_digits({x.first, x.second, x.lo, x.hi}, on_y, {y.first, y.second, y.lo, y.hi});
+}
+
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
     if (x.name(scene) == y.name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
-    if (CriticalAngle::are_one_simple(scene, x, y)) return 0;
+    if (are_one_of_few_digits(scene, x, y)) return 0;
     if (const auto &p = x.bracket(scene), &q = y.bracket(scene); p && q) {
         if (is_below((*p)[1], (*q)[0])) return -1;
         if (is_below((*q)[1], (*p)[0])) return 1;

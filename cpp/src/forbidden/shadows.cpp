@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "cfree/support/elementary.hpp"
 
@@ -108,7 +109,7 @@ void Shadows::turn(double sign, double slack) {
         for (int i = 0; i < 4; ++i) around.low[i] -= (i < 2 ? 1 : 2) * slack, around.high[i] += (i < 2 ? 1 : 2) * slack;
 }
 
-void Shadows::stand(const Shape& s, Index edge, const Vec<double>& E, bool of_robot, Standing& out) const {
+void Shadows::stand(const Shape& s, Index edge, bool of_robot, Standing& out) const {
     const auto count = static_cast<std::size_t>(out.side.count());
     for (auto* column : {&out.along0, &out.along1, &out.across0, &out.across1}) column->resize(count);
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -144,12 +145,11 @@ const std::vector<Shadows::Pillar>& Shadows::on(const Surface& surface, double l
     const Vec<double> v{own.x[own.v[edge]], own.y[own.v[edge]]}, w{own.x[own.w[edge]], own.y[own.w[edge]]};
     E = w - v;
     slices.cut(lo, hi, surface.chart);
-    at_robot.resize(static_cast<std::size_t>(scene.robot.ring_vertices));
     Standing& standing = on_edge ? at_obstacle : at_robot[edge];
     if (!standing.is_known) {
         if (on_edge) standing.side = obstacles;
         else look_at_robot(own.v[edge], standing.side);
-        stand(own, edge, E, !on_edge, standing);
+        stand(own, edge, !on_edge, standing);
     }
     still = &standing;
     if (on_edge) look_at_robot(contact.robot, robot);

@@ -8,7 +8,6 @@
 #pragma once
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "cfree/forbidden/trim.hpp"
 
@@ -16,7 +15,7 @@ namespace cfree {
 
 class Shadows {
 public:
-    explicit Shadows(const Scene& s) : scene(s) {}
+    explicit Shadows(const Scene& s) : scene(s), at_robot(static_cast<std::size_t>(s.robot.ring_vertices)) {}
 
     // The patches to come are those of obstacle ring vertex j and the edge from it. The pieces near it; no two points of the
     // robot are farther apart than `reach`.
@@ -79,7 +78,7 @@ private:
     };
     void look(const Shape& shape, Index origin, Index piece, Side& side) const;
     void look_at_robot(Index origin, Side& side) const;
-    void stand(const Shape& shape, Index edge, const Vec<double>& E, bool of_robot, Standing& out) const;
+    void stand(const Shape& shape, Index edge, bool of_robot, Standing& out) const;
     Vec<double> rotation(double x, double y) const;
     void turn(double sign, double slack);
     void turn_to(double x, double y, double sign, std::vector<Octagon>& out) const;

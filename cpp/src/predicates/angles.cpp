@@ -255,10 +255,9 @@ std::optional<Predicates::Bracket> Predicates::bracket(const Event& x) const {
     return {};
 }
 
-// Whether two angles, each alone in its interval, are seen to be one number of few digits: in axis-parallel scenes most are.
-bool Predicates::are_one_simple(const Event& x, const Predicates& other, const Event& y) const {
+bool Predicates::are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const {
     if (x.fine >= 0 || y.fine >= 0) return false;
-    const double t = std::nearbyint(16 * x.lo) / 16;
+    const double t = of_few_digits_near(x.lo);
     if (t < std::max(x.lo, y.lo) || t > std::min(x.hi, y.hi)) return false;
     return cfree::sign_at(coefficients<Ball>(x.first, x.second), t) == 0 &&
            cfree::sign_at(other.coefficients<Ball>(y.first, y.second), t) == 0;
@@ -280,13 +279,14 @@ int Predicates::order_of_close(const Event& x, const Event& y) {
     if (y.first.kind == Kind::none) return order(x, Sample{y.lo, {}});
     return settled(counters, [&]<class T>() -> std::optional<int> {
         if constexpr (std::is_same_v<T, Ball>) {
-            if (are_one_simple(x, *this, y)) return 0;
+            if (are_one_of_few_digits(x, *this, y)) return 0;
             const std::optional<Bracket> p = narrowed(x), q = narrowed(y);
             if (p && q && is_below((*p)[1], (*q)[0])) return -1;
             if (p && q && is_below((*q)[1], (*p)[0])) return 1;
         }
-        const auto one = are_proportional(coefficients<T>(x.first, x.second), coefficients<T>(y.first, y.second));
-        if (one.value_or(false) && alone(x)) return 0;
+        if (x.is_touch == y.is_touch && alone(x) &&
+            are_proportional(coefficients<T>(x.first, x.second), coefficients<T>(y.first, y.second)).value_or(false))
+            return 0;
         const auto first = meets_parallel<T>(x, y), second = meets_parallel<T>(y, x);
         if (!first || !second) return {};
         if ((*first && alone(y)) || (*second && alone(x))) return 0;

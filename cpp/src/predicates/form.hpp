@@ -110,6 +110,8 @@ struct Predicates::Form : Terms<Filtered> {
         for (int i = 0; i <= degree; ++i) sum += each[i];
         return std::abs(sum) < degree + 1 ? 0 : sum > 0 ? 1 : -1;
     }
+    // Where two close roots are parted: that is left to halving.
+    std::optional<double> extremum(double, double) const { return {}; }
     // Whether its two roots may be one, so that halving would not part them.
     bool may_touch() const {
         if (degree != 2) return false;

@@ -179,14 +179,12 @@ bool isolate_by_signs(const Form& form, double lo, double hi, double least, Brac
             continue;
         }
         if (--budget == 0 || s.hi - s.lo < least || top > 60 || form.may_touch()) return false;
-        double mid = 0.5 * (s.lo + s.hi);
-        if constexpr (std::is_same_v<Form, Balls>) {
-            if (const auto extremum = form.extremum(s.lo, s.hi)) {
-                mid = *extremum;
-                if (form.sign(mid) == 0) return false;
-            }
+        const auto extremum = form.extremum(s.lo, s.hi);
+        double mid = extremum.value_or(0.5 * (s.lo + s.hi));
+        if (form.sign(mid) == 0) {
+            if (extremum) return false;
+            mid = s.lo + 0.4375 * (s.hi - s.lo);
         }
-        if (form.sign(mid) == 0) mid = s.lo + 0.4375 * (s.hi - s.lo);
         stack[top++] = {mid, s.hi};
         stack[top++] = {s.lo, mid};
     }
@@ -296,6 +294,7 @@ Predicates::Candidates Predicates::roots_exactly(const Feature& first, const Fea
         return sign_before(p, root) == sign_after(p, root);
     };
     Brackets found;
+    // simple quartics have just been tried
     if ((p.size() <= 3 || simple.size() < p.size()) && isolate_around(Balls(simple), lo, hi, found)) {
         for (const auto& [l, h] : found)
             result.at.push_back({first, second, l, h, -1, is_touch(Dyadic::from(l), Dyadic::from(h))});

@@ -24,7 +24,6 @@ public:
     Name name(const Scene& scene) const;
     // Of angles with one name: whether they are seen to be one. Each is the only root of one polynomial in its interval.
     static bool are_one(const Scene& scene, const std::vector<CriticalAngle>& same);
-    static bool are_one_simple(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y);
     const RealRoot& exact(const Scene& scene) const;
     const std::optional<Predicates::Bracket>& bracket(const Scene& scene) const;
     // Sign of this one minus another of its chart; of both more is known afterwards.

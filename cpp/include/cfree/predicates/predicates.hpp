@@ -10,6 +10,7 @@
 // No tolerance decides anything.
 #pragma once
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -148,7 +149,10 @@ public:
     bool isolates(const Event& x, int place) const;
     // Whether 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
     bool are_limits(const Feature& lower, const Feature& upper, const Event& from, const Event& to);
-    bool are_one_simple(const Event& x, const Predicates& other, const Event& y) const;
+    // Whether an angle and one of another surface, each alone in its interval, are seen to be one number of few digits: in axis-parallel
+    // scenes thousands are.
+    bool are_one_of_few_digits(const Event& x, const Predicates& other, const Event& y) const;
+    static double of_few_digits_near(double tau) { return std::nearbyint(16 * tau) / 16; }
     // The angle as an exact number.
     RealRoot root_of(const Event& x) const;
     // Its interval shrunk to about the precision of balls, where that can be done: between certain, opposite signs.
