@@ -33,7 +33,7 @@ from exact_slices import (
     without,
 )
 from exact_slices import _fractions as fractions_of
-from shapes import NAMED, PlainScene, box, frame, random_scene, u_shape
+from shapes import NAMED, PlainScene, Point, box, frame, random_scene, u_shape
 
 T = TypeVar("T")
 UNIT = box(0, 0, 1, 1)
@@ -86,6 +86,23 @@ def test_convex_pieces_tile(name: str) -> None:
     assert sum(map(oracles.ring_area, pieces)) == oracles.exact_area([shape])
     for ring in pieces:
         assert all(oracles.orient(ring[k - 2], ring[k - 1], ring[k]) >= 0 for k in range(len(ring)))
+
+
+@pytest.mark.parametrize(
+    "holes",
+    [
+        [[(1, 0), (1, -1), (0, 0)]],
+        [[(0, 0), (1, 0), (0, 1)], [(0, 0), (0, -1), (-1, 0)]],
+        [[(-1, -1), (0, -1), (0, 0)], [(0, 0), (1, 0), (0, 1)]],
+        [[(0, 0), (2, -1), (0, 1)], [(0, 0), (-1, 0), (0, -1)]],
+    ],
+    ids=["twice on the rim", "each other", "a corner and each other", "the corner between"],
+)
+def test_convex_pieces_tile_where_holes_touch(holes: list[list[Point]]) -> None:
+    shape = ([(-1, -1), (2, -1), (-1, 2)], holes)
+    pieces = convex_pieces(fractions_of(shape))
+    assert sum(map(oracles.ring_area, pieces)) == oracles.exact_area([shape])
+    assert not any(oracles.interiors_meet(tuple(p), tuple(q)) for k, p in enumerate(pieces) for q in pieces[:k])
 
 
 @pytest.mark.slow

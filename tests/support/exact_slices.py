@@ -197,33 +197,71 @@ def convex_pieces(rings: tuple[Ring, ...]) -> tuple[Ring, ...]:
     """Convex rings that tile a polygon with holes: cut from a reflex vertex to one it sees, until there is none.
 
     A cut to a hole joins its ring to the first; a cut within the first divides it, and each hole goes to its part.
+    Where rings touch, the cut has no length; those come first, so that no hole touches a ring that is divided.
     """
-    outer, *holes = rings
+    corners = {p for ring in rings for p in ring}
+    parts = [tuple(_with_touches(ring, corners) for ring in rings)]
+    found = []
+    while parts:
+        rings = parts.pop()
+        cut = _next_cut(rings)
+        if cut is None:
+            found.append(rings[0])
+        else:
+            parts += _divided(rings, *cut)
+    return tuple(found)
+
+
+def _with_touches(ring: Ring, corners: set[Point]) -> Ring:
+    """The ring with those of the corners on it that lie between its own."""
+    whole: list[Point] = []
+    for a, b in edges(ring):
+        on = [v for v in corners if orient(a, b, v) == 0 and _between(a, v, b)]
+        whole += [a, *sorted(on, reverse=b < a)]
+    return tuple(whole)
+
+
+Visit = tuple[int, int]  # which ring, which of its vertices
+
+
+def _next_cut(rings: Sequence[Ring]) -> tuple[Visit, Visit] | None:
+    """Two visits to join, one of them on the first ring, or none if that is all there is and convex."""
     reflex = [(r, k) for r, ring in enumerate(rings) for k in range(len(ring)) if _corner(ring, k) < 0]
-    if not reflex:
-        return (outer,)
-    for r, k in reflex:
-        for s, other in enumerate(rings):
-            for m in range(len(other)):
-                if (r == 0 or s == 0) and _sees(rings, (r, k), (s, m)):
-                    if r == s:
-                        ring = outer[k:] + outer[:k]
-                        m = (m - k) % len(ring)
-                        halves = ring[: m + 1], (*ring[m:], ring[0])
-                        parts = [(half, *(h for h in holes if _contains(half, h[0]))) for half in halves]
-                        return convex_pieces(parts[0]) + convex_pieces(parts[1])
-                    first, second, i, j = (outer, other, k, m) if r == 0 else (outer, rings[r], m, k)
-                    joined = (*first[: i + 1], *second[j:], *second[: j + 1], *first[i:])
-                    rest = [h for n, h in enumerate(holes, 1) if n != max(r, s)]
-                    return convex_pieces((joined, *rest))
-    raise AssertionError("a reflex vertex that sees no vertex")
+    visits = [(r, k) for r, ring in enumerate(rings) for k in range(len(ring))]
+    pairs = [(one, other) for one in reflex for other in visits if one[0] == 0 or other[0] == 0]
+    touches = [(one, other) for one, other in pairs if one != other and _touch(rings, one, other)]
+    if touches:
+        return max(touches, key=lambda touch: touch[0][0] != touch[1][0])
+    if reflex:
+        return next((one, other) for one, other in pairs if _sees(rings, one, other))
+    return None
+
+
+def _divided(rings: Sequence[Ring], one: Visit, other: Visit) -> list[tuple[Ring, ...]]:
+    """The polygon cut open from one visit to the other: with a hole less, or its two parts."""
+    (r, k), (s, m) = (one, other) if one[0] == 0 else (other, one)
+    first, second = (rings[n][v:] + rings[n][:v] for n, v in ((r, k), (s, m)))
+    back = 1 if first[0] == second[0] else 0  # a cut without length has its end but once
+    if r != s:
+        joined = (*first, *first[:1], *second, *second[:1]) if not back else first + second
+        return [(joined, *(ring for n, ring in enumerate(rings[1:], 1) if n != s))]
+    m = (m - k) % len(first)
+    halves = first[: m + 1 - back], (*first[m:], *first[: 1 - back])
+    return [(half, *(hole for hole in rings[1:] if _contains(half, hole[0]))) for half in halves]
 
 
 def _corner(ring: Ring, k: int) -> Any:
     return orient(ring[k - 1], ring[k], ring[(k + 1) % len(ring)])
 
 
-def _sees(rings: Sequence[Ring], one: tuple[int, int], other: tuple[int, int]) -> bool:
+def _touch(rings: Sequence[Ring], one: Visit, other: Visit) -> bool:
+    """Is one in the corner at the other, at the same point?"""
+    ring, k = rings[one[0]], one[1]
+    near, m = rings[other[0]], other[1]
+    return ring[k] == near[m] and any(_in_corner(ring, k, p) for p in (near[m - 1], near[(m + 1) % len(near)]))
+
+
+def _sees(rings: Sequence[Ring], one: Visit, other: Visit) -> bool:
     """Is the open segment between two vertices inside the polygon, touching nothing?"""
     p, q = rings[one[0]][one[1]], rings[other[0]][other[1]]
     if p == q or not (_in_corner(rings[one[0]], one[1], q) and _in_corner(rings[other[0]], other[1], p)):
