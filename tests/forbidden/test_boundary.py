@@ -466,7 +466,15 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
         save(part, tmp_path / "part.npz")
         loaded = load_boundary(tmp_path / "part.npz")
         assert not loaded.complete and np.array_equal(loaded.trimmed, part.trimmed)
+
+
+@pytest.mark.slow
+def test_what_was_done_before_a_limit_is_right_wherever_it_falls() -> None:
+    scene = load_scene(TESTS.parent / "examples/scenes/nest_swim.json")
     whole = boundary(scene)
     assert whole.complete
-    done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
-    assert np.array_equal(whole.trapezoids.lower[done], part.trapezoids.lower)  # what was done is right
+    for _ in range(20):
+        part = boundary(scene, threads=1, max_seconds=0.0)
+        done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
+        assert np.array_equal(whole.trapezoids.patch[done], part.trapezoids.patch)
+        assert np.array_equal(whole.trapezoids.lower[done], part.trapezoids.lower)

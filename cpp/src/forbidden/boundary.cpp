@@ -42,12 +42,15 @@ public:
             const Index j = chosen ? (*chosen)[n] : n;
             if (one.first_patch[j] == one.first_patch[j + 1]) continue;
             one.pillars_near(j, near);
+            std::size_t whole = 0, whole_thin = 0;
             try {
                 for (Index id = one.first_patch[j]; id < one.first_patch[j + 1] && !stop; ++id, ++done) {
+                    whole = found[j].size(), whole_thin = found_thin[j].size();
                     one.trim(id, near, found[j], found_thin[j], mine);
                     trimmed[id] = 1;
                 }
-            } catch (const Stopped&) {  // in the midst of a patch
+            } catch (const Stopped&) {  // in the midst of a patch, of which one chart may be done
+                found[j].resize(whole), found_thin[j].resize(whole_thin);
             }
         }
         const std::lock_guard lock(mutex);
