@@ -466,6 +466,10 @@ def test_a_limit_leaves_a_boundary_that_answers_nothing(tmp_path: Path) -> None:
         save(part, tmp_path / "part.npz")
         loaded = load_boundary(tmp_path / "part.npz")
         assert not loaded.complete and np.array_equal(loaded.trimmed, part.trimmed)
+    whole = boundary(scene)
+    assert whole.complete
+    done = np.isin(whole.trapezoids.patch, np.flatnonzero(part.trimmed))
+    assert np.array_equal(whole.trapezoids.lower[done], part.trapezoids.lower)  # what was done is right
 
 
 @pytest.mark.slow

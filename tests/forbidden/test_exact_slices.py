@@ -102,6 +102,7 @@ def test_convex_pieces_tile_where_holes_touch(holes: list[list[Point]]) -> None:
     shape = ([(-1, -1), (2, -1), (-1, 2)], holes)
     pieces = convex_pieces(fractions_of(shape))
     assert sum(map(oracles.ring_area, pieces)) == oracles.exact_area([shape])
+    assert all(oracles.orient(ring[k - 2], ring[k - 1], ring[k]) >= 0 for ring in pieces for k in range(len(ring)))
     assert not any(oracles.interiors_meet(tuple(p), tuple(q)) for k, p in enumerate(pieces) for q in pieces[:k])
 
 

@@ -226,27 +226,27 @@ Visit = tuple[int, int]  # which ring, which of its vertices
 
 def _next_cut(rings: Sequence[Ring]) -> tuple[Visit, Visit] | None:
     """Two visits to join, one of them on the first ring, or none if that is all there is and convex."""
-    reflex = [(r, k) for r, ring in enumerate(rings) for k in range(len(ring)) if _corner(ring, k) < 0]
     visits = [(r, k) for r, ring in enumerate(rings) for k in range(len(ring))]
-    pairs = [(one, other) for one in reflex for other in visits if one[0] == 0 or other[0] == 0]
-    touches = [(one, other) for one, other in pairs if one != other and _touch(rings, one, other)]
+    reflex = [(r, k) for r, k in visits if _corner(rings[r], k) < 0]
+    pairs = [(one, other) for one in reflex for other in visits if one != other and 0 in (one[0], other[0])]
+    touches = [(one, other) for one, other in pairs if _touch(rings, one, other)]
     if touches:
-        return max(touches, key=lambda touch: touch[0][0] != touch[1][0])
-    if reflex:
-        return next((one, other) for one, other in pairs if _sees(rings, one, other))
-    return None
+        return max(touches, key=lambda touch: touch[0][0] != touch[1][0])  # holes first
+    seen = next(((one, other) for one, other in pairs if _sees(rings, one, other)), None)
+    assert seen or not reflex, "a reflex vertex that sees no vertex"
+    return seen
 
 
 def _divided(rings: Sequence[Ring], one: Visit, other: Visit) -> list[tuple[Ring, ...]]:
     """The polygon cut open from one visit to the other: with a hole less, or its two parts."""
     (r, k), (s, m) = (one, other) if one[0] == 0 else (other, one)
     first, second = (rings[n][v:] + rings[n][:v] for n, v in ((r, k), (s, m)))
-    back = 1 if first[0] == second[0] else 0  # a cut without length has its end but once
+    bridge = int(first[0] != second[0])  # a cut without length has its ends but once
     if r != s:
-        joined = (*first, *first[:1], *second, *second[:1]) if not back else first + second
+        joined = (*first, *first[:bridge], *second, *second[:bridge])
         return [(joined, *(ring for n, ring in enumerate(rings[1:], 1) if n != s))]
     m = (m - k) % len(first)
-    halves = first[: m + 1 - back], (*first[m:], *first[: 1 - back])
+    halves = first[: m + bridge], (*first[m:], *first[:bridge])
     return [(half, *(hole for hole in rings[1:] if _contains(half, hole[0]))) for half in halves]
 
 
