@@ -25,8 +25,7 @@ namespace cfree {
 namespace {
 constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
 constexpr double cells_in_reach = 8;
-// From so many poses on a grid may have so many cells: it takes no longer to make than these poses take.
-constexpr std::array<std::pair<std::size_t, double>, 3> levels_by_poses{{{0, 1 << 8}, {1 << 14, 1 << 12}, {1 << 16, 1 << 14}}};
+constexpr Index few = 4;  // vertices of a piece: looking at all is quicker than choosing
 constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
 
@@ -50,6 +49,16 @@ Vec<double> middle_of_direction(std::size_t k) {
 }
 }  // namespace
 
+// From so many poses on a grid may have so many cells: it takes no longer to make than these poses take. All poses of a box are
+// looked at when so many of them were: most of the large boxes are mixed, and to tell that takes long.
+struct PoseChecker::Fineness {
+    std::size_t poses;
+    double most_cells;
+    State enough;
+};
+constexpr std::array<PoseChecker::Fineness, 3> PoseChecker::finenesses{
+    {{0, 1 << 8, State::twice}, {1 << 14, 1 << 12, State::twice}, {1 << 16, 1 << 14, State::unseen}}};
+
 PoseChecker::Pieces PoseChecker::pieces_of(const Shape& shape) {
     const auto& xy = shape.xy;
     Pieces p;
@@ -64,6 +73,8 @@ PoseChecker::Pieces PoseChecker::pieces_of(const Shape& shape) {
             p.x.push_back(xy[2 * v]), p.y.push_back(xy[2 * v + 1]);
             p.nx.push_back(n.x), p.ny.push_back(n.y), p.h.push_back(n.x * xy[2 * v] + n.y * xy[2 * v + 1]);
         }
+        if ((end - begin) % 2)
+            for (auto* values : {&p.x, &p.y, &p.nx, &p.ny, &p.h}) values->push_back(values->back());
         p.first.push_back(static_cast<Index>(p.x.size()));
         auto& far = p.far.emplace_back();
         for (std::size_t d = 0; d < far.size(); ++d) {
@@ -91,15 +102,21 @@ PoseChecker::PoseChecker(std::shared_ptr<const Scene> s, std::array<double, 4> b
     }
 }
 
+// Two doubles at once.
+using Two = double __attribute__((vector_size(16), aligned(8), may_alias));
+using TwoMasks = long long __attribute__((vector_size(16)));
+static const Two& two(const double* x) { return *reinterpret_cast<const Two*>(x); }
+static Two& two(double* x) { return *reinterpret_cast<Two*>(x); }
+
 // The robot in a pose, in doubles; memory is kept from one pose to the next. Vertices of a piece are placed when asked for.
 struct PoseChecker::Placed {
     const Pieces& at_rest;
     Placement at{};
-    std::vector<double> x, y;
+    std::vector<double> x, y, nx, ny, h;
     std::vector<Ranges> box;  // around the pieces
     std::vector<char> is_placed;
     explicit Placed(const Pieces& p)
-        : at_rest(p), x(p.x.size()), y(p.x.size()), box(p.number.size()), is_placed(p.number.size()) {}
+        : at_rest(p), x(p.x.size()), y(x), nx(x), ny(x), h(x), box(p.number.size()), is_placed(p.number.size()) {}
     // With boxes that are known for the pose at the origin.
     void place(const Placement& pose, const Ranges* around) {
         at = pose;
@@ -122,77 +139,56 @@ struct PoseChecker::Placed {
     void put(Index i) {
         if (is_placed[i]) return;
         is_placed[i] = true;
-        for (Index k = at_rest.first[i]; k < at_rest.first[i + 1]; ++k) {
-            const auto v = vertex(k);
-            x[k] = v.x, y[k] = v.y;
+        for (Index k = at_rest.first[i]; k < at_rest.first[i + 1]; k += 2) {
+            const Two ax = two(&at_rest.x[k]), ay = two(&at_rest.y[k]), bx = two(&at_rest.nx[k]), by = two(&at_rest.ny[k]);
+            const Two px = at.x + (at.c * ax - at.s * ay), py = at.y + (at.s * ax + at.c * ay);
+            const Two qx = at.c * bx - at.s * by, qy = at.s * bx + at.c * by;
+            two(&x[k]) = px, two(&y[k]) = py, two(&nx[k]) = qx, two(&ny[k]) = qy, two(&h[k]) = qx * px + qy * py;
         }
-    }
-    Vec<double> vertex(Index k) const {
-        return {at.x + (at.c * at_rest.x[k] - at.s * at_rest.y[k]), at.y + (at.s * at_rest.x[k] + at.c * at_rest.y[k])};
-    }
-    Vec<double> normal(Index k) const {
-        return {at.c * at_rest.nx[k] - at.s * at_rest.ny[k], at.s * at_rest.nx[k] + at.c * at_rest.ny[k]};
     }
     Vec<double> seen_from(const Vec<double>& d) const { return {at.c * d.x + at.s * d.y, at.c * d.y - at.s * d.x}; }
 };
 
-// Is the outer side of a line n . p = h, by the margin, free of points? A point that is certainly inside is tried first the
-// next time, where the next edge of a ring most likely has one.
-static Verdict beyond(const Vec<double>& n, double h, double margin, const double* x, const double* y, Index count, Index& first) {
-    double least = std::numeric_limits<double>::infinity();
-    Index k = first;
-    for (Index tried = 0; tried < count; ++tried) {
-        const double d = n.x * x[k] + n.y * y[k] - h;
-        if (d <= -margin) {
-            first = k;
-            return Verdict::forbidden;
+// The edges begin <= k < end of a convex polygon, an even number, beside the vertices of another: is all of it on the outer side
+// of one of their lines, by the slack? Else, has each line some of it on its inner side? `far` is one that most likely is.
+static Verdict beside(const double* nx, const double* ny, const double* h, Index count, double slack, const double* x, const double* y,
+                      Index vertices, Index far, bool& is_inside) {
+    is_inside = true;
+    Verdict all = Verdict::forbidden;
+    for (Index k = 0; k < count; k += 2) {
+        const Two ax = two(nx + k), ay = two(ny + k), outer = two(h + k) + slack, inner = two(h + k) - slack;
+        const TwoMasks is_in = ax * x[far] + ay * y[far] <= inner;
+        if (vertices > few && (is_in[0] & is_in[1])) continue;
+        is_inside = false;
+        TwoMasks some_not_out{}, some_in{};
+        for (Index v = 0; v < vertices; ++v) {
+            const Two d = ax * x[v] + ay * y[v];
+            some_not_out |= d < outer, some_in |= d <= inner;
         }
-        least = std::min(least, d);
-        if (++k == count) k = 0;
+        if (!(some_not_out[0] & some_not_out[1])) return Verdict::free;
+        if (!(some_in[0] & some_in[1])) all = Verdict::uncertain;
     }
-    return least >= margin ? Verdict::free : Verdict::uncertain;
+    return all;
 }
 
-// A vertex of each piece that reaches far towards the other is on the inner side of most edges: they do not separate. If it
-// is inside the whole piece, the interiors meet.
+// The vertex of each piece that is tried first reaches far towards the other. If it is inside that, the interiors meet.
 Verdict PoseChecker::meet(Placed& placed, Index i, Index j, const Range& range) const {
     const Index a = robot.first[i], b = obstacles.first[j], n = robot.first[i + 1] - a, m = obstacles.first[j + 1] - b;
     const Vec<double> towards{0.5 * (box[j].x0 + box[j].x1) - placed.at.x, 0.5 * (box[j].y0 + box[j].y1) - placed.at.y};
     double slack = margin + range.shift + range.turn * reach;
-    Index first = robot.far[i][direction_of(placed.seen_from(towards))];
-    const Vec<double> p = placed.vertex(first);
-    const auto is_inner = [&](Index k) { return obstacles.nx[k] * p.x + obstacles.ny[k] * p.y - obstacles.h[k] <= -slack; };
-    Index k = b;
-    while (k < b + m && is_inner(k)) ++k;
-    if (k == b + m) return Verdict::forbidden;
     placed.put(i);
-    first -= a;
-    Verdict all = Verdict::forbidden;
-    for (; k < b + m; ++k) {
-        if (is_inner(k)) continue;
-        const Verdict v = beyond({obstacles.nx[k], obstacles.ny[k]}, obstacles.h[k], slack, &placed.x[a], &placed.y[a], n, first);
-        if (v == Verdict::free || (v == Verdict::uncertain && range.wanted == Verdict::forbidden)) return v;
-        if (v == Verdict::uncertain) all = v;
-    }
+    bool is_inside;
+    const Index p = n > few ? robot.far[i][direction_of(placed.seen_from(towards))] - a : 0;
+    const Verdict v = beside(&obstacles.nx[b], &obstacles.ny[b], &obstacles.h[b], m, slack, &placed.x[a], &placed.y[a], n, p, is_inside);
+    if (v == Verdict::free || is_inside) return v;
     if (range.turn > 0) {  // seen from the robot, the farthest vertex moves most
         const double dx = std::max(box[j].x1 - placed.at.x, placed.at.x - box[j].x0);
         const double dy = std::max(box[j].y1 - placed.at.y, placed.at.y - box[j].y0);
         slack = margin + range.shift + range.turn * (std::abs(dx) + std::abs(dy));
     }
-    first = obstacles.far[j][direction_of({-towards.x, -towards.y})];
-    const Vec<double> q = placed.seen_from({obstacles.x[first] - placed.at.x, obstacles.y[first] - placed.at.y});
-    first -= b;
-    bool is_inside = true;
-    for (k = a; k < a + n; ++k) {
-        if (robot.nx[k] * q.x + robot.ny[k] * q.y - robot.h[k] <= -slack) continue;
-        is_inside = false;
-        const auto normal = placed.normal(k);
-        const double h = normal.x * placed.x[k] + normal.y * placed.y[k];
-        const Verdict v = beyond(normal, h, slack, &obstacles.x[b], &obstacles.y[b], m, first);
-        if (v == Verdict::free || (v == Verdict::uncertain && range.wanted == Verdict::forbidden)) return v;
-        if (v == Verdict::uncertain) all = v;
-    }
-    return is_inside ? Verdict::forbidden : all;
+    const Index q = m > few ? obstacles.far[j][direction_of({-towards.x, -towards.y})] - b : 0;
+    const Verdict w = beside(&placed.nx[a], &placed.ny[a], &placed.h[a], n, slack, &obstacles.x[b], &obstacles.y[b], m, q, is_inside);
+    return w == Verdict::free || is_inside ? w : std::max(v, w);
 }
 
 // All pieces of the robot against some of the obstacles', up to a pair that is forbidden; `decide` is asked about pairs that are
@@ -207,7 +203,7 @@ Verdict PoseChecker::against(Placed& placed, const Index* list, std::size_t coun
         for (std::size_t m = 0; m < count; ++m) {
             const Index j = list[m];
             const Ranges& o = box[j];
-            if (r.x0 > o.x1 || o.x0 > r.x1 || r.y0 > o.y1 || o.y0 > r.y1) continue;
+            if ((r.x0 > o.x1) | (o.x0 > r.x1) | (r.y0 > o.y1) | (o.y0 > r.y1)) continue;
             Verdict v = meet(placed, i, j, range);
             if (v == Verdict::uncertain) v = decide(i, j);
             if (v == Verdict::forbidden) return v;
@@ -235,7 +231,9 @@ double PoseChecker::distance(const Pieces& p, Index piece, double x, double y) c
     return inside ? 0 : least;
 }
 
-void PoseChecker::fill(Grid& g, double most_cells) const {
+void PoseChecker::fill(Grid& g, const Fineness& fineness) const {
+    const double most_cells = fineness.most_cells;
+    g.enough = fineness.enough;
     Ranges around{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
                   -std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const Ranges& b : box) {
@@ -303,9 +301,9 @@ void PoseChecker::fill(Grid& g, double most_cells) const {
 PoseChecker::Grid& PoseChecker::near(std::size_t poses) const {
     const std::size_t all = asked.fetch_add(poses, std::memory_order_relaxed) + poses;
     std::size_t k = levels.size() - 1;
-    while (all < levels_by_poses[k].first) --k;
+    while (all < finenesses[k].poses) --k;
     Level& level = levels[k];
-    std::call_once(level.once, [&] { fill(level.grid, levels_by_poses[k].second); });
+    std::call_once(level.once, [&] { fill(level.grid, finenesses[k]); });
     return level.grid;
 }
 
@@ -331,30 +329,28 @@ static Vec<double> direction(double theta, std::size_t sector) {
     return {middles[sector].x * c - middles[sector].y * s, middles[sector].y * c + middles[sector].x * s};
 }
 
-// What is known of the other poses in its box: that they have the same verdict, or nothing.
+// Of all poses in its box, where they have the same and enough were looked at before; else of this one.
 Verdict PoseChecker::verdict(Grid& g, std::size_t slot, const double* pose, Placed& placed) const {
     const std::size_t cell = slot / sectors, sector = slot % sectors, width = static_cast<std::size_t>(g.nx);
     const Index* list = &g.member[g.start[cell]];
     const auto count = static_cast<std::size_t>(g.start[cell + 1] - g.start[cell]);
-    const auto place = [&](double x, double y, double theta) {
+    const auto look = [&](double x, double y, double theta, const Range& range) {
         const auto [c, s] = direction(theta, sector);
         placed.place({x, y, c, s}, &g.around[sector * robot.number.size()]);
+        return against(placed, list, count, range, [](Index, Index) { return Verdict::uncertain; });
     };
-    place(pose[0], pose[1], pose[2]);
-    const Verdict found = against(placed, list, count, {}, [](Index, Index) { return Verdict::uncertain; });
     std::atomic<State>& known = g.known[slot];
     const State state = known.load(std::memory_order_relaxed);
-    if (state == State::unseen) known.store(State::once, std::memory_order_relaxed);
-    if (state == State::once) known.store(State::twice, std::memory_order_relaxed);
-    if (state != State::twice) return found;
-    const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
-    place(g.x0 + x * g.side, g.y0 + y * g.side, middle_of(sector));
-    const Verdict other = found == Verdict::free ? Verdict::forbidden : Verdict::uncertain;  // one pair ends the search, or none
-    const Verdict all = against(placed, list, count, {g.radius, half_sector, found}, [=](Index, Index) { return other; });
-    State now = State::mixed;
-    if (all == found && found != Verdict::uncertain) now = found == Verdict::free ? State::free : State::forbidden;
-    known.store(now, std::memory_order_relaxed);
-    return found;
+    if (state < g.enough) {
+        known.store(state == State::unseen ? State::once : State::twice, std::memory_order_relaxed);
+    } else if (state != State::mixed) {
+        const double x = static_cast<double>(cell % width) + 0.5, y = static_cast<double>(cell / width) + 0.5;
+        const Verdict all = look(g.x0 + x * g.side, g.y0 + y * g.side, middle_of(sector), {g.radius, half_sector});
+        known.store(all == Verdict::free ? State::free : all == Verdict::forbidden ? State::forbidden : State::mixed,
+                    std::memory_order_relaxed);
+        if (all != Verdict::uncertain) return all;
+    }
+    return look(pose[0], pose[1], pose[2], {});
 }
 
 void PoseChecker::check(const double* poses, std::size_t count, int threads, Verdict* out) const {

@@ -60,7 +60,6 @@ private:
     // Poses around one: the reference point no further away than `shift`, turned by no more than `turn`. Verdicts hold for all.
     struct Range {
         double shift = 0, turn = 0;
-        Verdict wanted = Verdict::uncertain;  // forbidden: others need not be told apart
     };
     Verdict meet(Placed& robot, Index i, Index j, const Range& range) const;
     template <class F>
@@ -68,11 +67,12 @@ private:
     bool overlap(const ExactPlacement& at, Index i, Index j) const;
 
     // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
-    // of all poses there, found when a third one comes by; threads may find it twice, and find the same.
-    enum class State : std::uint8_t { unseen, once, twice, forbidden, free, mixed };
+    // of all poses there; threads may find it twice, and find the same.
+    enum class State : std::uint8_t { unseen, once, twice, forbidden, free, mixed };  // looked at once or twice: not known
     struct Grid {
         double x0 = 0, y0 = 0, side = 0, per_unit = 0, radius = 0;  // radius: of a cell, and a little more
         Index nx = 0, ny = 0;
+        State enough{};
         std::vector<Index> start, member;
         std::vector<Ranges> around;  // by sector and robot piece: boxes that hold it, the reference point at the origin
         std::vector<std::atomic<State>> known;
@@ -81,7 +81,9 @@ private:
     // For so many poses more: the more have been asked for, the finer. Each is made when first needed.
     Grid& near(std::size_t poses) const;
     Verdict verdict(Grid& grid, std::size_t slot, const double* pose, Placed& placed) const;
-    void fill(Grid& grid, double most_cells) const;
+    struct Fineness;
+    static const std::array<Fineness, 3> finenesses;
+    void fill(Grid& grid, const Fineness& fineness) const;
 
     std::shared_ptr<const Scene> scene;
     std::array<double, 4> limits;
