@@ -59,9 +59,9 @@ void AngleTable::sort_chart(int chart, int threads) {
 
 // Appends the angles of a cluster in order, and ranks its members by their places there.
 void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered) {
-    // one of each name stands for all that agree with it
+    // one of each short name stands for all that agree with it
     std::vector<std::pair<CriticalAngle::Name, const Angle*>> named;
-    for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).name(scene), x});
+    for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).short_name(scene), x});
     std::sort(named.begin(), named.end());
     struct Class {
         CriticalAngle angle;

@@ -17,9 +17,55 @@ CriticalAngle::Name CriticalAngle::name(const Scene& scene) const {
     return names;
 }
 
+// Whether a vertex is on the line of an edge, certainly.
+static bool is_on_line(const Shape& s, Index v, Index e) {
+    if (v == s.v[e] || v == s.w[e]) return true;
+    const Approx off = cross(edge<Approx>(s, e), difference<Approx>(s, v, s.v[e]));
+    if (std::abs(off.v) > coefficient_error * off.m + tiny) return false;
+    return certain_sign(cross(edge<Ball>(s, e), difference<Ball>(s, v, s.v[e]))) == 0;
+}
+
+// Of a surface, and another or a helix that puts a second vertex on its edge's line. They do so at the angle if the chord is seen to
+// turn parallel to the edge in its interval: the polynomial is zero then as well, and has no other root there.
+std::optional<CriticalAngle::Name> CriticalAngle::chord(const Scene& scene, const Feature& x, const Feature& y) const {
+    const bool on_edge = x.kind == Kind::vertex_edge;
+    if (y.kind != x.kind && y.kind != Kind::vertex_vertex) return {};
+    const Shape &own = on_edge ? scene.robot : scene.obstacles, &other = on_edge ? scene.obstacles : scene.robot;
+    const auto [v, e] = on_edge ? std::pair(x.robot, x.obstacle) : std::pair(x.obstacle, x.robot);
+    const auto [w, f] = on_edge ? std::pair(y.robot, y.obstacle) : std::pair(y.obstacle, y.robot);
+    if (own.point[v] == own.point[w]) return {};
+    const bool is_along = y.kind == x.kind ? other.direction[f] == other.direction[e] && is_on_line(other, other.v[f], e)
+                                           : is_on_line(other, f, e);
+    if (!is_along || !Predicates(scene, surface).turns_parallel(on_edge, v, w, e, lo, hi)) return {};
+    if (own.w[v] == w || own.w[w] == v) {  // an edge
+        const Index along = own.w[v] == w ? v : w;
+        return Name{0, 0, code(scene, {Kind::edge_edge, on_edge ? along : e, on_edge ? e : along})};
+    }
+    const auto [p, q] = std::minmax(own.point[v], own.point[w]);
+    return Name{0, packed({x.kind, p, q}), packed({Kind::edge_edge, 0, other.direction[e]})};
+}
+
+std::optional<CriticalAngle::Name> CriticalAngle::chord(const Scene& scene) const {
+    if (place != 0 || !(-1 < lo && hi < 1)) return {};
+    if (first.kind == Kind::edge_edge) return Name{0, 0, code(scene, first)};
+    std::optional<Name> found;
+    const auto look = [&](const Feature& x, const Feature& y) {
+        const auto name = x.kind == Kind::vertex_vertex ? chord(scene, y, x) : chord(scene, x, y);
+        if (name && (!found || *name < *found)) found = name;
+    };
+    look(surface.contact, first);
+    if (second.kind != Kind::none) look(surface.contact, second), look(first, second);
+    return found;
+}
+
+CriticalAngle::Name CriticalAngle::short_name(const Scene& scene) const {
+    const auto found = chord(scene);
+    return found ? *found : name(scene);
+}
+
 bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>& same) {
     const CriticalAngle& x = same[0];
-    if (x.is_chart_end()) return true;
+    if (x.is_chart_end() || x.chord(scene)) return true;
     double low = x.lo, high = x.hi;
     for (const CriticalAngle& y : same) {
         if (y.place != 0) return false;
@@ -71,7 +117,7 @@ static bool are_one_of_few_digits(const Scene& scene, const CriticalAngle& x, co
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
-    if (x.name(scene) == y.name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
+    if (x.short_name(scene) == y.short_name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
     if (are_one_of_few_digits(scene, x, y)) return 0;
     if (const auto &p = x.bracket(scene), &q = y.bracket(scene); p && q) {
         if (is_below((*p)[1], (*q)[0])) return -1;

@@ -73,6 +73,14 @@ Predicates::Form Predicates::form(const Event& x) const {
     return {{2, offset(x.first.robot, x.first.obstacle), {}, {}, {}}};
 }
 
+bool Predicates::turns_parallel(bool robot, Index v, Index w, Index e, double lo, double hi) const {
+    const auto chord = difference<Approx>(robot ? scene.robot : scene.obstacles, w, v);
+    const auto along = edge<Approx>(robot ? scene.obstacles : scene.robot, e);
+    const Filtered f = filtered(robot ? parallel_trig(chord, along) : parallel_trig(along, chord));
+    const double below = f.polar(lo, lo), above = f.polar(hi, hi);
+    return (below < -f.err && above > f.err) || (below > f.err && above < -f.err);
+}
+
 // --- signs -----------------------------------------------------------------------------------------------------------
 
 template <class T>

@@ -22,7 +22,10 @@ public:
     // What meets there, the same whoever says it: three surfaces, a helix and a surface, two parallel edges, or the end of a chart.
     using Name = std::array<Code, 3>;
     Name name(const Scene& scene) const;
-    // Of angles with one name: whether they are seen to be one. Each is the only root of one polynomial in its interval.
+    // If two of these put two vertices of one shape on the line of an edge of the other, the chord and the edge's direction: there is
+    // one angle in a chart at which they are parallel, whatever else meets there. Otherwise the name.
+    Name short_name(const Scene& scene) const;
+    // Of angles with one short name: whether they are seen to be one. Each is the only root of one polynomial in its interval.
     static bool are_one(const Scene& scene, const std::vector<CriticalAngle>& same);
     const RealRoot& exact(const Scene& scene) const;
     const std::optional<Predicates::Bracket>& bracket(const Scene& scene) const;
@@ -32,6 +35,8 @@ public:
     const Surface& on() const { return surface; }
 
 private:
+    std::optional<Name> chord(const Scene& scene, const Feature& x, const Feature& y) const;
+    std::optional<Name> chord(const Scene& scene) const;
     Surface surface;
     mutable std::shared_ptr<RealRoot> root;  // once needed
     mutable std::optional<std::optional<Predicates::Bracket>> narrow;

@@ -145,6 +145,9 @@ public:
     Event restored(const Event& x, int place);
     // Whether the polynomial of an angle has certain, opposite signs at lo and hi.
     bool changes_sign(const Event& x, double lo, double hi) const;
+    // Whether, certainly, the line through vertices v and w of the robot, or else of the obstacles, turns parallel to an edge of the other
+    // shape between lo and hi.
+    bool turns_parallel(bool robot, Index v, Index w, Index edge, double lo, double hi) const;
     // Whether an angle of that place is the only root of its polynomial there.
     bool isolates(const Event& x, int place) const;
     // Whether 0 <= lower <= upper <= 1 for two curves everywhere between two angles.
@@ -176,6 +179,10 @@ private:
     Trig<T> offset_trig(Index s, Index v) const;
     template <class T>
     Trig<T> parallel_trig(Index g, Index f) const;
+    template <class T>
+    static Trig<T> parallel_trig(const Vec<T>& G, const Vec<T>& F) {
+        return {T{}, cross(G, F), -dot(G, F)};
+    }
     template <class T>
     std::array<Trig<T>, 2> curve_trig(const Feature& f) const;  // N and D
     Filtered filtered(const Trig<Approx>& f) const;
@@ -237,8 +244,7 @@ Trig<T> Predicates::offset_trig(Index s, Index v) const {
 
 template <class T>
 Trig<T> Predicates::parallel_trig(Index g, Index f) const {
-    const auto G = edge<T>(scene.robot, g), F = edge<T>(scene.obstacles, f);
-    return {T{}, cross(G, F), -dot(G, F)};
+    return parallel_trig(edge<T>(scene.robot, g), edge<T>(scene.obstacles, f));
 }
 
 inline Filtered Predicates::filtered(const Trig<Approx>& f) const {
