@@ -2,6 +2,7 @@
 #include "cfree/search/balance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -24,8 +25,12 @@ constexpr double not_much = 1.08;                          // longer
 constexpr std::size_t most_nodes = 40;                     // joined each with each
 constexpr int most_fails = 2;                              // before longer joins are not tried
 constexpr double wider = 1.3;                              // than a narrow place, another way
-constexpr int checks_by_pose = 30, most_checks = 3000;      // to find them: more on a way that was hard to find itself
-constexpr int checks_at_once = 50, runs = 6;               // at one place
+constexpr double almost = 0.9, straight = 1e-3;            // of a distance kept; turning, of travel, that is none
+constexpr double shortest_line = 0.05;                     // radii
+constexpr double step_of_guess = 0.25;                     // radii
+constexpr int guesses_by_pose = 300, most_guesses = 30000;  // to find them: more on a way that was hard to find itself
+constexpr int guesses_at_once = 500, runs = 4;              // at one place
+constexpr std::array beside_place = {1.0, 4.0};             // radii: of the area for that
 
 // A few motions instead of many that cost as much, each pose one of the path's: doubling, then halving.
 Marked pruned(const Way& way, const Marked& path) {
@@ -143,30 +148,93 @@ void replace(Ridge& top, std::size_t i, std::size_t j, const Ridge& by) {
 }
 
 // From one pose of a ridge to another anew, by two trees, keeping a distance.
-Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j, double asked, int& checks) {
+Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j, double asked, double beside, int& guesses) {
     const Route& route = top.path.route;
-    const double radius = way.costs.weight;
+    const double radius = way.costs.weight, step = step_of_guess * radius;
     Area area{HUGE_VAL, HUGE_VAL, -HUGE_VAL, -HUGE_VAL};
     for (std::size_t k = i; k <= j; ++k) {
-        area.x0 = std::min(area.x0, route[k].px - radius), area.x1 = std::max(area.x1, route[k].px + radius);
-        area.y0 = std::min(area.y0, route[k].py - radius), area.y1 = std::max(area.y1, route[k].py + radius);
+        area.x0 = std::min(area.x0, route[k].px - beside), area.x1 = std::max(area.x1, route[k].px + beside);
+        area.y0 = std::min(area.y0, route[k].py - beside), area.y1 = std::max(area.y1, route[k].py + beside);
     }
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
+    const auto seems = [&](const Place& a, const Place& b) {
+        const double length = norm(b.x - a.x, b.y - a.y) + radius * std::abs(wrapped(b.theta - a.theta));
+        const int count = static_cast<int>(length / step) + 1;
+        for (int k = count; k > 0; --k)
+            if (way.nearness->distance(along(a, b, static_cast<double>(k) / count), asked) < asked) return false;
+        return true;
+    };
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
-    const auto exact = [&](const Place& q) { return way.grid.exact(q.x, q.y, q.theta); };
-    const auto seems = [&](const Place& a, const Place& b) { return joins(exact(a), exact(b)); };
     RrtConnect search({seems, joins}, way.grid, area, radius, route[i], route[j], 0);
     Route found;
-    for (int k = 0; k < runs && checks > 0 && found.empty(); ++k, checks -= checks_at_once) found = search.run(checks_at_once);
+    for (int k = 0; k < runs && guesses > 0 && found.empty(); ++k, guesses -= guesses_at_once) found = search.run(guesses_at_once);
     return found;
 }
 
-// Past the narrowest place that has not been tried by another way, wider than that. False: there is none.
-bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int& checks) {
+// A part of a ridge, and what may come in its place.
+struct Detour {
+    std::size_t i, j;
+    Route route;
+};
+
+// Its ridge, or itself if that is narrower.
+void put_in(const Way& way, Ridge& top, const Detour& by, double level, double asked) {
+    Ridge part = ridge(way, by.route, level);
+    if (narrowest_of(part) < asked) part = {{by.route, costs_along(by.route, way.length())}, std::vector<double>(by.route.size(), asked)};
+    replace(top, by.i, by.j, part);
+}
+
+// Straight into a narrow place, turned before it: the line of a motion beyond the place that does not turn is followed back until
+// a pose before the place can be joined to its end.
+Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
     const double radius = way.costs.weight;
-    while (checks > 0) {
+    for (std::size_t m = narrowest; m + 1 < route.size() && at[m] - at[narrowest] < radii_beside * radius; ++m) {
+        const Configuration &p = route[m], &q = route[m + 1];
+        const double length = norm(p.px - q.px, p.py - q.py), kept = almost * std::min(top.distance[m], top.distance[m + 1]);
+        if (kept < asked || length < shortest_line * radius || radius * std::abs(turn_between(p, q)) > straight * length) continue;
+        const double past = norm(route[narrowest].px - q.px, route[narrowest].py - q.py);
+        for (const double radii : {0.25, 0.5, 1.0, 2.0}) {
+            const double by = (past + radii * radius) / length;
+            const Configuration end = corner(way.grid.exact(q.px + by * (p.px - q.px), q.py + by * (p.py - q.py), q.theta), q);
+            if (!way.keeps(end, q, kept)) break;
+            for (std::size_t k = narrowest; k-- > 0 && at[narrowest] - at[k] < (radii + radii_beside) * radius;) {
+                if (top.distance[k] < kept) continue;
+                for (const Route& join : {Route{route[k], end}, Route{route[k], corner(route[k], end), end}, Route{route[k], corner(end, route[k]), end}}) {
+                    bool is_joined = true;
+                    for (std::size_t n = 1; is_joined && n < join.size(); ++n) is_joined = way.keeps(join[n - 1], join[n], kept);
+                    if (!is_joined) continue;
+                    Detour found{k, m + 1, join};
+                    found.route.push_back(q);
+                    return found;
+                }
+            }
+        }
+    }
+    return {};
+}
+
+// The same in either direction.
+Detour straight_past_either(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
+    if (Detour found = straight_past(way, top, narrowest, asked); !found.route.empty()) return found;
+    Ridge back = top;
+    std::reverse(back.path.route.begin(), back.path.route.end());
+    std::reverse(back.distance.begin(), back.distance.end());
+    std::reverse(back.path.mark.begin(), back.path.mark.end());
+    for (double& m : back.path.mark) m = top.path.mark.back() - m;
+    const std::size_t last = top.distance.size() - 1;
+    Detour found = straight_past(way, back, last - narrowest, asked);
+    std::reverse(found.route.begin(), found.route.end());
+    return {last - found.j, last - found.i, std::move(found.route)};
+}
+
+// Past the narrowest place that has not been tried by another way, wider than that. False: there is none.
+bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int& guesses) {
+    const auto& at = top.path.mark;
+    const Route& route = top.path.route;
+    const double radius = way.costs.weight;
+    while (guesses > 0) {
         std::size_t narrowest = 0;
         double least = HUGE_VAL;
         const auto is_new = [&](std::size_t k) {
@@ -178,17 +246,22 @@ bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int&
             if (top.distance[k] < least && is_new(k)) least = top.distance[k], narrowest = k;
         if (least == HUGE_VAL) return false;
         tried.push_back(route[narrowest]);
-        const double asked = wider * least;
+        const double asked = least > way.nearness->least() ? wider * least : 0.5 * lowest * radius;
+        if (least < narrow * radius)
+            if (const Detour found = straight_past_either(way, top, narrowest, asked); !found.route.empty()) {
+                put_in(way, top, found, level, asked);
+                return true;
+            }
         std::size_t i = narrowest, j = narrowest;
         while (i > 0 && (at[narrowest] - at[i] < radius || top.distance[i] < asked)) --i;
         while (j + 1 < at.size() && (at[j] - at[narrowest] < radius || top.distance[j] < asked)) ++j;
         if (top.distance[i] < asked || top.distance[j] < asked) continue;
-        const Route found = another_way(way, top, i, j, asked, checks);
+        Route found;
+        for (const double beside : beside_place)
+            if (found.empty()) found = another_way(way, top, i, j, asked, beside * radius, guesses);
         if (found.empty()) continue;
-        if (const Ridge part = ridge(way, found, level); narrowest_of(part) > least) {
-            replace(top, i, j, part);
-            return true;
-        }
+        put_in(way, top, {i, j, found}, level, asked);
+        return true;
     }
     return false;
 }
@@ -230,29 +303,47 @@ Balanced shortest_along(const Way& way, const Ridge& top, std::size_t nodes) {
     return std::move(*found);
 }
 
+// A ridge, the distance up to which it was pushed, and the most that makes sense.
+struct Pushed {
+    Ridge ridge;
+    double level, most;
+};
+
+// On to greater distances, until no part gains.
+void push_on(const Way& way, Pushed& top) {
+    const double radius = way.costs.weight;
+    for (;;) {
+        std::vector<double> asked = distances_asked(top.ridge, radius, share_between, all_parts);
+        if (top.level == top.most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * top.level) return;
+        const double level = std::min(top.most, top.level * (top.level < radius / 5 ? 4 : 2));
+        Ridge next = ridge(way, pruned(way.asking(top.ridge.path, std::move(asked)), top.ridge.path).route, level);
+        if (narrowest_of(next) < gained * narrowest_of(top.ridge) - way.nearness->least()) return;  // it has lost its way
+        top.ridge = std::move(next), top.level = level;
+    }
+}
+
+Pushed pushed(const Way& way, const Route& route) {
+    Way any = way;
+    any.nearness = nullptr;
+    const Route path = pruned(any, {route, std::vector<double>(route.size())}).route;
+    const double most = most_distance(way, path), level = std::min(most, lowest * way.costs.weight);
+    Pushed top{ridge(way, path, level), level, most};
+    push_on(way, top);
+    return top;
+}
+
 }  // namespace
 
 Balanced balanced(const Way& way, const Route& route) {
     Way plain = way;  // preferences come last
     plain.costs = way.length();
-    Way any = plain;
-    any.nearness = nullptr;
-    const Route path = pruned(any, {route, std::vector<double>(route.size())}).route;
-    const double most = most_distance(way, path), radius = way.costs.weight;
+    const int poses = static_cast<int>(route.size());
+    Pushed top = pushed(plain, route);
     Route tried;
-    int checks = std::min(most_checks, checks_by_pose * static_cast<int>(route.size()));
-    double level = std::min(most, lowest * radius);
-    Ridge top = ridge(way, path, level);
-    do {
-        for (;;) {
-            std::vector<double> asked = distances_asked(top, radius, share_between, all_parts);
-            if (level == most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * level) break;
-            level = std::min(most, level * (level < radius / 5 ? 4 : 2));
-            top = ridge(way, pruned(plain.asking(top.path, std::move(asked)), top.path).route, level);
-        }
-    } while (past_narrowest(way, top, level, tried, checks));
-    climb_on(way, top, level);
-    return shortest_along(way, top, std::min(most_nodes, 12 + route.size() / 2));
+    for (int guesses = std::min(most_guesses, guesses_by_pose * poses); past_narrowest(plain, top.ridge, top.level, tried, guesses);)
+        push_on(plain, top);
+    climb_on(plain, top.ridge, top.level);
+    return shortest_along(way, top.ridge, std::min(most_nodes, 12 + route.size() / 2));
 }
 
 }  // namespace cfree
