@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import math
+import random
 from fractions import Fraction
 from pathlib import Path as FilePath
 
@@ -15,6 +16,7 @@ from hypothesis import strategies as st
 import cfree
 import strategies
 from cfree import save
+from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Rotation, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import FormatError, UnsupportedError
@@ -229,12 +231,35 @@ def test_clearance_is_known_beside_a_turning_rod(gap: Fraction) -> None:
     assert cfree.clearance(path, Scene(robot=scene.robot, obstacles=[])) is None
 
 
+def test_what_a_translation_keeps_is_known_however_long_and_narrow_its_way_is() -> None:
+    gap = 2.0**-20
+    scene = Scene(robot=box(-1, -1, 1, 1), obstacles=[box(-9, -3, 999, -1 - gap), box(-9, 1 + 2 * gap, 999, 3)])
+    found = cfree.clearance(Path(Pose(0, 0), [Translation((900, 0))]), scene, tolerance=1.0)
+    assert found is not None and found.obstacle == (0, 2)
+    assert found.found == pytest.approx(gap) and found.least > 0.99 * gap
+
+
+@given(seed=st.integers(0, 10**6))
+def test_the_narrowest_place_of_a_translation_is_that_of_samples(seed: int) -> None:
+    rng = random.Random(seed)
+    pegs = [[(x, y), (x + 1, y), (x, y + 1)] for x in range(0, 20, 5) for y in (rng.uniform(-7, -4), rng.uniform(3, 6))]
+    scene = Scene(robot=[(-1, -1), (2, 0), (0, rng.uniform(0.5, 1.5))], obstacles=pegs)
+    path = Path(Pose(-3, 0, rng.uniform(0, 6)), [Translation((23, rng.uniform(-0.5, 0.5)))])
+    found = cfree.clearance(path, scene)
+    distances = EdgeDistances(scene)
+    shares = np.array([*np.linspace(0, 1, 2000), found.share])
+    robot = path.motions[0].sample(path.start, shares).apply(distances.robot.reshape(-1, 2))
+    sampled, _, _ = distances.nearest(robot.reshape(len(shares), *distances.robot.shape))
+    assert sampled[-1] == pytest.approx(found.found, abs=1e-12) and found.least <= found.found
+    assert found.found - 1e-12 <= sampled.min() <= found.found + 0.02
+
+
 def test_a_path_that_touches_has_no_clearance() -> None:
     scene = Scene(robot=box(-1, -1, 1, 1), obstacles=box(-9, -3, 9, -1), workspace=box(-9, -9, 9, 9))
     path = Path(Pose(0, 4), [Translation((0, -4)), Translation((3, 0))])
     assert path.is_free(MotionChecker(scene))
     found = cfree.clearance(path, scene)
-    assert found is not None and (found.least, found.found, found.motion) == (0, 0, 1)
+    assert found is not None and (found.least, found.found, found.motion, found.share) == (0, 0, 0, 1)
     with pytest.raises(ValueError, match="the path is not free"):
         cfree.clearance(Path(Pose(0, 4), [Translation((0, -5))]), scene)
     with pytest.raises(ValueError, match="tolerance 0: give a positive one"):

@@ -70,6 +70,17 @@ def test_a_peg_goes_before_its_hole_turns_and_goes_in() -> None:
     assert len(path.motions) <= 5 and path.turning < 1.01 * math.pi / 2 and least(path, scene) >= 0.025
 
 
+@pytest.mark.parametrize("width", [2.0**-6, 2.0**-10, 2.0**-13])
+def test_a_long_slot_is_passed_straight_turned_before_and_after(width: float) -> None:
+    gap = 0.5 + width / 2
+    walls, room = [box(0, -9, 12, 9 - gap), box(0, gap, 12, 8)], box(-12, -9.5, 36, 19)
+    robot, ends = box(-1.5, -0.5, 3, 1), {"start": Pose(-8, 4, "50deg"), "goal": Pose(20, -5, "-100deg")}
+    scene = Scene(robot, walls, workspace=room, **ends)  # type: ignore[arg-type]
+    path = found(scene)
+    assert least(path, scene) >= 0.5 * width / 2
+    assert len(path.motions) <= 9 and path.turning < 1.01 * math.radians(150)
+
+
 def test_a_maze_is_passed_without_needless_turning() -> None:
     walls = [box(2 * k, -1 if k % 2 else 0, 0.25, 5) for k in range(1, 5)]
     scene = Scene(box(-0.3, -0.15, 0.6, 0.3), walls, workspace=box(0, -1, 10, 6), start=Pose(1, 0), goal=Pose(9, 3))

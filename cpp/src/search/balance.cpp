@@ -18,6 +18,7 @@ namespace {
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
 constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
 constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
+constexpr double lost = 0.3;                               // of the narrowest place's distance: not by a ridge's next level
 constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
 constexpr double radii_beside = 3;                         // of way before and after it
 constexpr double worth_of_motion = 0.1;                    // in radii
@@ -171,22 +172,23 @@ Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j
     return found;
 }
 
-// A part of a ridge, and what may come in its place.
+// A part of a ridge, what may come in its place, and which distance that keeps.
 struct Detour {
     std::size_t i, j;
     Route route;
+    double kept;
 };
 
 // Its ridge, or itself if that is narrower.
-void put_in(const Way& way, Ridge& top, const Detour& by, double level, double asked) {
+void put_in(const Way& way, Ridge& top, const Detour& by, double level) {
     Ridge part = ridge(way, by.route, level);
-    if (narrowest_of(part) < asked) part = {{by.route, costs_along(by.route, way.length())}, std::vector<double>(by.route.size(), asked)};
+    if (narrowest_of(part) < by.kept) part = {{by.route, costs_along(by.route, way.length())}, std::vector<double>(by.route.size(), by.kept)};
     replace(top, by.i, by.j, part);
 }
 
 // Straight into a narrow place, turned before it: the line of a motion beyond the place that does not turn is followed back until
 // a pose before the place can be joined to its end.
-Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
+Detour straight_into(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
     const auto& at = top.path.mark;
     const Route& route = top.path.route;
     const double radius = way.costs.weight;
@@ -205,7 +207,7 @@ Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, do
                     bool is_joined = true;
                     for (std::size_t n = 1; is_joined && n < join.size(); ++n) is_joined = way.keeps(join[n - 1], join[n], kept);
                     if (!is_joined) continue;
-                    Detour found{k, m + 1, join};
+                    Detour found{k, m + 1, join, kept};
                     found.route.push_back(q);
                     return found;
                 }
@@ -216,17 +218,17 @@ Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, do
 }
 
 // The same in either direction.
-Detour straight_past_either(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
-    if (Detour found = straight_past(way, top, narrowest, asked); !found.route.empty()) return found;
+Detour straight_past(const Way& way, const Ridge& top, std::size_t narrowest, double asked) {
+    if (Detour found = straight_into(way, top, narrowest, asked); !found.route.empty()) return found;
     Ridge back = top;
     std::reverse(back.path.route.begin(), back.path.route.end());
     std::reverse(back.distance.begin(), back.distance.end());
     std::reverse(back.path.mark.begin(), back.path.mark.end());
     for (double& m : back.path.mark) m = top.path.mark.back() - m;
     const std::size_t last = top.distance.size() - 1;
-    Detour found = straight_past(way, back, last - narrowest, asked);
+    Detour found = straight_into(way, back, last - narrowest, asked);
     std::reverse(found.route.begin(), found.route.end());
-    return {last - found.j, last - found.i, std::move(found.route)};
+    return {last - found.j, last - found.i, std::move(found.route), found.kept};
 }
 
 // Past the narrowest place that has not been tried by another way, wider than that. False: there is none.
@@ -248,8 +250,8 @@ bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int&
         tried.push_back(route[narrowest]);
         const double asked = least > way.nearness->least() ? wider * least : 0.5 * lowest * radius;
         if (least < narrow * radius)
-            if (const Detour found = straight_past_either(way, top, narrowest, asked); !found.route.empty()) {
-                put_in(way, top, found, level, asked);
+            if (const Detour found = straight_past(way, top, narrowest, asked); !found.route.empty()) {
+                put_in(way, top, found, level);
                 return true;
             }
         std::size_t i = narrowest, j = narrowest;
@@ -260,7 +262,7 @@ bool past_narrowest(const Way& way, Ridge& top, double level, Route& tried, int&
         for (const double beside : beside_place)
             if (found.empty()) found = another_way(way, top, i, j, asked, beside * radius, guesses);
         if (found.empty()) continue;
-        put_in(way, top, {i, j, found}, level, asked);
+        put_in(way, top, {i, j, found, asked}, level);
         return true;
     }
     return false;
@@ -317,7 +319,7 @@ void push_on(const Way& way, Pushed& top) {
         if (top.level == top.most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * top.level) return;
         const double level = std::min(top.most, top.level * (top.level < radius / 5 ? 4 : 2));
         Ridge next = ridge(way, pruned(way.asking(top.ridge.path, std::move(asked)), top.ridge.path).route, level);
-        if (narrowest_of(next) < gained * narrowest_of(top.ridge) - way.nearness->least()) return;  // it has lost its way
+        if (narrowest_of(next) < lost * narrowest_of(top.ridge) - way.nearness->least()) return;
         top.ridge = std::move(next), top.level = level;
     }
 }

@@ -1,8 +1,9 @@
-"""Least distances along a path, by halving its motions."""
+"""Least distances along a path, of what translations sweep, and by halving other motions."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -10,8 +11,9 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances, Floats, Ints
-from cfree.collision.motion import Translation
+from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
+from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
@@ -71,9 +73,10 @@ def clearance(path: Path, scene: Scene, tolerance: float | None = None) -> Clear
 
     Notes
     -----
-    Every motion is halved until no part of it can hold a distance smaller, by more than the tolerance, than the
-    least one found: a pose is at most as much closer as the robot's farthest vertex travels. It takes as long as
-    about (length / tolerance) distances for a path that keeps its distance from a wall, and mostly much less.
+    A translation is as far from everything as what the robot's edges and vertices sweep. Other motions are halved
+    until no part of them can hold a distance smaller, by more than the tolerance, than the least one found: a pose is
+    at most as much closer as the robot's farthest vertex travels. It takes as long as about (length / tolerance)
+    distances for one that keeps its distance from a wall, and mostly much less.
 
     Examples
     --------
@@ -112,21 +115,19 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
         return None
     if not tolerance > 0:
         raise ValueError(f"tolerance {tolerance}: give a positive one")
-    motions = path.motions or (Translation((0, 0)),)
-    travel = np.array([m.reach(q, robot) for q, m in zip(path.poses, motions, strict=False)])
-    places = max(abs(float(c)) for q in path.poses for c in (q.x, q.y))
+    motions, poses = path.motions or (Translation((0, 0)),), path.poses
+    travel = np.array([m.reach(q, robot) for q, m in zip(poses, motions, strict=False)])
+    places = max(abs(float(c)) for q in poses for c in (q.x, q.y))
     size = max(float(np.abs(segments).max()), places + distances.radius + float(travel.max()))
-    motion, low, high = np.arange(len(motions)), np.zeros(len(motions)), np.ones(len(motions))
-    least, best = math.inf, (math.inf, 0, 0.0, 0, 0)
+    least, best = _swept(poses, motions, distances)
+    motion = np.array([k for k, m in enumerate(motions) if not isinstance(m, Translation)], np.int64)
+    low, high = np.zeros(len(motion)), np.ones(len(motion))
     while len(motion):
         middle = (low + high) / 2
         placed = np.empty((len(motion), *robot.shape))
         for k in set(motion.tolist()):
             placed[motion == k] = (
-                motions[k]
-                .sample(path.poses[k], middle[motion == k])
-                .apply(robot.reshape(-1, 2))
-                .reshape(-1, *robot.shape)
+                motions[k].sample(poses[k], middle[motion == k]).apply(robot.reshape(-1, 2)).reshape(-1, *robot.shape)
             )
         part = travel[motion] * (high - low)
         nearest, edge, other = distances.nearest(placed, best[0] + float(part.max()))  # farther ones change nothing
@@ -142,6 +143,33 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
         motion, low, high = np.tile(motion, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
     value, at, share, i, j = best
     return Clearance(max(0.0, least - ROUNDING * size), value, at, share, distances.robot_names[i], distances.names[j])
+
+
+def _swept(
+    poses: Sequence[Pose], motions: Sequence[Motion], distances: EdgeDistances
+) -> tuple[float, tuple[float, int, float, int, int]]:
+    """The least distance of the translations, and where: distance, motion, share and the two edges.
+
+    The region that a free robot sweeps has no obstacle in it, and its rim is part of the edges at both ends and of the
+    vertices' tracks.
+    """
+    moved = [k for k, m in enumerate(motions) if isinstance(m, Translation)]
+    if not moved:
+        return math.inf, (math.inf, 0, 0.0, 0, 0)
+    robot, count = distances.robot, len(distances.robot)
+    ends = [poses[k] for k in moved], [motions[k].apply(poses[k]) for k in moved]
+    start, end = (np.stack([q.apply(robot.reshape(-1, 2)).reshape(robot.shape) for q in some]) for some in ends)
+    tracks = np.stack((start[:, :, 0], end[:, :, 0]), axis=2)
+    lines = np.concatenate((start, end, tracks), axis=1)
+    nearest, line, other = distances.nearest(lines)
+    k = int(nearest.argmin())
+    part, edge = divmod(int(line[k]), count)
+    share = float(part)
+    if part == 2:
+        begin, stop = tracks[k, edge]
+        point, _ = distances.between(tracks[k, edge], int(other[k]))
+        share = float(np.hypot(*(point - begin)) / max(np.hypot(*(stop - begin)), math.ulp(0)))
+    return float(nearest[k]), (float(nearest[k]), moved[k], min(share, 1.0), edge, int(other[k]))
 
 
 @checked
