@@ -15,6 +15,7 @@ namespace {
 constexpr int search_guesses = 40000;  // of motions, at most: each looks at all of the trees
 constexpr int quick_guesses = 2000;    // before anything exact is
 constexpr int guesses_each = 45;       // that take no longer than a patch of a surface
+constexpr double most_few = 0.75;      // of all patches: surfaces with more of them are not few
 
 bool is_before(const RationalPose& a, const RationalPose& b) {
     if (a.x != b.x) return a.x < b.x;
@@ -135,6 +136,7 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
         if (verdict == Connection::Verdict::joined)
             if (const auto hugging = along(joined, std::make_shared<FoundSlides>()))
                 if (auto found = off_contacts(*hugging, FreeMotions(scene->scene(), *scene->checker, *slides))) return std::move(*found);
+        if (static_cast<double>(joined.around->trimmed_patches()) > most_few * static_cast<double>(scene->patches())) return {};
     }
     Connecting joined = scene->connecting(start.pose, goal.pose);
     const auto verdict = in_turns(joined);
