@@ -18,7 +18,6 @@ namespace {
 constexpr double lowest = 1.0 / 64;                        // level of distance, in radii
 constexpr double share_asked = 0.7, share_between = 0.85;  // of a ridge's distances; from one level to the next
 constexpr double gained = 0.7;                             // of what a level could ask for, at least, to try the next
-constexpr double lost = 0.3;                               // of the narrowest place's distance: not by a ridge's next level
 constexpr double narrow = 1.0 / 16, climbs_on = 1.1;       // radii; times the narrowest place
 constexpr double radii_beside = 3;                         // of way before and after it
 constexpr double worth_of_motion = 0.1;                    // in radii
@@ -317,10 +316,8 @@ void push_on(const Way& way, Pushed& top) {
     for (;;) {
         std::vector<double> asked = distances_asked(top.ridge, radius, share_between, all_parts);
         if (top.level == top.most || *std::max_element(asked.begin(), asked.end()) <= gained * share_between * top.level) return;
-        const double level = std::min(top.most, top.level * (top.level < radius / 5 ? 4 : 2));
-        Ridge next = ridge(way, pruned(way.asking(top.ridge.path, std::move(asked)), top.ridge.path).route, level);
-        if (narrowest_of(next) < lost * narrowest_of(top.ridge) - way.nearness->least()) return;
-        top.ridge = std::move(next), top.level = level;
+        top.level = std::min(top.most, top.level * (top.level < radius / 5 ? 4 : 2));
+        top.ridge = ridge(way, pruned(way.asking(top.ridge.path, std::move(asked)), top.ridge.path).route, top.level);
     }
 }
 
