@@ -307,7 +307,7 @@ def test_the_headline_says_what_it_is(car_park: Boundary, parking: Path) -> None
     figure = picture(parking, car_park.scene, car_park)
     assert [text.get_text() for text in figure.texts] == [
         "benchmr_parking1: a free path",
-        "3 motions, length 11.3, turning 90°, clearance 0.171 (≥ 0.169 proved)",
+        "3 motions, length 11.3, turning 90°, clearance 0.171 (≥ 0.17 proved)",
     ]
     assert len(figure.axes) == 3  # workspace, colours, configuration space
     assert len(picture(parking, car_park.scene).axes) == 2

@@ -86,7 +86,7 @@ def boundary_facts(boundary: Boundary) -> dict[str, Any]:
 
 def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
     """An answer in words and numbers."""
-    from cfree.paths.clearance import clearance
+    from cfree.paths.clearance import clearance, rounded_down
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
 
@@ -117,7 +117,7 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
     if least := clearance(answer, scene):
         name = part_name(scene, least.obstacle[0])
         rows["least clearance"] = f"{least.found:.6g}{unit}, to {name} in motion {least.motion}"
-        rows["proved, at least"] = f"{max(least.least, float(answer.clearance)):.6g}{unit}"
+        rows["proved, at least"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
     return rows
 
 

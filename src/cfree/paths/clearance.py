@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from decimal import ROUND_FLOOR, Context
 from fractions import Fraction
 
 import numpy as np
@@ -47,6 +48,17 @@ class Clearance:
     share: float
     robot: tuple[int, int]
     obstacle: tuple[int, int]
+
+
+def rounded_down(bound: float, digits: int) -> str:
+    """A lower bound in so many digits, 6 at most, that is still one.
+
+    Examples
+    --------
+    >>> rounded_down(0.125 - 1e-12, 3), rounded_down(0.125, 3)
+    ('0.124', '0.125')
+    """
+    return f"{float(Context(prec=digits, rounding=ROUND_FLOOR).create_decimal(bound)):g}"
 
 
 @checked

@@ -16,7 +16,7 @@ from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Translation
 from cfree.exact.pose import Pose, Poses
 from cfree.palette import BARRIER, MARK, ROBOT, SEQUENTIAL
-from cfree.paths.clearance import Clearance, distances_beside, least_clearance
+from cfree.paths.clearance import Clearance, distances_beside, least_clearance, rounded_down
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences, Unwanted, unwanted
 from cfree.paths.travel import SAME, Travel, ghosts
@@ -225,7 +225,7 @@ def statement(track: Track) -> str:
     parts = [f"{count} motion{'' if count == 1 else 's'}", f"length {quantity(path.length, units)}"]
     parts.append(f"turning {quantity(math.degrees(path.turning), '')}°")
     if track.least is not None:
-        parts.append(f"clearance {quantity(track.least.found, units)} (≥ {quantity(track.least.least, '')} proved)")
+        parts.append(f"clearance {quantity(track.least.found, units)} (≥ {rounded_down(track.least.least, 3)} proved)")
     return ", ".join(parts)
 
 
