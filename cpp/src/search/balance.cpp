@@ -192,6 +192,7 @@ Detour straight_into(const Way& way, const Ridge& top, std::size_t narrowest, do
     const Route& route = top.path.route;
     const double radius = way.costs.weight;
     for (std::size_t m = narrowest; m + 1 < route.size() && at[m] - at[narrowest] < radii_beside * radius; ++m) {
+        heed_stop();
         const Configuration &p = route[m], &q = route[m + 1];
         const double length = norm(p.px - q.px, p.py - q.py), kept = almost * std::min(top.distance[m], top.distance[m + 1]);
         if (kept < asked || length < shortest_line * radius || radius * std::abs(turn_between(p, q)) > straight * length) continue;
