@@ -14,7 +14,7 @@ static int names_of_one_chord(const std::vector<Ring>& robot, const std::vector<
     const Scene& scene = *boundary->scene;
     int joined = 0;
     for (const int chart : {0, 1}) {
-        std::map<CriticalAngle::Name, std::map<CriticalAngle::Name, CriticalAngle>> groups;
+        std::map<CriticalAngle::ShortName, std::map<CriticalAngle::Name, CriticalAngle>> groups;
         const auto add = [&](const CriticalAngle& x) { groups[x.short_name(scene)].emplace(x.name(scene), x); };
         const Trapezoids& t = boundary->trapezoids;
         for (Index k = 0; k < static_cast<Index>(t.patch.size()); ++k)

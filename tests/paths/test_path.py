@@ -248,8 +248,7 @@ def test_the_narrowest_place_of_a_translation_is_that_of_samples(seed: int) -> N
     found = cfree.clearance(path, scene)
     distances = EdgeDistances(scene)
     shares = np.array([*np.linspace(0, 1, 2000), found.share])
-    robot = path.motions[0].sample(path.start, shares).apply(distances.robot.reshape(-1, 2))
-    sampled, _, _ = distances.nearest(robot.reshape(len(shares), *distances.robot.shape))
+    sampled, _, _ = distances.nearest(distances.at(path.motions[0].sample(path.start, shares)))
     assert sampled[-1] == pytest.approx(found.found, abs=1e-12) and found.least <= found.found
     assert found.found - 1e-12 <= sampled.min() <= found.found + 0.02
 

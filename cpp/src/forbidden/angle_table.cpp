@@ -60,7 +60,7 @@ void AngleTable::sort_chart(int chart, int threads) {
 // Appends the angles of a cluster in order, and ranks its members by their places there.
 void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector<Angle>& ordered) {
     // one of each short name stands for all that agree with it
-    std::vector<std::pair<CriticalAngle::Name, const Angle*>> named;
+    std::vector<std::pair<CriticalAngle::ShortName, const Angle*>> named;
     for (const Angle* x = begin; x != end; ++x) named.push_back({critical(*x).short_name(scene), x});
     std::sort(named.begin(), named.end());
     struct Class {
@@ -88,7 +88,7 @@ void AngleTable::order_cluster(const Angle* begin, const Angle* end, std::vector
         same.clear();
         for (next = k; next < named.size() && named[next].first == named[k].first; ++next)
             same.push_back(critical(*named[next].second));
-        if (same.size() == 1 || CriticalAngle::are_one(scene, same)) add(k, next);
+        if (same.size() == 1 || CriticalAngle::are_one(scene, named[k].first, same)) add(k, next);
         else
             for (std::size_t x = k; x < next; ++x) add(x, x + 1);
     }

@@ -58,14 +58,14 @@ std::optional<CriticalAngle::Name> CriticalAngle::chord(const Scene& scene) cons
     return found;
 }
 
-CriticalAngle::Name CriticalAngle::short_name(const Scene& scene) const {
+CriticalAngle::ShortName CriticalAngle::short_name(const Scene& scene) const {
     const auto found = chord(scene);
-    return found ? *found : name(scene);
+    return {found ? *found : name(scene), found.has_value()};
 }
 
-bool CriticalAngle::are_one(const Scene& scene, const std::vector<CriticalAngle>& same) {
+bool CriticalAngle::are_one(const Scene& scene, const ShortName& name, const std::vector<CriticalAngle>& same) {
     const CriticalAngle& x = same[0];
-    if (x.is_chart_end() || x.chord(scene)) return true;
+    if (x.is_chart_end() || name.second) return true;
     double low = x.lo, high = x.hi;
     for (const CriticalAngle& y : same) {
         if (y.place != 0) return false;
@@ -117,7 +117,7 @@ static bool are_one_of_few_digits(const Scene& scene, const CriticalAngle& x, co
 int order(const Scene& scene, const CriticalAngle& x, const CriticalAngle& y) {
     if (x.hi < y.lo) return -1;
     if (x.lo > y.hi) return 1;
-    if (x.short_name(scene) == y.short_name(scene) && CriticalAngle::are_one(scene, {x, y})) return 0;
+    if (const auto name = x.short_name(scene); name == y.short_name(scene) && CriticalAngle::are_one(scene, name, {x, y})) return 0;
     if (are_one_of_few_digits(scene, x, y)) return 0;
     if (const auto &p = x.bracket(scene), &q = y.bracket(scene); p && q) {
         if (is_below((*p)[1], (*q)[0])) return -1;

@@ -76,9 +76,8 @@ Predicates::Form Predicates::form(const Event& x) const {
 bool Predicates::turns_parallel(bool robot, Index v, Index w, Index e, double lo, double hi) const {
     const auto chord = difference<Approx>(robot ? scene.robot : scene.obstacles, w, v);
     const auto along = edge<Approx>(robot ? scene.obstacles : scene.robot, e);
-    const Filtered f = filtered(robot ? parallel_trig(chord, along) : parallel_trig(along, chord));
-    const double below = f.polar(lo, lo), above = f.polar(hi, hi);
-    return (below < -f.err && above > f.err) || (below > f.err && above < -f.err);
+    const Form f{{2, filtered(robot ? parallel_trig(chord, along) : parallel_trig(along, chord)), {}, {}, {}}};
+    return f.sign(lo) * f.sign(hi) < 0;
 }
 
 // --- signs -----------------------------------------------------------------------------------------------------------

@@ -159,10 +159,8 @@ Route another_way(const Way& way, const Ridge& top, std::size_t i, std::size_t j
     area = {std::max(area.x0, way.limits.x0), std::max(area.y0, way.limits.y0), std::min(area.x1, way.limits.x1), std::min(area.y1, way.limits.y1)};
     const auto seems = [&](const Place& a, const Place& b) {
         const double length = norm(b.x - a.x, b.y - a.y) + radius * std::abs(wrapped(b.theta - a.theta));
-        const int count = static_cast<int>(length / step) + 1;
-        for (int k = count; k > 0; --k)
-            if (way.nearness->distance(along(a, b, static_cast<double>(k) / count), asked) < asked) return false;
-        return true;
+        const auto keeps = [&](const Place& q) { return way.nearness->distance(q, asked) >= asked; };
+        return all_along(a, b, static_cast<int>(length / step) + 1, keeps);
     };
     const auto joins = [&](const Configuration& a, const Configuration& b) { return way.keeps(a, b, asked); };
     RrtConnect search({seems, joins}, way.grid, area, radius, route[i], route[j], 0);
@@ -203,7 +201,7 @@ Detour straight_into(const Way& way, const Ridge& top, std::size_t narrowest, do
             if (!way.keeps(end, q, kept)) break;
             for (std::size_t k = narrowest; k-- > 0 && at[narrowest] - at[k] < (radii + radii_beside) * radius;) {
                 if (top.distance[k] < kept) continue;
-                for (const Route& join : {Route{route[k], end}, Route{route[k], corner(route[k], end), end}, Route{route[k], corner(end, route[k]), end}}) {
+                for (const Route& join : turned_or_straight(route[k], end)) {
                     bool is_joined = true;
                     for (std::size_t n = 1; is_joined && n < join.size(); ++n) is_joined = way.keeps(join[n - 1], join[n], kept);
                     if (!is_joined) continue;

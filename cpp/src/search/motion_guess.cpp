@@ -1,4 +1,4 @@
-// The end of a motion, its middle, the middles of its halves, and so on: most that are forbidden are so at one of the first.
+// Poses of a motion, coarse to fine: most that are forbidden are so at one of the first.
 #include "cfree/search/motion_guess.hpp"
 
 #include <algorithm>
@@ -15,17 +15,11 @@ MotionGuess::MotionGuess(std::shared_ptr<const PoseChecker> checker, double r, d
     : looks(std::make_shared<PoseChecker::Looks>(std::move(checker))), radius(r), unit(u) {}
 
 bool MotionGuess::operator()(const Place& a, const Place& b) const {
-    if (is_forbidden(b)) return false;
     const double turn = std::abs(wrapped(b.theta - a.theta));
     const double length = norm(b.x - a.x, b.y - a.y) * (1 + turn * turn / 16) + radius * turn;  // of an arc, about
     const double parts = length / radius * looks_in_radius;
     const int count = parts < most_looks ? static_cast<int>(parts) + 1 : static_cast<int>(most_looks);
-    int by = 1;
-    while (by < count) by *= 2;
-    for (; by > 1; by /= 2)
-        for (int k = by / 2; k < count; k += by)
-            if (is_forbidden(along(a, b, static_cast<double>(k) / count))) return false;
-    return true;
+    return all_along(a, b, count, [this](const Place& q) { return !is_forbidden(q); });
 }
 
 bool MotionGuess::is_forbidden(const Place& q) const {

@@ -44,6 +44,14 @@ Configuration corner(const Configuration& position, const Configuration& orienta
     return c;
 }
 
+static bool moves(const Configuration& a, const Configuration& b) { return a.px != b.px || a.py != b.py; }
+
+std::vector<Route> turned_or_straight(const Configuration& a, const Configuration& b) {
+    std::vector<Route> ways{{a, b}};
+    if (turn_between(a, b) != 0 && moves(a, b)) ways.push_back({a, corner(a, b), b}), ways.push_back({a, corner(b, a), b});
+    return ways;
+}
+
 Way Way::asking(Marked along, std::vector<double> what) const {
     std::vector<Place> at;
     for (const Configuration& q : along.route) at.push_back({q.px, q.py, q.theta});
@@ -151,10 +159,8 @@ std::vector<Route> Way::driven(const Configuration& a, const Configuration& b) c
 }
 
 Marked Way::simplest(const Configuration& a, const Configuration& b, double from, double to, double most) const {
-    std::vector<Route> ways{{a, b}};
-    const bool turns = turn_between(a, b) != 0, moves = a.px != b.px || a.py != b.py;
-    if (turns && moves) ways.push_back({a, corner(a, b), b}), ways.push_back({a, corner(b, a), b});
-    if (costs.prefer() && moves) {
+    std::vector<Route> ways = turned_or_straight(a, b);
+    if (costs.prefer() && moves(a, b)) {
         for (Route& way : driven(a, b)) ways.push_back(std::move(way));
         std::stable_sort(ways.begin(), ways.end(), [&](const Route& r, const Route& s) { return cost_of(r, costs) < cost_of(s, costs); });
     }

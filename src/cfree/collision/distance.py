@@ -50,7 +50,11 @@ class EdgeDistances:
 
     def placed(self, rows: Floats) -> Floats:
         """The robot's edges, (n, e, 2, 2), at rows x, y, theta."""
-        return Poses(rows[:, :2], rows[:, 2]).apply(self.robot.reshape(-1, 2)).reshape(len(rows), *self.robot.shape)
+        return self.at(Poses(rows[:, :2], rows[:, 2]))
+
+    def at(self, poses: Poses) -> Floats:
+        """The robot's edges, (n, e, 2, 2), at some poses."""
+        return poses.apply(self.robot.reshape(-1, 2)).reshape(len(poses), *self.robot.shape)
 
     def nearest(self, placed: Floats, within: float = math.inf) -> tuple[Floats, Ints, Ints]:
         """Least distances (n,) of the robot's edges, placed (n, e, 2, 2); and between which two edges they are.

@@ -14,7 +14,7 @@ from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances, Floats, Ints
 from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
-from cfree.exact.pose import Pose
+from cfree.exact.pose import Pose, Poses
 from cfree.paths.path import Path
 from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
@@ -138,9 +138,7 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
         middle = (low + high) / 2
         placed = np.empty((len(motion), *robot.shape))
         for k in set(motion.tolist()):
-            placed[motion == k] = (
-                motions[k].sample(poses[k], middle[motion == k]).apply(robot.reshape(-1, 2)).reshape(-1, *robot.shape)
-            )
+            placed[motion == k] = distances.at(motions[k].sample(poses[k], middle[motion == k]))
         part = travel[motion] * (high - low)
         nearest, edge, other = distances.nearest(placed, best[0] + float(part.max()))  # farther ones change nothing
         k = int(nearest.argmin())
@@ -160,7 +158,7 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
 def _swept(
     poses: Sequence[Pose], motions: Sequence[Motion], distances: EdgeDistances
 ) -> tuple[float, tuple[float, int, float, int, int]]:
-    """The least distance of the translations, and where: distance, motion, share and the two edges.
+    """The least distance of the translations, and what is measured there: distance, motion, share and the two edges.
 
     The region that a free robot sweeps has no obstacle in it, and its rim is part of the edges at both ends and of the
     vertices' tracks.
@@ -168,20 +166,21 @@ def _swept(
     moved = [k for k, m in enumerate(motions) if isinstance(m, Translation)]
     if not moved:
         return math.inf, (math.inf, 0, 0.0, 0, 0)
-    robot, count = distances.robot, len(distances.robot)
     ends = [poses[k] for k in moved], [motions[k].apply(poses[k]) for k in moved]
-    start, end = (np.stack([q.apply(robot.reshape(-1, 2)).reshape(robot.shape) for q in some]) for some in ends)
+    start, end = (distances.at(Poses.from_poses(some)) for some in ends)
     tracks = np.stack((start[:, :, 0], end[:, :, 0]), axis=2)
     lines = np.concatenate((start, end, tracks), axis=1)
     nearest, line, other = distances.nearest(lines)
     k = int(nearest.argmin())
-    part, edge = divmod(int(line[k]), count)
+    part, edge = divmod(int(line[k]), len(distances.robot))
     share = float(part)
     if part == 2:
         begin, stop = tracks[k, edge]
         point, _ = distances.between(tracks[k, edge], int(other[k]))
-        share = float(np.hypot(*(point - begin)) / max(np.hypot(*(stop - begin)), math.ulp(0)))
-    return float(nearest[k]), (float(nearest[k]), moved[k], min(share, 1.0), edge, int(other[k]))
+        share = min(1.0, float(np.hypot(*(point - begin)) / max(np.hypot(*(stop - begin)), math.ulp(0))))
+    there = distances.at(motions[moved[k]].sample(poses[moved[k]], np.array([share])))
+    (found,), (edge,), (beside,) = distances.nearest(there)
+    return float(nearest[k]), (float(found), moved[k], share, int(edge), int(beside))
 
 
 @checked

@@ -24,9 +24,10 @@ public:
     Name name(const Scene& scene) const;
     // If two of these put two vertices of one shape on the line of an edge of the other, the chord and the edge's direction: there is
     // one angle in a chart at which they are parallel, whatever else meets there. Otherwise the name.
-    Name short_name(const Scene& scene) const;
+    using ShortName = std::pair<Name, bool>;  // and whether it is that of a chord
+    ShortName short_name(const Scene& scene) const;
     // Of angles with one short name: whether they are seen to be one. Each is the only root of one polynomial in its interval.
-    static bool are_one(const Scene& scene, const std::vector<CriticalAngle>& same);
+    static bool are_one(const Scene& scene, const ShortName& name, const std::vector<CriticalAngle>& same);
     const RealRoot& exact(const Scene& scene) const;
     const std::optional<Predicates::Bracket>& bracket(const Scene& scene) const;
     // Sign of this one minus another of its chart; of both more is known afterwards.

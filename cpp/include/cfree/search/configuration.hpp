@@ -35,6 +35,17 @@ double travel_between(const Configuration& a, const Configuration& b);
 
 // Some way along the motion, in doubles.
 Place along(const Place& a, const Place& b, double share);
+// Whether something holds at so many poses of the motion, evenly apart: its end, its middle, the middles of its halves, and so on.
+template <class F>
+bool all_along(const Place& a, const Place& b, int count, F&& holds) {
+    if (!holds(b)) return false;
+    int by = 1;
+    while (by < count) by *= 2;
+    for (; by > 1; by /= 2)
+        for (int k = by / 2; k < count; k += by)
+            if (!holds(along(a, b, static_cast<double>(k) / count))) return false;
+    return true;
+}
 inline Place along(const Configuration& a, const Configuration& b, double share) { return along(a.place(), b.place(), share); }
 
 }  // namespace cfree

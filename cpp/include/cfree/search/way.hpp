@@ -32,6 +32,8 @@ std::vector<double> costs_along(const Route& route, const Costs& costs);
 
 // The position of one with the orientation of another.
 Configuration corner(const Configuration& position, const Configuration& orientation);
+// One motion, or a turn and a straight way in either order.
+std::vector<Route> turned_or_straight(const Configuration& a, const Configuration& b);
 
 struct Way {
     const MotionChecker& checker;
