@@ -4,8 +4,8 @@
 #include "cfree/support/listener.hpp"
 #include "watched.hpp"
 
-// The object has begin(name), end(), share(of the phase) and look(), which ends the call by raising; `threads` and
-// `max_seconds`, a number or None. One of these for each call.
+// The object has begin(name), end(), share(of the phase), spend(patches) and look(), of which the last two may end the call
+// by raising; `threads`, `max_seconds`, a number or None, and `is_limited`: whether to spend. One of these for each call.
 class Caller {
 public:
     explicit Caller(const nanobind::object& python) : who(python) {
@@ -16,6 +16,11 @@ public:
             tell([&] { who.attr("share")(share); });
             return !stop;
         };
+        if (nanobind::cast<bool>(who.attr("is_limited")))
+            listener.spend = [this](std::int64_t patches) {
+                tell([&] { who.attr("spend")(patches); });
+                if (stop) throw cfree::Stopped();
+            };
         listener.threads = nanobind::cast<int>(who.attr("threads"));
         const nanobind::object seconds = who.attr("max_seconds");
         if (!seconds.is_none()) listener.max_seconds = nanobind::cast<double>(seconds);

@@ -7,6 +7,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
+#include "cfree/curves/containment.hpp"
 #include "cfree/scene/coordinate_range.hpp"
 #include "integers.hpp"
 
@@ -91,6 +92,18 @@ bool read_ring(PyObject* from, cfree::RatioRing& to) {
     return true;
 }
 
+// Pieces as pairs: points, and the last parameter of an arc.
+cfree::ClosedCurve curve_of(const nb::list& pieces) {
+    cfree::ClosedCurve curve(pieces.size());
+    for (std::size_t k = 0; k < curve.size(); ++k) {
+        const nb::object item = pieces[k];
+        const Elements pair(item.ptr());
+        if (!pair || pair.size() != 2 || !read_ring(pair[0], curve[k].points) || !numbers().read(pair[1], curve[k].last))
+            throw std::invalid_argument("a piece of a curve is a pair of points and a number");
+    }
+    return curve;
+}
+
 std::shared_ptr<Polygon> polygon_of(nb::handle rings) {
     const Elements items(rings.ptr());
     if (!items) return nullptr;
@@ -171,6 +184,10 @@ void bind_polygons(nb::module_& m) {
         .def_prop_ro("is_convex", &Polygon::is_convex)
         .def_prop_ro("pieces", &Polygon::pieces)
         .def("is_inside", &cfree::is_inside, "outer"_a)
+        .def("is_around", [](const Polygon& p, Index ring, const nb::list& curve) { return cfree::is_around(p, ring, curve_of(curve)); },
+             "ring"_a, "curve"_a, nb::sig("def is_around(self, ring: int, curve: list[typing.Any]) -> bool"))
+        .def("is_within", [](const Polygon& p, Index ring, const nb::list& curve) { return cfree::is_within(p, ring, curve_of(curve)); },
+             "ring"_a, "curve"_a, nb::sig("def is_within(self, ring: int, curve: list[typing.Any]) -> bool"))
         .def("__len__", [](const Polygon& p) { return p.vertices.size(); });
     nb::class_<cfree::Owners> owners(m, "Owners");
     column(owners, "polygon", &cfree::Owners::polygon);

@@ -147,8 +147,11 @@ std::optional<Barrier> KnownScene::barrier(const RationalPose& start, const Rati
     if (!built()) {
         const Deadline deadline(listener);
         Connecting found = connecting(start, goal);
+        std::size_t trimmed = found.around->trimmed_patches();
         const auto verdict = found.decide([&](Index) {
             deadline.heed();
+            const std::size_t before = std::exchange(trimmed, found.around->trimmed_patches());
+            if (listener.spend) listener.spend(static_cast<std::int64_t>(trimmed - before));
             return true;
         });
         if (verdict == Connection::Verdict::joined) return {};
@@ -176,6 +179,7 @@ std::shared_ptr<const Built> KnownScene::build(const Listener& listener) {
     Built result;
     {
         const Phase phase(listener, "free space");
+        if (listener.spend) listener.spend(patches());
         result.boundary = computed(features->scene, false, listener);
     }
     {

@@ -116,8 +116,10 @@ std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal,
             const int guesses = std::min(left, guesses_each * static_cast<int>(trimmed - before));
             left -= guesses;
             if (const Route route = search.run_on(guesses); !route.empty()) way = searcher.poses(route);
-            if (!way) deadline.heed();
-            return !way;
+            if (way) return false;
+            deadline.heed();
+            if (listener.spend) listener.spend(static_cast<std::int64_t>(trimmed - before));
+            return true;
         });
     };
     const auto along = [&](const Connecting& joined, const std::shared_ptr<FoundSlides>& found) -> std::optional<Poses> {

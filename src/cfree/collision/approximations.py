@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from contextlib import suppress
 
 import numpy as np
 import shapely
@@ -10,8 +11,10 @@ from numpy.typing import NDArray
 from shapely.affinity import affine_transform
 
 from cfree.curves.curved import Curved
+from cfree.errors import UndecidedError
+from cfree.polygons.polygon import Polygon
 from cfree.scene.features import WORKSPACE
-from cfree.scene.scene import Scene, polygons_for, shapes_of, size_of, with_polygons
+from cfree.scene.scene import AnyShape, Scene, polygons_for, shapes_of, size_of, with_polygons
 
 FIRST, FINEST = 256, 4096  # parts of a shape's size: the first error, and the least one that is started with
 OF_ROBOT = 8  # or part of the robot's size, if that is less
@@ -80,7 +83,7 @@ class Approximations:
         if number == WORKSPACE:
             return len(self.shapes) - 1
         counts = [
-            len(polygons_for(shape, error, True))
+            len(_polygons_for(shape, error, True))
             for shape, error in zip(self.exact.obstacles, self.errors[len(self.exact.robot) :], strict=False)
         ]
         return len(self.exact.robot) + int(np.searchsorted(np.cumsum(counts), number, side="right"))
@@ -89,7 +92,7 @@ class Approximations:
         """Which two shapes, one of them round, polygons around them, overlap at one of the poses."""
         parts, count = len(self.exact.robot), len(self.exact.robot) + len(self.exact.obstacles)
         geometries = [
-            shapely.union_all([polygon.to_shapely() for polygon in polygons_for(shape, error, k < count)])
+            shapely.union_all([polygon.to_shapely() for polygon in _polygons_for(shape, error, k < count)])
             for k, (shape, error) in enumerate(zip(self.shapes, self.errors, strict=True))
         ]
         tree, found = shapely.STRtree(geometries[parts:count]), set[tuple[int, int]]()
@@ -102,6 +105,13 @@ class Approximations:
                     met.append(count)
                 found |= {(k, j) for j in met if self.errors[k] or self.errors[j]}
         return found
+
+
+def _polygons_for(shape: AnyShape, error: float, outward: bool) -> tuple[Polygon, ...]:
+    """None where none can be proved: where to look closer decides nothing."""
+    with suppress(UndecidedError):
+        return polygons_for(shape, error, outward)
+    return ()
 
 
 def _first(shape: Curved, robot: float) -> float:

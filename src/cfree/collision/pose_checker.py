@@ -18,7 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
-from cfree.errors import InvalidPoseError
+from cfree.errors import InvalidPoseError, UndecidedError
 from cfree.exact.pose import Floats, OnePose, Pose, PoseLike, Poses, one_pose, to_pose
 from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
@@ -118,7 +118,11 @@ def _among_curves(scene: Scene, poses: Any, threads: int | None, tolerance: floa
     while len(unknown):
         for outward in (True, False):
             asked = [rows[k] for k in unknown] if isinstance(rows, list) else rows[unknown]
-            free = PoseChecker(near.scene(outward=outward)).is_free(asked, threads=threads)
+            try:
+                checker = PoseChecker(near.scene(outward=outward))
+            except UndecidedError:  # no polygons: nothing is known
+                continue
+            free = checker.is_free(asked, threads=threads)
             found[unknown[free == outward]] = outward
             unknown = unknown[free != outward]
             if not len(unknown):

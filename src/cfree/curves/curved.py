@@ -13,11 +13,10 @@ from functools import lru_cache
 from typing import Any
 
 from cfree.arguments import checked
-from cfree.curves import drawn
-from cfree.curves.drawn import Line
 from cfree.curves.hulls import FINEST, Outline, polygon_of
-from cfree.curves.rings import Circle, Cubic, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
-from cfree.errors import InvalidPolygonError, UnsupportedError
+from cfree.curves.pieces import Box, Frame, box_of, drawn_of, hull_points, is_proved
+from cfree.curves.rings import Circle, Ellipse, GivenRing, Piece, Point, Span, exact_ring, given_ring
+from cfree.errors import InvalidPolygonError, InvariantError, UndecidedError, UnsupportedError
 from cfree.exact.half_angle import Angle
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.polygons.disc import around_disc, inside_disc
@@ -126,9 +125,9 @@ class Curved(Shown):
 
     @property
     def box(self) -> tuple[Fraction, Fraction, Fraction, Fraction]:
-        """Around it, if not the smallest: least x and y, greatest x and y."""
-        xs, ys = zip(*(p for piece in self.curves[0] for p in _corners(piece)), strict=True)
-        return min(xs) - self.grown, min(ys) - self.grown, max(xs) + self.grown, max(ys) + self.grown
+        """Least x and y, greatest x and y: exact where these are rational, else at most a 2**20th of the size off."""
+        x0, y0, x1, y1 = _box_of(self.path)
+        return x0 - self.grown, y0 - self.grown, x1 + self.grown, y1 + self.grown
 
     @property
     def size(self) -> float:
@@ -143,7 +142,7 @@ class Curved(Shown):
 
     @checked
     def outer(self, error: float) -> tuple[Polygon, ...]:
-        """A polygon that contains it; of a grown shape one for each convex piece.
+        """Return a polygon proved to contain it; of a grown shape one for each convex piece.
 
         Parameters
         ----------
@@ -154,6 +153,8 @@ class Curved(Shown):
         ------
         ValueError
             If the error is less than `least_error`.
+        UndecidedError
+            If no polygon around it can be proved to be so. A hole too thin to have a polygon inside is filled.
 
         Examples
         --------
@@ -165,9 +166,10 @@ class Curved(Shown):
 
     @checked
     def inner(self, error: float) -> tuple[Polygon, ...]:
-        """A polygon inside of it, no point of the shape's boundary farther from it; none if it has cusps.
+        """Return a polygon proved to be inside of it, no point of its boundary farther from the shape's boundary.
 
-        Parameters and errors are those of `outer`.
+        The tuple is empty if there is none: the shape is too thin for doubles, or has cusps. Parameters are those of
+        `outer`.
 
         Examples
         --------
@@ -182,12 +184,25 @@ class Curved(Shown):
             raise ValueError(f"error {error}: give a length, {self.least_error:.3g} or more")
         if self.grown:
             return _grown(self._base(), self.grown, error, inside)
-        first = self.curves[0][0]
-        origin = first.center if isinstance(first, Span) else _corners(first)[0]
-        scale = Fraction(2) ** math.frexp(self.size)[1]
-        rings = tuple(tuple(_moved(piece, origin, scale) for piece in ring) for ring in self.curves)
-        found = _near(rings, float(error / scale), inside)
-        return () if found is None else (_placed(found, origin, scale),)
+        frame = self._frame
+        curves = tuple(tuple(frame.local(curve)) for curve in self.curves)
+        found = _near(curves, error / frame.length, inside)
+        if isinstance(found, Polygon):
+            outer, *holes = ([frame.world(p) for p in ring] for ring in found.exact_rings)
+            return (Polygon(outer, holes),)
+        if inside:
+            return ()
+        raise found.with_traceback(None)
+
+    @property
+    def _frame(self) -> Frame:
+        """Around a point of short numbers, as large as it is."""
+        first, (x0, y0, x1, y1) = self.curves[0][0], self.box
+        (x, y), *_ = hull_points(first)
+        if isinstance(first, Span) and x0 <= first.center[0] <= x1 and y0 <= first.center[1] <= y1:
+            x, y = first.center
+        scale, zero = Fraction(2) ** math.frexp(self.size)[1], Fraction(0)
+        return Frame((x, y), (scale, zero), (zero, scale))
 
     def _base(self) -> Polygon:
         rings = (self.path, *self.holes)
@@ -202,58 +217,19 @@ def _pieces(ring: GivenRing) -> tuple[Piece, ...]:
     return tuple(exact_ring(ring))
 
 
-def _corners(piece: Piece) -> tuple[ExactPoint, ...]:
-    """Points, in whose box it is; the first is its start, unless it is of an ellipse."""
-    match piece:
-        case Line(start, end):
-            return start, end
-        case Cubic(points):
-            return points
-        case Span((x, y), (p, q), (r, s)):
-            far, high = abs(p) + abs(r), abs(q) + abs(s)
-            return (x - far, y - high), (x + far, y + high)
-    raise AssertionError
-
-
-def _moved(piece: Piece, origin: ExactPoint, scale: Fraction) -> drawn.Segment:
-    """In a frame in which doubles are enough."""
-
-    def point(p: ExactPoint) -> ExactPoint:
-        return (p[0] - origin[0]) / scale, (p[1] - origin[1]) / scale
-
-    def rounded(p: ExactPoint) -> drawn.Vector:
-        return float(p[0]), float(p[1])
-
-    match piece:
-        case Line(start, end):
-            return Line(point(start), point(end))
-        case Cubic(points):
-            p, q, r, s = map(point, points)
-            return drawn.Cubic((rounded(p), rounded(q), rounded(r), rounded(s)), (p, s))
-        case Span(center, u, v, quarters, rest):
-            (a, b), (c, d) = u, v
-            last = quarters * math.pi / 2 + 2 * math.atan(rest)
-            radii = rounded((a / scale, b / scale)), rounded((c / scale, d / scale))
-            tips = point(piece.at(0, Fraction(0))), point(piece.end)
-            return drawn.Arc(rounded(point(center)), *radii, 0.0, last, tips)
-    raise AssertionError
+@lru_cache(KEPT)
+def _box_of(ring: GivenRing) -> Box:
+    return box_of(_pieces(ring))
 
 
 @lru_cache(KEPT)
-def _near(rings: tuple[tuple[drawn.Segment, ...], ...], error: float, inside: bool) -> Polygon | None:
-    """Around them, or inside, if that does not cross itself."""
-    outer, *holes = map(list, rings)
+def _near(curves: tuple[tuple[Piece, ...], ...], error: float, inside: bool) -> Polygon | Exception:
+    """The polygon around them, or inside; or why there is none."""
+    outer, *holes = map(drawn_of, curves)
     try:
-        return polygon_of(Outline(outer, tuple(holes)), error, inside)
-    except InvalidPolygonError:
-        if inside:
-            return None
-        raise
-
-
-def _placed(polygon: Polygon, origin: ExactPoint, scale: Fraction) -> Polygon:
-    outer, *holes = ([(x * scale + origin[0], y * scale + origin[1]) for x, y in ring] for ring in polygon.exact_rings)
-    return Polygon(outer, holes)
+        return polygon_of(Outline(outer, tuple(holes), curves), error, inside)
+    except (InvalidPolygonError, UndecidedError) as fault:
+        return fault
 
 
 @lru_cache(KEPT)
@@ -262,5 +238,15 @@ def _grown(polygon: Polygon, radius: Fraction, error: float, inside: bool) -> tu
     share = error / float(radius)
     turn = math.acos(max(0.0, 1 - share / 2) if inside else 1 / (1 + share / 2))
     sides = min(max(LEAST_SIDES, 4 * math.ceil(math.pi / (4 * turn))), MOST_SIDES)
-    ring = (inside_disc if inside else around_disc)(radius, sides)
+    ring = [(radius * x, radius * y) for x, y in _disc(sides, inside)]
     return tuple(Polygon(convex_sum([polygon.exact_vertices[k] for k in piece], ring)) for piece in polygon.pieces)
+
+
+@lru_cache(KEPT)
+def _disc(sides: int, inside: bool) -> tuple[ExactPoint, ...]:
+    """A polygon proved to be around the disc of radius 1, or inside."""
+    one = Fraction(1)
+    ring = (inside_disc if inside else around_disc)(one, sides)
+    if not is_proved(Polygon(ring), 0, exact_ring(Circle((0, 0), one)), within=inside):
+        raise InvariantError(f"a polygon of {sides} sides for a disc is not {'inside' if inside else 'around'} it")
+    return tuple(ring)

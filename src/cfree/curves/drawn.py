@@ -34,7 +34,10 @@ class Line:
 
 @dataclass(frozen=True, slots=True)
 class Arc:
-    """Points center + u cos t + v sin t, for t from `first` to `last`, in radians; u and v are conjugate radii."""
+    """Points center + u cos t + v sin t, for t from `first` to `last`, in radians; u and v are conjugate radii.
+
+    If the point at t = 0 is given as `base`, points near it are as exact as it is, however far the center is.
+    """
 
     center: Vector
     u: Vector
@@ -42,18 +45,18 @@ class Arc:
     first: float
     last: float
     tips: Tips = None
+    base: Vector | None = None
 
-    def at(self, t: float, scale: float = 1.0) -> Vector:
-        """The point at t, its distance from the center scaled."""
-        c, s = math.cos(t) * scale, math.sin(t) * scale
-        return (
-            self.center[0] + self.u[0] * c + self.v[0] * s,
-            self.center[1] + self.u[1] * c + self.v[1] * s,
-        )
+    def at(self, t: float, half: float = 0.0) -> Vector:
+        """Return the point at t, or the one where the tangents at t - half and t + half meet."""
+        scale = math.cos(half)
+        origin, s = self.base or self.center, math.sin(t) / scale
+        c = -2 * math.sin((t + half) / 2) * math.sin((t - half) / 2) / scale if self.base else math.cos(t) / scale
+        return origin[0] + self.u[0] * c + self.v[0] * s, origin[1] + self.u[1] * c + self.v[1] * s
 
     @property
     def closed(self) -> bool:
-        """A whole ellipse?"""
+        """True if it is a whole ellipse."""
         return abs(self.last - self.first) >= math.tau * (1 - 1e-12)
 
 
@@ -161,8 +164,8 @@ def _reversed(segment: Segment) -> Segment:
     match segment:
         case Line(start, end):
             return Line(end, start)
-        case Arc(center, u, v, first, last, tips):
-            return Arc(center, u, v, last, first, tips and tips[::-1])
+        case Arc(center, u, v, first, last, tips, base):
+            return Arc(center, u, v, last, first, tips and tips[::-1], base)
         case Cubic((a, b, c, d), tips):
             return Cubic((d, c, b, a), tips and tips[::-1])
 
@@ -183,7 +186,7 @@ def carried(ring: Sequence[Segment], by: Affine) -> Ring:
         match segment:
             case Line(start, end):
                 moved.append(Line(applied(by, start), applied(by, end)))
-            case Arc(center, u, v, first, last, _):
+            case Arc(center, u, v, first, last):
                 moved.append(Arc(point(center), direction(u), direction(v), first, last))
             case Cubic((p, q, r, s), _):
                 moved.append(Cubic((point(p), point(q), point(r), point(s))))

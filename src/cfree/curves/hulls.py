@@ -1,15 +1,18 @@
-"""Polygons around rings of lines and curves, or inside of them, with a given error.
+"""Polygons around rings of lines and curves, or inside of them, with a given error, each proved to be so.
 
 A piece of a curve lies in the hull of its control points; that of an arc in the triangle of its ends and of the point
 where their tangents meet. If the shape is to the left of a ring, the chain of hull vertices to the right of each
 piece is a polygon around it: of a piece that turns left it runs along tangents, of one that turns right it is the
 chord. Pieces are halved until their hulls are flat. Vertices on this chain that are no ends of segments then move
-outwards, far more than doubles err, and become short decimals: no new edge crosses an old one, so the polygon
-contains the shape. Ends of straight segments stay what they are.
+outwards, far more than doubles err, and become short decimals. Ends of straight segments stay where they are, if the
+polygon then contains the shape.
 
                 T                the arc from P to Q turns left around the shape below it;
              .     .             around: P, T, Q     inside: P, Q
           P ---------- Q
+
+All this is done in doubles, and only proposes. The core decides exactly whether a polygon is around the curve, or
+inside (`pieces.is_proved`). If it is not, the error is made smaller.
 """
 
 from __future__ import annotations
@@ -34,31 +37,41 @@ from cfree.curves.drawn import (
     straight,
     turn,
 )
-from cfree.errors import InvalidPolygonError
+from cfree.curves.pieces import Curve, drawn_of, exact_of, is_proved, thin_frame
+from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.polygons.polygon import Polygon
 
 DEEPEST = 24  # times that a piece of a curve is halved
 FINEST = 1e-9  # of the drawing's size: the least error that doubles can promise
+NOISE = 1e-14  # of the drawing's size: more than doubles err
 Spend = Callable[[int], object]
-TRIES = 4  # with an eighth of the error each, where the polygon crosses itself
+TRIES = 4  # with an eighth of the error each, where rings cross
+SMALLER = 8
+MOST = 1 << 12  # vertices of a ring with which a smaller error is tried
 
 
 @dataclass(frozen=True, slots=True)
 class Outline:
-    """Rings of one shape: the outer one, and its holes."""
+    """Rings of one shape, the outer one and its holes; and the exact curves that they stand for, if these are known."""
 
     outer: Ring
     holes: tuple[Ring, ...] = ()
+    exact: tuple[Curve, ...] = ()
+
+    @property
+    def rings(self) -> tuple[Ring, ...]:
+        """All of them, the outer one first."""
+        return self.outer, *self.holes
 
     @property
     def curved(self) -> bool:
-        """Is not all of it straight?"""
-        return not all(map(straight, (self.outer, *self.holes)))
+        """True if not all of it is straight."""
+        return not all(map(straight, self.rings))
 
 
 def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: Spend = abs) -> Polygon:
-    """The polygon around a shape, or inside of it.
+    """Return a polygon that is proved to be around a shape, or inside of it.
 
     Parameters
     ----------
@@ -75,6 +88,9 @@ def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: 
     ------
     InvalidPolygonError
         If the rings cross, however small the error.
+    UndecidedError
+        If no polygon can be proved to be around the outer ring, or inside it: doubles are too coarse for it. A hole too
+        thin to have a polygon inside is filled, where the polygon is to be around.
 
     Examples
     --------
@@ -85,18 +101,53 @@ def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: 
     (10, 3.27, 2.92)
     """
     error = tolerance
+    curves = outline.exact or tuple(() if straight(ring) else exact_of(ring) for ring in outline.rings)
     for attempt in range(TRIES):
-        try:
-            outer, *holes = (
-                _points(_directed(ring, k == 0), error, inside, spend)
-                for k, ring in enumerate((outline.outer, *outline.holes))
+        made = [
+            _proved(ring, curve, error, inside == (k == 0), spend)
+            for k, (ring, curve) in enumerate(zip(outline.rings, curves, strict=True))
+        ]
+        if made[0] is None or (inside and None in made):
+            kind = "inside" if inside else "around"
+            raise UndecidedError(
+                f"no polygon {kind} it can be proved: it is too thin, has cusps, or is too near to itself", error=error
             )
+        outer, *holes = (points for points in made if points is not None)
+        try:
             return Polygon(outer, holes)
         except InvalidPolygonError:
-            if attempt == TRIES - 1 or not outline.curved:
+            if attempt == TRIES - 1 or not outline.curved or sum(map(len, holes), len(outer)) > MOST:
                 raise
-            error /= 8
+            error /= SMALLER
     raise AssertionError
+
+
+def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend) -> list[ExactPoint] | None:
+    """Vertices of a ring proved to be within a curve, or around it; None if none is found."""
+    if straight(ring):
+        spend(len(ring))
+        return [segment.start for segment in ring if isinstance(segment, Line)]
+    frame, local = thin_frame(curve), curve
+    if frame:
+        local, error = frame.local(curve), error / frame.length
+        ring = drawn_of(local)
+    ring = _counterclockwise(ring)
+    least, crossings = _least_error(ring), 0
+    while True:
+        for keep in (True, False):
+            points = _chain(ring, max(error, least), within, keep, spend)
+            try:
+                polygon = Polygon(points)
+            except InvalidPolygonError:
+                crossings += 1
+                if not within and crossings == TRIES:
+                    raise
+                break
+            if is_proved(polygon, 0, local, within=within):
+                return [frame.world(p) for p in points] if frame else points
+        if error <= least or len(points) > MOST:
+            return None
+        error /= SMALLER
 
 
 def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
@@ -124,18 +175,21 @@ def area(points: Sequence[Vector]) -> float:
     return sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(points, [*points[1:], *points[:1]], strict=True)) / 2
 
 
-def _directed(ring: Ring, outer: bool) -> Ring:
-    """The ring with the shape on its left."""
-    return ring if (area(rough(ring)) > 0) == outer else reversed_ring(ring)
+def _counterclockwise(ring: Ring) -> Ring:
+    return ring if area(rough(ring)) > 0 else reversed_ring(ring)
 
 
-def _points(ring: Ring, error: float, inside: bool, spend: Spend) -> list[ExactPoint]:
-    """Vertices of the chain to the right of a ring with the shape on its left, or to the left of it."""
-    if straight(ring):
-        spend(len(ring))
-        return [segment.start for segment in ring if isinstance(segment, Line)]
-    points = _around(reversed_ring(ring) if inside else ring, error, spend)
-    return points[::-1] if inside else points
+def _least_error(ring: Ring) -> float:
+    """Doubles err by their rounding of the largest number from which points are computed."""
+    x0, y0, x1, y1 = box_of([ring])
+    far = [abs(x) for arc in ring if isinstance(arc, Arc) and not arc.base for x in (*arc.center, *arc.u, *arc.v)]
+    return FINEST * max(x1 - x0, y1 - y0, *map(abs, (x0, y0, x1, y1)), *far)
+
+
+def _chain(ring: Ring, error: float, within: bool, keep: bool, spend: Spend) -> list[ExactPoint]:
+    """Vertices of the chain to the right of a counter-clockwise ring, or to the left of it."""
+    points = _around(reversed_ring(ring) if within else ring, error, keep, spend)
+    return points[::-1] if within else points
 
 
 @dataclass(slots=True)
@@ -146,15 +200,16 @@ class _Vertex:
     corner: bool = False  # a vertex of a hull
 
 
-def _around(ring: Ring, error: float, spend: Spend) -> list[ExactPoint]:
-    x0, y0, x1, y1 = box_of([ring])
-    error = max(error, FINEST * max(x1 - x0, y1 - y0, *map(abs, (x0, y0, x1, y1))))
+def _around(ring: Ring, error: float, keep: bool, spend: Spend) -> list[ExactPoint]:
+    """Vertices of the chain; those between a curve and its neighbour stay where they are, or move as well."""
+    noise = NOISE / FINEST * _least_error(ring)
     chain: list[_Vertex] = []
     for k, segment in enumerate(ring):
-        if isinstance(segment, Line):
-            chain.append(_Vertex(ends(segment)[0], segment.start))
-            continue
         before = ring[k - 1]
+        if isinstance(segment, Line):
+            stays = keep or isinstance(before, Line)
+            chain.append(_Vertex(ends(segment)[0], segment.start if stays else None))
+            continue
         start = ends(segment)[0]
         kept = None
         if isinstance(before, Line):
@@ -163,8 +218,8 @@ def _around(ring: Ring, error: float, spend: Spend) -> list[ExactPoint]:
             kept = segment.tips[0] if segment.tips else point_of(*start)
         joint = isinstance(segment, Arc) and segment.closed
         for piece in _pieces(segment, 0.9 * error, spend):
-            chain.append(_Vertex(piece[0], kept, joint))
-            chain += [_Vertex(p, None, corner=True) for p in _right_of(piece)]
+            chain.append(_Vertex(piece[0], kept if keep else None, joint))
+            chain += [_Vertex(p, None, corner=True) for p in _right_of(piece, noise)]
             kept, joint = None, True
     chain = [
         vertex
@@ -197,8 +252,9 @@ def _pieces(segment: Segment, error: float, spend: Spend) -> Iterator[tuple[Vect
     if isinstance(segment, Arc):
         reach = max(math.hypot(*segment.u), math.hypot(*segment.v)) * math.sqrt(2)
         sweep = abs(segment.last - segment.first)
-        step = min(math.pi / 4, max(1e-5, 2 * math.acos(1 / (1 + error / reach))) if reach else 1.0)
-        count = max(1, math.ceil(sweep / step))
+        share = error / reach if reach else 1.0
+        step = min(math.pi / 4, 2 * math.atan(math.sqrt(share * (2 + share))))  # 2 acos(1 / (1 + share))
+        count = max(1, math.ceil(min(sweep / step, 1e6)))
         spend(count)
         yield from _divided(segment, count)
         return
@@ -216,20 +272,19 @@ def _pieces(segment: Segment, error: float, spend: Spend) -> Iterator[tuple[Vect
 def _divided(arc: Arc, count: int) -> Iterator[tuple[Vector, ...]]:
     """Ends of equal pieces, and where the tangents there meet."""
     step = (arc.last - arc.first) / count
-    scale = 1 / math.cos(step / 2)
     for k in range(count):
         t = arc.first + k * step
-        yield arc.at(t), arc.at(t + step / 2, scale), arc.at(t + step)
+        yield arc.at(t), arc.at(t + step / 2, step / 2), arc.at(t + step)
 
 
 def _control(segment: Segment) -> tuple[Vector, ...]:
     match segment:
         case Cubic(points, _):
             return points
-        case Arc(center, u, v, _, _, _):
-            x, y = (math.hypot(u[k], v[k]) for k in (0, 1))
-            low, high = (center[0] - x, center[1] - y), (center[0] + x, center[1] + y)
-            return segment.at(segment.first), low, high, segment.at(segment.last)
+        case Arc():
+            sweep = abs(segment.last - segment.first)
+            count = math.ceil(sweep / (math.pi / 8)) if sweep < 1e3 else 1  # more is no angle
+            return tuple(p for part in _divided(segment, max(1, count)) for p in part)
         case Line():
             return ends(segment)
 
@@ -266,8 +321,15 @@ def _flat(piece: tuple[Vector, ...], error: float) -> bool:
     return turns and along == sorted(along) and max(beside) <= error * length
 
 
-def _right_of(piece: tuple[Vector, ...]) -> list[Vector]:
-    """Hull vertices strictly to the right of the chord, in their order; the piece goes on along it."""
+def _right_of(piece: tuple[Vector, ...], noise: float) -> list[Vector]:
+    """Hull vertices to the right of the chord, in their order; its middle where doubles do not tell.
+
+    The piece goes on along its chord.
+    """
+    (x0, y0), (x1, y1) = first, last = piece[0], piece[-1]
+    length = math.hypot(x1 - x0, y1 - y0)
+    if all(abs(turn(first, last, p)) <= noise * length for p in piece[1:-1]):
+        return [((x0 + x1) / 2, (y0 + y1) / 2)]
     hull: list[Vector] = []
     for p in piece:
         while len(hull) > 1 and turn(hull[-2], hull[-1], p) <= 0:

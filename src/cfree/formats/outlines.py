@@ -8,7 +8,7 @@ from typing import Any
 
 from cfree.curves.drawn import Line, Ring, Vector, carried, decimal, straight, translation, turn
 from cfree.curves.hulls import Outline, area, box_of, in_range, polygon_of, rough
-from cfree.errors import InvalidPolygonError
+from cfree.errors import InvalidPolygonError, UndecidedError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.formats.findings import InvalidFileError, Problem
@@ -58,6 +58,8 @@ def shapes_of_drawing(
                 polygon = polygon_of(outline, tolerance, role == "workspace", source.spend)
             except InvalidPolygonError as error:
                 problems.append(Problem(item.line, 1, name or role, explained(error)))
+            except UndecidedError as error:
+                problems.append(Problem(item.line, 1, name or role, f"{error}; draw it wider, or leave it out"))
             else:
                 shapes.append(Shape(role, name, polygon))
     if curves:

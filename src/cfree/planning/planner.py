@@ -28,7 +28,7 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.free.space import FreeSpace, built_space
 from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
-from cfree.planning.caller import Caller, Phase
+from cfree.planning.caller import Caller, Phase, Work
 from cfree.planning.core_ways import Slides, end_of, from_numbers, numbers_of, way_of
 from cfree.planning.goals import AllSeparated, plan_any
 from cfree.planning.improving import Improver
@@ -68,6 +68,7 @@ class Planner(Value):
     progress: Callable[[float], object] | None = None
     phase: Phase = field(default=nullcontext, repr=False)
     stop: threading.Event = field(default_factory=threading.Event, repr=False)  # ends what runs in other threads
+    work: Work | None = field(default=None, repr=False)  # ends a question
     _slides: Slides = field(default_factory=dict, repr=False)  # by the poses that they join
 
     @property
@@ -146,7 +147,7 @@ class Planner(Value):
 
     def _of(self, scene: Scene) -> Planner:
         """For the same question with another robot."""
-        return Planner(scene, None, self.max_seconds, self.preferences, self.progress, self.phase, self.stop)
+        return Planner(scene, None, self.max_seconds, self.preferences, self.progress, self.phase, self.stop, self.work)
 
     @checked
     def improved(self, way: Sequence[Pose], improve: float | None, objective: Objective) -> Path:
@@ -194,7 +195,7 @@ class Planner(Value):
         return None if found is None else way_of(found, self.checker.features, self._slides)
 
     def _caller(self) -> Caller:
-        return Caller(self.phase, self.progress, self.max_seconds, self.stop)
+        return Caller(self.phase, self.progress, self.max_seconds, self.stop, self.work)
 
     @checked
     def path(self, poses: Sequence[Pose]) -> Path:

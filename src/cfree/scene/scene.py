@@ -21,7 +21,7 @@ from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
 from cfree.curves.rings import Circle
-from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
+from cfree.errors import InvalidPolygonError, InvalidPoseError, UndecidedError, UnsupportedError
 from cfree.exact.number import Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.polygons.polygon import Polygon, polygon_of
@@ -191,6 +191,11 @@ class Scene(Shown):
         error : float
             No point of a polygon's boundary is farther from the round shape it is for. One less than doubles can tell
             is raised to that.
+
+        Raises
+        ------
+        UndecidedError
+            If the workspace has no polygon that can be proved to be inside: it is too thin for doubles, or has cusps.
         """
         return with_polygons(self, [error] * len(shapes_of(self)), outward=True)
 
@@ -198,7 +203,8 @@ class Scene(Shown):
     def inner(self, error: float) -> Scene:
         """A scene of polygons in which no more is forbidden than here: what is proved impossible in it is here, too.
 
-        Robot and obstacles shrink, the workspace grows. Parameters are those of `outer`.
+        Robot and obstacles shrink, the workspace grows. Parameters and errors are those of `outer`; here the robot
+        may have no polygon inside.
         """
         return with_polygons(self, [error] * len(shapes_of(self)), outward=False)
 
@@ -251,7 +257,10 @@ def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Sc
     room = scene.workspace
     rooms = () if room is None else polygons_for(room, next(given), not outward)
     if not robot or (room and not rooms):
-        raise UnsupportedError("a shape with cusps has no polygon inside of it; give another for robot or workspace")
+        raise UndecidedError(
+            f"no polygon inside the {'workspace' if robot else 'robot'} can be proved: it is too thin, or has cusps",
+            error=max(errors),
+        )
     settings = {key: getattr(scene, key) for key in ("bounds", "start", "units", "name")}
     return Scene(
         robot,

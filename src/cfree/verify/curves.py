@@ -10,11 +10,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import Any
 
 from flint import fmpq
 
+from cfree.curves.curved import Curved
 from cfree.curves.drawn import Line
 from cfree.curves.rings import Cubic, Piece
 from cfree.exact.number import ExactPoint as FractionPoint
@@ -23,6 +24,7 @@ from cfree.scene.scene import AnyShape, Scene
 
 DEEPEST = 60  # times that a piece is halved
 
+Curve = Sequence[Piece]
 Number = Any  # fmpq, which is many times quicker than Fraction
 ExactPoint = tuple[Number, Number]
 Ring = Sequence[ExactPoint]
@@ -31,51 +33,78 @@ Wrong = Iterator[tuple[str, str]]
 
 
 def mismatches(scene: Scene, polygons: Scene, *, outward: bool) -> Wrong:
-    """Places and texts: where the polygons of a scene are not around the round shapes of another, or inside of them."""
-    given = iter(polygons.robot)
-    for k, shape in enumerate(scene.robot):
-        yield from _shape(f"robot[{k}]", shape, given, outward)
-    if next(given, None) is not None:
-        yield "robot", "the answer has more polygons than the scene has shapes"
-    given = iter(polygons.obstacles)
-    for name, shape in zip(scene.obstacle_names, scene.obstacles, strict=True):
-        yield from _shape(name, shape, given, outward)
-    if not outward and next(given, None) is not None:
-        yield "obstacles", "the answer has more polygons than the scene has shapes"
+    """Places and texts: where the polygons of a scene are not around the round shapes of another, or inside of them.
+
+    A shape too thin to have a polygon inside has none in an answer; then those of the others are in their order.
+    """
+    parts = [(f"robot[{k}]", shape) for k, shape in enumerate(scene.robot)]
+    obstacles = [*zip(scene.obstacle_names, scene.obstacles, strict=True)]
+    yield from _list("robot", parts, polygons.robot, outward)
+    yield from _list("obstacles", obstacles, polygons.obstacles, outward)
     if (scene.workspace is None) != (polygons.workspace is None):
         yield "workspace", "only one of scene and answer has it"
     elif scene.workspace is not None and polygons.workspace is not None:
-        yield from _shape("workspace", scene.workspace, iter([polygons.workspace]), not outward)
+        yield from _shape("workspace", scene.workspace, [polygons.workspace], not outward)
     if scene.bounds != polygons.bounds:
         yield "bounds", "those of the answer are others"
 
 
-def _shape(name: str, shape: AnyShape, given: Iterator[Polygon], outward: bool) -> Wrong:
-    """One shape, and the next polygons; as many as it has convex pieces if it is grown."""
+def _list(place: str, shapes: Sequence[tuple[str, AnyShape]], polygons: Sequence[Polygon], outward: bool) -> Wrong:
+    """Shapes of the robot, or obstacles, and their polygons one after the other."""
+    missing = sum(_count(shape) for _, shape in shapes) - len(polygons)
+    k = 0
+    for name, shape in shapes:
+        faults = [*_shape(name, shape, polygons[k : k + _count(shape)], outward)]
+        if faults and missing > 0 and not outward and isinstance(shape, Curved) and not shape.grown:
+            missing -= 1
+            continue
+        yield from faults
+        k += _count(shape)
+    if k < len(polygons):
+        yield place, "the answer has more polygons than the scene has shapes"
+
+
+def _count(shape: AnyShape) -> int:
+    return len(_base(shape).pieces) if isinstance(shape, Curved) and shape.grown else 1
+
+
+def _base(shape: Curved) -> Polygon:
+    return Polygon(shape.path, shape.holes)  # type: ignore[arg-type]
+
+
+def _shape(name: str, shape: AnyShape, polygons: Sequence[Polygon], outward: bool) -> Wrong:
+    """One shape, and its polygons; as many as it has convex pieces if it is grown."""
     if isinstance(shape, Polygon):
-        if next(given, None) != shape:
+        if list(polygons) != [shape]:
             yield name, "the answer's polygon is another"
         return
     if shape.grown:
-        base, radius = Polygon(shape.path, shape.holes), _number(shape.grown)  # type: ignore[arg-type]
-        for number, piece in enumerate(base.pieces):
-            corners, found = _ring([base.exact_vertices[k] for k in piece]), next(given, None)
+        base, radius = _base(shape), _number(shape.grown)
+        for number, (piece, found) in enumerate(zip_longest(base.pieces, polygons)):
+            corners = _ring([base.exact_vertices[k] for k in piece])
             fits = found is not None and len(found.ring_offsets) == 2
             check = _is_around_sum if outward else _is_inside_sum
-            if not (fits and found is not None and check(corners, radius, _ring(found.exact_vertices))):
+            if not (fits and check(corners, radius, _ring(found.exact_vertices))):
                 yield f"{name}, piece {number}", f"it is not {'around' if outward else 'inside'} the grown piece"
         return
-    found = next(given, None)
-    if found is None or len(found.exact_rings) != len(shape.curves):
+    rings = polygons[0].exact_rings if polygons else ()
+    if not rings or len(rings) > len(shape.curves) or (not outward and len(rings) < len(shape.curves)):
         yield name, "there is no polygon for it, or one with other holes"
         return
-    for k, (curve, ring) in enumerate(zip(shape.curves, found.exact_rings, strict=True)):
+    curves = shape.curves if len(rings) == len(shape.curves) else _with_polygons(shape.curves, rings)
+    for k, (curve, ring) in enumerate(zip(curves, rings, strict=True)):
         contains = outward == (k == 0)
         if not (_is_around if contains else _is_inside)(curve, _ring(ring)):
             yield (
                 f"{name}, {f'hole {k - 1}' if k else 'outer ring'}",
                 (f"the polygon's ring is not {'around' if contains else 'inside'} the curve, or too near to tell"),
             )
+
+
+def _with_polygons(curves: Sequence[Curve], rings: Sequence[Sequence[FractionPoint]]) -> list[Curve]:
+    """The outer curve, and for each hole of a polygon the curve that is around it, or else any; others are filled."""
+    outer, *holes = curves
+    return [outer, *(next((hole for hole in holes if _is_inside(hole, _ring(ring))), holes[0]) for ring in rings[1:])]
 
 
 def _number(value: Fraction) -> Number:

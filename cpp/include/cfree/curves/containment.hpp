@@ -1,0 +1,25 @@
+// Closed curves and the rings of polygons: does one contain the other? Decided exactly.
+//
+// A curve is cut into parts until no edge of the ring meets the interior of a part's hull. Then each part is on one side of
+// the ring. docs/theory/curved-shapes.md has the proof.
+#pragma once
+#include "cfree/polygons/polygon.hpp"
+
+namespace cfree {
+
+// A line of two points, a Bézier curve of four, or an arc of an ellipse of three: center + u (1 - s^2) / (1 + s^2) +
+// v 2 s / (1 + s^2), for s from 0 to `last`, which is at most 1.
+struct CurvePiece {
+    std::vector<RatioPoint> points;
+    Ratio last;
+};
+
+// Each piece begins where the one before ends.
+using ClosedCurve = std::vector<CurvePiece>;
+
+// True if all of the curve is inside a ring of the polygon or on it; false if some is not, or if that is too near to tell.
+bool is_around(const Polygon& polygon, Index ring, const ClosedCurve& curve);
+// True if the curve goes around the ring, and no point of it is inside; false if not, or if that is too near to tell.
+bool is_within(const Polygon& polygon, Index ring, const ClosedCurve& curve);
+
+}  // namespace cfree

@@ -1,0 +1,116 @@
+"""Thin and flat round shapes, turned and far away, and exact points on their rims."""
+
+from __future__ import annotations
+
+import random
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import cfree
+from cfree.curves import Arc, Bezier, Spline
+from cfree.curves.drawn import Line
+from cfree.curves.rings import Cubic, Piece, exact_ring
+from cfree.exact.number import ExactPoint
+
+FAMILIES = ("ellipse", "stadium", "lens", "moon", "spline", "flat arc", "flat cubic", "hollow", "pocket", "ring")
+
+
+def thin_shape(rng: random.Random, family: str, thin: Fraction) -> Any:
+    """A shape about as long as 2 and as thin, or as flat, as is said; turned, and placed near or far."""
+    a, h = Fraction(rng.randrange(50, 151), 100), thin
+    ellipse = [(a, 0), Arc((-a, 0), center=(0, 0), conjugate=(0, h)), Arc((a, 0), center=(0, 0), conjugate=(0, -h))]
+    lens = [(a, 0), Arc((-a, 0), through=(0, h)), Arc((a, 0), through=(0, -h / rng.randrange(1, 9)))]
+    holes: list[Any] = []
+    match family:
+        case "ellipse":
+            ring: list[Any] = ellipse
+        case "stadium":
+            ring = [(-a, -h), (a, -h), Arc((a, h), center=(a, 0)), (-a, h), Arc((-a, -h), center=(-a, 0))]
+        case "lens":
+            ring = lens
+        case "moon":
+            ring = [(a, 0), Arc((-a, 0), through=(0, a)), Arc((a, 0), through=(0, a + h))]
+        case "spline":
+            ring = [(a, 0), Spline([(a / 2, h), (-a / 3, h / 2), (-a, h), (-a, -h), (0, -h), (a, -h), (a, 0)])]
+        case "flat arc":  # bulges out of a square, or into it
+            side = rng.choice([-1, 1])
+            ring = [(0, 0), (0, -a), (2 * a, -a), (2 * a, 0), Arc((0, 0), through=(a, side * h))]
+        case "flat cubic":
+            ring = [(0, 0), (0, -a), (2 * a, -a), (2 * a, 0)]
+            heights = h * rng.choice([-1, 0, 1]), h * rng.choice([-1, 1])
+            ring += [Bezier([(a * Fraction(4, 3), heights[0]), (a / 2, heights[1]), (0, 0)])]
+        case "hollow":
+            ring, holes = [(-2, -2), (2, -2), (2, 2), (-2, 2)], [rng.choice([ellipse, lens])]
+        case "pocket":  # a slot from above that ends in half an ellipse; not so thin that it seems to cross itself
+            h, w = max(h, Fraction(1, 2**12)), Fraction(1, 4)
+            end = Arc((-h, 0), center=(0, 0), conjugate=(0, -w), clockwise=True)
+            ring = [(-1, -1), (1, -1), (1, 1), (h, 1), (h, 0), end, (-h, 1), (-1, 1)]
+        case _:
+            ring, holes = [(a, 0), Arc((a, 0), center=(0, 0))], [[(a - h, 0), Arc((a - h, 0), center=(0, 0))]]
+    return turned(ring, holes, *placement(rng))
+
+
+def placement(rng: random.Random) -> tuple[Fraction, ExactPoint]:
+    """The tangent of half an angle, often a long rational, and a vector, often a long one."""
+    tau = rng.choice([Fraction(0), Fraction(1, 3), Fraction(rng.randrange(10**17), 10**17 + 9), Fraction(-22, 7)])
+    far = rng.choice([0, 0, 10**9, Fraction(10**12, 7)])
+    return tau, (far * rng.choice([-1, 1]), Fraction(rng.randrange(9), 7) + far)
+
+
+def turned(ring: list[Any], holes: list[Any], tau: Fraction, by: ExactPoint) -> cfree.Curved:
+    """A shape of paths, turned by 2 arctan(tau) and then moved."""
+    square = 1 + tau * tau
+    c, s = (1 - tau * tau) / square, 2 * tau / square
+
+    def direction(p: Any) -> Any:
+        return p and (c * p[0] - s * p[1], s * p[0] + c * p[1])
+
+    def point(p: Any) -> Any:
+        return p and tuple(x + y for x, y in zip(direction(p), by, strict=True))
+
+    def moved(item: Any) -> Any:
+        match item:
+            case Arc():
+                to, through, center = map(point, (item.to, item.through, item.center))
+                return Arc(to, through, center, item.clockwise, direction(item.conjugate))
+            case Bezier() | Spline():
+                return type(item)([point(p) for p in item.points])
+        return point(item)
+
+    return cfree.Curved([*map(moved, ring)], [[*map(moved, hole)] for hole in holes])
+
+
+def rim_points(ring: Any, rng: random.Random, many: int) -> list[ExactPoint]:
+    """Exact points on a ring."""
+    pieces = exact_ring(ring)
+    return [_on(rng.choice(pieces), rng) for _ in range(many)]
+
+
+def _on(piece: Piece, rng: random.Random) -> ExactPoint:
+    t = rng.choice([Fraction(0), Fraction(1, 2), Fraction(1), Fraction(rng.randrange(1001), 1000)])
+    match piece:
+        case Line(start, end):
+            row = [start, end]
+        case Cubic(points):
+            row = [*points]
+        case _:
+            if piece.quarters:
+                return piece.at(rng.randrange(piece.quarters), t)
+            return piece.at(0, t * piece.rest)
+    while len(row) > 1:
+        row = [(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])) for p, q in pairwise(row)]
+    return row[0]
+
+
+def side(p: ExactPoint, rings: Any) -> int:
+    """1 if a point is inside a polygon of exact rings, 0 on its boundary, -1 outside."""
+    is_odd = False
+    for ring in rings:
+        for a, b in zip(ring, [*ring[1:], ring[0]], strict=True):
+            cross = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
+            if cross == 0 and all(min(a[k], b[k]) <= p[k] <= max(a[k], b[k]) for k in (0, 1)):
+                return 0
+            if (a[1] <= p[1]) != (b[1] <= p[1]) and (cross > 0) == (b[1] > a[1]):
+                is_odd = not is_odd
+    return 1 if is_odd else -1
