@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -21,8 +21,8 @@ def bare_page(folder: Path) -> Path:
 class Tried:
     """A page of a scene; closing it sees that nothing was complained of and nothing asked for from outside."""
 
-    def __init__(self, browser: Any, path: Path, fragment: str = "") -> None:
-        self.context = browser.new_context(viewport={"width": 1280, "height": 800})
+    def __init__(self, browser: Any, path: Path, fragment: str = "", **device: Any) -> None:
+        self.context = browser.new_context(**{"viewport": {"width": 1280, "height": 800}} | device)
         self.page = self.context.new_page()
         self.faults: list[str] = []
         self.page.on("console", lambda message: self.faults.append(message.text) if message.type == "error" else None)
@@ -84,3 +84,48 @@ class Tried:
     def close(self) -> None:
         self.context.close()
         assert not self.faults, self.faults
+
+
+PHONE = {"viewport": {"width": 390, "height": 760}, "has_touch": True, "is_mobile": True, "device_scale_factor": 1}
+TABLET = {"viewport": {"width": 1024, "height": 768}, "has_touch": True, "is_mobile": True, "device_scale_factor": 1}
+
+Place = tuple[float, float]
+
+
+class Fingers:
+    """Fingers on a page, whose touches go the way of the browser's own: it may take them for scrolling."""
+
+    def __init__(self, page: Any) -> None:
+        self.page = page
+        self.client = page.context.new_cdp_session(page)
+
+    def touch(self, kind: str, *places: Place) -> None:
+        """Send "Start", "Move", "End" or "Cancel", with the places of all fingers that are down."""
+        points = [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(places)]
+        self.client.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
+
+    def glide(self, begin: Sequence[Place], end: Sequence[Place]) -> None:
+        """Fingers that are down, from places to others in ten steps."""
+        for step in range(1, 11):
+            self.touch("Move", *(_between(a, b, step / 10) for a, b in zip(begin, end, strict=True)))
+            self.page.wait_for_timeout(15)
+
+    def drag(self, begin: Place, dx: float, dy: float, end: str = "End") -> None:
+        """One finger, by pixels; it is lifted, or its touch is cancelled."""
+        to = begin[0] + dx, begin[1] + dy
+        self.touch("Start", begin)
+        self.glide([begin], [to])
+        self.touch(end)
+
+    def pinch(self, middle: Place, first: float, last: float, end: str = "End") -> None:
+        """Two fingers side by side, from one distance to another."""
+        (x, y), apart = middle, (first / 2, last / 2)
+        begin, to = ([(x - half, y), (x + half, y)] for half in apart)
+        self.touch("Start", begin[0])
+        self.touch("Start", *begin)
+        self.glide(begin, to)
+        self.touch(end)
+
+
+def _between(a: Place, b: Place, share: float) -> Place:
+    return a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])

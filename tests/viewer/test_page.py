@@ -40,6 +40,14 @@ def test_page_is_one_file_of_at_most_four_megabytes() -> None:
     assert not re.search(r"""(?:src|href)\s*=\s*["'](?!#|data:)""", re.sub(r"(?s)<script.*?</script>", "", TEXT))
 
 
+def test_modules_of_the_page_import_in_no_circle() -> None:
+    modules = (ROOT / "viewer" / "src").glob("*.ts")
+    left = {module.stem: set(re.findall(r'from "\./(\w+)"', module.read_text())) for module in modules}
+    while ready := {name for name, needed in left.items() if not needed & left.keys()}:
+        left = {name: needed for name, needed in left.items() if name not in ready}
+    assert not left
+
+
 class Scripts(html.parser.HTMLParser):
     """The texts of scripts by their id."""
 

@@ -1,8 +1,8 @@
 // Colours of patches and paths. What is ordered has one scale (cividis, which colour-blind readers see as others do).
 import { Color } from "three";
 import { type Columns, bytes, doubles, integers } from "./engine";
-import type { Palette } from "./space";
 
+export interface Palette { vertex_edge: string; edge_vertex: string; helix: string; segment: string; ink: string; faint: string; path: string; good: string; bad: string; accent: string; barrier: string }
 export type ColourBy = "contact" | "cell" | "obstacle" | "gaussian" | "mean";
 const MANY = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7bd1", "#b2a13c"];
 const SCALE = ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"].map((of) => new Color(of));

@@ -1,4 +1,5 @@
 // Obstacles and the robot's outline changed by dragging, or by keys: handles over the left view, new texts of the scene.
+import { FINGER } from "./pointers";
 import { Shapes, moved, number, same, snapped, type Point, type Rings, type Which } from "./shapes";
 import { made, outline, type Workspace } from "./workspace";
 
@@ -22,6 +23,7 @@ export class Editor {
   private fault = "";
   names: string[] = [];
   on_change: (source: string, done: boolean) => void = () => {};
+  on_cancel = () => {};  // the drag
   on_mode = () => {};
 
   constructor(private readonly workspace: Workspace) {
@@ -157,22 +159,24 @@ export class Editor {
   }
 
   // Whatever is dragged: `to` makes the rings of how far it has come.
-  private follow(event: PointerEvent, target: Element, to: (x: number, y: number) => Rings): void {
+  private follow(event: PointerEvent, to: (x: number, y: number) => Rings, ended = () => {}): void {
     event.preventDefault(), event.stopPropagation();
-    const begin = this.local(this.workspace.point(event)), id = event.pointerId;
+    const begin = this.local(this.workspace.point(event));
     let is_moved = false;
-    target.setPointerCapture(id);
     const at = (now: PointerEvent) => { const p = this.local(this.workspace.point(now)); return to(p.x - begin.x, p.y - begin.y); };
-    const move = (now: PointerEvent) => {
-      if (!is_moved && Math.hypot(now.clientX - event.clientX, now.clientY - event.clientY) < 3) return;
-      is_moved = true;
-      this.change(at(now), false);
-    };
-    const end = (now: PointerEvent) => {
-      target.removeEventListener("pointermove", move as EventListener), target.removeEventListener("pointerup", end as EventListener), target.removeEventListener("pointercancel", end as EventListener);
-      if (is_moved) this.change(at(now), true);
-    };
-    target.addEventListener("pointermove", move as EventListener), target.addEventListener("pointerup", end as EventListener), target.addEventListener("pointercancel", end as EventListener);
+    this.workspace.pointers.follow(event, {
+      move: (now) => {
+        if (!is_moved && Math.hypot(now.clientX - event.clientX, now.clientY - event.clientY) < 3) return;
+        is_moved = true;
+        this.change(at(now), false);
+      },
+      end: (now) => { ended(); if (is_moved) this.change(at(now), true); },
+      cancel: () => { ended(); if (is_moved) this.cancelled(); },
+    });
+  }
+  private cancelled(): void {
+    this.draft = undefined, (this.fault = "");
+    this.restore(), this.look(), this.on_cancel();
   }
 
   private grab(event: PointerEvent): void {
@@ -181,7 +185,7 @@ export class Editor {
     this.choose({ kind: "obstacle", k });
     (path as SVGElement).focus({ preventScroll: true });
     const from = this.rings;
-    this.follow(event, path, (dx, dy) => this.step_of(dx, dy, from));
+    this.follow(event, (dx, dy) => this.step_of(dx, dy, from));
   }
 
   private key(event: KeyboardEvent): void {
@@ -218,7 +222,11 @@ export class Editor {
   private put(event: PointerEvent): void {
     if (!this.drawn || event.button !== 0) return;
     event.preventDefault(), event.stopPropagation();
-    const at = this.workspace.point(event), first = this.drawn[0], last = this.drawn.at(-1), near = NEAR * this.workspace.pixel;
+    this.workspace.pan(event, (at) => this.corner(at));
+  }
+  private corner(at: { x: number; y: number }): void {
+    if (!this.drawn) return;
+    const first = this.drawn[0], last = this.drawn.at(-1), near = NEAR * FINGER * this.workspace.pixel;
     if (first && this.drawn.length > 2 && Math.hypot(at.x - first.x, at.y - first.y) < near) return this.finish();
     if (last && Math.hypot(at.x - last.x, at.y - last.y) < near / 2) return this.drawn.length > 2 ? this.finish() : undefined;
     this.drawn.push(at), this.look();
@@ -255,7 +263,7 @@ export class Editor {
         if (!best || far < best.far) best = { which, spot: { ring: r, vertex: k }, far };
       }));
     }
-    if (!best || best.far > NEAR * this.workspace.pixel) return;
+    if (!best || best.far > NEAR * FINGER * this.workspace.pixel) return;
     event.preventDefault();
     this.choose(best.which);
     this.insert(best.spot, this.local(p));
@@ -274,7 +282,7 @@ export class Editor {
     const spots = rings.flatMap((ring, r) => ring.map(([x, y], k) => ({ x: number(x), y: number(y), spot: { ring: r, vertex: k } })));
     this.frame.setAttribute("transform", at ? `translate(${at.x} ${at.y}) rotate(${at.theta * 180 / Math.PI})` : "");
     const key = `${chosen.kind} ${chosen.k} ${rings.map((ring) => ring.length).join(" ")}`;
-    if (this.frame.dataset.key !== key || this.frame.querySelector(".drawn")) {
+    if (this.frame.dataset.key !== key || !this.frame.childElementCount || this.frame.querySelector(".drawn")) {
       this.frame.replaceChildren(), (this.frame.dataset.key = key);
       for (const { spot } of spots.length > MOST ? [] : spots) {
         const handle = made("circle", this.frame, { class: "vertex", tabindex: 0, role: "button", "data-spot": `${spot.ring} ${spot.vertex}` });
@@ -282,7 +290,7 @@ export class Editor {
           if (event.button !== 0) return;
           handle.focus({ preventScroll: true });
           const from = this.rings, [x, y] = from[spot.ring]![spot.vertex]!, { step } = this.workspace;
-          this.follow(event, handle, (dx, dy) => this.vertex_at(from, spot, snapped(number(x) + dx, step), snapped(number(y) + dy, step)));
+          this.follow(event, (dx, dy) => this.vertex_at(from, spot, snapped(number(x) + dx, step), snapped(number(y) + dy, step)));
         });
         handle.addEventListener("keydown", (event) => this.vertex_key(event, spot));
       }
@@ -290,13 +298,13 @@ export class Editor {
     }
     this.frame.querySelectorAll<SVGElement>(".vertex").forEach((handle, k) => {
       const { x, y, spot } = spots[k]!;
-      for (const [name_of, of] of Object.entries({ cx: x, cy: y, r: 5.5 * px })) handle.setAttribute(name_of, String(of));
+      for (const [name_of, of] of Object.entries({ cx: x, cy: y, r: 5.5 * FINGER * px })) handle.setAttribute(name_of, String(of));
       handle.setAttribute("aria-label", `vertex ${spot.vertex} of ${name}: x ${rings[spot.ring]![spot.vertex]![0]}, y ${rings[spot.ring]![spot.vertex]![1]}`);
     });
     const knob = this.frame.querySelector(".knob");
     if (knob && !this.turning) {
       const { x, top } = this.middle(rings);
-      knob.setAttribute("cx", String(x)), knob.setAttribute("cy", String(top + 24 * px)), knob.setAttribute("r", String(6 * px));
+      knob.setAttribute("cx", String(x)), knob.setAttribute("cy", String(top + 24 * px)), knob.setAttribute("r", String(6 * FINGER * px));
     }
     this.frame.querySelector(".fault")?.remove();
     const place = /\((-?[\d./]+), (-?[\d./]+)\)/.exec(this.fault);
@@ -309,11 +317,10 @@ export class Editor {
     knob.addEventListener("pointerdown", (event) => {
       const from = this.rings, { x, y } = this.middle(from), at = this.workspace.point(event), first = Math.atan2(at.y - y, at.x - x);
       this.turning = true;
-      knob.addEventListener("pointerup", () => { this.turning = false, this.look(); }, { once: true });
-      this.follow(event, knob, (dx, dy) => {
+      this.follow(event, (dx, dy) => {
         knob.setAttribute("cx", String(at.x + dx)), knob.setAttribute("cy", String(at.y + dy));
         return this.turned(Math.atan2(at.y + dy - y, at.x + dx - x) - first, from);
-      });
+      }, () => { this.turning = false, this.look(); });
     });
   }
   private look_drawn(): void {

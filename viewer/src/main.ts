@@ -28,7 +28,7 @@ try {
 const session = new Session(workspace, space), player = new Player(session), editor = new Editor(workspace);
 session.editor = editor;
 const lessons = new Lessons(session, editor, in_gallery);
-editor.on_change = (source, done) => void session.edited(source, done);
+editor.on_change = (source, done) => void session.edited({ source, done }), editor.on_cancel = () => void session.edited("back");
 editor.on_mode = () => {
   $("edit-shapes").setAttribute("aria-pressed", String(editor.is_on));
   $("tools").classList.toggle("on", editor.is_on);

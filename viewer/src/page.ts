@@ -1,6 +1,6 @@
 // Parts of the page by their id, and what is said in words.
+import type { Palette } from "./colours";
 import { Cancelled } from "./engine";
-import type { Palette } from "./space";
 import type { Verdict } from "./verdict";
 
 export const $ = <T extends HTMLElement>(id: string) => document.getElementById(id) as T;

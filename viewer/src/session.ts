@@ -44,7 +44,7 @@ export class Session {
   on_seen = () => {};
 
   constructor(readonly workspace: Workspace, readonly space: Space | undefined) {
-    workspace.on_drag = (drag) => this.drag(drag);
+    workspace.on_drag = (drag) => this.drag(drag), workspace.on_cancel = () => this.drag("back");
   }
 
   get now(): State { return this.history.now; }
@@ -224,18 +224,19 @@ export class Session {
     this.workspace.show_path(shown), this.space?.show_path(shown, by_clearance);
   }
 
-  private dragged?: Drag;
+  private drags: (Drag | "back")[] = [];  // still to be followed
   private is_following = false;
   private last_free?: PoseText;
-  drag(drag: Drag): void {
-    this.dragged = drag;
+  drag(drag: Drag | "back"): void {
+    const last = this.drags.at(-1);
+    if (last && last !== "back" && !last.done) this.drags.pop();  // what comes after it tells more
+    this.drags.push(drag);
     if (!this.is_following) void this.follow();
   }
   private async follow(): Promise<void> {
     this.is_following = true;
-    for (let drag; (drag = this.dragged); ) {
-      this.dragged = undefined;
-      try { await this.moved(drag); } catch (error) { fault("pose", error); }
+    for (let drag; (drag = this.drags.shift()); ) {
+      try { await (drag === "back" ? this.back() : this.moved(drag)); } catch (error) { fault("pose", error); }
     }
     this.is_following = false;
   }
@@ -263,15 +264,15 @@ export class Session {
   }
 
   // A scene's text, edited; what is no scene is refused, and the last one that was stays.
-  private edit?: { source: string; done: boolean };
+  private edit?: { source: string; done: boolean } | "back";
   private is_editing = false;
-  async edited(source: string, done: boolean): Promise<void> {
-    this.edit = { source, done };
+  async edited(edit: { source: string; done: boolean } | "back"): Promise<void> {
+    this.edit = edit;
     if (this.is_editing) return;
     this.is_editing = true;
     for (let edit; (edit = this.edit); ) {
       this.edit = undefined;
-      await this.edit_once(edit.source, edit.done);
+      await (edit === "back" ? this.back() : this.edit_once(edit.source, edit.done));
     }
     this.is_editing = false;
   }
@@ -304,6 +305,13 @@ export class Session {
     this.history.now = this.before, (this.before = undefined);
     this.history.push(state);
     this.remember();
+  }
+
+  // As all was before the drag that has been cancelled.
+  private async back(): Promise<void> {
+    const { before } = this;
+    this.before = undefined;
+    if (before) await this.restore(() => (this.history.now = before));
   }
 
   private due = 0;

@@ -5,7 +5,7 @@ import {
   TubeGeometry, Vector2, Vector3, WebGLRenderer, type Object3D, Path as ShapePath, Plane, PlaneGeometry,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { type ColourBy, on_scale, vertex_colours } from "./colours";
+import { type ColourBy, type Palette, on_scale, vertex_colours } from "./colours";
 import { type Columns, bytes, doubles, integers } from "./engine";
 import type { Shown } from "./model";
 import { DepthOrder } from "./depth";
@@ -15,8 +15,6 @@ const LOW = -Math.PI / 2, HIGH = 3 * Math.PI / 2;
 export const wrapped = (theta: number) => theta - 2 * Math.PI * Math.floor((theta - LOW) / (2 * Math.PI));
 const GLASS = 0.8;
 const STILL = 140; // ms after the last change: as fine as it gets
-
-export interface Palette { vertex_edge: string; edge_vertex: string; helix: string; segment: string; ink: string; faint: string; path: string; good: string; bad: string; accent: string; barrier: string }
 
 export class Space {
   private readonly renderer: WebGLRenderer;

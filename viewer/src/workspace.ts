@@ -1,5 +1,6 @@
 // The left view: robot, obstacles, start and goal as SVG; handles that are dragged, or moved by keys.
 import { type Columns, bytes, doubles, integers } from "./engine";
+import { FINGER, Pointers, type Pinch, type Place } from "./pointers";
 
 export type Who = "robot" | "start" | "goal";
 export interface Seen { x: number; y: number; theta: number }
@@ -25,6 +26,7 @@ export function outline(xy: ArrayLike<number>, ring: ArrayLike<number>, first = 
 
 export class Workspace {
   readonly svg: SVGSVGElement;
+  readonly pointers: Pointers;
   private readonly world: SVGGElement;
   readonly layers: Record<"floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks" | "edit", SVGGElement>;
   private readonly bodies: Record<Who, SVGGElement>;
@@ -34,6 +36,7 @@ export class Workspace {
   private box = { x: 0, y: 0, w: 1, h: 1 };  // shown, y upwards
   private whole = this.box;
   on_drag: (drag: Drag) => void = () => {};
+  on_cancel = () => {};  // the drag
   on_look = () => {};
   on_click: (at: { x: number; y: number }) => void = () => {};
 
@@ -48,6 +51,7 @@ export class Workspace {
     this.layers = { floor: layer("floor"), slice: layer("slice"), obstacles: layer("obstacles"), sweep: layer("sweep"), trace: layer("trace"),
       ghosts: layer("ghosts"), robot: layer("robot-layer"), marks: layer("marks"), edit: layer("edit") };
     this.bodies = { start: this.body("start", this.layers.ghosts), goal: this.body("goal", this.layers.ghosts), robot: this.body("robot", this.layers.robot) };
+    this.pointers = new Pointers(this.svg, (a, b) => this.pinch(a, b));
     this.svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     this.svg.addEventListener("pointerdown", (event) => this.pan(event));
     new ResizeObserver(() => this.look()).observe(this.svg);
@@ -139,7 +143,7 @@ export class Workspace {
       for (const [key, item] of Object.entries(of)) element?.setAttribute(key, String(item));
     };
     set(".arm", { x1: 0, y1: 0, x2: reach, y2: 0 });
-    set(".knob", { cx: reach, cy: 0, r: 6 * px });
+    set(".knob", { cx: reach, cy: 0, r: 6 * FINGER * px });
     set(".point", { cx: 0, cy: 0, r: 3.5 * px });
     set(".letter", { transform: `rotate(${-turn}) scale(${px} ${-px})`, x: 7, y: -7 });
   }
@@ -202,18 +206,12 @@ export class Workspace {
     const group = this.bodies[who], begin = this.point(event), from = { ...at };
     const turns = (event.target as Element).classList.contains("knob");
     group.focus({ preventScroll: true });
-    group.setPointerCapture(event.pointerId);
     const tell = (now: PointerEvent, done: boolean) => {
       const p = this.point(now);
       if (turns) this.on_drag({ who, x: from.x, y: from.y, theta: Math.atan2(p.y - from.y, p.x - from.x), step: this.step, done });
       else this.on_drag({ who, x: from.x + p.x - begin.x, y: from.y + p.y - begin.y, step: this.step, done });
     };
-    const move = (now: PointerEvent) => tell(now, false);
-    const end = (now: PointerEvent) => {
-      group.removeEventListener("pointermove", move), group.removeEventListener("pointerup", end), group.removeEventListener("pointercancel", end);
-      tell(now, true);
-    };
-    group.addEventListener("pointermove", move), group.addEventListener("pointerup", end), group.addEventListener("pointercancel", end);
+    this.pointers.follow(event, { move: (now) => tell(now, false), end: (now) => tell(now, true), cancel: () => this.on_cancel() });
   }
 
   private key(event: KeyboardEvent, who: Who): void {
@@ -230,19 +228,31 @@ export class Workspace {
     this.on_drag({ who, x: at.x + dx, y: at.y + dy, ...(turned ? { theta: at.theta + turned } : {}), step: this.step, done: true });
   }
 
-  private pan(event: PointerEvent): void {
-    if (event.button !== 0 || event.pointerType === "touch") return;
-    const from = { ...this.box }, begin = event, px = this.pixel;
-    const move = (now: PointerEvent) => {
-      this.box = { ...from, x: from.x - (now.clientX - begin.clientX) * px, y: from.y + (now.clientY - begin.clientY) * px };
+  // The drawing is moved, or something of it clicked.
+  pan(event: PointerEvent, clicked = this.on_click): void {
+    if (event.button !== 0) return;
+    const from = { ...this.box }, px = this.pixel, still = event.pointerType === "touch" ? 10 : 3;
+    const to = (box: typeof from) => { this.box = box, this.look(); };
+    this.pointers.follow(event, {
+      move: (now) => to({ ...from, x: from.x - (now.clientX - event.clientX) * px, y: from.y + (now.clientY - event.clientY) * px }),
+      end: (now) => { if (Math.hypot(now.clientX - event.clientX, now.clientY - event.clientY) < still) to(from), clicked(this.point(now)); },
+      cancel: () => to(from),
+    });
+  }
+
+  // What was between the fingers stays between them.
+  private pinch(a: Place, b: Place): Pinch {
+    const middle = (p: Place, q: Place) => ({ clientX: (p.clientX + q.clientX) / 2, clientY: (p.clientY + q.clientY) / 2 });
+    const apart = (p: Place, q: Place) => Math.max(1, Math.hypot(p.clientX - q.clientX, p.clientY - q.clientY));
+    const from = { ...this.box }, held = this.point(middle(a, b)), first = apart(a, b);
+    const move = (p: Place, q: Place) => {
+      const by = first / apart(p, q);
+      this.box = { ...from, w: from.w * by, h: from.h * by };
+      const now = this.point(middle(p, q));
+      this.box.x += held.x - now.x, this.box.y += held.y - now.y;
       this.look();
     };
-    const end = (now: PointerEvent) => {
-      this.svg.removeEventListener("pointermove", move), this.svg.removeEventListener("pointerup", end);
-      if (Math.hypot(now.clientX - begin.clientX, now.clientY - begin.clientY) < 3) this.on_click(this.point(now));
-    };
-    this.svg.addEventListener("pointermove", move), this.svg.addEventListener("pointerup", end);
-    this.svg.setPointerCapture(event.pointerId);
+    return { move, cancel: () => { this.box = from, this.look(); } };
   }
 
   private wheel(event: WheelEvent): void {
