@@ -50,7 +50,9 @@ def test_check_says_what_was_changed_and_dropped(folder: Path) -> None:
     ("arguments", "message"),
     [
         (("map.yaml", "a.json"), "map.yaml:1:1 there is no robot; give one: --robot"),
-        (("a.svg", "a.wkt"), "a.wkt: scenes are written as .json, .geojson, .svg, .dxf; name the file so"),
+        (("a.svg", "a.wkt"), "a.wkt: no scene format; name the file .json, .geojson, .svg or .dxf"),
+        (("a.svg", "a.stl"), "a.stl: no scene format; name the file .json, .geojson, .svg or .dxf"),
+        (("a.svg", "a"), "a: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a.json", "--role", "walls"), "--role: 'walls'; write it like \"walls=obstacle\""),
         (("a.svg", "a.json", "--tolerance", "0"), "tolerance: 0.0 is no length; give one above 0"),
         (("none.dxf", "a.json"), "none.dxf:1:1 No such file"),

@@ -373,10 +373,11 @@ def test_saving_follows_links_and_keeps_permissions(tmp_path: Path) -> None:
     assert load_scene(target) == load_scene(link)
 
 
-@pytest.mark.parametrize("name", ["scene.wkt", "scene.Yaml"])
+@pytest.mark.parametrize("name", ["scene.wkt", "scene.Yaml", "scene.stl", "scene.npz", "scene.jsonl", "scene"])
 def test_scenes_are_not_written_as_everything(name: str, tmp_path: Path) -> None:
-    with pytest.raises(UnsupportedError, match="scenes are written as"):
+    with pytest.raises(UnsupportedError, match=f"{name}: no scene format; name the file .json, .geojson, .svg or .dxf"):
         save(Scene(robot=[(0, 0), (1, 0), (0, 1)]), tmp_path / name)
+    assert not list(tmp_path.iterdir())
 
 
 # documents

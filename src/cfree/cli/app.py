@@ -14,7 +14,7 @@ import click
 
 from cfree.cli import options
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
-from cfree.cli.files import bar, boundary_of, check_outputs, planner_of
+from cfree.cli.files import answer_for, bar, check_outputs, computed, planner_of, read_source
 from cfree.cli.options import FILE, examples, file_option
 from cfree.cli.scenes import check, convert
 from cfree.cli.terminal import print_json, printable
@@ -102,15 +102,15 @@ def boundary(
     """
     with one_line_faults():
         if folder is not None:
-            return _boundary_in_folder(
-                scene, folder, as_json, obstacles, tiles, workers, scheduler, (output, picture, mesh, error, max_memory)
-            )
-        if obstacles or tiles or workers or scheduler:
-            raise ValueError("--obstacles, --tiles, --workers, --scheduler: need --folder")
+            return _boundary_in_folder(scene, folder, as_json, obstacles, tiles, workers, scheduler)
+        options.refuse("need --folder", "obstacles", "tiles", "workers", "scheduler")
         if error is not None and not (mesh and 0 < error < math.inf):
             raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
         written = check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
-        result = boundary_of(scene, threads, max_seconds, None if max_memory is None else read_size(max_memory))
+        if is_archive(scene):
+            _refuse_limits("max_seconds", "max_memory", *(() if mesh else ("threads",)))
+        most = None if max_memory is None else read_size(max_memory)
+        result = computed(read_source(scene), threads, max_seconds, most)
         if output:
             from cfree.formats.boundary_file import save_boundary
 
@@ -131,14 +131,18 @@ def boundary(
 
 def _boundary_in_folder(
     scene: Path, folder: Path, as_json: bool, obstacles: tuple[Path, ...], tiles: int | None, workers: int | None,
-    scheduler: str | None, others: tuple[Any, ...],
+    scheduler: str | None,
 ) -> None:  # fmt: skip
     from cfree.cli import folders
 
-    if any(other is not None for other in others):
-        raise ValueError("--folder: not with -o, --picture, --mesh, --error or --max-memory; leave them out")
+    others = "output", "picture", "mesh", "error", "threads", "max_seconds", "max_memory"
+    options.refuse("not with --folder; leave it out", *others)
     found = folders.make(scene, obstacles, folder, tiles, workers, scheduler)
     print_result(found.head.name or str(scene), scene, folders.facts(found, for_machines=as_json), {}, as_json)
+
+
+def _refuse_limits(*names: str) -> None:
+    options.refuse("of a computation, and this boundary is computed already; leave it out", *names)
 
 
 def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, picture: Path | None) -> None:
@@ -240,6 +244,10 @@ def plan(
         from cfree.cli.answering import Answering, Sampling
 
         printed = str(output) == "-"
+        if output is None:
+            options.refuse("of the file that -o writes; give -o FILE, or -o - for standard output", "form")
+        if not scene.is_dir():
+            options.refuse("of a folder written by cfree boundary --folder; leave it out", "part")
         if printed and as_json:
             raise ValueError("-o -: --json prints there, too; leave one of them out")
         written = check_outputs(
@@ -250,11 +258,11 @@ def plan(
         wanted = read_objective(objective)
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
-        options: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
+        how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), tolerance)
         if (miss or what_if) and planner.scene.curved:
             raise ValueError("--nearest-miss, --what-if: of polygons; give what cfree convert --inner writes")
-        found = Answering.of(planner, ends, written, options)
+        found = Answering.of(planner, ends, written, how)
         if output:
             found.write(output, poses)
         if picture:
@@ -297,7 +305,9 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
         written = check_outputs(scene, {"geojson": output, "picture": picture})
         from cfree.cli.describe import describe_slice
 
-        result = boundary_of(scene, threads)
+        if is_archive(scene):
+            _refuse_limits("threads")
+        result = computed(read_source(scene), threads)
         found = result.slice(angle)
         if output:
             from cfree.formats.slice_geojson import save_slice
@@ -313,12 +323,13 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
 @app.command(
     epilog=examples(
         "cfree film scene.json -o film.mp4",
+        "cfree film scene.json answer.json -o way.gif",
         "cfree film paper_fig9.json five_convex.json -o paper.mp4 --seconds 60",
         "cfree film scene.json -o path.gif --storyboard path --seconds 5 --fps 10",
         "cfree film scene.json -o turn.gif --storyboard turntable",
     )
 )
-@click.argument("scenes", type=FILE, metavar="SCENE...", nargs=-1, required=True)
+@click.argument("scenes", type=FILE, metavar="SCENE... [ANSWER]", nargs=-1, required=True)
 @file_option("--output", "-o", metavar="FILE", help="The film: .mp4 or .gif.", required=True)
 @click.option(
     "--storyboard",
@@ -328,7 +339,11 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
     show_default=True,
 )
 @click.option(
-    "--seconds", type=float, metavar="S", help="Length of the film.", show_default="30; separation 12, turntable 8"
+    "--seconds",
+    type=float,
+    metavar="S",
+    help="Length of the film.",
+    show_default="GIF 6; else 30, separation 12, turntable 8, an answer's path 6 to 22",
 )
 @click.option("--fps", type=int, metavar="N", help="Frames a second.", default=25, show_default=True)
 @click.option("--size", metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF")
@@ -339,23 +354,24 @@ def film(
 
     The robot among the obstacles, and the point it is in the configuration space. Scenes are shown one after the
     other; each is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, or a boundary written by cfree
-    boundary -o.
+    boundary -o. All storyboards but the turntable need the start and the goal of each scene. After one scene ANSWER may
+    follow, a path or a proof for it, written by cfree plan -o: then the film shows this answer.
     """
     with one_line_faults():
-        from cfree.film import SECONDS, SECONDS_OF, save_film
-        from cfree.film.reel import check_options
+        from cfree.cli.films import film_answer, film_scenes
+        from cfree.cli.report import print_rows
+        from cfree.formats.answer_file import is_answer
 
         for scene in scenes:
             written = check_outputs(scene, {"film": output})
         pixels = read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
-        seconds = SECONDS_OF.get(storyboard, SECONDS) if seconds is None else seconds
-        check_options(len(scenes), seconds, fps, pixels, storyboard)
-        found = [boundary_of(scene, None) for scene in scenes]
-        with bar("film") as progress:
-            save_film(found, output, seconds=seconds, fps=fps, size=pixels, storyboard=storyboard, progress=progress)
-        from cfree.cli.report import print_rows
-
-        rows: dict[str, Any] = {"frames": round(seconds * fps), "size": "x".join(map(str, pixels))}
+        if is_answer(scenes[-1]):
+            if len(scenes) != 2:
+                raise ValueError(f"{scenes[-1]}: an answer; give it after one scene, the one that it is for")
+            options.refuse("not with an answer, which is filmed as it is; leave it out", "storyboard")
+            rows = film_answer(*scenes, output, seconds, fps, pixels)
+        else:
+            rows = film_scenes(scenes, output, storyboard, seconds, fps, pixels)
         print_rows(", ".join(map(str, scenes)), rows, written)
 
 
@@ -364,26 +380,26 @@ def film(
 )
 @options.scene
 @click.argument("answer", type=FILE, required=False)
-@file_option("--html", metavar="HTML", help="Write the page here; it needs no other file and no server.")
+@file_option("--html", metavar="HTML", help="Write the page here, .html; it needs no other file and no server.")
 @click.option("--browser/--no-browser", help="Open it in the browser.", default=True, show_default=True)
 def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> None:
     """Show a scene in the browser, to be dragged and turned.
 
-    Beside it its configuration space, exact like all answers. ANSWER is a path or a proof written by cfree plan -o.
-    SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads.
+    Beside it its configuration space, exact like all answers. ANSWER is a path or a proof written by cfree plan -o for
+    this scene; that of another is refused. SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads.
     """
     with one_line_faults():
-        from cfree.formats.files import load
         from cfree.formats.scene_file import load_scene
-        from cfree.paths.path import Path as Motions
-        from cfree.planning.separation import Separated
+        from cfree.planning.goals import AllSeparated
         from cfree.viewer.browser import view as show
 
-        if html:
-            check_outputs(scene, {"page": html})
-        given, found = load_scene(scene), load(answer) if answer else None
-        if not isinstance(found, Motions | Separated | None):
-            raise ValueError(f"{answer}: no path and no proof; give what cfree plan -o has written")
+        for source in (scene, answer):
+            if html and source:
+                check_outputs(source, {"page": html})
+        given = load_scene(scene)
+        found = answer_for(given, answer) if answer else None
+        if isinstance(found, AllSeparated):
+            raise ValueError(f"{answer}: proofs for several goals, and the page shows one; plan with one goal")
         print(printable(str(show(given, found, html=html, browser=browser))))
 
 
@@ -421,11 +437,22 @@ def verify(
         if scene.is_dir():
             from cfree.cli import folders
 
+            options.refuse("of a boundary in one file; leave it out", "slices")
+            if file is not None:
+                of_shards = "sample", "seed", "workers", "scheduler"
+                options.refuse("of shards, and an answer has none; leave it out", *of_shards)
+            elif sample is None:
+                options.refuse("of the choice that --sample makes; give that as well", "seed")
             with folders.cluster(workers, scheduler) as client:
                 result = folders.verified(scene, file, sample, seed, client)
             return _print_verified(result, file or scene, as_json)
         if file is None:
             raise ValueError("FILE: there is none; give a boundary or an answer")
+        options.refuse("of shards in a folder; leave it out", "workers", "scheduler")
+        if not is_archive(file):
+            options.refuse("of a boundary; leave it out", "sample", "slices", "seed")
+        elif sample is None and slices == 0:
+            options.refuse("of random choices, and nothing is chosen; leave it out", "seed")
         from cfree.formats.scene_file import load_scene
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
@@ -433,8 +460,7 @@ def verify(
         given = load_scene(scene)
         with bar("verify") as progress:
             if is_archive(file):
-                options = {"sample": sample, "slices": slices, "seed": seed}
-                result = verified_boundary(file, given, progress=progress, **options)  # type: ignore[arg-type]
+                result = verified_boundary(file, given, sample=sample, slices=slices, seed=seed, progress=progress)
             else:
                 result = verified_answer(given, file, progress=progress)
         _print_verified(result, file, as_json)
@@ -474,6 +500,9 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
         from cfree.plot.rendered import MISSING, best_renderer
 
         numbers = None if only is None else read_numbers(only)
+        has_space = any(panel.in_space for e in FIGURES if numbers is None or e.number in numbers for panel in e.panels)
+        if not has_space:
+            options.refuse("of figures with surfaces, and none of these has any; leave it out", "renderer")
         with bar("figures") as progress:
             files = draw_all(output, only=numbers, formats=formats.split(","), renderer=renderer, progress=progress)
         if as_json:
@@ -483,7 +512,6 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
                 written = [str(file) for file in files if file.stem == entry.stem]
                 if written:
                     print(printable(f"figure {entry.number}: {entry.caption} {' '.join(written)}"))
-        has_space = any(panel.in_space for e in FIGURES if numbers is None or e.number in numbers for panel in e.panels)
         if has_space and renderer is None and best_renderer() == "matplotlib":
             print(f"drawn by matplotlib; {MISSING}", file=sys.stderr)
 

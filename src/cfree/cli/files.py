@@ -8,22 +8,24 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from cfree.cli.options import refuse
 from cfree.cli.terminal import status
 from cfree.formats.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.cli.folders import FolderPlanner
     from cfree.forbidden.boundary import Boundary
+    from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Preferences
     from cfree.planning.curved import CurvedPlanner
+    from cfree.planning.goals import AllSeparated
     from cfree.planning.planner import Planner
+    from cfree.planning.separation import Separated
+    from cfree.scene.scene import Scene
 
 
-def boundary_of(
-    source: Path, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
-) -> Boundary:
-    """The boundary in a file, or of the scene in a file, with a bar on a terminal."""
-    from cfree.forbidden.boundary import boundary
+def read_source(source: Path) -> Scene | Boundary:
+    """The boundary in a file, or the scene."""
     from cfree.formats.scene_file import load_scene
 
     if is_archive(source):
@@ -31,9 +33,41 @@ def boundary_of(
 
         return load_boundary(source)
     with bar("reading"):
-        scene = load_scene(source)
+        return load_scene(source)
+
+
+def computed(
+    given: Scene | Boundary, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
+) -> Boundary:
+    """The boundary of a scene, unless it is one already."""
+    from cfree.forbidden.boundary import Boundary, boundary
+
+    if isinstance(given, Boundary):
+        return given
     with bar("boundary") as progress:
-        return boundary(scene, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
+        return boundary(given, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
+
+
+def answer_for(scene: Scene, file: Path) -> Motions | Separated | AllSeparated:
+    """The answer in a file, if it is one for this scene.
+
+    Raises
+    ------
+    ValueError
+        In the words of `cfree verify`, if it is for another.
+    """
+    from cfree.formats.files import load
+    from cfree.paths.path import Path as Motions
+    from cfree.planning.goals import AllSeparated
+    from cfree.planning.separation import Separated
+    from cfree.verify.answers import other_scene
+
+    found = load(file)
+    if not isinstance(found, Motions | Separated | AllSeparated):
+        raise ValueError(f"{file}: no path and no proof; give what cfree plan -o has written")
+    if finding := other_scene(scene, found):
+        raise ValueError(f"{file}: {finding}")
+    return found
 
 
 def planner_of(
@@ -44,6 +78,8 @@ def planner_of(
     from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
 
+    if source.is_dir() or is_archive(source):
+        refuse("of scenes, whose boundary is not yet computed; leave it out", "max_seconds")
     if source.is_dir():
         from cfree.cli.folders import FolderPlanner
 
@@ -67,14 +103,11 @@ def planner_of(
 
 
 @contextmanager
-def bar(name: str) -> Iterator[Callable[[float], object] | None]:
-    """What to call with the share that is done: on a terminal a line says it, and what is being done."""
+def bar(name: str) -> Iterator[Callable[[float], object]]:
+    """Yield a function to call with the share that is done, which is shown beside what is being done."""
     with status() as say:
-        if say is None:
-            yield None
-        else:
-            say(f"{name} ...")
-            yield lambda share: say(f"{name} {share:.0%}")
+        say(f"{name} ...")
+        yield lambda share: say(f"{name} {share:.0%}")
 
 
 def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
@@ -91,7 +124,8 @@ def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str
 
 
 def _check_name(content: str, path: Path) -> None:
-    """Is it one that says what will be in the file?"""
+    """Raise an error if the name says something else than what will be in the file."""
+    check: Callable[[Path], object]
     match content:
         case "boundary":
             from cfree.formats.boundary_file import check_boundary_path as check
@@ -101,6 +135,10 @@ def _check_name(content: str, path: Path) -> None:
             from cfree.formats.slice_geojson import check_slice_path as check
         case "mesh":
             from cfree.formats.mesh_file import check_mesh_path as check
+        case "page":
+            from cfree.viewer.browser import check_page_path as check
+        case "part" | "scene":
+            from cfree.formats.scene_file import check_scene_path as check
         case "picture":
             from cfree.plot.boundary import check_picture_path as check
         case _:  # an answer's form may be given beside its name

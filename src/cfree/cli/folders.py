@@ -84,8 +84,8 @@ def cluster(workers: int | None, scheduler: str | None) -> Iterator[Any]:
 
 
 @contextmanager
-def stages() -> Iterator[Callable[[str, int, int], None] | None]:
-    """On a terminal a line says which tiles are done, how fast, and how long the rest may take."""
+def stages() -> Iterator[Callable[[str, int, int], None]]:
+    """Yield a function to call with the tiles that are done, which shows them, how fast, and the time that is left."""
     began: dict[str, float] = {}
 
     def tell(say: Callable[[str], None], stage: str, done: int, of: int) -> None:
@@ -96,7 +96,7 @@ def stages() -> Iterator[Callable[[str, int, int], None] | None]:
         say(text)
 
     with status() as say:
-        yield None if say is None else partial(tell, say)
+        yield partial(tell, say)
 
 
 def _duration(seconds: float) -> str:

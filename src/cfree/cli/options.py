@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import click
+from click.core import ParameterSource
 
 FILE = click.Path(path_type=Path)
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
@@ -32,6 +33,31 @@ max_memory = click.option(
 workers = click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Use so many processes, by Dask.")
 scheduler = click.option("--scheduler", metavar="ADDRESS", help="Use a Dask cluster that sees the folder.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON, for machines.")
+
+
+def refuse(why: str, *names: str) -> None:
+    """Refuse options that were given, and that would do nothing.
+
+    Parameters
+    ----------
+    why : str
+        When they would do something, and the remedy.
+    names : str
+        Of the command's parameters.
+
+    Raises
+    ------
+    ValueError
+        With the options that were given, if any was.
+    """
+    context = click.get_current_context()
+    given = [
+        parameter.opts[0]
+        for parameter in context.command.params
+        if parameter.name in names and context.get_parameter_source(parameter.name) is ParameterSource.COMMANDLINE
+    ]
+    if given:
+        raise ValueError(f"{', '.join(given)}: {why}")
 
 
 def examples(*lines: str) -> str:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
     from cfree.formats.shapes import Shapes
     from cfree.scene.scene import Scene
 
+WITH_NAMES = "SVG", "DXF", "URDF", "nesting"  # kinds of files whose shapes have names that --role knows
+WITH_CURVES = "SVG", "DXF", "URDF", "nav2 parameters"  # kinds of files whose curves become polygons
+
 
 def _reading(command: Any) -> Any:
     """How to read drawings and maps."""
@@ -56,6 +59,7 @@ def check(
         from cfree.cli.describe import describe
 
         shapes, given = _read(scene, tolerance, unknown, roles, robot)
+        _refuse_unused(shapes, robot)
         with bar("counting"):
             facts = {"file": str(scene)} | describe(given) | _facts(shapes)
         if as_json:
@@ -97,6 +101,10 @@ def convert(
         check_scene_path(target)
         written = check_outputs(source, {"scene": target})
         shapes, scene = _read(source, tolerance, unknown, roles, robot)
+        if not scene.curved:
+            options.refuse("of round shapes, and this scene has none; leave it out", "outer", "inner")
+        by_name = outer is None and inner is None and _is_without_curves(target)
+        _refuse_unused(shapes, robot, becoming_polygons=scene.curved and by_name)
         facts = _facts(shapes)
         scene, changed = _straight(scene, outer, inner, tolerance, target)
         facts["changed"] += changed
@@ -129,11 +137,21 @@ def _read(
         return shapes, shapes.scene(None if robot is None else _robot(robot, tolerance))
 
 
+def _refuse_unused(shapes: Shapes, robot: str | None, *, becoming_polygons: bool = False) -> None:
+    """Refuse options about reading of which files of this kind know nothing."""
+    if shapes.form != "ROS map":
+        options.refuse(f"of maps, and this is {shapes.form}; leave it out", "unknown")
+    if shapes.form not in WITH_NAMES:
+        options.refuse(f"of {', '.join(WITH_NAMES)}, and this is {shapes.form}; leave it out", "roles")
+    has_other = robot is not None and not _is_footprint(robot)
+    if shapes.form not in WITH_CURVES and not has_other and not becoming_polygons:
+        options.refuse(f"of {', '.join(WITH_CURVES)}, and this is {shapes.form}; leave it out", "tolerance")
+
+
 def _straight(
     scene: Scene, outer: float | None, inner: float | None, tolerance: float | None, target: Path
 ) -> tuple[Scene, list[str]]:
     """With polygons for round shapes, if they are asked for, or the file can have no others."""
-    from cfree.formats.scene_file import EXPORTS
     from cfree.formats.source import CURVE_SHARE
     from cfree.scene.scene import largest_of, round_count, shapes_of
 
@@ -142,7 +160,7 @@ def _straight(
     error = outer if inner is None else inner
     if error is not None and not 0 < error < math.inf:
         raise ValueError(f"--{'outer' if inner is None else 'inner'}: {error}; give a length above 0")
-    if not scene.curved or (error is None and target.suffix.lower() not in EXPORTS):
+    if not scene.curved or (error is None and not _is_without_curves(target)):
         return scene, []
     if error is None:
         error = tolerance or largest_of(scene) / CURVE_SHARE
@@ -152,15 +170,25 @@ def _straight(
     return straight, [f"{count:,} round shapes: polygons {side} them, within {error:g}"]
 
 
+def _is_without_curves(target: Path) -> bool:
+    from cfree.formats.scene_file import EXPORTS
+
+    return target.suffix.lower() in EXPORTS
+
+
 def _robot(text: str, tolerance: float | None) -> Any:
     """The polygons of a footprint, or of a file: those of the role robot, if there are any."""
     from cfree.formats.footprints import footprint
     from cfree.formats.scene_file import load_shapes
 
-    if text.lstrip()[:1] in ("[", "("):
+    if _is_footprint(text):
         return footprint(text)
     shapes = load_shapes(text, tolerance=tolerance)
     return [shape.polygon for shape in shapes.of("robot")] or list(shapes.polygons)
+
+
+def _is_footprint(text: str) -> bool:
+    return text.lstrip()[:1] in ("[", "(")
 
 
 def _facts(shapes: Shapes) -> dict[str, Any]:

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import json
 import sys
+import threading
+import time
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
 
+import click
+
+EVERY = 5.0  # seconds from one line about progress to the next, where there is no terminal
 OBEYED = {"Cc", "Cs", "Zl", "Zp"}  # Unicode's categories: controls, halves of characters, ends of lines
 TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}  # change the direction of what follows
 
@@ -25,19 +30,49 @@ def printable(text: str) -> str:
 
 
 @contextmanager
-def status() -> Iterator[Callable[[str], None] | None]:
-    """What to call with what is being done: one line of a terminal, empty at the end; nothing to call elsewhere."""
-    if not sys.stderr.isatty():
-        yield None
+def status() -> Iterator[Callable[[str], None]]:
+    """Yield a function to call with what is being done.
+
+    On a terminal one line shows it, and is empty at the end. Elsewhere standard error gets a line every few seconds.
+    """
+    if sys.stderr is None or not sys.stderr.isatty():
+        with _lines() as say:
+            yield say
         return
 
-    def say(text: str) -> None:
+    def show(text: str) -> None:
         print(f"\r{text}\x1b[K", end="", file=sys.stderr, flush=True)
 
     try:
+        yield show
+    finally:
+        show("")
+
+
+@contextmanager
+def _lines() -> Iterator[Callable[[str], None]]:
+    """A line every few seconds since the command began, also where nothing is told for long: from a thread."""
+    context = click.get_current_context(silent=True)
+    told = {} if context is None else context.meta  # of the whole command: phases may be short
+    told.setdefault("cfree.told", time.monotonic())
+    texts, over = [""], threading.Event()
+
+    def tell() -> None:
+        while not over.wait(max(0.0, told["cfree.told"] + EVERY - time.monotonic())):
+            told["cfree.told"] = time.monotonic()
+            if texts[0] and sys.stderr is not None:
+                print(texts[0], file=sys.stderr, flush=True)
+
+    def say(text: str) -> None:
+        texts[0] = text
+
+    thread = threading.Thread(target=tell, daemon=True)
+    thread.start()
+    try:
         yield say
     finally:
-        say("")
+        over.set()
+        thread.join()
 
 
 def columns(rows: Sequence[Sequence[str]], sides: str) -> list[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from os import PathLike
+from pathlib import Path as FilePath
 
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
@@ -16,6 +17,19 @@ __all__ = ["film_path", "film_separation", "save_film"]
 MOST = 60.0  # seconds of motion
 SIZE, SIZES = (1280, 720), {".gif": (640, 360)}  # of answers' films, if not said otherwise
 SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # of a film, if not said otherwise
+GIF_SECONDS = 6.0  # of any GIF, which is large and held in memory
+REST = 0.6, 1.2  # seconds for which the robot rests before and after its path
+
+
+def length_of(storyboard: str, path: str | PathLike[str]) -> float:
+    """Seconds of a film in this file, if not said otherwise.
+
+    Examples
+    --------
+    >>> length_of("turntable", "turn.mp4"), length_of("turntable", "turn.gif")
+    (8.0, 6.0)
+    """
+    return GIF_SECONDS if FilePath(path).suffix.lower() == ".gif" else SECONDS_OF.get(storyboard, SECONDS)
 
 
 @checked
@@ -39,7 +53,7 @@ def save_film(
     path : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
     seconds : float, optional
-        Length of the film: 30 if not given, 12 of a separation, 8 of a turntable.
+        Length of the film: 6 of a GIF if not given, else 30, 12 of a separation, 8 of a turntable.
     fps : int
         Frames a second.
     size : (int, int)
@@ -73,7 +87,7 @@ def save_film(
     from cfree.film.reel import check_options, pictures
 
     check_film_path(path)
-    seconds = SECONDS_OF.get(storyboard, SECONDS) if seconds is None else seconds
+    seconds = length_of(storyboard, path) if seconds is None else seconds
     check_options(len(boundaries), seconds, fps, size, storyboard)
     write(pictures(boundaries, seconds, fps, size, storyboard, progress), path, fps)
 
@@ -102,8 +116,8 @@ def film_path(
     boundary : Boundary, optional
         Of that scene.
     seconds : float, optional
-        Of motion, a minute at most. If not given, one for each of its own radii that the robot travels, 4 to 20. The
-        robot rests for about a second before and after.
+        Of motion, a minute at most. If not given, one for each of its own radii that the robot travels, 4 to 20; a GIF
+        is 6 seconds long in all. The robot rests for about a second before and after.
     fps : int
         Frames a second.
     size : (int, int), optional
@@ -139,6 +153,8 @@ def film_path(
     suffix = check_film_path(file)
     size = size or SIZES.get(suffix, SIZE)
     check_frames(fps, size)
+    if seconds is None and suffix == ".gif":
+        seconds = GIF_SECONDS - sum(REST)
     if seconds is not None and not 0 < seconds <= MOST:
         raise ValueError(f"{seconds} seconds; give more than 0, and {MOST:g} at most")
     write(path_frames(Track.of(path, scene), boundary, seconds, fps, size, progress), file, fps)
@@ -150,7 +166,7 @@ def film_separation(
     boundary: Boundary,
     file: str | PathLike[str],
     *,
-    seconds: float = SECONDS_OF["separation"],
+    seconds: float | None = None,
     fps: int = 25,
     size: tuple[int, int] | None = None,
     progress: Callable[[float], object] | None = None,
@@ -164,8 +180,8 @@ def film_separation(
         Of the scene to which it is the answer.
     file : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
-    seconds : float
-        Length of the film.
+    seconds : float, optional
+        Length of the film: 12, of a GIF 6, if not given.
     fps : int
         Frames a second.
     size : (int, int), optional
@@ -199,5 +215,6 @@ def film_separation(
 
     suffix = check_film_path(file)
     size = size or SIZES.get(suffix, SIZE)
+    seconds = length_of("separation", file) if seconds is None else seconds
     check_options(1, seconds, fps, size, "separation")
     write(reel([apart(boundary, answer, round(seconds * fps), size, fps)], fps, progress), file, fps)

@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 
 FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files with paths
+ALSO = {"ros": (".yml",), "geojson": (".json",)}  # suffixes that fit a form that is asked for
+ANY = ("", ".txt")  # and those that fit every form
 
 
 @checked
@@ -59,6 +61,30 @@ def read_answer(path: str | PathLike[str]) -> Read:
     return answer_from_json(findings, read_json(findings))
 
 
+def is_answer(path: str | PathLike[str]) -> bool:
+    """True if a file is JSON that says that it is an answer.
+
+    Examples
+    --------
+    >>> is_answer("examples/scenes/paper_fig9.json")
+    False
+    """
+    from cfree.errors import FormatError
+    from cfree.formats.archive import is_archive
+    from cfree.formats.findings import Findings, read_text
+    from cfree.formats.json_text import read_literals
+    from cfree.formats.readers import is_drawing
+
+    if is_archive(path) or is_drawing(path):
+        return False
+    file = FilePath(path)
+    try:
+        data = read_literals(Findings(str(file), read_text(file)))
+    except FormatError:
+        return False
+    return isinstance(data, dict) and "answer" in data
+
+
 def save_path(
     path: Path,
     file: str | PathLike[str],
@@ -85,12 +111,12 @@ def save_path(
     scene : Scene, optional
         That of the path, if it does not know it; needed for ``.json`` and ``.geojson``, and for times.
     form : "json", "csv", "ros" or "geojson", optional
-        Instead of what the file's name says.
+        For names that do not say it: ``.txt``, or no suffix.
 
     Raises
     ------
     UnsupportedError
-        If the file's name ends otherwise, or there is no such form.
+        If the file's name ends otherwise or says another form, or there is no such form.
     ValueError
         If step or scene is missing.
     """
@@ -157,13 +183,34 @@ def save_separation(proof: Separated | AllSeparated, file: str | PathLike[str]) 
 
 
 def form_of(file: str | PathLike[str], form: str | None) -> str:
-    """The form to write a path in: the one asked for, or else the one that the file's name says."""
-    names = " or ".join(f'"{name}"' for name in FORMS.values())
-    if form is not None:
-        if form not in FORMS.values():
-            raise UnsupportedError(f"{form!r} is no form of a path; give {names}")
-        return form
+    """The form to write a path in: the one asked for, or else the one that the file's name says.
+
+    Raises
+    ------
+    UnsupportedError
+        If there is no such form, or the file's name says another.
+
+    Examples
+    --------
+    >>> form_of("way.csv", None), form_of("way.txt", "ros")
+    ('csv', 'ros')
+    >>> form_of("way.stl", "csv")
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: way.stl: the form is "csv"; name the file .csv or .txt
+    """
     suffix = FilePath(file).suffix.lower()
-    if suffix not in FORMS:
-        raise UnsupportedError(f"{file}: paths are written as {', '.join(FORMS)}; name the file so, or give the form")
-    return FORMS[suffix]
+    if form is None:
+        if suffix not in FORMS:
+            names = ", ".join(FORMS)
+            raise UnsupportedError(f"{file}: paths are written as {names}; name the file so, or give the form")
+        return FORMS[suffix]
+    own = {name: ending for ending, name in FORMS.items()}
+    if form not in own:
+        names = " or ".join(f'"{name}"' for name in own)
+        raise UnsupportedError(f"{form!r} is no form of a path; give {names}")
+    fitting = (own[form], *ALSO.get(form, ()), *ANY)
+    if suffix not in fitting:
+        *others, last = filter(None, fitting)
+        raise UnsupportedError(f'{file}: the form is "{form}"; name the file {", ".join(others)} or {last}')
+    return form

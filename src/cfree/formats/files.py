@@ -56,7 +56,7 @@ def save(
     scene : Scene, optional
         Of paths that were read from a file: needed for ``.geojson``, and for ``.json`` if the file did not say it.
     form : "json", "csv", "ros" or "geojson", optional
-        Of paths, instead of what the file's name says.
+        Of paths, for names that do not say it: ``.txt``, or no suffix.
 
     Raises
     ------

@@ -17,14 +17,13 @@ from typing import Literal
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
-from cfree.errors import UnsupportedError
 from cfree.exact.half_angle import Angle
 from cfree.exact.pose import Pose
-from cfree.formats.atomic import replacing
+from cfree.formats.atomic import checked_suffix, replacing
 from cfree.formats.findings import Findings
 from cfree.formats.json_text import read_literals
 from cfree.formats.number_text import number_text
-from cfree.formats.readers import DRAWINGS, read_file, read_json_file
+from cfree.formats.readers import read_file, read_json_file
 from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
 from cfree.formats.source import Reading
 from cfree.polygons.polygon import Polygon
@@ -33,7 +32,6 @@ from cfree.scene.scene import AnyShape, Scene, default_name
 
 _TEXTS = ("name", "note", "units", "source")
 EXPORTS = (".geojson", ".svg", ".dxf")
-NOT_WRITTEN = {".wkt", *DRAWINGS} - {*EXPORTS}
 _SETTINGS = (*_TEXTS, "bounds", "start", "goal", "goals", "check", "version")
 
 
@@ -160,22 +158,29 @@ def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
     UnsupportedError
         If the file's name says another format.
     """
-    target = Path(os.path.realpath(path))
+    check_scene_path(path)
+    target = Path(path)
     if target.suffix.lower() in EXPORTS:
         from cfree.formats.scene_texts import write_scene
 
         return write_scene(scene, target)
-    check_scene_path(target)
     with replacing(target) as unfinished:
         unfinished.write_text(scene_text(scene), encoding="utf-8", newline="\n")
     return ()
 
 
 def check_scene_path(path: str | PathLike[str]) -> None:
-    """Raise an error if no scene is written to a file of this name."""
-    target = Path(path)
-    if target.suffix.lower() in NOT_WRITTEN:
-        raise UnsupportedError(f"{target.name}: scenes are written as .json, {', '.join(EXPORTS)}; name the file so")
+    """Raise an error if no scene is written to a file of this name; a pipe or a device gets JSON.
+
+    Examples
+    --------
+    >>> check_scene_path("parking.stl")
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: parking.stl: no scene format; name the file .json, .geojson, .svg or .dxf
+    """
+    if not os.path.exists(path) or os.path.isfile(path) or Path(path).suffix:
+        checked_suffix(path, "scene", (".json", *EXPORTS))
 
 
 def scene_text(scene: Scene) -> str:

@@ -81,7 +81,7 @@ def answer(
     read = read_answer(answer) if isinstance(answer, (str, os.PathLike)) else None
     given = read.answer if read else answer
     assert not isinstance(given, (str, os.PathLike))
-    if read and (finding := _other_scene(scene, given)):
+    if read and (finding := other_scene(scene, given)):
         check = Check(SCENE, REFUTED, "nothing else was checked")
         return Verification((check,), (finding,), (), _since(begin))
 
@@ -186,8 +186,8 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
     return findings
 
 
-def _other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
-    """Is an answer for another scene than this one?"""
+def other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
+    """A finding if an answer says that it is for another scene than this one."""
     stamp, its = stamp_of(scene), given.stamp
     if its is None or its == stamp:
         return None

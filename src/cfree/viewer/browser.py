@@ -8,7 +8,7 @@ import webbrowser
 from pathlib import Path as FilePath
 
 from cfree.arguments import checked
-from cfree.formats.atomic import replacing
+from cfree.formats.atomic import checked_suffix, replacing
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
@@ -41,6 +41,11 @@ def view(
     pathlib.Path
         The page.
 
+    Raises
+    ------
+    UnsupportedError
+        If the file is named otherwise than .html or .htm.
+
     Examples
     --------
     >>> scene = Scene(robot=[(0, 0), (1, 0), (0, 1)], obstacles=[[(2, 0), (3, 0), (3, 1)]])
@@ -51,9 +56,23 @@ def view(
     if html is None:
         handle, html = tempfile.mkstemp(suffix=".html", prefix="cfree-")
         os.close(handle)
+    check_page_path(html)
     target = FilePath(os.path.realpath(html))
     with replacing(target) as unfinished:
         unfinished.write_text(page(scene, answer), encoding="utf-8", newline="\n")
     if browser:
         webbrowser.open(target.as_uri())
     return target
+
+
+def check_page_path(path: str | os.PathLike[str]) -> str:
+    """Suffix of a file that `view` can write.
+
+    Examples
+    --------
+    >>> check_page_path("parking.pdf")
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: parking.pdf: no page format; name the file .html or .htm
+    """
+    return checked_suffix(path, "page", (".html", ".htm"))
