@@ -103,7 +103,8 @@ def boundary(
     with one_line_faults():
         if folder is not None:
             return _boundary_in_folder(scene, folder, as_json, obstacles, tiles, workers, scheduler)
-        options.refuse("need --folder", "obstacles", "tiles", "workers", "scheduler")
+        of_tiles = "obstacles", "tiles", "workers", "scheduler"
+        options.refuse("of a boundary in tiles", *of_tiles, remedy="these need --folder")
         if error is not None and not (mesh and 0 < error < math.inf):
             raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
         written = check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
@@ -114,14 +115,16 @@ def boundary(
         if output:
             from cfree.formats.boundary_file import save_boundary
 
-            save_boundary(result, output)
+            with bar("writing"):
+                save_boundary(result, output)
         if not result.complete:
             kept = f"; what was done is in {output}" if output else ""
             fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
         if mesh:
             from cfree.forbidden.record import glue_by
 
-            glue_by(threads or os.cpu_count() or 1, result)
+            with bar("surfaces"):
+                glue_by(threads or os.cpu_count() or 1, result)
         _draw_boundary(result, mesh, error, picture)
         from cfree.cli.report import boundary_facts, boundary_rows
 
@@ -136,13 +139,13 @@ def _boundary_in_folder(
     from cfree.cli import folders
 
     others = "output", "picture", "mesh", "error", "threads", "max_seconds", "max_memory"
-    options.refuse("not with --folder; leave it out", *others)
+    options.refuse("not with --folder", *others)
     found = folders.make(scene, obstacles, folder, tiles, workers, scheduler)
     print_result(found.head.name or str(scene), scene, folders.facts(found, for_machines=as_json), {}, as_json)
 
 
 def _refuse_limits(*names: str) -> None:
-    options.refuse("of a computation, and this boundary is computed already; leave it out", *names)
+    options.refuse("of a computation, and this boundary is computed already", *names)
 
 
 def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, picture: Path | None) -> None:
@@ -151,11 +154,13 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         from cfree.formats.mesh_file import save_mesh
         from cfree.scene.scene import robot_radius
 
-        save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
+        with bar("mesh"):
+            save_mesh(result.mesh(robot_radius(result.scene) / 100 if error is None else error), mesh)
     if picture:
         from cfree.plot.boundary import plot_overview, save_figure
 
-        save_figure(plot_overview(result), picture)
+        with bar("picture"):
+            save_figure(plot_overview(result), picture)
 
 
 @app.command(
@@ -245,9 +250,9 @@ def plan(
 
         printed = str(output) == "-"
         if output is None:
-            options.refuse("of the file that -o writes; give -o FILE, or -o - for standard output", "form")
+            options.refuse("of the file that -o writes", "form", remedy="give -o FILE, or -o - for standard output")
         if not scene.is_dir():
-            options.refuse("of a folder written by cfree boundary --folder; leave it out", "part")
+            options.refuse("of a folder written by cfree boundary --folder", "part")
         if printed and as_json:
             raise ValueError("-o -: --json prints there, too; leave one of them out")
         written = check_outputs(
@@ -256,6 +261,8 @@ def plan(
         poses = Sampling.of(output, form, step, turn, speed)
         seconds = None if improve is None else read_seconds(improve)
         wanted = read_objective(objective)
+        if seconds == 0 and wanted != "clear":
+            options.refuse("of a path that is improved, and --improve 0 asks for the first", "objective")
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
@@ -316,7 +323,8 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
         if picture:
             from cfree.plot.boundary import plot_slice, save_figure
 
-            save_figure(plot_slice(found).figure, picture)
+            with bar("picture"):
+                save_figure(plot_slice(found).figure, picture)
         print_result(f"slice of {result.scene.name or scene}", scene, describe_slice(found), written, as_json)
 
 
@@ -368,7 +376,7 @@ def film(
         if is_answer(scenes[-1]):
             if len(scenes) != 2:
                 raise ValueError(f"{scenes[-1]}: an answer; give it after one scene, the one that it is for")
-            options.refuse("not with an answer, which is filmed as it is; leave it out", "storyboard")
+            options.refuse("not with an answer, which is filmed as it is", "storyboard")
             rows = film_answer(*scenes, output, seconds, fps, pixels)
         else:
             rows = film_scenes(scenes, output, storyboard, seconds, fps, pixels)
@@ -396,8 +404,9 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
         for source in (scene, answer):
             if html and source:
                 check_outputs(source, {"page": html})
-        given = load_scene(scene)
-        found = answer_for(given, answer) if answer else None
+        with bar("reading"):
+            given = load_scene(scene)
+            found = answer_for(given, answer) if answer else None
         if isinstance(found, AllSeparated):
             raise ValueError(f"{answer}: proofs for several goals, and the page shows one; plan with one goal")
         print(printable(str(show(given, found, html=html, browser=browser))))
@@ -437,22 +446,22 @@ def verify(
         if scene.is_dir():
             from cfree.cli import folders
 
-            options.refuse("of a boundary in one file; leave it out", "slices")
+            options.refuse("of a boundary in one file", "slices")
             if file is not None:
                 of_shards = "sample", "seed", "workers", "scheduler"
-                options.refuse("of shards, and an answer has none; leave it out", *of_shards)
+                options.refuse("of shards, and an answer has none", *of_shards)
             elif sample is None:
-                options.refuse("of the choice that --sample makes; give that as well", "seed")
+                options.refuse("of the choice that --sample makes", "seed", remedy="give that as well")
             with folders.cluster(workers, scheduler) as client:
                 result = folders.verified(scene, file, sample, seed, client)
             return _print_verified(result, file or scene, as_json)
         if file is None:
             raise ValueError("FILE: there is none; give a boundary or an answer")
-        options.refuse("of shards in a folder; leave it out", "workers", "scheduler")
+        options.refuse("of shards in a folder", "workers", "scheduler")
         if not is_archive(file):
-            options.refuse("of a boundary; leave it out", "sample", "slices", "seed")
+            options.refuse("of a boundary", "sample", "slices", "seed")
         elif sample is None and slices == 0:
-            options.refuse("of random choices, and nothing is chosen; leave it out", "seed")
+            options.refuse("of random choices, and nothing is chosen", "seed")
         from cfree.formats.scene_file import load_scene
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
@@ -502,7 +511,7 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
         numbers = None if only is None else read_numbers(only)
         has_space = any(panel.in_space for e in FIGURES if numbers is None or e.number in numbers for panel in e.panels)
         if not has_space:
-            options.refuse("of figures with surfaces, and none of these has any; leave it out", "renderer")
+            options.refuse("of figures with surfaces, and none of these has any", "renderer")
         with bar("figures") as progress:
             files = draw_all(output, only=numbers, formats=formats.split(","), renderer=renderer, progress=progress)
         if as_json:

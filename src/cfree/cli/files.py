@@ -79,7 +79,7 @@ def planner_of(
     from cfree.planning.planner import Planner
 
     if source.is_dir() or is_archive(source):
-        refuse("of scenes, whose boundary is not yet computed; leave it out", "max_seconds")
+        refuse("of scenes, whose boundary is not yet computed", "max_seconds")
     if source.is_dir():
         from cfree.cli.folders import FolderPlanner
 

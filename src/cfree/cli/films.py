@@ -73,7 +73,7 @@ def film_answer(
             raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
         given = answer.scene
     if isinstance(answer, Motions):
-        moving = None if seconds is None else seconds - sum(REST)
+        moving = None if seconds is None else round(seconds - sum(REST), 9)
         if moving is not None and moving <= 0:
             raise ValueError(f"--seconds: {seconds:g}; give more than {sum(REST):g}, for which the robot rests")
         boundary = computed(given, None)

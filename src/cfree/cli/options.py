@@ -35,15 +35,17 @@ scheduler = click.option("--scheduler", metavar="ADDRESS", help="Use a Dask clus
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON, for machines.")
 
 
-def refuse(why: str, *names: str) -> None:
+def refuse(why: str, *names: str, remedy: str = "") -> None:
     """Refuse options that were given, and that would do nothing.
 
     Parameters
     ----------
     why : str
-        When they would do something, and the remedy.
+        When they would do something.
     names : str
         Of the command's parameters.
+    remedy : str
+        To leave them out, unless given.
 
     Raises
     ------
@@ -57,7 +59,8 @@ def refuse(why: str, *names: str) -> None:
         if parameter.name in names and context.get_parameter_source(parameter.name) is ParameterSource.COMMANDLINE
     ]
     if given:
-        raise ValueError(f"{', '.join(given)}: {why}")
+        remedy = remedy or f"leave {'it' if len(given) == 1 else 'them'} out"
+        raise ValueError(f"{', '.join(given)}: {why}; {remedy}")
 
 
 def examples(*lines: str) -> str:

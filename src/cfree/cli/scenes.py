@@ -102,7 +102,7 @@ def convert(
         written = check_outputs(source, {"scene": target})
         shapes, scene = _read(source, tolerance, unknown, roles, robot)
         if not scene.curved:
-            options.refuse("of round shapes, and this scene has none; leave it out", "outer", "inner")
+            options.refuse("of round shapes, and this scene has none", "outer", "inner")
         by_name = outer is None and inner is None and _is_without_curves(target)
         _refuse_unused(shapes, robot, becoming_polygons=scene.curved and by_name)
         facts = _facts(shapes)
@@ -140,12 +140,12 @@ def _read(
 def _refuse_unused(shapes: Shapes, robot: str | None, *, becoming_polygons: bool = False) -> None:
     """Refuse options about reading of which files of this kind know nothing."""
     if shapes.form != "ROS map":
-        options.refuse(f"of maps, and this is {shapes.form}; leave it out", "unknown")
+        options.refuse(f"of a ROS map, and this file is read as {shapes.form}", "unknown")
     if shapes.form not in WITH_NAMES:
-        options.refuse(f"of {', '.join(WITH_NAMES)}, and this is {shapes.form}; leave it out", "roles")
+        options.refuse(f"of {', '.join(WITH_NAMES)}, and this file is read as {shapes.form}", "roles")
     has_other = robot is not None and not _is_footprint(robot)
     if shapes.form not in WITH_CURVES and not has_other and not becoming_polygons:
-        options.refuse(f"of {', '.join(WITH_CURVES)}, and this is {shapes.form}; leave it out", "tolerance")
+        options.refuse(f"of {', '.join(WITH_CURVES)}, and this file is read as {shapes.form}", "tolerance")
 
 
 def _straight(

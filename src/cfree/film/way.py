@@ -178,7 +178,7 @@ def path_frames(
     if seconds is None:
         seconds = float(np.clip(track.travel.total / robot_radius(track.scene), *SECONDS))
     before, after = (round(rest * fps) for rest in REST)
-    moving = max(2, round(seconds * fps))
+    moving = max(2, round((seconds + sum(REST)) * fps) - before - after)
     travel = np.concatenate((np.zeros(before), np.linspace(0, track.travel.total, moving)))
     stage = PathStage(track, boundary, size)
     total = len(travel) + after
