@@ -215,7 +215,7 @@ def test_the_command_makes_asks_and_checks_folders(tmp_path: Path) -> None:
     assert run("verify", folder, "--sample", 2).exit_code == 0
     for words, said in (
         (("boundary", tmp_path / "scene.json", "--tiles", 3), "need --folder"),
-        (("boundary", tmp_path / "scene.json", "--folder", folder, "-o", way), "--folder: not with"),
+        (("boundary", tmp_path / "scene.json", "--folder", folder, "-o", way), "--output: not with --folder"),
         (("plan", folder, "--clearance", 1), "--clearance"),
         (("plan", tmp_path), "no boundary"),
         (("verify", folder, part), "no path"),

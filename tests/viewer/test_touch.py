@@ -164,6 +164,16 @@ def test_an_obstacle_follows_the_finger_and_goes_back_when_cancelled(page: Any, 
     assert outline.get_attribute("d") == before
 
 
+def test_a_double_tap_on_an_edge_adds_a_corner(page: Any) -> None:
+    edited(page)
+    page.locator(".obstacle").tap()
+    (ax, ay), (bx, by) = (middle(page, f".handles [data-spot='0 {k}']") for k in (0, 1))
+    for _ in range(2):
+        page.touchscreen.tap((ax + bx) / 2, (ay + by) / 2)
+    settled(page)
+    assert page.locator(".handles .vertex").count() == 5
+
+
 def test_two_fingers_zoom_around_their_middle(page: Any) -> None:
     at, before = point(page, "goal"), scale(page)
     Fingers(page).pinch(at, 60, 120)

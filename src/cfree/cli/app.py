@@ -191,7 +191,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     "--format",
     "form",
     metavar="FORM",
-    help="Of that file: json, exact; or of a path sampled poses: csv, geojson, ros.",
+    help="Of the file that -o writes: json, exact; or of a path sampled poses: csv, geojson, ros.",
     show_default="by the file's name, else json",
 )
 @click.option(

@@ -188,8 +188,7 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
 
 def other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
     """A finding if an answer says that it is for another scene than this one."""
-    stamp, its = stamp_of(scene), given.stamp
-    if its is None or its == stamp:
+    if (its := given.stamp) is None or its == (stamp := stamp_of(scene)):
         return None
     if its.sha256 == stamp.sha256:
         return Finding(SCENE, "scene.robot", f"it is {_box(its)}, and {_box(stamp)} around the robot; correct it")

@@ -43,6 +43,8 @@ def view(
 
     Raises
     ------
+    ValueError
+        If the answer was read from a file, and is for another scene.
     UnsupportedError
         If the file is named otherwise than .html or .htm.
 

@@ -36,6 +36,10 @@ def page(scene: Scene, answer: Path | Separated | None = None) -> str:
     """The page as HTML; see `view`."""
     given: dict[str, object] = {"scene": text_of_polygons(scene)}
     if answer is not None:
+        from cfree.verify.answers import other_scene
+
+        if finding := other_scene(scene, answer):
+            raise ValueError(f"answer: {finding}")
         given |= {"start": words(answer.start), "goal": words(answer.goal)}
     if poses := poses_text(answer):
         given["poses"] = poses
