@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Iterator
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -10,7 +11,7 @@ from typing import Any
 import cfree
 from cfree.curves import Arc, Bezier, Spline
 from cfree.curves.drawn import Line
-from cfree.curves.rings import Cubic, Piece, exact_ring
+from cfree.curves.rings import Cubic, Piece, Span, exact_ring
 from cfree.exact.number import ExactPoint
 
 FAMILIES = ("ellipse", "stadium", "lens", "moon", "spline", "flat arc", "flat cubic", "hollow", "pocket", "ring")
@@ -101,6 +102,55 @@ def _on(piece: Piece, rng: random.Random) -> ExactPoint:
     while len(row) > 1:
         row = [(p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])) for p, q in pairwise(row)]
     return row[0]
+
+
+def touching(rng: random.Random, thin: Fraction) -> Iterator[tuple[cfree.Scene, cfree.Pose, bool, str]]:
+    """Yield scenes with poses at which a sharp corner is a little beyond the rim of a convex shape, or a little within.
+
+    Yields
+    ------
+    scene, pose, bool, str
+        The last two say whether the pose is free, and which part the shape plays.
+    """
+    a, h = Fraction(rng.randrange(50, 151), 100), thin
+    family = rng.choice(["ellipse", "lens", "flat arc"])
+    t = Fraction(rng.randrange(250, 751), 1000)  # far from the tips
+    if family == "ellipse":
+        halves = [Arc((-k * a, 0), center=(0, 0), conjugate=(0, k * h)) for k in (1, -1)]
+        ring: list[Any] = [(a, 0), *halves]
+    elif family == "lens":
+        ring = [(a, 0), Arc((-a, 0), through=(0, h)), Arc((a, 0), through=(0, -h))]
+    else:
+        ring = [(a, 0), Arc((-a, 0), through=(0, h)), (-a, -a), (a, -a)]
+    span = exact_ring(tuple(ring))[0]
+    assert isinstance(span, Span)
+    p = span.at(0, t) if span.quarters else span.at(0, t * span.rest)
+    c, s = p[0] - span.center[0], p[1] - span.center[1]
+    normal = (c / a**2, s / h**2) if family == "ellipse" else (c, s)
+    high = max(map(abs, normal))
+    n = normal[0] / high, normal[1] / high
+    by = h / 2 ** rng.randrange(3, 12) * rng.choice([-1, 1])
+    tau, far = placement(rng)
+    shape, (tip, up) = turned(ring, [], tau, far), _turned([p, n], tau)
+    tip = tip[0] + far[0], tip[1] + far[1]
+    place = tip[0] + by * up[0], tip[1] + by * up[1]
+    wings = [(up[0] - k * up[1] / 4, up[1] + k * up[0] / 4) for k in (-1, 1)]
+    probe = [(Fraction(0), Fraction(0)), *((x / 2, y / 2) for x, y in wings)]  # away from the shape
+    yield cfree.Scene(probe, [shape]), cfree.Pose(*place), by > 0, f"obstacle, {family}"
+    standing = [(x + place[0], y + place[1]) for x, y in probe]
+    yield cfree.Scene(shape, [standing]), cfree.Pose(0, 0), by > 0, f"robot, {family}"
+    dart = [(Fraction(0), Fraction(0)), *((-x * h / 64, -y * h / 64) for x, y in wings)]  # into the shape
+    yield cfree.Scene(dart, workspace=shape), cfree.Pose(*place), by < 0, f"workspace, {family}"
+    if family != "flat arc":
+        x0, y0, x1, y1 = (c + k for c, k in zip(shape.box, (-1, -1, 1, 1), strict=True))
+        plate = cfree.Curved([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], [shape.path])
+        yield cfree.Scene(dart, [plate]), cfree.Pose(*place), by < 0, f"hole, {family}"
+
+
+def _turned(vectors: list[ExactPoint], tau: Fraction) -> list[ExactPoint]:
+    square = 1 + tau * tau
+    c, s = (1 - tau * tau) / square, 2 * tau / square
+    return [(c * x - s * y, s * x + c * y) for x, y in vectors]
 
 
 def side(p: ExactPoint, rings: Any) -> int:

@@ -58,7 +58,8 @@ def film_answer(
     ValueError
         Before anything is computed, if an option has no sense, or the answer is for another scene.
     """
-    from cfree.film import REST, film_path, film_separation, length_of
+    from cfree.film import film_path, film_separation, length_of
+    from cfree.film.way import REST
     from cfree.film.reel import check_frames, check_options
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.path import Path as Motions

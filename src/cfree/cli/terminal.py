@@ -54,12 +54,12 @@ def _lines() -> Iterator[Callable[[str], None]]:
     """A line every few seconds since the command began, also where nothing is told for long: from a thread."""
     context = click.get_current_context(silent=True)
     told = {} if context is None else context.meta  # of the whole command: phases may be short
-    told.setdefault("cfree.told", time.monotonic())
+    told.setdefault("told", time.monotonic())
     texts, over = [""], threading.Event()
 
     def tell() -> None:
-        while not over.wait(max(0.0, told["cfree.told"] + EVERY - time.monotonic())):
-            told["cfree.told"] = time.monotonic()
+        while not over.wait(max(0.0, told["told"] + EVERY - time.monotonic())):
+            told["told"] = time.monotonic()
             if texts[0] and sys.stderr is not None:
                 print(texts[0], file=sys.stderr, flush=True)
 

@@ -222,13 +222,23 @@ def _box_of(ring: GivenRing) -> Box:
     return box_of(_pieces(ring))
 
 
+# Curves without a polygon inside, the error at which it was looked for, and so at all smaller ones, and the fault.
+_nothing_inside: dict[tuple[tuple[Piece, ...], ...], tuple[float, Exception]] = {}
+
+
 @lru_cache(KEPT)
 def _near(curves: tuple[tuple[Piece, ...], ...], error: float, inside: bool) -> Polygon | Exception:
     """The polygon around them, or inside; or why there is none."""
+    if inside and curves in _nothing_inside and error <= _nothing_inside[curves][0]:
+        return _nothing_inside[curves][1]
     outer, *holes = map(drawn_of, curves)
     try:
         return polygon_of(Outline(outer, tuple(holes), curves), error, inside)
     except (InvalidPolygonError, UndecidedError) as fault:
+        if inside:
+            if len(_nothing_inside) == KEPT:
+                _nothing_inside.clear()
+            _nothing_inside[curves] = error, fault
         return fault
 
 

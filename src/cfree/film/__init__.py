@@ -18,7 +18,6 @@ MOST = 60.0  # seconds of motion
 SIZE, SIZES = (1280, 720), {".gif": (640, 360)}  # of answers' films, if not said otherwise
 SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # of a film, if not said otherwise
 GIF_SECONDS = 6.0  # of any GIF, which is large and held in memory
-REST = 0.6, 1.2  # seconds for which the robot rests before and after its path
 
 
 def length_of(storyboard: str, path: str | PathLike[str]) -> float:
@@ -147,7 +146,7 @@ def film_path(
     """
     from cfree.film.encode import check_film_path, write
     from cfree.film.reel import check_frames
-    from cfree.film.way import path_frames
+    from cfree.film.way import REST, path_frames
     from cfree.plot.path import Track
 
     suffix = check_film_path(file)

@@ -16,7 +16,6 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from cfree.collision.distance import EdgeDistances
-from cfree.film import REST
 from cfree.film.eye import Eye
 from cfree.film.frame import MONO, axis_names, image_of, new_frame, numbers
 from cfree.film.names import Names
@@ -38,6 +37,7 @@ Image = NDArray[np.uint8]
 SECONDS = 4.0, 20.0  # a path takes as many as the robot travels of its own radii, between these
 AZIMUTHS = math.radians(-62), math.radians(-32)  # the camera turns this far in a film
 SHADES = 24  # colours of the line in configuration space
+REST = 0.6, 1.2  # seconds for which the robot rests before and after its path
 TITLE = 40  # characters
 DASH = 8  # steps of the path
 GLASS = 0.08  # opacity of what is above the robot's orientation
