@@ -41,6 +41,10 @@ def rotated(phi: IntPoint, u: IntPoint) -> IntPoint:
     return phi[0] * u[0] - phi[1] * u[1], phi[1] * u[0] + phi[0] * u[1]
 
 
+def is_angle_of(phi: float, direction: IntPoint) -> bool:
+    return math.isclose(math.remainder(phi - math.atan2(direction[1], direction[0]), math.tau), 0, abs_tol=1e-12)
+
+
 def is_opposite(u: IntPoint, v: IntPoint) -> bool:
     return turn(u, v) is Orientation.COLLINEAR and is_opposed(u, v)
 
@@ -112,7 +116,7 @@ def test_remark_4_for_vertices_on_a_circle(tangents: list[Fraction], shape: Shap
 
 
 @given(convex_pairs)
-def test_a_convex_pair_has_2nm_patches_nm_helices_and_nm_segments(shapes: tuple[Shape, Shape]) -> None:
+def test_a_convex_pair_has_2nm_contacts_and_as_many_curves(shapes: tuple[Shape, Shape]) -> None:
     A, O = polygons(shapes)
     n, m = len(A), len(O)
     assert len(contacts(A, O)) == 2 * n * m
@@ -157,6 +161,8 @@ def test_ends_of_vertex_edge_patches_are_those_of_section_3_1_1(shapes: tuple[Sh
     for contact in contacts(A, O):
         if isinstance(contact, VertexEdge):
             r, E = angle_range(A, O, contact), EO[contact.j]
+            assert is_angle_of(r.phi_min, r.start) and is_angle_of(r.phi_max, r.end)
+            assert math.isclose(r.phi_range, math.pi - A.interior_angles[contact.i], rel_tol=1e-12)
             to_next, from_previous = EA[contact.i], EA[A.previous[contact.i]]
             to_previous = (-from_previous[0], -from_previous[1])
             # a_{i+1} on the line of E_j behind a_i, a_{i-1} to its right; and the other way round
@@ -174,6 +180,8 @@ def test_ends_of_edge_vertex_patches_are_those_of_section_3_2_1(shapes: tuple[Sh
     for contact in contacts(A, O):
         if isinstance(contact, EdgeVertex):
             r, E = angle_range(A, O, contact), EA[contact.i]
+            assert is_angle_of(r.phi_min, r.start) and is_angle_of(r.phi_max, r.end)
+            assert math.isclose(r.phi_range, math.pi - O.interior_angles[contact.j], rel_tol=1e-12)
             arriving, leaving = EO[O.previous[contact.j]], EO[contact.j]
             # eq. (9): a_{i+1} on the line of E_{j-1}, towards b_{j-1}; a_i on the line of E_j, towards b_{j+1}
             assert is_opposite(rotated(r.start, E), arriving)
@@ -198,6 +206,41 @@ def test_helices_begin_and_end_where_patches_do(shapes: tuple[Shape, Shape]) -> 
                     assert compare_directions(angle_range(A, O, last).end, r.end) is Order.SAME
 
 
+@given(convex_pairs)
+def test_two_patches_meet_at_every_angle_of_a_helix(shapes: tuple[Shape, Shape]) -> None:
+    """The four patches with an end on it, and which two of them meet where."""
+    A, O = polygons(shapes)
+    for contact in contact_curves(A, O):
+        if isinstance(contact, EdgeEdge):
+            continue
+        i, j, before_i, before_j = contact.i, contact.j, int(A.previous[contact.i]), int(O.previous[contact.j])
+        helix, rho, omega = angle_range(A, O, contact), A.interior_angles[contact.i], O.interior_angles[contact.j]
+        beside = {
+            VertexEdge(i, before_j): (0.0, math.pi - rho),
+            EdgeVertex(i, j): (0.0, math.pi - omega),
+            EdgeVertex(before_i, j): (math.pi - rho, math.tau - rho - omega),
+            VertexEdge(i, j): (math.pi - omega, math.tau - rho - omega),
+        }
+        found = {patch: angle_range(A, O, patch) for patch in beside}
+        for patch, (low, high) in beside.items():
+            from_start = math.remainder(found[patch].phi_min - helix.phi_min - low, math.tau)
+            assert from_start == pytest.approx(0, abs=1e-9) and found[patch].phi_range == pytest.approx(high - low)
+        for share in (0.001, 0.25, 0.5, 0.75, 0.999):
+            angle = share * helix.phi_range
+            if min(abs(angle - end) for ends in beside.values() for end in ends) < 1e-9:
+                continue
+            phi = helix.phi_min + angle
+            meet = {patch for patch, r in found.items() if (phi - r.phi_min) % math.tau < r.phi_range}
+            first, last = sorted((math.pi - rho, math.pi - omega))
+            of_kind = VertexEdge if rho < omega else EdgeVertex
+            if angle < first:
+                assert meet == {VertexEdge(i, before_j), EdgeVertex(i, j)}
+            elif angle > last:
+                assert meet == {EdgeVertex(before_i, j), VertexEdge(i, j)}
+            else:
+                assert meet == {patch for patch in beside if isinstance(patch, of_kind)}
+
+
 @pytest.mark.slow
 @given(pairs)
 def test_the_domain_of_equation_6_lies_in_one_turn_and_has_the_stated_width(shapes: tuple[Shape, Shape]) -> None:
@@ -207,6 +250,12 @@ def test_the_domain_of_equation_6_lies_in_one_turn_and_has_the_stated_width(shap
         assert 0 <= r.phi_min < 2 * math.pi
         assert math.isclose(sum(high - low for low, high in r.domain), r.phi_range, abs_tol=1e-14)
         assert all(0 <= low <= high <= 2 * math.pi for low, high in r.domain)
+        # one interval from phi_min to phi_max, or two that meet at 0: eq. (6)
+        assert r.domain[0][0] == r.phi_min and r.domain[-1][1] % (2 * math.pi) == pytest.approx(
+            r.phi_max % (2 * math.pi)
+        )
+        assert len(r.domain) == (1 if r.phi_max < 2 * math.pi else 2)
+        assert len(r.domain) == 1 or (r.domain[0][1], r.domain[1][0]) == (2 * math.pi, 0)
         for phi, place in ((r.phi_min + r.phi_range / 2, Location.INSIDE), (r.phi_max + 1e-9, Location.OUTSIDE)):
             if r.phi_range > 1e-9:
                 c, s = round(1e15 * math.cos(phi)), round(1e15 * math.sin(phi))
@@ -259,10 +308,46 @@ def test_its_twin_in_section_3_2_1_does_too() -> None:
     assert not math.isclose(math.atan2(y, x) % (2 * math.pi), r.phi_min)
 
 
-def test_cosine_and_sine_of_phi_min_need_one_square_root_only() -> None:
-    # remark 4 of the paper says they cannot be computed exactly: the direction is rational
-    r = angle_range(TRIANGLE, TRIANGLE, VertexEdge(0, 1))
-    assert all(isinstance(c, int) for c in (*r.start, *r.end))
+TABLE_1 = {  # signs of x_0 and y_0, and between which multiples of a right angle phi_min is
+    (True, True): (0, 1),
+    (False, True): (1, 2),
+    (False, False): (2, 3),
+    (True, False): (3, 4),
+}
+
+
+def test_phi_min_is_in_the_interval_of_table_1() -> None:
+    compass = Polygon.from_polar([(1, f"{30 * k}deg") for k in range(12)])
+    pairs = [(A, O) for A in (TRIANGLE, SQUARE, L_SHAPE, compass) for O in (TRIANGLE, SQUARE, compass)]
+    seen = set()
+    for A, O in pairs:
+        for contact in contacts(A, O):
+            j = contact.j if isinstance(contact, VertexEdge) else int(O.previous[contact.j])
+            u, v, r = A.edge(contact.i), O.edge(j), angle_range(A, O, contact)
+            # x_0 and y_0 up to the factor 1 / (|u| |v|), in integers: no arc cosine, and no rounding of a sign
+            (p, q), (s, t) = A.edge_numerators[contact.i], O.edge_numerators[j]
+            x, y = -(p * s + q * t), -(p * t - q * s)
+            length = math.hypot(*u) * math.hypot(*v)
+            assert math.cos(r.phi_min) == pytest.approx(-(u @ v) / length, abs=1e-12)
+            assert math.sin(r.phi_min) == pytest.approx(-(u[0] * v[1] - u[1] * v[0]) / length, abs=1e-12)
+            low, high = TABLE_1[x >= 0, y >= 0]
+            assert low * math.pi / 2 <= r.phi_min <= high * math.pi / 2
+            seen.add((x > 0) - (x < 0) + 3 * ((y > 0) - (y < 0)))
+    assert len(seen) == 8  # all four rows, and all four borders between them
+
+
+@given(pairs)
+def test_cosine_and_sine_of_phi_min_need_one_square_root_only(shapes: tuple[Shape, Shape]) -> None:
+    # remark 4 of the paper says they cannot be computed exactly: the direction is rational, and (x_0, y_0) is it
+    # over the root of an integer
+    A, O = polygons(shapes)
+    for contact in contacts(A, O):
+        r = angle_range(A, O, contact)
+        for (c, s), phi in ((r.start, r.phi_min), (r.end, r.phi_max)):
+            n = c * c + s * s
+            assert isinstance(n, int) and n > 0
+            assert c / math.sqrt(n) == pytest.approx(math.cos(phi), abs=1e-12)
+            assert s / math.sqrt(n) == pytest.approx(math.sin(phi), abs=1e-12)
 
 
 # degenerate

@@ -53,6 +53,63 @@ def test_two_squares_touch_as_section_1_2_defines(x: int, y: int, features: tupl
     assert is_pseudo_contact(SQUARE, SQUARE, pose) == (x < 3)
 
 
+@settings(max_examples=40)
+@given(strategies.polygons(), strategies.polygons(), strategies.half_tangents(), st.data())
+def test_contact_types_are_those_of_the_table_of_section_1_2(
+    one: Shape, other: Shape, tau: Fraction | None, data: st.DataObject
+) -> None:
+    A, O, turned = Polygon(*one), Polygon(*other), pose_of((Fraction(0), Fraction(0), tau))
+    third, where = Fraction(1, 3), data.draw(st.sampled_from(["vertex", "edge", "both", "edges"]))
+    if where == "edges":  # of one direction, or of opposite ones
+        O = Polygon(turned.apply_exact(A.exact_vertices[: A.ring_offsets[1]]))
+        turned = turned @ Pose(0, 0, data.draw(st.sampled_from(["0deg", "180deg"])))
+    n, m, tau = range(len(A)), range(len(O)), turned.tau
+    i, j = data.draw(st.sampled_from(n)), data.draw(st.sampled_from(m))
+    if where == "edges":
+        i = j
+    # at that orientation, with a point of the robot's rim on a point of the obstacle's
+    s, t = {"vertex": (0, third), "edge": (third, 0), "both": (0, 0), "edges": (third, third)}[where]
+    (a, b), (c, d) = turned.apply_exact([A.exact_vertices[i], A.exact_vertices[int(A.next[i])]]), edge_of(O, j)
+    p, q = ([v + share * (w - v) for v, w in zip(*ends, strict=True)] for share, ends in ((s, (a, b)), (t, (c, d))))
+    pose = pose_of((q[0] - p[0], q[1] - p[1], tau))
+    a = pose.apply_exact(A.exact_vertices)
+    b = O.exact_vertices
+    EA, EO = [(a[i], a[int(A.next[i])]) for i in n], [edge_of(O, j) for j in m]
+    expected = {VertexEdge(i, j) for i in n for j in m if is_inside(a[i], *EO[j])}
+    expected |= {EdgeVertex(i, j) for i in n for j in m if is_inside(b[j], *EA[i])}
+    expected |= {VertexVertex(i, j) for i in n for j in m if a[i] == b[j]}
+    expected |= {EdgeEdge(i, j) for i in n for j in m if overlap(EA[i], EO[j])}
+    assert set(contact_features(A, O, pose)) == expected and expected
+    assert is_pseudo_contact(A, O, pose)
+
+
+Point = tuple[Fraction, Fraction]
+
+
+def edge_of(polygon: Polygon, k: int) -> tuple[Point, Point]:
+    return polygon.exact_vertices[k], polygon.exact_vertices[int(polygon.next[k])]
+
+
+def along(p: Point, a: Point, b: Point) -> Fraction | None:
+    """Share of the way from a to b at which p is; None beside that line."""
+    (ux, uy), (vx, vy) = (b[0] - a[0], b[1] - a[1]), (p[0] - a[0], p[1] - a[1])
+    return None if ux * vy != uy * vx else (ux * vx + uy * vy) / (ux * ux + uy * uy)
+
+
+def is_inside(p: Point, a: Point, b: Point) -> bool:
+    share = along(p, a, b)
+    return share is not None and 0 < share < 1
+
+
+def overlap(one: tuple[Point, Point], other: tuple[Point, Point]) -> bool:
+    """Do two edges have more than one point in common?"""
+    shares = [along(p, *other) for p in one]
+    if None in shares:
+        return False
+    low, high = sorted(share for share in shares if share is not None)
+    return low < 1 and high > 0
+
+
 def test_a_square_fills_a_hole_without_forbidden_overlap() -> None:
     assert is_contact(SQUARE, RING, Pose(2, 2, 0))
     assert is_forbidden(SQUARE, RING, Pose(2, Fraction(2) + Fraction(1, 10**50), 0))

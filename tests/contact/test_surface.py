@@ -1,16 +1,17 @@
 from __future__ import annotations
 
+import cmath
 import math
 from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import strategies
 from cfree.contact.contact import EdgeEdge, EdgeVertex, VertexEdge, VertexVertex, angle_range, contact_curves, contacts
-from cfree.contact.definitions import contact_features, is_contact, is_forbidden
+from cfree.contact.definitions import contact_features, is_contact, is_forbidden, is_pseudo_contact
 from cfree.contact.surface import (
     contact_helix,
     contact_segment,
@@ -58,6 +59,39 @@ def test_an_edge_slides_along_a_corner() -> None:
     np.testing.assert_allclose(S([0, 0.25, 1], 0), [[3, 3, 0], [2, 3, 0], [-1, 3, 0]])
 
 
+# eqs. (5) and (8), with complex numbers for vectors
+
+
+@given(pairs, st.floats(0, 1), st.floats(-7, 7), st.data())
+def test_eq_5_holds_at_every_angle(shapes: tuple[Shape, Shape], t: float, phi: float, data: st.DataObject) -> None:
+    A, O = polygons(shapes)
+    i, j = data.draw(st.integers(0, len(A) - 1)), data.draw(st.integers(0, len(O) - 1))
+    S, (a, b) = contact_surface(A, O, VertexEdge(i, j)), (A.vertices @ (1, 1j), O.vertices @ (1, 1j))
+    P = (1 - t) * b[j] + t * b[O.next[j]]
+    x, y, theta = S(t, phi)
+    assert abs(complex(x, y) - (P - cmath.exp(1j * phi) * a[i])) < 1e-12 and theta == phi
+    assert np.abs(S.grid([t], [phi])[0, 0] - (x, y)).max() < 1e-12
+    # the same as c(phi) + t r(phi), and r does not turn: cylindrical
+    start, ruling = S(0, phi), S(1, phi) - S(0, phi)
+    assert S(t, phi) == pytest.approx(start + t * ruling, abs=1e-12)
+    assert ruling == pytest.approx([*O.edge(j), 0], abs=1e-12)
+
+
+@given(pairs, st.floats(0, 1), st.floats(-7, 7), st.data())
+def test_eq_8_holds_at_every_angle(shapes: tuple[Shape, Shape], t: float, phi: float, data: st.DataObject) -> None:
+    A, O = polygons(shapes)
+    i, j = data.draw(st.integers(0, len(A) - 1)), data.draw(st.integers(0, len(O) - 1))
+    S, (a, b) = contact_surface(A, O, EdgeVertex(i, j)), (A.vertices @ (1, 1j), O.vertices @ (1, 1j))
+    a_it = (1 - t) * a[i] + t * a[A.next[i]]
+    x, y, theta = S(t, phi)
+    assert abs(complex(x, y) - (b[j] - cmath.exp(1j * phi) * a_it)) < 1e-12 and theta == phi
+    assert np.abs(S.grid([t], [phi])[0, 0] - (x, y)).max() < 1e-12
+    # a horizontal segment that is translated and turned
+    start, ruling = S(0, phi), S(1, phi) - S(0, phi)
+    assert S(t, phi) == pytest.approx(start + t * ruling, abs=1e-12)
+    assert abs(complex(*ruling[:2]) + cmath.exp(1j * phi) * complex(*A.edge(i))) < 1e-12 and ruling[2] == 0
+
+
 # section 2
 
 
@@ -65,9 +99,12 @@ def test_an_edge_slides_along_a_corner() -> None:
 def test_lemma_1_a_point_stays_where_it_is_fixed(
     P: tuple[Fraction, Fraction], a: tuple[Fraction, Fraction], theta: Angle
 ) -> None:
-    q = rotation_about(P, a).pose(theta)
+    C = rotation_about(P, a)
+    q = C.pose(theta)
     assert q.apply_exact([a]) == (P,)
-    np.testing.assert_allclose(rotation_about(P, a)(q.theta), [float(q.x), float(q.y), q.theta], atol=1e-13)
+    np.testing.assert_allclose(C(q.theta), [float(q.x), float(q.y), q.theta], atol=1e-13)
+    # eq. (4): a helix of the radius |a| about P, or the vertical line over P
+    assert math.dist(C(q.theta)[:2], [float(c) for c in P]) == pytest.approx(math.hypot(*map(float, a)), abs=1e-12)
 
 
 @given(strategies.poses(), points)
@@ -143,6 +180,22 @@ def test_remark_3_helices_of_one_vertex_are_congruent(
         assert len(fixed) == 1  # they differ by a translation of the centre only
 
 
+@given(pairs, angles, inner, st.data())
+def test_remark_3_and_5_helices_of_a_surface(
+    shapes: tuple[Shape, Shape], theta: Angle, t: Fraction, data: st.DataObject
+) -> None:
+    """All on a v-e surface keep one point of the robot, and so one radius; on an e-v surface each its own."""
+    A, O = polygons(shapes)
+    i, j = data.draw(st.integers(0, len(A) - 1)), data.draw(st.integers(0, len(O) - 1))
+    v_e, e_v = contact_surface(A, O, VertexEdge(i, j)), contact_surface(A, O, EdgeVertex(i, j))
+    assert v_e.helix(t).fixed == A.exact_vertices[i] and e_v.helix(t).centre == O.exact_vertices[j]
+    for S in (v_e, e_v):
+        assert S.helix(t).pose(theta) == S.pose(t, theta)
+    (px, py), (qx, qy) = v_e.helix(0).centre, v_e.helix(t).centre
+    assert (qx - px, qy - py) == tuple(t * c for c in O.exact_edge(j))
+    assert e_v.helix(t).fixed == tuple(a + t * g for a, g in zip(A.exact_vertices[i], A.exact_edge(i), strict=True))
+
+
 def test_remark_5_helices_of_an_edge_vertex_surface_are_not_congruent() -> None:
     S = contact_surface(TRIANGLE, SQUARE, EdgeVertex(0, 0))
     radii = {sum(c * c for c in S.helix(Fraction(k, 4)).fixed) for k in range(5)}
@@ -160,21 +213,78 @@ def test_remark_3_regular_polygons_need_their_reference_point_in_the_middle() ->
 
 @pytest.mark.slow
 @settings(max_examples=60)
-@given(strategies.convex_polygons(), strategies.convex_polygons(), angles, inner, st.data())
+@given(strategies.convex_polygons(), strategies.convex_polygons(), inner, inner, st.data())
 def test_a_contact_surface_lies_in_the_closure_of_the_forbidden_space(
-    one: Shape, other: Shape, theta: Angle, t: Fraction, data: st.DataObject
+    one: Shape, other: Shape, t: Fraction, share: Fraction, data: st.DataObject
 ) -> None:
-    # erratum of definition 1: contacts are free, but a push across the edge, however small, is not
+    """Definition 1 and its erratum: pseudo contacts that are no contacts are forbidden, and contacts nearly."""
     A, O = Polygon(*one), Polygon(*other)
     contact = data.draw(st.sampled_from(contacts(A, O)))
-    q = contact_surface(A, O, contact).pose(t, theta)
-    if is_contact(A, O, q):
-        ends = (A.exact_edge(contact.i), O.exact_edge(contact.j))
-        (ux, uy), (vx, vy) = Pose(0, 0, theta).apply_exact([ends[0]])[0], ends[1]
-        push = (-vy, vx) if isinstance(contact, VertexEdge) else (uy, -ux)
-        tiny = Fraction(1, 10**40)
-        assert is_forbidden(A, O, Pose(q.x + push[0] * tiny, q.y + push[1] * tiny, theta))
-        assert not is_forbidden(A, O, Pose(q.x - push[0] * tiny, q.y - push[1] * tiny, theta))
+    S, Phi = contact_surface(A, O, contact), angle_range(A, O, contact)
+    inside, beyond = (Pose(0, 0, Phi.phi_min + k * Phi.phi_range) for k in (share, 1 + share * math.pi / Phi.phi_range))
+    for turned, touching in ((inside, True), (beyond, False), (inside @ Pose(0, 0, "180deg"), False)):
+        theta: Angle = {"tau": turned.tau}
+        q = S.pose(t, theta)
+        assert contact in contact_features(A, O, q) and is_pseudo_contact(A, O, q)
+        assert is_contact(A, O, q) == touching and is_forbidden(A, O, q) == (not touching)
+        if touching:  # free, but a push across the edge, however small, is not
+            ends = (A.exact_edge(contact.i), O.exact_edge(contact.j))
+            (ux, uy), (vx, vy) = Pose(0, 0, theta).apply_exact([ends[0]])[0], ends[1]
+            push = (-vy, vx) if isinstance(contact, VertexEdge) else (uy, -ux)
+            tiny = Fraction(1, 10**40)
+            assert is_forbidden(A, O, Pose(q.x + push[0] * tiny, q.y + push[1] * tiny, theta))
+            assert not is_forbidden(A, O, Pose(q.x - push[0] * tiny, q.y - push[1] * tiny, theta))
+
+
+@given(pairs, strategies.poses(), st.data())
+def test_every_pose_with_a_pseudo_contact_is_on_its_contact_surface(
+    shapes: tuple[Shape, Shape], at: tuple[Fraction, Fraction, Fraction | None], data: st.DataObject
+) -> None:
+    """Definition 1, the other way: the obstacle is put so that a vertex is on an edge at a given pose."""
+    A, O = polygons(shapes)
+    x, y, tau = at
+    theta: Angle = {"tau": "inf" if tau is None else tau}
+    q, contact, t = Pose(x, y, theta), data.draw(st.sampled_from(pseudo_contacts(A, O))), data.draw(inner)
+    (bx, by), (vx, vy) = O.exact_vertices[contact.j], O.exact_edge(contact.j)
+    (ax, ay), (ux, uy) = A.exact_vertices[contact.i], A.exact_edge(contact.i)
+    if isinstance(contact, VertexEdge):
+        here, ((mx, my),) = (bx + t * vx, by + t * vy), q.apply_exact([(ax, ay)])
+    else:
+        here, ((mx, my),) = (bx, by), q.apply_exact([(ax + t * ux, ay + t * uy)])
+    moved = Polygon(Pose(mx - here[0], my - here[1]).apply_exact(O.exact_vertices[: O.ring_offsets[1]]))
+    assume(contact.j < len(moved) and len(O.ring_offsets) == 2)
+    assert contact in contact_features(A, moved, q)
+    assert contact_surface(A, moved, contact).pose(t, theta) == q
+
+
+def test_contact_surfaces_end_in_helices_and_patches_in_segments_as_well() -> None:
+    """Section 3.3's sentence and its erratum: at phi_min a surface goes on, and only its patch ends."""
+    for contact in contacts(TRIANGLE, SQUARE):
+        i, j, S = contact.i, contact.j, contact_surface(TRIANGLE, SQUARE, contact)
+        after = VertexVertex(i, int(SQUARE.next[j]))
+        if isinstance(contact, EdgeVertex):
+            after = VertexVertex(int(TRIANGLE.next[i]), j)
+        phi = np.linspace(0, 2 * math.pi, 50)
+        for t, end in ((0, VertexVertex(i, j)), (1, after)):
+            np.testing.assert_allclose(S(t, phi), contact_helix(TRIANGLE, SQUARE, end)(phi), atol=1e-12)
+        np.testing.assert_allclose(S(0.3, phi + 2 * math.pi)[:, :2], S(0.3, phi)[:, :2], atol=1e-12)
+        Phi = angle_range(TRIANGLE, SQUARE, contact)
+        for end, k in ((Phi.phi_min, i), (Phi.phi_max, i if isinstance(contact, EdgeVertex) else i - 1)):
+            over = j - 1 if isinstance(contact, EdgeVertex) and end == Phi.phi_min else j
+            k, over = k % len(TRIANGLE), over % len(SQUARE)
+            C = contact_segment(TRIANGLE, SQUARE, EdgeEdge(k, over))
+            # the ruling there is a part of the e-e segment, which goes on beyond it
+            assert math.remainder(C.phi - end, math.tau) == pytest.approx(0, abs=1e-12)
+            ends, ruling = C(C.t_range)[:, :2], S([0, 1], end)[:, :2]
+            along = ends[1] - ends[0]
+            share = (ruling - ends[0]) @ along / (along @ along)
+            np.testing.assert_allclose(ends[0] + share[:, None] * along, ruling, atol=1e-12)
+            assert share.min() > -1e-12 and share.max() < 1 + 1e-12 and np.ptp(share) < 1 - 1e-3
+            # the surface goes on on both sides of it: contacts on one, forbidden on the other
+            for beyond, free in ((-1e-3, end == Phi.phi_max), (1e-3, end == Phi.phi_min)):
+                q = S.pose("1/2", end + beyond)
+                assert contact in contact_features(TRIANGLE, SQUARE, q)
+                assert is_contact(TRIANGLE, SQUARE, q) == free != is_forbidden(TRIANGLE, SQUARE, q)
 
 
 def test_segments_join_the_four_vertex_contacts_of_two_edges() -> None:

@@ -1,3 +1,4 @@
+import cmath
 import math
 from fractions import Fraction
 
@@ -7,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cfree.errors import InvalidPoseError
-from cfree.exact.half_angle import chart_of, normalize_angles, place_of, theta_of
+from cfree.exact.half_angle import chart_of, half_angle_rotation, normalize_angles, place_of, theta_of
 from cfree.exact.pose import Pose, Poses
 
 numbers = st.fractions(-9, 9, max_denominator=12)
@@ -120,6 +121,28 @@ def test_replaced_angles_have_short_rationals() -> None:
     sizes = [Pose(0, 0, theta).chart[1].denominator.bit_length() for theta in angles]
     assert np.median(sizes) <= 28
     assert max(sizes) <= 53
+
+
+@given(poses, st.tuples(numbers, numbers))
+def test_a_vertex_is_turned_by_theta_and_then_moved_by_r(q: Pose, a: tuple[Fraction, Fraction]) -> None:
+    """Eq. (3) in numbers that know nothing of tau."""
+    turned = cmath.exp(1j * q.theta) * complex(*a) + complex(q.x, q.y)
+    (exact,), rounded = q.apply_exact([a]), q.apply([float(c) for c in a])
+    assert abs(complex(*exact) - turned) < 1e-12 and abs(complex(*rounded) - turned) < 1e-12
+
+
+@given(st.fractions(-50, 50, max_denominator=30))
+def test_the_rational_rotation_is_the_papers_m_tau(tau: Fraction) -> None:
+    c, s, w = half_angle_rotation(tau)
+    assert Fraction(c, w) == (1 - tau**2) / (1 + tau**2) and Fraction(s, w) == 2 * tau / (1 + tau**2)
+    theta = 2 * math.atan(tau)
+    assert math.isclose(c / w, math.cos(theta), abs_tol=1e-14) and math.isclose(s / w, math.sin(theta), abs_tol=1e-14)
+    # M^inf = R^pi, which is the limit on both sides
+    c, s, w = half_angle_rotation(None)
+    assert (c, s, w) == (-1, 0, 1)
+    for far in (10**9, -(10**9)):
+        near = half_angle_rotation(Fraction(far))
+        assert abs(near[0] / near[2] - c) < 1e-8 and abs(near[1] / near[2] - s) < 1e-8
 
 
 @given(poses)
