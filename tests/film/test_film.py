@@ -26,12 +26,14 @@ from cfree.contact.definitions import contact_features, is_forbidden
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose, Poses
 from cfree.film.encode import write
+from cfree.film.eye import Eye
 from cfree.film.frame import Stage, caption
 from cfree.film.free_motions import FreeMotions
 from cfree.film.moves import Moment, Ring, columns, outward, over_column, roll, surface_of
 from cfree.film.reel import LATER, check_options, shots_of, views
 from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
 from cfree.forbidden.boundary import Boundary, boundary
+from cfree.forbidden.kinds import PatchKind
 from cfree.formats.scene_file import load_scene
 from cfree.plot.boundary import extent
 from cfree.scene.features import WORKSPACE
@@ -334,6 +336,35 @@ def test_a_frame_has_the_colours_of_all_pictures_and_its_words(fig9: Boundary) -
         assert not box.overlaps(other)
     for box in boxes:
         assert box.x0 >= 0 and box.x1 <= 640
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", PAPER)
+def test_frames_show_the_robot_in_its_pose_and_the_configuration_space_at_its_orientation(name: str) -> None:
+    result, _ = tale(name)
+    (shots,) = shots_of([result], 60, "paper")
+    stage = Stage(result, (320, 180), 4)
+    corners = result.scene.robot[0].vertices
+    drawn = [patch.get_path() for patch in stage.plane.body.axes.patches]
+    for obstacle in result.scene.obstacles:  # among all obstacles
+        assert any({*map(tuple, obstacle.vertices)} <= {*map(tuple, path.vertices)} for path in drawn)
+    for view, _ in itertools.islice(views(stage, shots, 4), 3, None, 9):
+        image = stage.draw(view)
+        pose = view.recent[-1].pose
+        x, y, degrees = float(pose.x), float(pose.y), math.degrees(pose.theta)
+        assert stage.plane.body.get_path().vertices[: len(corners)] == pytest.approx(pose.apply(corners))
+        assert stage.plane.origin.get_xydata()[0] == pytest.approx((x, y))
+        cut = result.slice(pose.theta).forbidden
+        rings = stage.plane.region.get_path().to_polygons()  # holes run clockwise
+        area = sum(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2 for x, y in ((r - r[0]).T for r in rings))
+        assert area == pytest.approx(cut.area, rel=1e-6)
+        # the point of the configuration space, as the camera sees it at that height
+        eye = Eye(stage.space.window, *stage.space.panel, view.azimuth)
+        assert stage.space.point.get_xydata()[0] == pytest.approx(eye(np.array([[x, y, degrees]]))[0][0])
+        assert stage.space.tag.get_text() == f"θ = {degrees:.0f}°"
+        touched = result.patch_kind[result.slice(pose.theta).patches] != PatchKind.BOUND
+        assert len(stage.space.section.get_segments()) == touched.sum()
+        assert np.ptp(image) > 200
 
 
 @pytest.mark.slow

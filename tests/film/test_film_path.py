@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib.colors import to_rgb
 from PIL import Image
 
 import cfree
@@ -17,6 +18,7 @@ from cfree.exact.pose import Pose
 from cfree.film.way import REST, SECONDS, PathStage, path_frames
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.formats.scene_file import load_scene
+from cfree.palette import ROBOT
 from cfree.paths.path import Path
 from cfree.plot.path import Track
 from cfree.scene.scene import Scene
@@ -169,3 +171,25 @@ def test_films_of_full_turns_and_of_empty_scenes(obstacles: list[Any], tmp_path:
     cfree.film.film_path(path, scene, tmp_path / "way.gif", boundary=boundary(scene), seconds=1, fps=3, size=SMALL)
     still = Path(Pose(0, 0), [])
     cfree.film.film_path(still, scene, tmp_path / "still.gif", seconds=1, fps=3, size=SMALL)
+    with Image.open(tmp_path / "way.gif") as film:
+        # rest, three frames of motion, rest: equal frames are one, and 350 and 750 degrees are not equal
+        assert film.size == SMALL and film.n_frames >= 3
+        first, last = (frame_of(film, k) for k in (0, film.n_frames - 1))
+    assert (np.abs(first - last).max(axis=2) > 60).sum() > 50
+    with Image.open(tmp_path / "still.gif") as film:
+        assert film.n_frames == 1  # nothing moves
+        image = frame_of(film, 0)
+    assert (np.abs(image - np.array(to_rgb(ROBOT)) * 255).max(axis=2) < 60).sum() > 100
+    # what is seen in the frames: the robot turned by 350 and by 750 degrees, and each obstacle
+    stage = PathStage(Track.of(path, scene), boundary(scene), SMALL)
+    for travel, degrees in ((0.0, 350), (stage.track.travel.total, 750)):
+        stage.draw(travel, 0.0)
+        expected = Pose(0, 0, f"{degrees}deg").apply(SQUARE)
+        assert stage.body.get_path().vertices[:4] == pytest.approx(expected)
+    drawn = [{*map(tuple, patch.get_path().vertices.tolist())} for patch in stage.body.axes.patches]
+    assert all(any({*map(tuple, obstacle)} <= corners for corners in drawn) for obstacle in obstacles)
+
+
+def frame_of(film: Any, k: int) -> np.ndarray:
+    film.seek(k)
+    return np.asarray(film.convert("RGB"), dtype=float)

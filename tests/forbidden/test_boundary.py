@@ -20,7 +20,8 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 import strategies
-from cfree import Boundary, IncompleteError, Polygon, Scene, _core, boundary, load_scene, save
+from cfree import Boundary, IncompleteError, Polygon, Pose, Scene, _core, boundary, load_scene, save
+from cfree.contact import is_forbidden
 from cfree.formats.boundary_file import load_boundary
 from cfree.scene.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
@@ -114,6 +115,53 @@ def test_the_volume_of_a_convex_pair_is_the_papers(seed: int) -> None:
     (robot,), (obstacle,) = result.scene.robot, result.scene.obstacles
     expected = 2 * math.pi * (robot.area + obstacle.area) + robot.perimeter * obstacle.perimeter
     assert math.isclose(volume, expected, rel_tol=1e-11)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(3))
+def test_obstacles_forbid_what_their_pillars_do_together(seed: int) -> None:
+    """Section 3.4 with many obstacles, some of which overlap: inside at least one pillar is forbidden, else free."""
+    rng = random.Random(seed)
+    bodies = [random_convex(rng, (2.5 * k, rng.uniform(-1, 1)), 2.0) for k in range(4)]
+    robot = random_convex(rng)
+    together, alone = built(PlainScene([robot], bodies)), [built(PlainScene([robot], [body])) for body in bodies]
+    assert together.stats.live_patches > max(one.stats.live_patches for one in alone)
+    overlaps = 0
+    for theta in ANGLES:
+        pillars = [one.slice(theta).forbidden for one in alone]
+        overlaps += shapely.union_all(pillars).area < sum(pillar.area for pillar in pillars) - 1e-3
+        difference = together.slice(theta).forbidden.symmetric_difference(shapely.union_all(pillars))
+        assert difference.area < 1e-9
+    assert overlaps  # pillars meet, so patches are trimmed
+    (A,), free = together.scene.robot, []
+    for _ in range(200):
+        pose = Pose(rng.uniform(-4, 12), rng.uniform(-5, 5), rng.uniform(0, 6))
+        free.append(together.checker.is_free(pose))
+        assert free[-1] == (not any(is_forbidden(A, O, pose) for O in together.scene.obstacles))
+    assert {True, False} == set(free)
+
+
+@pytest.mark.slow
+@quick
+@given(strategies.simple_polygons(), strategies.simple_polygons(), st.sampled_from(ANGLES))
+def test_convex_pieces_forbid_what_the_whole_does_and_their_diagonals_make_no_surface(
+    one: Shape, other: Shape, theta: float
+) -> None:
+    """Section 3's decomposition into convex obstacles, and its erratum."""
+    A, O = Polygon(*one), Polygon(*other)
+    v, w = A.exact_vertices, O.exact_vertices
+    whole = boundary(Scene(robot=A, obstacles=O), threads=1)
+    parts = [[[polygon.exact_vertices[k] for k in piece] for piece in polygon.pieces] for polygon in (A, O)]
+    pieces = boundary(Scene(robot=parts[0], obstacles=parts[1]), threads=1)
+    size = whole.slice(theta).forbidden.area
+    assert whole.slice(theta).forbidden.symmetric_difference(pieces.slice(theta).forbidden).area < 1e-9 * size
+    rims = (
+        {frozenset((v[i], v[int(A.next[i])])) for i in range(len(A))},
+        {frozenset((w[j], w[int(O.next[j])])) for j in range(len(O))},
+    )
+    for patch in whole.patches:  # of true edges only
+        place, corners, rim = (patch.obstacle, w, rims[1]) if patch.kind == "v-e" else (patch.robot, v, rims[0])
+        assert place.end is not None and frozenset((corners[place.index], corners[place.end])) in rim
 
 
 def test_widths_of_vertex_patches_over_one_edge_tile_the_circle() -> None:

@@ -1,5 +1,6 @@
 """Names of patches, curves and critical angles mean the features they say."""
 
+import cmath
 import math
 import random
 from collections.abc import Callable
@@ -197,17 +198,70 @@ def test_critical_angles_are_isolated_roots_of_their_conditions() -> None:
     assert checked > 500
 
 
+COUNTED = {"chart end": 0, "parallel": 1, "helix": 1, "crossing": 2}  # the features that name an angle
+
+
 @pytest.mark.parametrize("name", ["comb_hook", "sofa_corner"])
 def test_every_angle_has_a_name(name: str) -> None:
+    """Where it says: the edges it names are parallel, the helix is on the patch, the two curves on it meet."""
     result = boundary(load_scene(SCENES / f"{name}.json"))
-    for k in range(len(result.trapezoids)):
-        result.trapezoid(k)
+    scene, columns, kinds = result.scene, result.trapezoids, set()
+    for k in range(len(columns)):
+        trapezoid = result.trapezoid(k)
+        own, rounded = own_contact(result.patches[trapezoid.patch]), (columns.theta_from[k], columns.theta_to[k])
+        for angle, theta in zip((trapezoid.start, trapezoid.stop), rounded, strict=True):
+            kinds.add(angle.kind)
+            assert len(angle.features) == COUNTED[angle.kind] and angle.theta == pytest.approx(theta, abs=1e-9)
+            if any(feature.obstacle.index < 0 for feature in angle.features):
+                continue  # a corner of the frame around the bounds
+            if angle.kind == "parallel":
+                assert angle.features[0].kind == "e-e"
+                u, v = sides(scene, angle.features[0], angle.theta)
+                assert abs((u.conjugate() * v).imag) < 1e-9 * abs(u * v)
+            elif angle.kind != "chart end":
+                p, u = line(scene, own, angle.theta)
+                t = []
+                for feature in angle.features:
+                    q, v = line(scene, feature, angle.theta)
+                    if feature.kind == "v-v":  # on the patch's line
+                        assert abs((u.conjugate() * (q - p)).imag) < 1e-8 * abs(u)
+                        t.append((u.conjugate() * (q - p)).real / abs(u) ** 2)
+                    elif abs(D := (u.conjugate() * v).imag) > 1e-9 * abs(u * v):
+                        t.append(((q - p).conjugate() * v).imag / D)
+                assert np.ptp(t) < 1e-6
+    assert kinds == set(COUNTED)
 
 
 def test_every_curve_has_a_name() -> None:
+    """Points of a trapezoid's curves are on the helix, or on the line of the surface, that their names say."""
     result = boundary(scene_of(random_scene(2, "bounds")))
-    for code in (*result.trapezoids.lower, *result.trapezoids.upper):
-        contact(result, int(code))
+    columns, kinds = result.trapezoids, set()
+    middle = (columns.theta_from + columns.theta_to) / 2
+    limits = result.limits(np.arange(len(columns)), middle)
+    for codes, t in zip((columns.lower, columns.upper), limits, strict=True):
+        points = result.evaluate(columns.patch, t, middle) @ (1, 1j)
+        for code, theta, x in zip(codes.tolist(), middle.tolist(), points.tolist(), strict=True):
+            curve = contact(result, code)
+            kinds.add(curve.kind)
+            start, along = line(result.scene, curve, theta)
+            off = x - start
+            assert abs(off if curve.kind == "v-v" else (along.conjugate() * off).imag / abs(along)) < 1e-9
+    assert kinds == {"v-v", "v-e", "e-v"}
+
+
+def sides(scene: Scene, contact: Contact, theta: float) -> tuple[complex, complex]:
+    """The edges of a contact of two, the robot's turned."""
+    (_, u), (_, v) = edge(scene, contact.robot, of_robot=True), edge(scene, contact.obstacle, of_robot=False)
+    return cmath.exp(1j * theta) * complex(*u), complex(*v)
+
+
+def line(scene: Scene, contact: Contact, theta: float) -> tuple[complex, complex]:
+    """Start and direction of a contact's line; of a v-v helix, its point."""
+    places = (contact.obstacle, False), (contact.robot, True)
+    b, a = (complex(*vertex(scene, place, of_robot=of_robot)) for place, of_robot in places)
+    v, u = (0j if place.end is None else complex(*edge(scene, place, of_robot=robot)[1]) for place, robot in places)
+    R = cmath.exp(1j * theta)
+    return b - R * a, v - R * u
 
 
 def test_places_on_the_workspace_are_the_users() -> None:

@@ -17,6 +17,7 @@ from cfree.contact.contact import EdgeVertex, VertexEdge, VertexVertex, angle_ra
 from cfree.contact.surface import contact_helix, contact_surface
 from cfree.exact.pose import Pose
 from cfree.geometry.congruence import arc_classes, helix_classes, patch_classes, surface_classes
+from cfree.geometry.rulings import striction_parameter
 from cfree.polygons.polygon import Polygon
 from shapes import Shape
 
@@ -192,6 +193,45 @@ def test_remark_3_for_squares_and_its_erratum() -> None:
     corner = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
     assert [len(m) for m in helix_classes(corner, SQUARE)] == [4, 8, 4]
     assert [len(m) for m in patch_classes(corner, SQUARE)] == [4, 8, 4, 8, 8]
+
+
+def test_remark_3_of_one_vertex_and_a_regular_obstacle() -> None:
+    """Surfaces and helices of one vertex are one class, whatever the robot; patches and arcs are not in general."""
+    A = Polygon([(0, -5), (4, 3), (-1, 6), (-7, 1)])
+    surfaces, helices = surface_classes(A, SQUARE), helix_classes(A, SQUARE)
+    patches, arcs = patch_classes(A, SQUARE), arc_classes(A, SQUARE)
+    radii = [x * x + y * y for x, y in A.exact_vertices]
+    assert len(set(radii)) == 4 - radii.count(25) + 1
+    for i in range(4):
+        same_radius = {k for k in range(4) if radii[k] == radii[i]}
+        for kind, classes in ((VertexEdge, surfaces), (VertexVertex, helices)):
+            (members,) = (members for members in classes if kind(i, 0) in members)
+            assert set(members) == {kind(k, j) for k in same_radius for j in range(4)}
+        for kind, classes in ((VertexEdge, patches), (VertexVertex, arcs)):
+            (members,) = (members for members in classes if kind(i, 0) in members)
+            assert {kind(i, j) for j in range(4)} <= set(members)
+    # a_0 and a_1 have one radius and different corners
+    assert VertexEdge(1, 0) in next(members for members in surfaces if VertexEdge(0, 0) in members)
+    assert VertexEdge(1, 0) not in next(members for members in patches if VertexEdge(0, 0) in members)
+    assert VertexVertex(1, 0) not in next(members for members in arcs if VertexVertex(0, 0) in members)
+
+
+@given(strategies.convex_polygons())
+def test_remark_5_ends_of_an_e_v_surface_are_congruent_just_if_the_striction_curve_is_in_the_middle(
+    shape: Shape,
+) -> None:
+    A = Polygon(*shape)
+    classes = {helix: k for k, members in enumerate(helix_classes(A, SQUARE)) for helix in members}
+    for i in range(len(A)):
+        t = striction_parameter(contact_surface(A, SQUARE, EdgeVertex(i, 0)))
+        ends = VertexVertex(i, 0), VertexVertex(int(A.next[i]), 0)
+        assert (classes[ends[0]] == classes[ends[1]]) == (t == Fraction(1, 2))
+
+
+def test_remark_3_for_squares_has_one_class_of_arcs() -> None:
+    assert [len(m) for m in arc_classes(SQUARE, SQUARE)] == [16]
+    corner = Polygon([(0, 0), (2, 0), (2, 2), (0, 2)])
+    assert [len(m) for m in arc_classes(corner, SQUARE)] == [4, 8, 4]
 
 
 def test_a_pair_of_nothing_equal() -> None:

@@ -138,6 +138,59 @@ def test_lemma_2_symbolically() -> None:
     assert is_zero((forms["gv"] * E - 2 * forms["fv"] * F) - w * E * F)
 
 
+@pytest.mark.slow
+@given(points, points, st.floats(-2, 3), st.floats(-7, 7))
+def test_lemma_2_and_the_forms_are_those_printed(
+    a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction], t: float, phi: float
+) -> None:
+    """From a_i and a_{i+1} alone, as the paper writes them; and no e-v surface is developable."""
+    assume(a != b)
+    g = b[0] - a[0], b[1] - a[1]
+    zero = Fraction(0), Fraction(0)
+    S = Surface(EdgeVertex(0, 0), zero, zero, a, g)
+    (x0, y0), (x1, y1) = ((float(x), float(y)) for x, y in (a, b))
+    E, F = (x0 - x1) ** 2 + (y0 - y1) ** 2, x0 * y1 - y0 * x1
+    G = 1 + ((1 - t) * x0 + t * x1) ** 2 + ((1 - t) * y0 + t * y1) ** 2
+    v = math.sqrt(E * G - F * F)
+    at, near = local_geometry(S.ruled, t, phi), {"rel": 1e-6, "abs": 1e-12}  # E G - F^2 cancels
+    printed = {"E": E, "F": F, "G": G, "e": 0, "f": -E / v, "g": -F / v, "v": v}
+    for name, value in printed.items():
+        assert float(getattr(at, name)) == pytest.approx(value, **near), name
+    assert float(at.gaussian_curvature) == pytest.approx(-(E**2) / v**4, **near)
+    assert float(at.mean_curvature) == pytest.approx(E * F / (2 * v**3), **near)
+    assert at.gaussian_curvature < 0 and not is_developable(S)
+
+
+@pytest.mark.parametrize(("A", "O"), PAIRS)
+def test_v_e_surfaces_are_developable_and_e_v_surfaces_are_not(A: Polygon, O: Polygon) -> None:
+    """Section 3.1 and the sentence after Lemma 2: developable is what has the curvature 0 everywhere."""
+    for contact in contacts(A, O):
+        S = contact_surface(A, O, contact)
+        K = local_geometry(S.ruled, np.linspace(-1, 2, 7), np.linspace(0, 6, 9)[:, None]).gaussian_curvature
+        assert is_developable(S) == (K == 0).all() == isinstance(contact, VertexEdge)
+        assert isinstance(contact, VertexEdge) or (K < 0).all()
+
+
+def test_the_distribution_parameter_is_that_of_its_definition() -> None:
+    """det(c', r, r') / r'.r' of unit rulings r over the directrix c, for any edge: the length of a radian."""
+    names = "phi px py ax ay length alpha w"
+    phi, px, py, ax, ay, length, alpha, w = sympy.symbols(names, positive=True)
+    R = sympy.Matrix([[sympy.cos(phi), -sympy.sin(phi)], [sympy.sin(phi), sympy.cos(phi)]])
+    edge = length * sympy.Matrix([sympy.cos(alpha), sympy.sin(alpha)])
+    c = sympy.Matrix([*(sympy.Matrix([px, py]) - R * sympy.Matrix([ax, ay])), w * phi])
+    r = sympy.Matrix([*(-R * edge / length), 0])
+    turned = r.diff(phi)
+    assert is_zero(c.diff(phi).dot(r.cross(turned)) / turned.dot(turned) - w)
+    rows = random_ruled(np.random.default_rng(5), 40)
+    for scale in (0.3, 1.0, 4.0):
+        found = distribution_parameters(rows, angle_scale=scale)
+        is_edge = rows[:, 6:8].any(axis=1)
+        assert (found[is_edge] == scale).all() and np.isnan(found[~is_edge]).all()
+        # K = -w^2 / (w^2 + s^2)^2 at the distance s from the striction curve: its root is 1 / w there
+        at = local_geometry(rows[is_edge], striction_parameters(rows[is_edge]), 0.2, angle_scale=scale)
+        np.testing.assert_allclose(1 / np.sqrt(-at.gaussian_curvature), found[is_edge])
+
+
 def test_v_e_surfaces_symbolically() -> None:
     forms, s = symbolic("v-e")
     c, n = sympy.cos(s["phi"]), sympy.sin(s["phi"])
@@ -240,6 +293,12 @@ def test_asymptotic_directions_have_no_normal_curvature(sampled: Sampled) -> Non
     for k in (0, 1):
         np.testing.assert_allclose(at.normal_curvature(at.asymptotic_directions[:, k]), 0, atol=1e-11)
     assert ((at.asymptotic_directions >= 0) & (at.asymptotic_directions <= math.pi)).all()
+    # the ruling, and on e-v surfaces with w = 1 the printed arctan(2 v / F): another one
+    ruling, other = at.asymptotic_directions.T
+    is_edge, one = at.gaussian_curvature < 0, local_geometry(*sampled[1:4])
+    assert (ruling == 0).all() and (np.sin(other[is_edge]) > 1e-3).all()
+    has_F = is_edge & (np.abs(one.F) > 1e-9)
+    np.testing.assert_allclose(np.tan(one.asymptotic_directions[has_F, 1]), 2 * one.v[has_F] / one.F[has_F], rtol=1e-6)
 
 
 def test_where_F_is_0_directions_are_halves_of_right_angles() -> None:
@@ -312,9 +371,11 @@ def e_v_surfaces(A: Polygon, O: Polygon) -> list[Surface]:
     return [contact_surface(A, O, EdgeVertex(i, 0)) for i in range(len(A))]
 
 
-@given(points, points)
-def test_lemma_3_both_ways(a: tuple[Fraction, Fraction], g: tuple[Fraction, Fraction]) -> None:
+@given(points, points, st.none() | strategies.fractions())
+def test_lemma_3_both_ways(a: tuple[Fraction, Fraction], g: tuple[Fraction, Fraction], along: Fraction | None) -> None:
     assume(g != (0, 0))
+    if along is not None:  # on a line through the reference point
+        a = along * g[0], along * g[1]
     S = Surface(EdgeVertex(0, 0), (Fraction(0), Fraction(0)), (Fraction(0), Fraction(0)), a, g)
     H = local_geometry(S.ruled, np.linspace(-1, 2, 5), 0.0).mean_curvature
     on_line = a[0] * g[1] == a[1] * g[0]

@@ -213,7 +213,19 @@ def drawn_area(ax: Any) -> float:
 
 @pytest.mark.slow
 def test_an_empty_boundary_can_be_drawn() -> None:
-    plot_overview(boundary(Scene(robot=TRIANGLE))).canvas.draw()
+    empty = boundary(Scene(robot=TRIANGLE))
+    figure = plot_overview(empty)
+    image = pixels(figure)
+    assert "0 of 0 contact patches" in " ".join(text.get_text() for text in figure.texts)
+    plan, *cuts, space = figure.axes
+    outlines = [patch.get_path().vertices for patch in plan.patches]
+    assert any({*map(tuple, TRIANGLE)} <= {*map(tuple, corners)} for corners in outlines)
+    assert [drawn_area(ax) for ax in cuts] == [0, 0]  # nothing is forbidden
+    (painting,) = [found for found in space.collections if isinstance(found, depth_sort.Painting)]
+    assert not (painting._pieces.sort < pieces.SECTION).any()
+    for kind in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX):  # but in the legend
+        left = image[:, : image.shape[1] // 2]
+        assert (np.abs(left - to_rgb(COLOURS[kind])).max(axis=-1) < 0.02).sum() < 2000
 
 
 @pytest.mark.slow

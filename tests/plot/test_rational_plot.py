@@ -12,7 +12,7 @@ from matplotlib.colors import to_rgb
 from cfree.contact.contact import EdgeVertex, VertexEdge, angle_range
 from cfree.contact.surface import contact_surface
 from cfree.forbidden.kinds import COLOURS
-from cfree.plot.rational import SHOWN, plot_models
+from cfree.plot.rational import SHOWN, cells, plot_models
 from cfree.polygons.polygon import Polygon
 from cfree.rational.model import rational_range
 
@@ -47,8 +47,6 @@ def test_both_halves_show_the_patch_in_its_colour(contact: VertexEdge | EdgeVert
 
 
 def test_cells_are_on_the_surface_and_the_patch_is_phi() -> None:
-    from cfree.plot.rational import cells
-
     S, Phi = contact_surface(A, O, VertexEdge(1, 0)), rational_range(A, O, VertexEdge(1, 0))
     outlines, on_patch = cells(S, Phi, 180)
     points = outlines.reshape(-1, 3)
@@ -65,7 +63,23 @@ def test_cells_are_on_the_surface_and_the_patch_is_phi() -> None:
 
 def test_a_surface_without_width_is_drawn() -> None:
     # the reference point is the vertex: its helices are upright lines over the edge
-    FigureCanvasAgg(plot_models(SQUARE, SQUARE, VertexEdge(0, 2))).draw()
+    figure = plot_models(SQUARE, SQUARE, VertexEdge(0, 2))
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    image = np.asarray(canvas.buffer_rgba())[..., :3] / 255
+    colour, half = to_rgb(COLOURS[1]), image.shape[1] // 2
+    strongest = int(np.argmax(colour))
+    others = [k for k in range(3) if k != strongest]
+    coloured = (image[..., [strongest]] > 1.5 * image[..., others]).all(axis=-1)
+    for k, axes in enumerate(figure.axes):
+        (x0, x1), (y0, y1) = axes.get_xlim(), axes.get_ylim()
+        assert x0 < 0 < 2 < x1 and y0 < 2 < y1 < 3  # what has no width gets a window that has
+        shown = coloured[:, half * k : half * (k + 1)]
+        assert shown.sum() > 100
+    contact = VertexEdge(0, 2)
+    S, Phi = contact_surface(SQUARE, SQUARE, contact), rational_range(SQUARE, SQUARE, contact)
+    corners = cells(S, Phi, 180)[0].reshape(-1, 3)
+    assert (corners[:, 1] == 2).all() and (corners[:, 0].min(), corners[:, 0].max()) == (0, 2)
 
 
 def test_a_reflex_vertex_has_no_patch_to_show() -> None:
