@@ -11,6 +11,7 @@ from itertools import combinations
 from pathlib import Path as FilePath
 from typing import Any
 
+import numpy as np
 import pytest
 
 import cfree.verify
@@ -22,7 +23,6 @@ from cfree import (
     Path,
     Pose,
     Scene,
-    Separated,
     boundary,
     free_space,
     is_free,
@@ -216,22 +216,28 @@ def test_intervals_left_out_are_those_that_turning_finds(kind: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_verdicts_are_those_of_the_cells(kind: str) -> None:
-    scene, rng = scene_of(random_scene(1, kind)), random.Random(kind)
-    space = free_space(boundary(scene, threads=1))
-    places = [(Fraction(rng.randint(-8, 16), 2), Fraction(rng.randint(-8, 16), 2)) for _ in range(12)]
-    held = {place: cfree.turn_in_place(scene, Pose(*place)) for place in places}
-    checked = 0
-    for one, other in combinations([place for place, intervals in held.items() if intervals], 2):
-        start = Pose(*one, sum(held[one][0].theta) / 2)
-        if not is_free(scene, start):
-            continue
-        cells = {space.locate(Pose(*other, sum(interval.theta) / 2)) for interval in held[other]}
-        answer = plan(space, start, other, improve=0)
-        if space.locate(start) in cells:
-            assert isinstance(answer, Path) and answer.is_free(MotionChecker(scene))
-        elif isinstance(answer, AllSeparated):
-            assert cfree.verify.answer(scene, answer).verified
-            assert all(isinstance(proof, Separated) for proof in answer.proofs)
-        checked += 1
-        if checked > 6:
+    rng, checked, found = random.Random(kind), 0, set()
+    for seed in range(1, 9):
+        scene = scene_of(random_scene(seed, kind))
+        space = free_space(boundary(scene, threads=1))
+        low, high = np.array(scene.bounds or (-4, -4, 8, 8), float).reshape(2, 2)
+        corners = rng.choices(range(17), k=12), rng.choices(range(17), k=12)
+        places = [tuple(Fraction(c) for c in low + (high - low) * np.array(k) / 16) for k in zip(*corners, strict=True)]
+        held = {place: cfree.turn_in_place(scene, Pose(*place)) for place in places}
+        for one, other in combinations([place for place, intervals in held.items() if intervals], 2):
+            start = Pose(*one, sum(held[one][0].theta) / 2)
+            if not is_free(scene, start):
+                continue
+            cells = {space.locate(Pose(*other, sum(interval.theta) / 2)) for interval in held[other]}
+            answer = plan(space, start, other, improve=0)
+            found.add(type(answer))
+            if isinstance(answer, Path):  # through an exact fit it may lead into another cell
+                assert answer.is_free(MotionChecker(scene))
+            else:
+                assert space.locate(start) not in cells and cfree.verify.answer(scene, answer).verified
+            checked += 1
+            if checked % 6 == 0:
+                break
+        if checked > 6 and len(found) > 1:
             break
+    assert checked > 6 and Path in found

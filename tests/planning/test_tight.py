@@ -191,7 +191,8 @@ def test_a_slit_goes_on_over_a_wall_at_an_irrational_orientation() -> None:
     room = [(0, 0), (6, 0), (6, 6), (0, 6)]
     scene = Scene([(0, 0), (-1, 2), (-2, 0)], obstacles, workspace=room, bounds=(2, -3, 6, 0))
     for start, goal in permutations([Pose(2, 0, "270deg"), Pose(5, 0, 0)]):
-        assert isinstance(plan(scene, start, goal, improve=0), Path)
+        answer = plan(scene, start, goal, improve=0)
+        assert isinstance(answer, Path) and cfree.verify.answer(scene, answer).verified
 
 
 @pytest.mark.parametrize("at", [0, 10**9])

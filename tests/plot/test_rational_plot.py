@@ -27,7 +27,7 @@ def pixels(contact: VertexEdge | EdgeVertex) -> np.ndarray:
     return np.asarray(canvas.buffer_rgba())[..., :3] / 255
 
 
-def test_axes_are_labelled() -> None:
+def test_axes_are_labelled_in_both_models() -> None:
     geometrical, rational = plot_models(A, O, EdgeVertex(1, 2)).axes
     for axes, name, limits in ((geometrical, "θ", (-180, 180)), (rational, "τ = tan(θ/2)", (-SHOWN, SHOWN))):
         assert (axes.get_xlabel(), axes.get_ylabel(), axes.get_zlabel()) == ("x", "y", name)

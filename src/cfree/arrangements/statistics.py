@@ -55,8 +55,8 @@ class ArrangementStatistics:
         What the number of vertices is at most. ``"surfaces"``: k contact surfaces have 4 for each three, 2 for each of
         their helices and 1 for each of their edge-edge segments with each surface, and 4 corners each, which is O(k^3);
         that is also the worst case of such arrangements (Halperin and Sharir 1992). ``"(mn)^3"``, without its constant:
-        a robot of m vertices among obstacles of n (Avnaim, Boissonnat and Faverjon 1988). Single cells are much
-        simpler: m^3 n^2 2^O(log^(2/3) n) (Halperin and Sharir 1993).
+        a robot of n vertices among obstacles of m (Avnaim, Boissonnat and Faverjon 1988). Single cells are much
+        simpler: n^3 m^2 2^O(log^(2/3) m) (Halperin and Sharir 1993).
     """
 
     vertices: int
