@@ -55,6 +55,41 @@ def test_the_first_theory_page_lists_all_others(request: pytest.FixtureRequest) 
     assert links == [page.name for page in others]
 
 
+def test_every_statement_has_a_number_of_its_own_that_the_list_gives_with_its_page(
+    request: pytest.FixtureRequest,
+) -> None:
+    first, *others = pages(request.config.rootpath)
+    folder = first.parent
+    listed = re.findall(r"^\| (\d+) \| (.+) \| \[(.*)\]\((.*)\) \|$", (folder / "statements.md").read_text(), re.M)
+    assert [int(number) for number, *_ in listed] == list(range(1, len(listed) + 1)) and len(listed) >= 55
+    stated = {}
+    for page in others:
+        if page.name != "statements.md":
+            for number in re.findall(r"\*\*[^*]*?Proposition (\d+)[^*]*\*\*", page.read_text()):
+                assert number not in stated, number
+                stated[number] = page
+    assert {number: folder / page for number, _, _, page in listed} == stated
+    for _, _, title, page in listed:
+        assert (folder / page).read_text().startswith(f"# {title}\n")
+    texts = [*(path for name in ("docs", "src") for path in (request.config.rootpath / name).rglob("*.*"))]
+    for path in texts:
+        if path.suffix in (".md", ".py"):  # who cites a number cites one that there is
+            assert set(re.findall(r"Proposition (\d+)", path.read_text())) <= set(stated), path
+
+
+def test_words_have_a_meaning_and_the_page_that_uses_them(request: pytest.FixtureRequest) -> None:
+    page = request.config.rootpath / "docs" / "theory" / "notation.md"
+    rows = re.findall(r"^\| ([^|]+) \| ([^|]+) \| (\[.*\)) \|$", page.read_text().split("## Words")[1], re.M)
+    words = [word for row, _, _ in rows for word in row.split(", ")]
+    assert len(words) == len(set(words)) >= 35 and [row for row, _, _ in rows] == sorted(row for row, _, _ in rows)
+    for row, meaning, places in rows:
+        assert len(meaning) > 10
+        text = "".join((page.parent / name).read_text() for name in re.findall(r"\((.*?)\)", places)).lower()
+        for word in row.split(", "):
+            assert re.search(rf"\b{word.removesuffix(' side')}", text), word
+    assert "wall" in words
+
+
 def test_the_paper_is_covered_by_code_and_tests_that_exist(request: pytest.FixtureRequest) -> None:
     root = request.config.rootpath
     page = (root / "docs" / "theory" / "paper.md").read_text()

@@ -125,7 +125,7 @@ def test_replaced_angles_have_short_rationals() -> None:
 
 @given(poses, st.tuples(numbers, numbers))
 def test_a_vertex_is_turned_by_theta_and_then_moved_by_r(q: Pose, a: tuple[Fraction, Fraction]) -> None:
-    """Eq. (3) in numbers that know nothing of tau."""
+    """Eq. (3) in complex numbers, without tau."""
     turned = cmath.exp(1j * q.theta) * complex(*a) + complex(q.x, q.y)
     (exact,), rounded = q.apply_exact([a]), q.apply([float(c) for c in a])
     assert abs(complex(*exact) - turned) < 1e-12 and abs(complex(*rounded) - turned) < 1e-12

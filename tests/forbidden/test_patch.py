@@ -203,7 +203,7 @@ COUNTED = {"chart end": 0, "parallel": 1, "helix": 1, "crossing": 2}  # the feat
 
 @pytest.mark.parametrize("name", ["comb_hook", "sofa_corner"])
 def test_every_angle_has_a_name(name: str) -> None:
-    """Where it says: the edges it names are parallel, the helix is on the patch, the two curves on it meet."""
+    """The edges that it names are parallel there, the helix is on the patch, or the two curves on it meet."""
     result = boundary(load_scene(SCENES / f"{name}.json"))
     scene, columns, kinds = result.scene, result.trapezoids, set()
     for k in range(len(columns)):

@@ -216,6 +216,18 @@ def test_remark_3_of_one_vertex_and_a_regular_obstacle() -> None:
     assert VertexVertex(1, 0) not in next(members for members in arcs if VertexVertex(0, 0) in members)
 
 
+def test_remark_3_patches_of_equal_corners_differ_where_the_reference_point_is_elsewhere_in_them() -> None:
+    # opposite corners of a parallelogram are equal; they are as far from the reference point, and at other angles
+    shift = Fraction(23, 10), Fraction(3, 2)
+    A = Polygon([(x - shift[0], y - shift[1]) for x, y in ((0, 0), (4, 0), (5, 2), (1, 2))])
+    one, other = VertexEdge(0, 0), VertexEdge(2, 0)
+    surfaces, patches = surface_classes(A, SQUARE), patch_classes(A, SQUARE)
+    assert other in next(members for members in surfaces if one in members)
+    assert angle_range(A, SQUARE, one).phi_range == angle_range(A, SQUARE, other).phi_range
+    assert other not in next(members for members in patches if one in members)
+    assert not are_congruent(samples(A, SQUARE, one), samples(A, SQUARE, other), 1e-9)
+
+
 @given(strategies.convex_polygons())
 def test_remark_5_ends_of_an_e_v_surface_are_congruent_just_if_the_striction_curve_is_in_the_middle(
     shape: Shape,

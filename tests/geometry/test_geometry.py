@@ -143,7 +143,7 @@ def test_lemma_2_symbolically() -> None:
 def test_lemma_2_and_the_forms_are_those_printed(
     a: tuple[Fraction, Fraction], b: tuple[Fraction, Fraction], t: float, phi: float
 ) -> None:
-    """From a_i and a_{i+1} alone, as the paper writes them; and no e-v surface is developable."""
+    """The paper's formulas in a_i and a_{i+1} alone; and no e-v surface is developable."""
     assume(a != b)
     g = b[0] - a[0], b[1] - a[1]
     zero = Fraction(0), Fraction(0)
