@@ -216,7 +216,7 @@ def test_an_empty_boundary_can_be_drawn() -> None:
     empty = boundary(Scene(robot=TRIANGLE))
     figure = plot_overview(empty)
     image = pixels(figure)
-    assert "0 of 0 contact patches" in " ".join(text.get_text() for text in figure.texts)
+    assert set(re.findall(r"\d+", " ".join(text.get_text() for text in figure.texts))) == {"0"}  # of everything
     plan, *cuts, space = figure.axes
     outlines = [patch.get_path().vertices for patch in plan.patches]
     assert any({*map(tuple, TRIANGLE)} <= {*map(tuple, corners)} for corners in outlines)
