@@ -100,7 +100,8 @@ def test_the_paper_is_covered_by_code_and_tests_that_exist(request: pytest.Fixtu
         assert name in listed, name
     for k in range(1, 11):
         assert re.search(rf"Figures? (\d, )?{k}\b", listed), f"Figure {k}"
-    written = "".join(path.read_text() for path in (root / "tests").rglob("test_*.py"))
+    files = [path.read_text() for path in (root / "tests").rglob("test_*.py")]
+    written = "".join(files)
     done = [row for row in rows if row[2].strip() != "not done"]
     assert [row[1] for row in rows if row not in done] == ["future work: boundaries of circular arcs"]
     for _, _, code, tests in done:
@@ -108,7 +109,9 @@ def test_the_paper_is_covered_by_code_and_tests_that_exist(request: pytest.Fixtu
         assert names and len(names) == tests.count(",") + 1, tests
         for name in names:  # of one test, so that it can be run with `pytest -k`
             assert written.count(f"def {name}(") == 1, name
+        beside = "".join(text for text in files if any(f"def {name}(" in text for name in names))
         for name in re.findall(r"`cfree\.([\w.]+)`", code):
+            assert re.search(rf"\b{name.split('.')[-1]}\b", beside), f"{name}: no test of its row names it"
             found: Any = import_module("cfree")
             for part in name.split("."):
                 found = getattr(found, part, None) or import_module(f"{found.__name__}.{part}")

@@ -387,7 +387,7 @@ def test_orientations_without_contacts_are_left_out() -> None:
 
 
 @pytest.mark.slow
-def test_a_gif_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
+def test_a_gif_of_a_scene_is_read_back(fig9: Boundary, tmp_path: Path) -> None:
     file, shares = tmp_path / "film.gif", []
     cfree.film.save_film([fig9], file, seconds=2, fps=10, size=(320, 180), progress=shares.append)
     with Image.open(file) as film:
