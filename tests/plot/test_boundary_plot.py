@@ -215,7 +215,7 @@ def drawn_area(ax: Any) -> float:
 def test_an_empty_boundary_can_be_drawn() -> None:
     empty = boundary(Scene(robot=TRIANGLE))
     figure = plot_overview(empty)
-    image = pixels(figure)
+    assert np.ptp(pixels(figure)) > 0.9
     assert set(re.findall(r"\d+", " ".join(text.get_text() for text in figure.texts))) == {"0"}  # of everything
     plan, *cuts, space = figure.axes
     outlines = [patch.get_path().vertices for patch in plan.patches]
@@ -223,9 +223,6 @@ def test_an_empty_boundary_can_be_drawn() -> None:
     assert [drawn_area(ax) for ax in cuts] == [0, 0]  # nothing is forbidden
     (painting,) = [found for found in space.collections if isinstance(found, depth_sort.Painting)]
     assert not (painting._pieces.sort < pieces.SECTION).any()
-    for kind in (PatchKind.VERTEX_EDGE, PatchKind.EDGE_VERTEX):  # but in the legend
-        left = image[:, : image.shape[1] // 2]
-        assert (np.abs(left - to_rgb(COLOURS[kind])).max(axis=-1) < 0.02).sum() < 2000
 
 
 @pytest.mark.slow
