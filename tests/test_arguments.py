@@ -202,6 +202,9 @@ def test_no_module_hides_a_name() -> None:
 def test_type_hints_resolve(name: str) -> None:
     value = NAMES[name]
     functions = [value] if inspect.isfunction(value) else []
+    if inspect.isclass(value):  # its fields
+        assert set(vars(value).get("__annotations__", {})) <= set(get_type_hints(value))
+        assert not any(isinstance(hint, str) for hint in get_type_hints(value).values())
     for _, member in inspect.getmembers_static(value) if inspect.isclass(value) else ():
         function = getattr(member, "fget", None) or getattr(member, "func", None) or getattr(member, "__func__", member)
         if inspect.isfunction(function) and not function.__name__.startswith("_"):
