@@ -246,3 +246,15 @@ def test_names_and_exact_numbers_survive_where_they_can(tmp_path: Path) -> None:
     assert (drawn.obstacles, drawn.obstacle_names, drawn.goals) == (scene.obstacles, scene.obstacle_names, scene.goals)
     assert drawn.robot[0].exact_vertices[1][0] == Fraction("0.33333333333333")
     ElementTree.parse(tmp_path / "a.svg")
+
+
+def test_a_thin_ellipse_in_a_drawing_does_not_turn_inside_out(tmp_path: Path) -> None:
+    for ry in ("0.2", "0.0002", "0.0000002"):
+        text = f'<svg><ellipse id="workspace" cx="5" cy="3" rx="4" ry="{ry}" transform="rotate(30)"/></svg>'
+        (tmp_path / "thin.svg").write_text(text)
+        (room,) = cfree.load_shapes(tmp_path / "thin.svg").shapes
+        share = float(room.polygon.exact_area) / (math.pi * 4 * float(ry))
+        assert room.role == "workspace" and 0.9 < share < 1, ry
+        (tmp_path / "thin.svg").write_text(text.replace("workspace", "obstacle"))
+        (wall,) = cfree.load_shapes(tmp_path / "thin.svg").shapes
+        assert 1 < float(wall.polygon.exact_area) / (math.pi * 4 * float(ry)) < 1.1, ry

@@ -59,8 +59,8 @@ def film_answer(
         Before anything is computed, if an option has no sense, or the answer is for another scene.
     """
     from cfree.film import film_path, film_separation, length_of
-    from cfree.film.way import REST
     from cfree.film.reel import check_frames, check_options
+    from cfree.film.way import REST
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.path import Path as Motions
     from cfree.planning.separation import Separated

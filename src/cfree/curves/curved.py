@@ -222,24 +222,28 @@ def _box_of(ring: GivenRing) -> Box:
     return box_of(_pieces(ring))
 
 
-# Curves without a polygon inside, the error at which it was looked for, and so at all smaller ones, and the fault.
-_nothing_inside: dict[tuple[tuple[Piece, ...], ...], tuple[float, Exception]] = {}
+# Curves without a polygon inside, the largest error at which it was looked for, and the fault, which has the least.
+_nothing_inside: dict[tuple[tuple[Piece, ...], ...], tuple[float, UndecidedError]] = {}
 
 
 @lru_cache(KEPT)
 def _near(curves: tuple[tuple[Piece, ...], ...], error: float, inside: bool) -> Polygon | Exception:
     """The polygon around them, or inside; or why there is none."""
-    if inside and curves in _nothing_inside and error <= _nothing_inside[curves][0]:
-        return _nothing_inside[curves][1]
+    if inside and curves in _nothing_inside:
+        most, fault = _nothing_inside[curves]
+        if fault.error <= error <= most:
+            return fault
     outer, *holes = map(drawn_of, curves)
     try:
         return polygon_of(Outline(outer, tuple(holes), curves), error, inside)
-    except (InvalidPolygonError, UndecidedError) as fault:
+    except InvalidPolygonError as crossing:
+        return crossing
+    except UndecidedError as found:
         if inside:
             if len(_nothing_inside) == KEPT:
                 _nothing_inside.clear()
-            _nothing_inside[curves] = error, fault
-        return fault
+            _nothing_inside[curves] = error, found
+        return found
 
 
 @lru_cache(KEPT)

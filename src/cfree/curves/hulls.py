@@ -103,18 +103,12 @@ def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: 
     error = tolerance
     curves = outline.exact or tuple(() if straight(ring) else exact_of(ring) for ring in outline.rings)
     for attempt in range(TRIES):
-        made = [
-            _proved(ring, curve, error, inside == (k == 0), spend)
+        outer, *holes = (
+            _proved(ring, curve, error, inside == (k == 0), spend, needed=inside or k == 0)
             for k, (ring, curve) in enumerate(zip(outline.rings, curves, strict=True))
-        ]
-        if made[0] is None or (inside and None in made):
-            kind = "inside" if inside else "around"
-            raise UndecidedError(
-                f"no polygon {kind} it can be proved: it is too thin, has cusps, or is too near to itself", error=error
-            )
-        outer, *holes = (points for points in made if points is not None)
+        )
         try:
-            return Polygon(outer, holes)
+            return Polygon(outer, [hole for hole in holes if hole])
         except InvalidPolygonError:
             if attempt == TRIES - 1 or not outline.curved or sum(map(len, holes), len(outer)) > MOST:
                 raise
@@ -122,8 +116,8 @@ def polygon_of(outline: Outline, tolerance: float, inside: bool = False, spend: 
     raise AssertionError
 
 
-def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend) -> list[ExactPoint] | None:
-    """Vertices of a ring proved to be within a curve, or around it; None if none is found."""
+def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend, *, needed: bool) -> list[ExactPoint]:
+    """Vertices of a ring proved to be within a curve, or around it; none if there is none, and none is needed."""
     if straight(ring):
         spend(len(ring))
         return [segment.start for segment in ring if isinstance(segment, Line)]
@@ -146,8 +140,15 @@ def _proved(ring: Ring, curve: Curve, error: float, within: bool, spend: Spend) 
             if is_proved(polygon, 0, local, within=within):
                 return [frame.world(p) for p in points] if frame else points
         if error <= least or len(points) > MOST:
-            return None
+            break
         error /= SMALLER
+    if not needed:
+        return []
+    kind = "inside" if within else "around"
+    raise UndecidedError(
+        f"no polygon {kind} it can be proved: it is too thin, has cusps, or is too near to itself",
+        error=error * (frame.length if frame else 1.0),
+    )
 
 
 def box_of(rings: Sequence[Ring]) -> tuple[float, float, float, float]:
