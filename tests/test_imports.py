@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 SOURCE = Path(__file__).parents[1] / "src"
+CPP = SOURCE.parent / "cpp"
+PAGE = (SOURCE.parent / "docs" / "architecture.md").read_text()
 CORE = "cfree._core"
 ORDER = """
     lazy errors collector value arguments palette
@@ -74,8 +76,16 @@ def test_what_is_hidden_is_seen() -> None:
     assert set(imported("\n".join(lines))) == {"cfree.film", "cfree.verify.world", CORE}
 
 
+def test_includes_of_the_core_lead_down() -> None:
+    table = PAGE.split("| folder of `cpp/src`")[1].split("`cpp/bindings`")[0]
+    folders = re.findall(r"^\| `(\w+)/`", table, re.MULTILINE)
+    assert sorted(folders) == sorted(path.name for path in (CPP / "src").iterdir())
+    for path in (*CPP.glob("include/cfree/*/*.hpp"), *CPP.glob("src/*/*.?pp")):
+        for other in re.findall(r'#include "(?:cfree/)?(\w+)/', path.read_text()):
+            assert folders.index(other) <= folders.index(path.parent.name), f"{path.relative_to(CPP)} includes {other}"
+
+
 def test_the_architecture_page_lists_the_packages_in_their_order() -> None:
-    page = (SOURCE.parent / "docs" / "architecture.md").read_text()
-    table = page.split("## The packages")[1].split("`__init__.py`")[0]
+    table = PAGE.split("## The packages")[1].split("`__init__.py`")[0]
     rows = [row.split("|")[1] for row in table.splitlines() if row.startswith("| `")]
     assert re.findall(r"`(\w+)(?:\.py|/)`", " ".join(rows)) == ORDER[:-1]

@@ -3,7 +3,7 @@
 #include <numeric>
 #include <vector>
 
-#include "cfree/exact/number.hpp"
+#include "cfree/support/index.hpp"
 
 namespace cfree {
 

@@ -6,10 +6,9 @@
 #include <cstdint>
 
 #include "cfree/support/bit_cast.hpp"
+#include "cfree/support/index.hpp"
 
 namespace cfree {
-
-using Index = std::int32_t;
 
 // For the benchmark of what exactness costs, and for nothing else: every sign is that of the double, however uncertain.
 #ifdef CFREE_DOUBLE_ONLY

@@ -4,10 +4,10 @@
 
 #include "cfree/collision/pose_checker.hpp"
 #include "cfree/free/free_space.hpp"
+#include "cfree/planning/deadline.hpp"
 #include "cfree/planning/surroundings.hpp"
 #include "cfree/scene/features.hpp"
 #include "cfree/search/way.hpp"
-#include "cfree/support/listener.hpp"
 
 namespace cfree {
 

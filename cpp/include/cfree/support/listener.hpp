@@ -3,15 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <stdexcept>
-
-#include "cfree/support/stop.hpp"
 
 namespace cfree {
-
-struct TooLate : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 struct Listener {
     std::function<void(const char* phase)> begin = {};
@@ -36,19 +29,6 @@ public:
 
 private:
     const Listener& listener;
-};
-
-// Time that is limited.
-class Deadline {
-public:
-    explicit Deadline(const Listener& of) : seconds(of.max_seconds) {}
-    bool is_over() const { return std::chrono::duration<double>(Clock::now() - start).count() > seconds; }
-    void heed() const;  // throws TooLate
-
-private:
-    using Clock = std::chrono::steady_clock;
-    const double seconds;
-    const Clock::time_point start = Clock::now();
 };
 
 }  // namespace cfree

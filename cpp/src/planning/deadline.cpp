@@ -1,5 +1,5 @@
-// What is said when time is up.
-#include "cfree/support/listener.hpp"
+// The message when time is up.
+#include "cfree/planning/deadline.hpp"
 
 #include "cfree/exact/ratio.hpp"
 
