@@ -74,7 +74,8 @@ docs: .venv/documented  ## the documentation as pages, into docs/_build/html
 
 viewer: $(INSTALLED)  ## the page, src/cfree/viewer/page.html: needs node, npm and Debian's emscripten and node-acorn
 	cd viewer && npm ci --silent --ignore-scripts --no-audit --no-fund && npx tsc --noEmit
-	node viewer/build.mjs --boost "$$($(BIN)/python -c 'import boost_headers; print(boost_headers.get_include())')"
+	node viewer/build.mjs --boost "$$($(BIN)/python -c 'import boost_headers; print(boost_headers.get_include())')" \
+	  --hash "$$($(BIN)/python tools/page_hash.py)"
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
 	touch $(DEV)

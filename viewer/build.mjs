@@ -1,11 +1,11 @@
-// The page: the core by em++, what is around it by esbuild, packed into one file. `node build.mjs [--boost FOLDER]`
+// The page: the core by em++, what is around it by esbuild, packed into one file. `node build.mjs --boost FOLDER --hash HASH`
 import { execFile, execFileSync } from "node:child_process";
 import { createHash } from "node:crypto";
 import { existsSync, mkdirSync, readFileSync, readdirSync, statSync, writeFileSync } from "node:fs";
 import { availableParallelism } from "node:os";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
-import { promisify } from "node:util";
+import { parseArgs, promisify } from "node:util";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
 import temml from "temml";
@@ -26,17 +26,6 @@ function files(folder) {
     .filter((entry) => entry.isFile())
     .map((entry) => relative(root, join(entry.parentPath, entry.name)))
     .sort();
-}
-
-// What the page is made of; tests/viewer/test_page.py reads the same list.
-export const inputs = () =>
-  readFileSync(join(root, "viewer", "inputs.txt"), "utf8").split("\n").filter(Boolean).flatMap((entry) =>
-    statSync(join(root, entry)).isDirectory() ? files(entry) : [entry]);
-
-function hash_of_inputs() {
-  const hash = createHash("sha256");
-  for (const file of inputs().sort()) hash.update(`${file}\0${createHash("sha256").update(readFileSync(join(root, file))).digest("hex")}\n`);
-  return hash.digest("hex");
 }
 
 async function compile_core(boost) {
@@ -83,9 +72,9 @@ const with_formulas = (html) => html.replace(/\$\$(.+?)\$\$|\$(.+?)\$/gs, (_, bl
 const in_json = (data) => JSON.stringify(data).replace(/</g, "\\u003c");
 
 async function main() {
-  const given = process.argv.indexOf("--boost");
-  const boost = given > 0 ? process.argv[given + 1] : "/usr/include";
-  const wasm = await compile_core(boost);
+  const { values } = parseArgs({ options: { boost: { type: "string", default: "/usr/include" }, hash: { type: "string" } } });
+  if (!values.hash) throw new Error("--hash: give what tools/page_hash.py prints");
+  const wasm = await compile_core(values.boost);
   const [main_script, worker] = await Promise.all([bundle("main.ts"), bundle("worker.ts")]);
   const scenes = JSON.parse(text("viewer/gallery.json")).map((entry) => {
     const file = [`examples/scenes/${entry.name}.json`, `viewer/gallery/${entry.name}.json`].find((of) => existsSync(join(root, of)));
@@ -97,7 +86,7 @@ async function main() {
     CSP: `default-src 'none'; script-src 'sha256-${createHash("sha256").update(script).digest("base64")}' 'wasm-unsafe-eval'; ` +
       "worker-src blob:; style-src 'unsafe-inline'; img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'; " +
       "require-trusted-types-for 'script'; trusted-types worker",
-    HASH: hash_of_inputs(),
+    HASH: values.hash,
     STYLE: text("viewer/src/style.css"),
     CORE: gzipSync(wasm, { level: 9 }).toString("base64"),
     WORKER: in_script(worker),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import html.parser
 import json
 import re
@@ -11,28 +10,26 @@ from pathlib import Path
 
 import cfree
 from cfree.viewer import page
+from page_hash import page_hash, tokens
 
 ROOT = Path(__file__).parents[2]
 TEXT = files("cfree.viewer").joinpath("page.html").read_text(encoding="utf-8")
 SQUARE = [(0, 0), (1, 0), (1, 1), (0, 1)]
 
 
-def hash_of_inputs() -> str:
-    """As in viewer/build.mjs."""
-    names = []
-    for entry in (ROOT / "viewer" / "inputs.txt").read_text().split():
-        path = ROOT / entry
-        found = [file for file in path.rglob("*") if file.is_file()] if path.is_dir() else [path]
-        names += [file.relative_to(ROOT).as_posix() for file in found]
-    whole = hashlib.sha256()
-    for name in sorted(names):
-        whole.update(f"{name}\0{hashlib.sha256((ROOT / name).read_bytes()).hexdigest()}\n".encode())
-    return whole.hexdigest()
-
-
 def test_page_is_made_of_these_sources() -> None:
     made_of = re.search(r"<!-- inputs (\w+) -->", TEXT)
-    assert made_of and made_of[1] == hash_of_inputs(), "the core or the viewer has changed: `make viewer`"
+    assert made_of and made_of[1] == page_hash(), "the core or the viewer has changed: `make viewer`"
+
+
+def test_comments_and_white_space_of_the_core_do_not_ask_for_another_page() -> None:
+    text = """
+        // a comment
+        const double x = 1'000.5e-3, y = 'a' + R"(// no comment)"[0];  /* one */ int z;
+    """
+    same = """const double x=1'000.5e-3,y='a'+R"(// no comment)"[0];int/**/z ;"""
+    assert [*tokens(text)] == [*tokens(same)] != [*tokens(same.replace("-3", "-4"))]
+    assert "".join(tokens('s = "/* kept */";')) == 's="/* kept */";'
 
 
 def test_page_is_one_file_of_at_most_four_megabytes() -> None:
