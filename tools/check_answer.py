@@ -203,15 +203,19 @@ def simplest_between(low: Fraction, high: Fraction) -> Fraction:
     return below + 1 / simplest_between(1 / (high - below), 1 / (low - below))
 
 def read_angle(value: Any, place: str) -> Fraction | None:
-    """Of radians, "90deg", or {"tau": "p/q"}."""
+    """Of radians, "90deg", "90rad", or {"tau": "p/q"}; a text of more than a whole turn needs its unit."""
     if isinstance(value, dict):
         return read_tau(members(value, place, tau=REQUIRED)["tau"], place)
-    if isinstance(value, str) and value.strip().endswith("deg"):
-        degrees = number(value.strip().removesuffix("deg"), place)
+    text = value.strip() if isinstance(value, str) else ""
+    unit = next((unit for unit in ("deg", "\N{DEGREE SIGN}", "rad") if text.endswith(unit)), "")
+    if unit in ("deg", "\N{DEGREE SIGN}"):
+        degrees = number(text.removesuffix(unit), place)
         quarters = round(degrees / 90)
         rest = (degrees - 90 * quarters) / 180 * angle_to(None)
     else:
-        radians = number(value, place)
+        radians = number(text.removesuffix(unit) if text else value, place)
+        is_bare = text and not unit
+        refuse_if(is_bare and abs(radians) > Fraction(math.tau), f"{place}: {text[:40]} needs a unit, deg or rad")
         try:
             ulp = math.ulp(float(radians))
         except OverflowError:

@@ -42,7 +42,9 @@ def test_the_nearest_miss_of_a_rod_in_a_corner() -> None:
     assert sorted(bottleneck.obstacles) == [0, 1]
     assert math.degrees(bottleneck.pose.theta) % 180 == pytest.approx(135, abs=5)
     assert max(abs(float(c) - 0.95) for c in (bottleneck.pose.x, bottleneck.pose.y)) < 0.1
-    assert str(miss).startswith("an inset of 0.02") and "between obstacle 1 and obstacle 0 at" in str(miss)
+    assert str(miss).startswith(
+        "an inset of 0.02"
+    ) and "between obstacle 1, 8 x 8 at (5, 5) and obstacle 0, 10 x 10 at (4, 4) at" in str(miss)
 
 
 def test_both_ends_of_the_nearest_miss_are_decided() -> None:

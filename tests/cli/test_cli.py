@@ -194,12 +194,31 @@ def test_a_boundary_file_stands_for_its_scene(run: Run, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("text", "degrees"),
-    [("30deg", 30), ("30°", 30), ("-30deg", 330), ("0.5", 28.64789), ("tau:1/3", 36.869898), ("tau:-2", 233.1301)],
-)
+    [
+        ("30deg", 30), ("30°", 30), ("-30deg", 330), ("0.5", 28.64789), ("tau:1/3", 36.869898), ("tau:-2", 233.1301),
+        ("-360deg", 0), ("750deg", 30), ("1e3 deg", 280), ("61/2deg", 30.5), ("0.5rad", 28.64789), ("90rad", 116.62016),
+        ("-6.28", 0.18254), ("tau:90", 178.7268),
+    ],
+)  # fmt: skip
 def test_angles_are_written_in_three_ways(text: str, degrees: float, run: Run) -> None:
     facts = json.loads(run("slice", FIG9, "--theta", text, "--json").stdout)
     assert facts["degrees"] == pytest.approx(degrees, abs=1e-4)
     assert facts["length v-e"] > 0
+
+
+@pytest.mark.parametrize("text", ["90", "-90", "30", "1e3", "22/3", "6.3", "-6.5"])
+def test_an_angle_of_more_than_a_turn_needs_its_unit(text: str, run: Run, tmp_path: Path) -> None:
+    remedy = f"{text} is more than a whole turn in radians; write {text}deg or {text}rad"
+    for arguments in (
+        ["slice", FIG9, "--theta", text],
+        ["plan", FIG9, "--start", f"0,0,{text}"],
+        ["plan", FIG9, "--goal", f"4,-2.6,{text}"],
+        ["plan", FIG9, "--goal", "1,1", "--goal", f"4,-2.6, {text}"],
+        ["plan", FIG9, "-o", tmp_path / "way.csv", "--turn", text],
+    ):
+        result = run(*arguments)
+        assert result.exit_code == 2 and result.stderr.startswith(f"error: {arguments[-2]}: ")
+        assert result.stderr.endswith(f"{remedy}\n") and result.stderr.count("\n") == 1
 
 
 def test_slices_are_written_as_geojson(run: Run, tmp_path: Path) -> None:

@@ -28,13 +28,13 @@ def folder(tmp_path: Path) -> Path:
 def test_a_map_and_a_footprint_become_a_scene(folder: Path) -> None:
     result = run("convert", folder / "map.yaml", folder / "a.json", "--robot", folder / "nav.yaml")
     assert result.exit_code == 0
-    assert "changed  1 unknown cells: obstacles" in result.stdout
+    assert "changed  1 unknown cell: obstacles" in result.stdout
     scene = cfree.load_scene(folder / "a.json")
     assert scene == cfree.load_shapes(folder / "map.yaml").scene(cfree.load_polygons(folder / "nav.yaml"))
     text = "[[0.1, 0], [0, 0.1], [-0.1, 0]]"
     given = ("--robot", text, "--unknown", "free", "--json")
     facts = json.loads(run("convert", folder / "map.yaml", folder / "a.svg", *given).stdout)
-    assert facts["changed"] == ["1 unknown cells: free"]
+    assert facts["changed"] == ["1 unknown cell: free"]
     assert facts["files"] == {"scene": str(folder / "a.svg")}
     assert cfree.load_scene(folder / "a.svg").robot == (cfree.footprint(text),)
 

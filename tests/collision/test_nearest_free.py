@@ -40,9 +40,9 @@ def test_messages_name_who_overlaps_whom() -> None:
         [SQUARE, box(3, 0, 4, 1)[0]], [box(9, 9, 10, 10)[0], box(5, 0, 6, 1)[0]], obstacle_names=[None, "post"]
     )
     assert fault(scene, Pose(1.5, 0)).startswith(
-        "goal (1.5, 0, 0 deg) is forbidden: robot part 1 overlaps obstacle 1 (post); ("
+        "goal (1.5, 0, 0 deg) is forbidden: robot part 1 overlaps obstacle 1 (post), 1 x 1 at (5.5, 0.5); ("
     )
-    assert "robot part 0 overlaps obstacle 0; " in fault(scene, Pose("9.5", "9.5"))
+    assert "robot part 0 overlaps obstacle 0, 1 x 1 at (9.5, 9.5); " in fault(scene, Pose("9.5", "9.5"))
     assert "the reference point is outside the bounds; " in fault(Scene(SQUARE, bounds=(0, 0, 1, 1)), Pose(2, 0))
     room = Scene(SQUARE, workspace=box(0, 0, 9, 9)[0])
     for x in (8.5, 30):

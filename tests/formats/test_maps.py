@@ -28,7 +28,7 @@ def test_a_map_has_exact_cells(folder: Path) -> None:
     corners = [(2, 0), (3, 0), (3, 2), (1, 2), (1, 1), (2, 1)]
     (found,) = shapes.polygons
     assert set(found.exact_vertices) == {(left + x * cell, low + y * cell) for x, y in corners}
-    assert shapes.changed == ("1 unknown cells: free",)
+    assert shapes.changed == ("1 unknown cell: free",)
     both = cfree.load_shapes(folder / "map.yaml")
     assert [shape.role for shape in both.shapes] == ["obstacle", "workspace"]
     assert both.polygons[0].exact_area == 4 * cell**2

@@ -408,3 +408,19 @@ def test_degrees_may_have_their_sign(tmp_path: Path) -> None:
     text = f'{{{shapes}, "start": [0, 0, "90°"], "goal": [0, 0, "-22.5 °"]}}'
     scene = read(tmp_path, text, "scene.json")
     assert (scene.start, scene.goal) == (Pose(0, 0, "90deg"), Pose(0, 0, "-22.5deg"))
+
+
+@pytest.mark.parametrize("angle", ["90", "-90", "1e3", "22/3"])
+def test_a_quoted_angle_of_more_than_a_turn_needs_its_unit(tmp_path: Path, angle: str) -> None:
+    refused = f'{{"robot": {TRIANGLE}, "start": [0, 0, "{angle}"]}}'
+    fault = f"start[2]: theta: {angle} is more than a whole turn in radians; write {angle}deg or {angle}rad"
+    (found,) = faults(tmp_path, refused)
+    assert found.endswith(fault)
+    for unit in ("deg", "rad", " rad"):
+        scene = read(tmp_path, f'{{"robot": {TRIANGLE}, "start": [0, 0, "{angle}{unit}"]}}')
+        assert scene.start == Pose(0, 0, f"{angle}{unit}")
+
+
+def test_numbers_of_radians_are_as_large_as_they_are(tmp_path: Path) -> None:
+    scene = read(tmp_path, f'{{"robot": {TRIANGLE}, "start": [0, 0, 90], "goal": [0, 0, "6.28"]}}')
+    assert (scene.start, scene.goal) == (Pose(0, 0, 90), Pose(0, 0, "6.28"))

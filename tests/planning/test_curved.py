@@ -83,7 +83,9 @@ def test_overlap_at_the_start_is_bad_input() -> None:
 
 def test_the_free_pose_that_is_named_is_free() -> None:
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), [cfree.Curved.circle((1, 0), 1)])
-    with pytest.raises(cfree.ForbiddenPoseError, match=r"overlaps obstacle 0; .* is free and near by") as caught:
+    with pytest.raises(
+        cfree.ForbiddenPoseError, match=r"overlaps obstacle 0, 2 x 2 at \(1, 0\); .* is free and near by"
+    ) as caught:
         cfree.plan(scene, (0, 0, 0), (9, 9, 0))
     assert caught.value.free is not None and cfree.is_free(scene, caught.value.free) is True
 

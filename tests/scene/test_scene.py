@@ -97,7 +97,7 @@ def test_what_is_no_shape_is_refused(robot: object) -> None:
 
 
 def test_names_and_obstacles_agree_in_number() -> None:
-    with pytest.raises(ValueError, match="1 names for 2 obstacles"):
+    with pytest.raises(ValueError, match="1 name for 2 obstacles"):
         Scene(robot=TRIANGLE, obstacles=[SQUARE, SQUARE], obstacle_names=["a"])
 
 

@@ -45,7 +45,7 @@ def test_nothing_is_imported_but_the_standard_library() -> None:
         if isinstance(node, (ast.Import, ast.ImportFrom))
     }
     assert imported <= sys.stdlib_module_names, imported - sys.stdlib_module_names
-    assert len(TOOL.read_text().splitlines()) < 1500
+    assert len(TOOL.read_text().splitlines()) < 1600
 
 
 @pytest.mark.skipif(not FilePath("/dev/full").exists(), reason="needs /dev/full")
@@ -158,6 +158,9 @@ def test_polygons_are_read_alike(outer: list[tuple[Any, Any]], holes: list[list[
         st.floats(-20, 20),
         st.integers(-1000, 1000).map(lambda n: f"{n}deg"),
         st.floats(-400, 400).map("{!r}deg".format),
+        st.floats(-400, 400).map("{!r}°".format),
+        st.floats(-20, 20).map("{!r} rad".format),
+        st.floats(-6, 6).map(repr),
     )
 )
 def test_angles_are_read_alike(theta: Any) -> None:

@@ -59,7 +59,8 @@ function pose(value: Json, place: string): FilePose | undefined {
     return { x, y, tau: tau === null || tau === "inf" || tau === "-inf" ? "inf" : number(tau, `${place}[2].tau`) };
   }
   const degrees = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*(?:deg|°)\s*$/.exec(angle) : null;
-  const theta = degrees ? Number(degrees[1]) * Math.PI / 180 : Number(number(angle, `${place}[2]`));
+  const radians = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*rad\s*$/.exec(angle) : null;
+  const theta = degrees ? Number(degrees[1]) * Math.PI / 180 : radians ? Number(radians[1]) : Number(number(angle, `${place}[2]`));
   return Number.isFinite(theta) ? { x, y, theta } : fail(`${place}[2]`, "an angle", angle);
 }
 

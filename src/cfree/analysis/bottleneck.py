@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import defaultdict, deque
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +18,7 @@ from cfree.collision.motion import Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.pose import Pose
 from cfree.forbidden.columns import Floats, Ints
-from cfree.scene.features import NAMES
+from cfree.scene.naming import placed
 from cfree.scene.scene import default_name
 
 if TYPE_CHECKING:
@@ -40,15 +40,17 @@ class Bottleneck:
         Near the middle of it.
     obstacles : (int, int)
         What it is between; -1 is the bounds, -2 the workspace.
+    names : (str, str), optional
+        The same in words, with size and place.
     """
 
     pose: Pose
     obstacles: tuple[int, int]
+    names: tuple[str, str] | None = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
-        one, other = (
-            f"the {NAMES[k]}" if k in NAMES else default_name(k) for k in sorted(self.obstacles, reverse=True)
-        )
+        pairs = zip(self.obstacles, self.names or map(default_name, self.obstacles), strict=True)
+        one, other = (name for _, name in sorted(pairs, reverse=True))
         if one == other:
             return f"parts of {one} at {math.degrees(self.pose.theta):.3g} deg"
         return f"{one} and {other} at {math.degrees(self.pose.theta):.3g} deg"
@@ -196,5 +198,7 @@ def _narrowest(space: FreeSpace, samples: Samples, chosen: Ints, checker: Motion
         if met is None or not (share := float(met.at)) > 0:
             continue
         if best is None or share < best[0]:
-            best = share, Bottleneck(Pose(x + share / 2 * dx, y + share / 2 * dy, angle), (obstacle, met.obstacle))
+            both = obstacle, met.obstacle
+            names = placed(surfaces.scene, obstacle), placed(surfaces.scene, met.obstacle)
+            best = share, Bottleneck(Pose(x + share / 2 * dx, y + share / 2 * dy, angle), both, names)
     return best and best[1]

@@ -25,6 +25,7 @@ from cfree.exact.algebraic import Exact, ratio, rounded
 from cfree.exact.angle_interval import AlgebraicAngle, AngleInterval
 from cfree.exact.forms import ZERO_ANGLE, common_factor, quotient, value_at, zeros
 from cfree.rational.model import RationalSurface
+from cfree.words import counted
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,7 +91,9 @@ class Intersection:
     overlap: tuple[Fraction, Fraction] | None = None
 
     def __repr__(self) -> str:
-        return f"<Intersection: {self.relation}, {len(self.ranges)} ranges, {len(self.lines)} lines>"
+        return (
+            f"<Intersection: {self.relation}, {counted(len(self.ranges), 'range')}, {counted(len(self.lines), 'line')}>"
+        )
 
     @property
     def is_empty(self) -> bool:

@@ -29,6 +29,7 @@ from cfree.exact.number import ExactPoint
 from cfree.exact.orientation import Location
 from cfree.exact.pose import Pose
 from cfree.rational.model import RationalSurface
+from cfree.words import counted
 
 Pair = tuple[int, int]
 
@@ -117,7 +118,7 @@ class Triple:
     ranges: tuple[AngleInterval, ...] = ()
 
     def __repr__(self) -> str:
-        return f"<Triple: {self.relation}, {len(self.poses)} poses, {len(self.lines)} lines>"
+        return f"<Triple: {self.relation}, {counted(len(self.poses), 'pose')}, {counted(len(self.lines), 'line')}>"
 
     @property
     def contacts(self) -> tuple[TripleContact, ...]:

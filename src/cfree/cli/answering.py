@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail
 from cfree.cli.files import bar
 from cfree.cli.terminal import printable
+from cfree.scene.naming import all_placed
 
 if TYPE_CHECKING:
     from cfree.analysis.blockers import Blocker
@@ -226,8 +227,10 @@ class Answering:
         found = [blocker.obstacle for blocker in self.blockers]
         if for_machines:
             return found
-        names = " or ".join(self.planner.scene.obstacle_names[k] for k in found)
-        return f"there is a way without {names}" if found else "no single obstacle, taken away, opens a way"
+        if not found:
+            return "no single obstacle, taken away, opens a way"
+        either = "one of these: " * (len(found) > 1)
+        return f"there is a way without {either}{all_placed(self.planner.scene, found)}"
 
     def _unwanted(self, found: Sequence[Unwanted]) -> str:
         units = self.planner.scene.units

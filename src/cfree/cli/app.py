@@ -31,6 +31,7 @@ from cfree.cli.values import (
     read_size,
 )
 from cfree.formats.archive import is_archive
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -88,11 +89,13 @@ app.add_command(convert)
               show_default="one for 20,000 vertices")  # fmt: skip
 @options.workers
 @options.scheduler
+@options.verbose
 @options.as_json
 def boundary(
     scene: Path, output: Path | None, picture: Path | None, mesh: Path | None, error: float | None,
     threads: int | None, max_seconds: float | None, max_memory: str | None, folder: Path | None,
-    obstacles: tuple[Path, ...], tiles: int | None, workers: int | None, scheduler: str | None, as_json: bool,
+    obstacles: tuple[Path, ...], tiles: int | None, workers: int | None, scheduler: str | None, verbose: bool,
+    as_json: bool,
 ) -> None:  # fmt: skip
     """Compute the boundary of the forbidden space.
 
@@ -119,7 +122,10 @@ def boundary(
                 save_boundary(result, output)
         if not result.complete:
             kept = f"; what was done is in {output}" if output else ""
-            fail(f"incomplete: {result.trimmed.sum():,} of {result.stats.patches:,} patches trimmed{kept}", INCOMPLETE)
+            fail(
+                f"incomplete: {result.trimmed.sum():,} of {counted(result.stats.patches, 'patch')} trimmed{kept}",
+                INCOMPLETE,
+            )
         if mesh:
             from cfree.forbidden.record import glue_by
 
@@ -128,7 +134,7 @@ def boundary(
         _draw_boundary(result, mesh, error, picture)
         from cfree.cli.report import boundary_facts, boundary_rows
 
-        rows = boundary_facts(result) if as_json else boundary_rows(result)
+        rows = boundary_facts(result) if as_json else boundary_rows(result, verbose=verbose)
         print_result(result.scene.name or str(scene), scene, rows, written, as_json)
 
 
@@ -177,7 +183,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 )
 @options.scene
 @click.option(
-    "--start", metavar="X,Y,THETA", help='As "1,1/2,30deg"; radians, or "tau:1/3".', show_default="the scene's"
+    "--start", metavar="X,Y,THETA", help='As "1,1/2,30deg"; also "0.5rad", "tau:1/3".', show_default="the scene's"
 )
 @click.option(
     "--goal",
@@ -297,7 +303,7 @@ def plan(
     ),
 )
 @options.scene
-@click.option("--theta", metavar="ANGLE", help='"30deg", "0.5" radians, or "tau:1/3".', required=True)
+@click.option("--theta", metavar="ANGLE", help='"30deg", "0.5rad", or "tau:1/3".', required=True)
 @file_option("--output", "-o", metavar="GEOJSON", help="Write region and contact segments.")
 @options.picture
 @options.threads
@@ -308,7 +314,7 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
     SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, or a boundary written by cfree boundary -o.
     """
     with one_line_faults():
-        angle = read_angle(theta)
+        angle = read_angle(theta, "--theta")
         written = check_outputs(scene, {"geojson": output, "picture": picture})
         from cfree.cli.describe import describe_slice
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from cfree.cli.terminal import status
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.distributed.sharded import Sharded
@@ -90,7 +91,7 @@ def stages() -> Iterator[Callable[[str, int, int], None]]:
 
     def tell(say: Callable[[str], None], stage: str, done: int, of: int) -> None:
         seconds = time.monotonic() - began.setdefault(stage, time.monotonic())
-        text = f"{stage} {done:,} of {of:,} tiles" if of else f"{stage} {done:,} obstacles"
+        text = f"{stage} {done:,} of {counted(of, 'tile')}" if of else f"{stage} {counted(done, 'obstacle')}"
         if 0 < done < of and seconds > SECOND:
             text += f", {MINUTE * done / seconds:.3g} a minute, {_duration(seconds * (of - done) / done)} left"
         say(text)

@@ -32,6 +32,7 @@ max_memory = click.option(
 )
 workers = click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Use so many processes, by Dask.")
 scheduler = click.option("--scheduler", metavar="ADDRESS", help="Use a Dask cluster that sees the folder.")
+verbose = click.option("--verbose", "-v", is_flag=True, help="Also show the counters of the work.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON, for machines.")
 
 

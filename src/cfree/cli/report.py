@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
-from cfree.cli.terminal import columns, printable
-from cfree.scene.features import NAMES
+from cfree.cli.terminal import columns, printable, terminal_width
+from cfree.scene.naming import all_placed, placed
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -37,7 +38,7 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     kinds = ", ".join(f"{patches[kind]:,} {kind}" for kind in ("v-e", "e-v", "bound"))
     yield f"patches    {patches['total']:,} before trimming: {kinds}"
     if facts.get("round"):
-        yield f"round      {facts['round']:,} shapes; counted are polygons around them"
+        yield f"round      {counted(facts['round'], 'shape')}; counted are polygons around them"
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]
         yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
@@ -62,21 +63,28 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
         yield f"source     {name}: {value}"
 
 
-def boundary_rows(boundary: Boundary) -> dict[str, int | float | str]:
-    """The stats of a boundary in words."""
+def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float | str]:
+    """Facts about a boundary in words, with the counters of the work that it took if `verbose`."""
     stats = boundary.stats
-    return {
+    rows: dict[str, int | float | str] = {
         "contact patches": stats.patches,
         "of them live": stats.live_patches,
         "trapezoids": stats.trapezoids,
         "isolated parts (exact fits)": len(boundary.isolated),
-        "patch and pillar pairs": stats.pairs,
-        "decided by equal features": stats.decided_by_identity,
-        "decided by doubles with a bound": stats.decided_by_filter,
-        "decided by intervals": stats.decided_by_intervals,
-        "decided by exact integers": stats.decided_exactly,
-        **{f"seconds, {phase}": f"{value:.4f}" for phase, value in stats.seconds.items()},
     }
+    return (
+        rows
+        if not verbose
+        else rows
+        | {
+            "patch and pillar pairs": stats.pairs,
+            "decided by equal features": stats.decided_by_identity,
+            "decided by doubles with a bound": stats.decided_by_filter,
+            "decided by intervals": stats.decided_by_intervals,
+            "decided by exact integers": stats.decided_exactly,
+            **{f"seconds, {phase}": f"{value:.4f}" for phase, value in stats.seconds.items()},
+        }
+    )
 
 
 def boundary_facts(boundary: Boundary) -> dict[str, Any]:
@@ -100,12 +108,12 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
                 "answer": f"to none of the goals: {what}",
                 "goals": f"{len(answer.goals):,}",
                 "proofs": f"{len(answer.proofs):,}",
-                "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
+                "formed by": all_placed(scene, answer.obstacles),
             }
         return {
             "answer": what,
-            "surface between them": f"{len(answer.pieces):,} pieces of contact surfaces",
-            "formed by": ", ".join(part_name(scene, k) for k in answer.obstacles),
+            "surface between them": f"{counted(len(answer.pieces), 'piece')} of contact surfaces",
+            "formed by": all_placed(scene, answer.obstacles),
         }
     kept = f" and to keep {float(answer.clearance):g}{unit}" if answer.clearance else ""
     rows: dict[str, int | float | str] = {
@@ -115,8 +123,8 @@ def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[s
         "turning": f"{math.degrees(answer.turning):.6g} degrees",
     }
     if least := clearance(answer, scene):
-        name = part_name(scene, least.obstacle[0])
-        rows["least clearance"] = f"{least.found:.6g}{unit}, to {name} in motion {least.motion}"
+        name = placed(scene, least.obstacle[0])
+        rows["least clearance"] = f"{least.found:.6g}{unit}, in motion {least.motion}, to {name}"
         rows["proved, at least"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
     return rows
 
@@ -152,11 +160,6 @@ def motion_counts(path: Path) -> dict[str, int]:
     return {f"{kind}s": kinds.count(kind) for kind in ("translation", "rotation", "slide")}
 
 
-def part_name(scene: Scene, obstacle: int) -> str:
-    """Name of an obstacle by its number."""
-    return f"the {NAMES[obstacle]}" if obstacle in NAMES else scene.obstacle_names[obstacle]
-
-
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
     """A title, names with values, and the files written."""
     table = []
@@ -164,7 +167,11 @@ def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping
         text = f"{value:,}" if isinstance(value, int) else f"{value:,.6g}" if isinstance(value, float) else value
         table.append([name, printable(text)])
     sizes = ((name, path, os.stat(path).st_size / 1000) for name, path in files.items())
-    _print(title, *columns(table, "<>"), *(f" {name:<8} {path} ({size:,.1f} kB)" for name, path, size in sizes))
+    _print(
+        title,
+        *columns(table, "<<", terminal_width()),
+        *(f" {name:<8} {path} ({size:,.1f} kB)" for name, path, size in sizes),
+    )
 
 
 def print_verification(title: str, result: Verification) -> None:
@@ -172,7 +179,7 @@ def print_verification(title: str, result: Verification) -> None:
     from cfree.verify import result as verify
 
     checks = [[check.name, check.how, printable(check.extent)] for check in result.checks]
-    table = columns([["check", "", "of what"], *checks], "<<<")
+    table = columns([["check", "", "of what"], *checks], "<<<", terminal_width())
     _print(title, *table, *map(str, result.findings[: verify.SHOWN]), result.verdict)
 
 

@@ -13,6 +13,7 @@ from cfree.cli.faults import one_line_faults
 from cfree.cli.files import bar
 from cfree.cli.options import FILE, Decorator, examples
 from cfree.cli.terminal import print_json, printable
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.formats.shapes import Shapes
@@ -114,8 +115,8 @@ def convert(
         if as_json:
             print_json({"file": str(source), **facts, "files": written})
             return
-        rows: dict[str, Any] = {"read as": facts["format"], "robot": f"{len(scene.robot)} polygons"}
-        rows["obstacles"] = f"{len(scene.obstacles):,} polygons"
+        rows: dict[str, Any] = {"read as": facts["format"], "robot": counted(len(scene.robot), "polygon")}
+        rows["obstacles"] = counted(len(scene.obstacles), "polygon")
         print_rows(scene.name or str(source), rows, written)
         for key in ("changed", "dropped"):
             for line in facts[key]:
@@ -165,9 +166,9 @@ def _straight(
     if error is None:
         error = tolerance or largest_of(scene) / CURVE_SHARE
     count = round_count(shapes_of(scene))
-    side = "around" if inner is None else "inside of"
+    side = "around" if inner is None else "inside"
     straight = scene.outer(error) if inner is None else scene.inner(error)
-    return straight, [f"{count:,} round shapes: polygons {side} them, within {error:g}"]
+    return straight, [f"{counted(count, 'round shape')}: polygons {side}, within {error:g}"]
 
 
 def _is_without_curves(target: Path) -> bool:

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import json
+import shutil
 import sys
 import threading
 import time
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from textwrap import wrap
 from typing import Any
 
 import click
 
 EVERY = 5.0  # seconds from one line about progress to the next, where there is no terminal
 OBEYED = {"Cc", "Cs", "Zl", "Zp"}  # Unicode's categories: controls, halves of characters, ends of lines
+NO_TERMINAL, LEAST_WIDTH = 120, 6  # columns where output goes to a file; of a wrapped text
 TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}  # change the direction of what follows
 
 
@@ -75,16 +78,30 @@ def _lines() -> Iterator[Callable[[str], None]]:
         thread.join()
 
 
-def columns(rows: Sequence[Sequence[str]], sides: str) -> list[str]:
-    """Lines of a table; `sides` has "<" or ">" for each column.
+def columns(rows: Sequence[Sequence[str]], sides: str, width: int = 0) -> list[str]:
+    """Lines of a table; `sides` has "<" or ">" for each column. The last column is wrapped at the width, if given.
 
     Examples
     --------
     >>> columns([["robot", "20"], ["Tür", "3"]], "<>")
     [' robot  20', ' Tür     3']
+    >>> columns([["by", "one; two; three"]], "<<", 13)
+    [' by  one;', '     two;', '     three']
     """
     widths = [max(map(_width, column)) for column in zip(*rows, strict=True)]
-    return ["".join(map(_cell, row, widths, sides)).rstrip() for row in rows]
+    left = max(LEAST_WIDTH, width - sum(each + 2 for each in widths[:-1]) - 2) if width else 0
+    lines = []
+    for *cells, last in rows:
+        first, *more = (wrap(last, left, break_long_words=False, break_on_hyphens=False) if left else [last]) or [""]
+        lines.append([*cells, first])
+        lines += [[*[""] * len(cells), part] for part in more]
+    widths[-1] = max(_width(line[-1]) for line in lines)
+    return ["".join(map(_cell, line, widths, sides)).rstrip() for line in lines]
+
+
+def terminal_width() -> int:
+    """Columns of the terminal; where there is none, those of a wide one."""
+    return shutil.get_terminal_size((NO_TERMINAL, 24)).columns
 
 
 def _cell(text: str, width: int, side: str) -> str:

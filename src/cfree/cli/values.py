@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from cfree.words import counted
+
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
@@ -21,12 +23,25 @@ def read_numbers(text: str) -> list[int]:
         raise ValueError(f'--only: {text!r}; give numbers of figures, as in "7" or "7,9"') from None
 
 
-def read_angle(text: str) -> Angle:
-    """An angle as `Pose` takes it; ``tau:p/q`` gives the tangent of its half."""
+def read_angle(text: str, name: str) -> Angle:
+    """Read an angle as `Pose` takes it; ``tau:p/q`` gives the tangent of its half.
+
+    Raises
+    ------
+    ValueError
+        If it is none, or has no unit and is more than a whole turn in radians.
+    """
+    from cfree.exact.half_angle import require_unit
     from cfree.exact.pose import Pose
 
+    text = text.strip()
     angle: Angle = {"tau": text.removeprefix("tau:")} if text.startswith("tau:") else text
-    Pose(0, 0, angle)
+    try:
+        Pose(0, 0, angle)
+        if isinstance(angle, str):
+            require_unit(angle)
+    except ValueError as error:
+        raise ValueError(f"{name}: {str(error).removeprefix('theta: ')}") from None
     return angle
 
 
@@ -37,12 +52,14 @@ def read_pose(text: str | None, name: str) -> Pose | None:
     if text is None:
         return None
     parts = [part.strip() for part in text.split(",")]
+    if len(parts) != 3:
+        raise ValueError(f'{name}: {text!r}: {counted(len(parts), "number")}; give X,Y,THETA as in "1,1/2,30deg"')
+    x, y, theta = parts
+    angle = read_angle(theta, f"{name}: {text!r}")
     try:
-        x, y, theta = parts
-        return Pose(x, y, read_angle(theta))
+        return Pose(x, y, angle)
     except ValueError as error:
-        fault = f"{len(parts)} numbers" if len(parts) != 3 else error
-        raise ValueError(f'{name}: {text!r}: {fault}; give X,Y,THETA as in "1,1/2,30deg"') from None
+        raise ValueError(f'{name}: {text!r}: {error}; give X,Y,THETA as in "1,1/2,30deg"') from None
 
 
 def read_goals(texts: Sequence[str]) -> list[Any]:
@@ -76,14 +93,19 @@ def read_length(text: str, name: str) -> Fraction:
 
 
 def read_turn(text: str) -> float:
-    """Radians above 0, up to a whole turn."""
+    """Read the most that the robot turns between two poses: radians above 0, a whole turn if it is more."""
+    from cfree.exact.half_angle import number_and_unit
+    from cfree.exact.number import to_fraction
     from cfree.exact.pose import Pose
 
-    try:
-        turn = Pose(0, 0, read_angle(text)).theta
-    except ValueError as error:
-        raise ValueError(f"--turn: {error}") from None
-    return turn or math.tau
+    angle = read_angle(text, "--turn")
+    if not isinstance(angle, str):
+        return Pose(0, 0, angle).theta or math.tau
+    value, unit = number_and_unit(angle)
+    turn = float(to_fraction(value))
+    if turn <= 0:
+        raise ValueError(f"--turn: {text}; give an angle above 0 such as 5deg")
+    return min(math.radians(turn) if unit == "deg" else turn, math.tau)
 
 
 def read_objective(text: str) -> Objective:

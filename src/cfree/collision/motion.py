@@ -34,7 +34,7 @@ from numpy.typing import ArrayLike, NDArray
 from cfree.arguments import checked
 from cfree.collision.slide import Slide, Touch
 from cfree.errors import InvalidPoseError
-from cfree.exact.half_angle import Angle, number_of_degrees
+from cfree.exact.half_angle import Angle, number_and_unit
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.number import angle as angle_of
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
@@ -372,11 +372,9 @@ def _without_halves(angle: Number, halves: int) -> Fraction | None:
 
 def _size(angle: Number) -> tuple[bool, float]:
     """Is an angle negative, and its size in radians?"""
-    if (text := number_of_degrees(angle)) is not None:
-        degrees = to_fraction(text)
-        return degrees < 0, math.radians(float(abs(degrees)))
-    radians = to_fraction(angle)
-    return radians < 0, float(abs(radians))
+    value, unit = number_and_unit(angle)
+    size = to_fraction(value)
+    return size < 0, math.radians(float(abs(size))) if unit == "deg" else float(abs(size))
 
 
 def _point(name: str, values: tuple[Number, Number]) -> ExactPoint:

@@ -13,6 +13,7 @@ from cfree.errors import InvalidPoseError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.scene.features import WORKSPACE
+from cfree.scene.naming import placed
 from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
@@ -35,16 +36,17 @@ def require_distance(scene: Scene, pose: Pose, distance: Fraction, name: str = "
     >>> require_distance(scene, Pose(0, 0), Fraction(4))
     >>> require_distance(scene, Pose(0, 0), Fraction(5), "start")
     Traceback (most recent call last):
-    cfree.errors.InvalidPoseError: start: obstacle 0 is 4.24264 away, and the clearance is 5; move it, or give a \
-clearance of less than 4.24264
+    cfree.errors.InvalidPoseError: start: 4.24264 away from obstacle 0, 5 x 5 at (6.5, 6.5), and the clearance \
+is 5; move it, or give a clearance of less than 4.24264
     """
     found = min(_nearer(scene, pose, distance), default=None)
     if found is not None:
         square, obstacle = found
-        what = "the workspace" if obstacle == WORKSPACE else scene.obstacle_names[obstacle]
         away = f"{float(square) ** 0.5:.6g}"
         remedy = f"move it, or give a clearance of less than {away}" if square else "it touches; move it"
-        raise InvalidPoseError(f"{name}: {what} is {away} away, and the clearance is {float(distance):g}; {remedy}")
+        raise InvalidPoseError(
+            f"{name}: {away} away from {placed(scene, obstacle)}, and the clearance is {float(distance):g}; {remedy}"
+        )
 
 
 def _nearer(scene: Scene, pose: Pose, distance: Fraction) -> Iterator[tuple[Fraction, int]]:

@@ -14,6 +14,7 @@ from cfree.collision.pose_checker import PoseChecker
 from cfree.errors import InvalidPoseError
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.features import BOUNDS, WORKSPACE
+from cfree.scene.naming import placed
 from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -57,7 +58,7 @@ def require_free(scene: Scene | PoseChecker, pose: PoseLike, name: str = "pose")
     >>> require_free(scene, Pose(1.25, 2), "start")
     Traceback (most recent call last):
     cfree.collision.nearest_free.ForbiddenPoseError: start (1.25, 2, 0 deg) is forbidden: \
-robot part 0 overlaps obstacle 0; (0.96, 2, 0 deg) is free and near by
+robot part 0 overlaps obstacle 0, 1 x 9 at (2.5, 4.5); (0.96, 2, 0 deg) is free and near by
     """
     pose = to_pose(pose, "pose")
     checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
@@ -125,8 +126,7 @@ def _overlap(scene: Scene, pose: Pose) -> str:
         return "the reference point is outside the bounds"
     if found.obstacle == WORKSPACE:
         return f"robot part {found.robot} is not inside the workspace"
-    name, number = scene.obstacle_names[found.obstacle], f"obstacle {found.obstacle}"
-    return f"robot part {found.robot} overlaps {number}" + ("" if name == number else f" ({name})")
+    return f"robot part {found.robot} overlaps {placed(scene, found.obstacle)}"
 
 
 def _shown(pose: Pose) -> str:

@@ -23,6 +23,7 @@ from cfree.polygons.disc import around_disc, inside_disc
 from cfree.polygons.minkowski import convex_sum
 from cfree.polygons.polygon import Polygon
 from cfree.value import Shown
+from cfree.words import counted
 
 ROUGH = 64  # parts of its size: the error at which a shape is seen to be one
 LEAST_SIDES, MOST_SIDES = 8, 4096  # of polygons for discs
@@ -105,7 +106,7 @@ class Curved(Shown):
 
     def __repr__(self) -> str:
         x0, y0, x1, y1 = map(float, self.box)
-        return f"<Curved in ({x0:g}, {y0:g}, {x1:g}, {y1:g}), {len(self.holes)} holes>"
+        return f"<Curved in ({x0:g}, {y0:g}, {x1:g}, {y1:g}), {counted(len(self.holes), 'hole')}>"
 
     def __getattr__(self, name: str) -> Any:
         if hasattr(Polygon, name) or name == "core":

@@ -30,6 +30,7 @@ from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene, required
 from cfree.value import Value
 from cfree.verify.result import Verification
+from cfree.words import counted
 
 Ints = NDArray[np.int64]
 
@@ -117,8 +118,9 @@ class Sharded(Value):
 
     def __repr__(self) -> str:
         return (
-            f"Sharded({os.fspath(self.folder)!r}, {self.vertices:,} vertices, {self.trapezoids:,} trapezoids "
-            f"in {self.tiles:,} tiles, {self.manifest['cells']:,} cells)"
+            f"Sharded({os.fspath(self.folder)!r}, {counted(self.vertices, 'vertex')}, "
+            f"{counted(self.trapezoids, 'trapezoid')} "
+            f"in {counted(self.tiles, 'tile')}, {counted(self.manifest['cells'], 'cell')})"
         )
 
     @cached_property

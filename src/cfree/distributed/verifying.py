@@ -15,6 +15,7 @@ from cfree.verify.driver import CLOSED, refuted, trapezoid_checks, trapezoid_fin
 from cfree.verify.matching import matched
 from cfree.verify.result import PROVED, SKIPPED, Check, Finding, Verification
 from cfree.verify.trapezoids import Reader, Side
+from cfree.words import counted
 
 SHARDS = "shards"
 
@@ -70,7 +71,7 @@ def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator
     if is_all:
         for owners, number in sorted(matched(reader, loops).unmatched.items()):
             if own := [int(rows.row[k]) for k in owners if rows.tile[k] == tile]:
-                yield Finding(CLOSED, f"rows {own}", f"{number} edges of their sides find no partner")
+                yield Finding(CLOSED, f"rows {own}", f"{counted(number, 'edge')} of their sides without a partner")
 
 
 def summary(checks: Sequence[TileCheck], expected: str, begin: float) -> Verification:
@@ -83,6 +84,6 @@ def summary(checks: Sequence[TileCheck], expected: str, begin: float) -> Verific
     closed = Check(CLOSED, SKIPPED, "needs every trapezoid")
     if looked_at == count:
         closed = Check(CLOSED, PROVED, "all sides have partners")
-    shards = f"{len(checks):,} shards are as they were written; their digest is that of the manifest"
+    shards = f"{counted(len(checks), 'shard')} as written; their digest is that of the manifest"
     lines = (Check(SHARDS, PROVED, shards), *trapezoid_checks(looked_at, count), closed)
     return Verification(refuted(lines, findings), tuple(findings), (), time.perf_counter() - begin)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from fractions import Fraction
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,7 +21,8 @@ from cfree.exact.arctangent import pi
 from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
 
 Floats = NDArray[np.float64]
-# radians; degrees as in "90deg" or "90°"; or the half-angle tangent as in {"tau": "1/3"}, {"tau": "inf"}, {"tau": None}
+# radians, also as "1.5rad"; degrees as in "90deg" or "90°"; or the half-angle tangent: {"tau": "1/3"}, {"tau": "inf"},
+# {"tau": None}
 Angle = Number | Mapping[str, Number | None]
 
 
@@ -237,12 +239,13 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     if isinstance(theta, Mapping):
         tau = _read_tau(theta)
         return tau, _angle_of(tau), 0.0
-    if (text := number_of_degrees(theta)) is not None:
-        degrees = to_rational("theta", text)
+    value, unit = number_and_unit(theta)
+    if unit == "deg":
+        degrees = to_rational("theta", value)
         quarter_turns = round(degrees / 90)
         rest = (degrees - 90 * quarter_turns) / 180 * pi(128)
         return _rationalize(quarter_turns, rest)
-    radians = to_rational("theta", theta)
+    radians = to_rational("theta", value)
     try:
         ulp = math.ulp(float(radians))
     except OverflowError:
@@ -254,16 +257,39 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
     return _rationalize(quarter_turns, rest if abs(rest) > ulp else Fraction(0))
 
 
-def number_of_degrees(theta: object) -> str | None:
-    """What is written before "deg" or "°"; None for an angle that is not in degrees.
+def number_and_unit(theta: Number) -> tuple[Number, Literal["deg", "rad", ""]]:
+    """Split an angle into its number, and its unit if it is a text that ends with one.
 
     Examples
     --------
-    >>> number_of_degrees("90deg"), number_of_degrees(" 22.5° "), number_of_degrees("1.5")
-    ('90', '22.5', None)
+    >>> number_and_unit("90deg"), number_and_unit(" 22.5° "), number_and_unit("1.5 rad"), number_and_unit(1.5)
+    (('90', 'deg'), ('22.5', 'deg'), ('1.5 ', 'rad'), (1.5, ''))
     """
     text = theta.strip() if isinstance(theta, str) else ""
-    return next((text.removesuffix(unit) for unit in ("deg", "°") if text.endswith(unit)), None)
+    units: dict[str, Literal["deg", "rad"]] = {"deg": "deg", "°": "deg", "rad": "rad"}
+    found = next((unit for unit in units if text.endswith(unit)), None)
+    return (theta, "") if found is None else (text.removesuffix(found), units[found])
+
+
+def require_unit(text: str) -> None:
+    """See that an angle typed as text has a unit, unless it is at most a whole turn in radians.
+
+    Raises
+    ------
+    InvalidPoseError
+        If it has none: most likely it was meant in degrees.
+
+    Examples
+    --------
+    >>> require_unit("3"), require_unit("-720deg")
+    (None, None)
+    >>> require_unit("90")
+    Traceback (most recent call last):
+    cfree.errors.InvalidPoseError: theta: 90 is more than a whole turn in radians; write 90deg or 90rad
+    """
+    text = text.strip()
+    if not number_and_unit(text)[1] and abs(to_rational("theta", text)) > Fraction(math.tau):
+        raise InvalidPoseError(f"theta: {text} is more than a whole turn in radians; write {text}deg or {text}rad")
 
 
 def _read_tau(theta: Mapping[str, Number | None]) -> Fraction | None:

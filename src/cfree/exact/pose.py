@@ -42,7 +42,7 @@ class Pose:
     ----------
     x, y : int, float, Fraction, Decimal or str
         Position, in the scene's unit of length.
-    theta : the same in radians, or "90deg", or {"tau": "p/q"}
+    theta : the same in radians, or "90deg", or "1.5rad", or {"tau": "p/q"}
         Any value, normalised to [0, 2 pi). Radians within one ulp of a multiple of pi/2 mean that multiple,
         and multiples of 90 degrees are exact. The half turn is {"tau": "inf"} or {"tau": None}. Other angles
         have no rational cosine: they are replaced by the simplest tau within rounding of the tangent of

@@ -22,6 +22,7 @@ from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.scene.scene import robot_radius
 from cfree.value import Shown, Value
+from cfree.words import counted
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int32]
@@ -76,7 +77,7 @@ class Mesh(Value, Shown):
 
     def __repr__(self) -> str:
         n = len(self.triangles)
-        return f"Mesh({len(self.vertices):,} vertices, {n:,} triangles, error {self.error:g})"
+        return f"Mesh({counted(len(self.vertices), 'vertex')}, {counted(n, 'triangle')}, error {self.error:g})"
 
     @property
     def ratio(self) -> float:

@@ -23,6 +23,7 @@ from cfree.forbidden.kinds import PatchKind
 from cfree.scene.features import BOUNDS, SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Value
+from cfree.words import counted
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,9 +127,10 @@ class BoundaryRecord(Value):
 
     def __repr__(self) -> str:
         s = self.stats
-        fits = f", {len(self.isolated)} isolated parts" if len(self.isolated) else ""
-        part = "" if self.complete else f"INCOMPLETE: {self.trimmed.sum()} of {s.patches} patches trimmed; "
-        return f"Boundary({part}{s.live_patches} of {s.patches} patches live, {s.trapezoids} trapezoids{fits})"
+        fits = f", {counted(len(self.isolated), 'isolated part')}" if len(self.isolated) else ""
+        part = "" if self.complete else f"INCOMPLETE: {self.trimmed.sum()} of {counted(s.patches, 'patch')} trimmed; "
+        live = f"{s.live_patches} of {counted(s.patches, 'patch')} live"
+        return f"Boundary({part}{live}, {counted(s.trapezoids, 'trapezoid')}{fits})"
 
     @property
     def complete(self) -> bool:

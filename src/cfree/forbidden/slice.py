@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from cfree.exact.half_angle import Angle, place_of
 from cfree.forbidden.record import BoundaryRecord
 from cfree.value import Shown, Value
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from shapely.geometry.base import BaseGeometry
@@ -54,7 +55,7 @@ class Slice(Value, Shown):
         return patches
 
     def __repr__(self) -> str:
-        return f"Slice(theta={self.theta:.6g}, {len(self.segments)} segments)"
+        return f"Slice(theta={self.theta:.6g}, {counted(len(self.segments), 'segment')})"
 
     @cached_property
     def forbidden(self) -> BaseGeometry:

@@ -14,6 +14,7 @@ from pathlib import Path as FilePath
 
 from cfree.errors import FormatError
 from cfree.formats.json_positions import Path, Place, dotted, places, shortened
+from cfree.words import counted
 
 SHOWN = 50
 """Problems written out in the message; `InvalidFileError.problems` has them all."""
@@ -48,7 +49,7 @@ class InvalidFileError(FormatError):
         first = self.problems[0]
         lines = [f"{file}:{problem}" for problem in self.problems[:SHOWN]]
         if len(self.problems) > SHOWN:
-            lines.append(f"{file}: and {len(self.problems) - SHOWN} more problems")
+            lines.append(f"{file}: and {counted(len(self.problems) - SHOWN, 'more problem')}")
         super().__init__("\n".join(lines), path=file, line=first.line, column=first.column)
 
     def __reduce__(self) -> tuple[type[InvalidFileError], tuple[str | None, tuple[Problem, ...]]]:

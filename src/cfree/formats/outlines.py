@@ -15,6 +15,7 @@ from cfree.formats.findings import InvalidFileError, Problem
 from cfree.formats.shapes import IGNORE, Shape, Shapes, role_of, shapes_of
 from cfree.formats.source import Source, tolerance_of
 from cfree.scene.scene import explained
+from cfree.words import counted
 
 PIVOT = "pivot"
 
@@ -64,7 +65,7 @@ def shapes_of_drawing(
                 shapes.append(Shape(role, name, polygon))
     if curves:
         source.changed[
-            f"{curves:,} outlines with curves: polygons around them (a workspace: inside) within {tolerance:g}"
+            f"{counted(curves, 'outline')} with curves: polygons around (a workspace: inside) within {tolerance:g}"
         ] += 1
     if problems:
         raise InvalidFileError(source.findings.file, problems)

@@ -26,6 +26,7 @@ from cfree.formats.shapes import Shape, Shapes, shapes_of
 from cfree.formats.source import Source, read_bytes, tolerance_of
 from cfree.formats.yaml_nodes import every, members, read_nodes, written
 from cfree.polygons.polygon import Polygon
+from cfree.words import counted
 
 MOST_CELLS = 1 << 26
 _IMAGES = ["PPM", "PNG", "BMP"]
@@ -109,7 +110,7 @@ def _map(source: Source, keys: dict[str, Any]) -> Shapes:
         source.changed[f"yaw of the origin: within {origin.theta_error:.1g} radians, cells within {off:.1g}"] += 1
     if unknown:
         what = "obstacles" if source.reading.unknown == "obstacle" else "free"
-        source.changed[f"{unknown:,} unknown cells: {what}"] += 1
+        source.changed[f"{counted(unknown, 'unknown cell')}: {what}"] += 1
 
     def placed(ring: list[tuple[int, int]]) -> list[Any]:
         return list(origin.apply_exact([(x * resolution, y * resolution) for x, y in ring]))

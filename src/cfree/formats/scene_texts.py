@@ -23,6 +23,7 @@ from cfree.formats.source import Source
 from cfree.palette import OBSTACLE, ROBOT
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
+from cfree.words import counted
 
 COLOURS = {"robot": ROBOT, "obstacle": OBSTACLE, "workspace": "none"}
 
@@ -46,7 +47,7 @@ def _shapes(scene: Scene) -> list[tuple[str, str, Polygon]]:
 
 
 def _rounded(count: int, what: str) -> tuple[str, ...]:
-    return (f"{count:,} numbers: rounded to {what}",) if count else ()
+    return (f"{counted(count, 'number')}: rounded to {what}",) if count else ()
 
 
 def geojson_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
@@ -137,7 +138,7 @@ def dxf_text(scene: Scene) -> tuple[str, tuple[str, ...]]:
             hatch.paths.add_polyline_path(points, is_closed=True, flags=1 if k == 0 else 16)
     stream = StringIO()
     document.write(stream)
-    names = (f"{renamed:,} names: without what no layer may be called",) if renamed else ()
+    names = (f"{counted(renamed, 'name')}: without what no layer may be called",) if renamed else ()
     return stream.getvalue(), _rounded(rounded, "14 digits") + names
 
 

@@ -14,6 +14,7 @@ from typing import Any
 
 import cfree._core as _core
 from cfree.errors import CfreeError, InvalidPolygonError, InvalidPoseError
+from cfree.exact.half_angle import require_unit
 from cfree.exact.number import to_fraction
 from cfree.exact.pose import Pose
 from cfree.formats.json_text import Literal, number_of
@@ -65,6 +66,8 @@ def angle(value: Any) -> Any:
     if isinstance(value, (int, Decimal, str, dict)) and not isinstance(value, bool) and value != {"tau": None}:
         try:
             Pose(0, 0, value)
+            if isinstance(value, str):
+                require_unit(value)
             return value
         except InvalidPoseError as error:
             if "is no " not in str(error):

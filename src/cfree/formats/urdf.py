@@ -19,6 +19,7 @@ from cfree.formats.shapes import IGNORE, Shape, Shapes, shapes_of
 from cfree.formats.source import CURVE_SHARE, Source
 from cfree.formats.xml_tree import Node, read_tree
 from cfree.polygons.polygon import Polygon
+from cfree.words import counted
 
 Matrix = NDArray[np.float64]
 _SAFE = 1 + 1e-9  # polygons around circles are larger by so much, far more than doubles err
@@ -54,7 +55,10 @@ def read_urdf(source: Source) -> Shapes:
         except (InvalidPolygonError, ValueError) as error:
             source.dropped[f"{name}: {error}"] += 1
     if round_ones:
-        source.changed[f"{len(round_ones):,} cylinders and spheres: polygons around them, within {tolerance:g}"] += 1
+        source.changed[
+            f"{counted(len(round_ones), 'cylinder or sphere', 'cylinders and spheres')}: "
+            f"polygons around, within {tolerance:g}"
+        ] += 1
     remedy = "its links have no box, cylinder or sphere as collision geometry; add one"
     if not shapes:
         source.findings.at(0, "", f"there is no robot; {remedy}")

@@ -30,6 +30,7 @@ from cfree.forbidden.record import glue_by
 from cfree.scene.features import SceneFeatures
 from cfree.scene.scene import Scene
 from cfree.value import Shown, Value
+from cfree.words import counted
 
 FORBIDDEN, NO_CELL = -1, -2
 BLOCK = 1 << 16  # poses between two looks at Ctrl-C
@@ -154,7 +155,8 @@ class FreeSpace(Value, Shown):
 
     def __repr__(self) -> str:
         n, caged = len(self.cells), sum(cell.caged for cell in self.cells)
-        return f"FreeSpace({n} cell{'s' * (n != 1)}, {caged} caged, {len(self.parent)} closed surfaces)"
+        surfaces = counted(len(self.parent), "closed surface")
+        return f"FreeSpace({counted(n, 'cell')}, {caged} caged, {surfaces})"
 
     @property
     def complex(self) -> CellComplex:

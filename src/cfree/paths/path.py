@@ -23,6 +23,7 @@ from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
 from cfree.scene.scene import Scene
 from cfree.value import Shown
+from cfree.words import counted
 
 Objective = Literal["balanced", "short", "clear"]
 Floats = NDArray[np.float64]
@@ -90,7 +91,7 @@ class Path(Shown):
 
     def __repr__(self) -> str:
         n = len(self.motions)
-        return f"Path({n} motion{'s' * (n != 1)}, length {self.length:.6g}, turning {self.turning:.6g})"
+        return f"Path({counted(n, 'motion')}, length {self.length:.6g}, turning {self.turning:.6g})"
 
     @cached_property
     def poses(self) -> tuple[Pose, ...]:

@@ -23,6 +23,7 @@ from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
 from cfree.value import Shown
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.exact.angle_interval import AngleInterval
@@ -53,7 +54,8 @@ class AllSeparated(Shown):
     of: Literal["closed", "interior"]
 
     def __repr__(self) -> str:
-        return f"AllSeparated(of={self.of!r}, {len(self.goals)} goals, {len(self.proofs)} proofs)"
+        counts = f"{counted(len(self.goals), 'goal')}, {counted(len(self.proofs), 'proof')}"
+        return f"AllSeparated(of={self.of!r}, {counts})"
 
     @property
     def goals(self) -> tuple[Goal, ...]:

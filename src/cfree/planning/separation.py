@@ -31,6 +31,7 @@ from cfree.scene.digest import Stamp
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Shown, Value
+from cfree.words import counted, listed
 
 
 @dataclass(frozen=True)
@@ -160,7 +161,9 @@ class Separated(Shown):
     curved: Scene | None = field(default=None, compare=False, repr=False)
 
     def __repr__(self) -> str:
-        return f"Separated(of={self.of!r}, {len(self.pieces)} pieces of {self.obstacles})"
+        obstacles = listed([str(k) for k in self.obstacles], ", ")
+        pieces = counted(len(self.pieces), "piece")
+        return f"Separated(of={self.of!r}, {pieces} of ({obstacles}))"
 
     @cached_property
     def obstacles(self) -> tuple[int, ...]:

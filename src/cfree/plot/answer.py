@@ -29,8 +29,10 @@ from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_l
 from cfree.plot.strips import strips
 from cfree.plot.unrolled import Range, distances, slab
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
-from cfree.scene.features import BOUNDS, NAMES, WORKSPACE, ShapeFeatures, scene_features
-from cfree.scene.scene import Scene, robot_radius
+from cfree.scene.features import BOUNDS, WORKSPACE, ShapeFeatures, scene_features
+from cfree.scene.naming import all_placed, numbered, placed
+from cfree.scene.scene import Scene, box_of, robot_radius
+from cfree.words import MOST_NAMES, listed
 
 Floats = NDArray[np.float64]
 
@@ -41,6 +43,7 @@ NEAR = 1.6  # robot's radii, or twice the least clearance: patches farther from 
 FADE = 0.5  # share of that from which on patches are fainter
 TINY = 0.03  # of the window: patches narrower or lower have no lines around them
 DASH = 8  # steps of the path
+MOST_PLACED = 3  # obstacles named with their places in a headline
 STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
@@ -127,7 +130,7 @@ def picture(
     >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], workspace=hall)
     >>> figure = picture(plan(scene, Pose(1, 1), Pose(7, 1)), scene)
     >>> [text.get_text() for text in figure.texts]
-    ['no path from start to goal', 'parted by workspace, obstacle 0']
+    ['no path from start to goal', 'parted by the workspace; obstacle 0, 1 x 5 at (4.5, 1.5)']
     """
     from cfree.planning.separation import Separated
 
@@ -159,11 +162,14 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
         labels.name_robot(scene, pose, name)
     if len(answer.pieces):
         _draw_surface(figure, ax, answer, scene, labels)
+    for k in [k for k in answer.obstacles if k >= 0][:MOST_NAMES]:
+        labels.point_at(box_of(shown.obstacles[k]), plain(placed(scene, k)), BARRIER)
     labels.name_bounds(scene)
     without = "path" if answer.of == "closed" else "path of positive clearance"
-    named = [NAMES.get(k) or plain(scene.obstacle_names[k]) for k in answer.obstacles]
-    named[6:] = ["..."] * (len(named) > 6)
-    parted = "parted by " + ", ".join(named) if named else "the one or the other touches, and fits exactly"
+    named = all_placed(scene, answer.obstacles)
+    if len(answer.obstacles) > MOST_PLACED:
+        named = listed([numbered(scene, k) for k in answer.obstacles], ", ")
+    parted = f"parted by {plain(named)}" if named else "the one or the other touches, and fits exactly"
     _head(figure, scene, f"no {without} from start to goal", parted)
     return figure
 

@@ -15,7 +15,8 @@ from cfree.paths.preferences import NONE, Preferences
 from cfree.plot.boundary import new_figure, plain
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.workspace import path_of, rings_of
-from cfree.scene.scene import Scene
+from cfree.scene.naming import numbered, placed
+from cfree.scene.scene import Scene, box_of
 
 ACROSS = 3  # panels beside each other
 
@@ -48,7 +49,7 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
     >>> wall = [(2, -9), (3, -9), (3, 9), (2, 9)]
     >>> scene = Scene([(0, 0), (1, 0), (1, 1), (0, 1)], [wall], bounds=(-5, -5, 5, 5))
     >>> [ax.get_title() for ax in plot_blockers(blockers(scene, (0, 0, 0), (4, 0, 0)), scene).axes]
-    ['without obstacle 0\\n1 motion, length 4, turning 0°']
+    ['without obstacle 0, 1 x 18 at (2.5, 0)\\n1 motion, length 4, turning 0°']
     """
     from matplotlib.patches import PathPatch
 
@@ -65,10 +66,12 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
     )  # fmt: skip
     for k, (blocker, track) in enumerate(zip(found, tracks, strict=True)):
         ax = figure.add_subplot(down, across, k + 1)
-        draw_track(ax, track, preferences or NONE)
+        labels = draw_track(ax, track, preferences or NONE)
         gone = path_of(rings_of([scene.obstacles[blocker.obstacle]]))
         ax.add_patch(
             PathPatch(gone, fill=False, edgecolor=BARRIER, hatch="///", linewidth=1.4, zorder=2.6, label="gone")
         )
-        ax.set_title(f"without {plain(scene.obstacle_names[blocker.obstacle])}\n{statement(track)}", fontsize=10)
+        name = plain(numbered(scene, blocker.obstacle))
+        labels.point_at(box_of(scene.obstacles[blocker.obstacle]), name, BARRIER)
+        ax.set_title(f"without {plain(placed(scene, blocker.obstacle))}\n{statement(track)}", fontsize=10)
     return figure

@@ -30,6 +30,7 @@ from cfree.plot.labels import BODY, GHOST, MAY, Labels
 from cfree.plot.strips import THIN, strips
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of_geometry, roomiest
 from cfree.scene.scene import Scene
+from cfree.words import counted
 
 CORNER = 0.9  # of an axis has numbers
 SLIMMEST = 0.4  # of a window's longer side, the other
@@ -202,8 +203,8 @@ def plot_overview(boundary: Boundary) -> Figure:
             ax.plot(float(pose.x), float(pose.y), "o", color=ROBOT, markersize=5)
     plot_boundary(boundary, new_space(figure, (0.46, 0.09, 0.53, 0.82)))
     figure.suptitle(plain(scene.name) or "boundary of the forbidden space", weight="bold", fontsize=15)
-    counts = f"{s.live_patches:,} of {s.patches:,} contact patches bound the forbidden space"
-    figure.text(0.5, 0.915, f"{counts}: {s.trapezoids:,} trapezoids", ha="center")
+    counts = f"{s.live_patches:,} of {counted(s.patches, 'contact patch')} bound the forbidden space"
+    figure.text(0.5, 0.915, f"{counts}: {counted(s.trapezoids, 'trapezoid')}", ha="center")
     return figure
 
 

@@ -34,6 +34,7 @@ ALL_AROUND = tuple(math.radians(15 * k) for k in (18, 0, 12, 6, *range(24)))  # 
 ACROSS = tuple(math.radians(90 * k) for k in range(4))
 GAPS = tuple(5 * 1.35**k for k in range(14))  # typographic points from an anchor to its label
 SEEN = 16.0  # points from an anchor from which on a label has a leader
+SMALL, CLEAR = 12.0, 4.0  # points: a shape below the first is pointed at, by a ring so far around it
 PAD = 2.0  # points around a label that are its own
 LABEL, WALL, BODY, LINE, GHOST = 1000.0, 40.0, 25.0, 8.0, 5.0
 """What it costs to cover: other labels and leaders, obstacles, robots at rest, lines, ghosts."""
@@ -205,6 +206,17 @@ class Labels:
         """Write a name beside the robot in a pose."""
         points = shapely.get_coordinates(shapely.MultiPoint(np.concatenate(_placed(scene, pose))).convex_hull)
         self.put(name, points[:: 1 + len(points) // CORNERS])
+
+    def point_at(self, box: Window, text: str, colour: str) -> None:
+        """Name a shape that is too small to be seen, with a ring around it and a line to its name."""
+        corners = self._ax.transData.transform(np.reshape(box, (2, 2)))
+        size = float(np.abs(corners[1] - corners[0]).max()) / self._room.point
+        if size >= SMALL:
+            return
+        middle, radius = np.reshape(box, (2, 2)).mean(axis=0), size / 2 + CLEAR
+        style: Any = {"markerfacecolor": "none", "color": colour, "markeredgewidth": 1.4}
+        self._ax.plot(*middle, "o", markersize=2 * radius, zorder=6, label="pointed at", **style)
+        self.put(text, middle, ring=radius, color=colour, fontsize=9)
 
     def name_bounds(self, scene: Scene) -> None:
         """Say along the frame of the bounds, where it is seen, what it is."""

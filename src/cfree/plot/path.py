@@ -26,6 +26,7 @@ from cfree.plot.looks import looks, of_polygons
 from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of, rings_of
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
+from cfree.words import counted
 
 Floats = NDArray[np.float64]
 
@@ -152,8 +153,8 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
     return ax
 
 
-def draw_track(ax: Any, track: Track, preferences: Preferences) -> None:
-    """The path among the obstacles, on axes."""
+def draw_track(ax: Any, track: Track, preferences: Preferences) -> Labels:
+    """Draw the path among the obstacles; returns the labels on the axes, to which more may be added."""
     import shapely
     from matplotlib.collections import LineCollection, PathCollection
 
@@ -193,6 +194,7 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> None:
     for part in unwanted(path, scene, preferences):
         _draw_unwanted(ax, path, part, labels)
     labels.name_bounds(scene)
+    return labels
 
 
 def _draw_unwanted(ax: Any, path: Path, part: Unwanted, labels: Labels) -> None:
@@ -222,7 +224,7 @@ def statement(track: Track) -> str:
     """The path in one line."""
     path, units = track.path, track.scene.units
     count = len(path.motions)
-    parts = [f"{count} motion{'' if count == 1 else 's'}", f"length {quantity(path.length, units)}"]
+    parts = [counted(count, "motion"), f"length {quantity(path.length, units)}"]
     parts.append(f"turning {quantity(math.degrees(path.turning), '')}°")
     if track.least is not None:
         parts.append(f"clearance {quantity(track.least.found, units)} (≥ {rounded_down(track.least.least, 3)} proved)")

@@ -26,6 +26,7 @@ from cfree.exact.half_angle import Angle, half_angle_rotation, normalize_angles,
 from cfree.exact.number import ExactPoint, IntPoint, Number, angle, to_fraction
 from cfree.polygons.rings import Points, Removed, read_rings, restored
 from cfree.value import Shown
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from shapely import Geometry as ShapelyGeometry
@@ -92,7 +93,7 @@ class Polygon(Shown):
 
     def __repr__(self) -> str:
         holes = len(self.ring_offsets) - 2
-        return f"<Polygon of {len(self)} vertices, {holes} holes>"
+        return f"<Polygon of {counted(len(self), 'vertex')}, {counted(holes, 'hole')}>"
 
     @property
     def _key(self) -> tuple[object, ...]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 import cfree._core as _core
 from cfree.errors import InvalidPolygonError
 from cfree.exact.number import ExactPoint, Number, to_fraction
+from cfree.words import counted
 
 Points = Sequence[Sequence[Number]] | NDArray[Any]
 
@@ -66,7 +67,7 @@ def _plain(ring: int, rows: Any) -> list[ExactPoint]:
         points.append((x, y))
     closed = len(points) > 1 and points[0] == points[-1]
     if len(points) - closed < 3:
-        raise _fault(ring, f"{len(points) - closed} points; give at least 3")
+        raise _fault(ring, f"{counted(len(points) - closed, 'point')}; give at least 3")
     return points
 
 

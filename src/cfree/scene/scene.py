@@ -28,6 +28,7 @@ from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
 from cfree.value import Shown
+from cfree.words import counted
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
 AnyShape = Polygon | Curved
@@ -131,7 +132,9 @@ class Scene(Shown):
         items = _items(obstacles, "obstacles")
         names: Sequence[str | None] = [None] * len(items) if obstacle_names is None else obstacle_names
         if len(names) != len(items):
-            raise ValueError(f"{len(names)} names for {len(items)} obstacles; give one for each, or None")
+            raise ValueError(
+                f"{counted(len(names), 'name')} for {counted(len(items), 'obstacle')}; give one for each, or None"
+            )
         if goal is not None and len(goals):
             raise ValueError("goal and goals: give one of them")
         aims = to_goals(list(goals) if goal is None else goal) if goal is not None or len(goals) else ()
@@ -295,14 +298,20 @@ def _edges(shapes: Sequence[AnyShape]) -> str:
     """How many vertices, and how many round shapes."""
     count = sum(len(shape) for shape in shapes if isinstance(shape, Polygon))
     curved = round_count(shapes)
-    texts = [f"{count} vertices"] if count or not curved else []
+    texts = [counted(count, "vertex")] if count or not curved else []
     return ", ".join([*texts, *([f"{curved} round"] if curved else [])])
 
 
 def size_of(shape: AnyShape) -> float:
     """The longer side of its box."""
-    x0, y0, x1, y1 = shape.box if isinstance(shape, Curved) else shape.bounds
+    x0, y0, x1, y1 = box_of(shape)
     return float(max(x1 - x0, y1 - y0))
+
+
+def box_of(shape: AnyShape) -> tuple[float, float, float, float]:
+    """Box around a shape: xmin, ymin, xmax, ymax."""
+    x0, y0, x1, y1 = shape.box if isinstance(shape, Curved) else shape.bounds
+    return float(x0), float(y0), float(x1), float(y1)
 
 
 def robot_radius(scene: Scene) -> float:
@@ -312,7 +321,8 @@ def robot_radius(scene: Scene) -> float:
 
 def with_robot(scene: Scene, robot: Sequence[Polygon], bounds: Bounds | None) -> Scene:
     """A scene with another robot, in other bounds."""
-    return Scene(robot, scene.obstacles, bounds=bounds, workspace=scene.workspace)
+    names = scene.obstacle_names
+    return Scene(robot, scene.obstacles, bounds=bounds, obstacle_names=names, workspace=scene.workspace)
 
 
 def with_ends(scene: Scene, start: Pose | None, goal: Pose | None) -> Scene:
@@ -427,7 +437,9 @@ def _one(value: Any) -> AnyShape:
 def _rectangle(bounds: Sequence[Number]) -> Bounds:
     values = tuple(bounds)
     if len(values) != 4:
-        raise ValueError(f"bounds: {reprlib.repr(bounds)} has {len(values)} numbers; give xmin, ymin, xmax, ymax")
+        raise ValueError(
+            f"bounds: {reprlib.repr(bounds)} has {counted(len(values), 'number')}; give xmin, ymin, xmax, ymax"
+        )
     try:
         xmin, ymin, xmax, ymax = map(to_fraction, values)
     except ValueError as error:

@@ -24,6 +24,7 @@ from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
 from cfree.verify.world import World
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
@@ -152,10 +153,12 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
         poses = [proof.goal for proof in given.proofs if (proof.goal.x, proof.goal.y) == place]
         intervals, single = left_out(world, place, poses) if world else (0, 0)
         if intervals or (single and given.of == "closed"):
-            text = f"{intervals} intervals and {single} single ones of free orientations have no proof"
+            left = f"{counted(intervals, 'interval')} and {counted(single, 'single one')}"
+            text = f"no proof for {left} of free orientations"
             findings.append(Finding(TURNS, f"({float(place[0]):g}, {float(place[1]):g})", text))
     if given.places:
-        text = f"at {len(given.places)} places each free orientation is joined by turning to the goal of a proof"
+        at = f"at {counted(len(given.places), 'place')}"
+        text = f"{at} each free orientation is joined by turning to the goal of a proof"
         checks.append(Check(TURNS, PROVED, text))
     refuted = {finding.kind for finding in findings}
     checks = [replace(check, how=REFUTED) if check.name in refuted else check for check in checks]
@@ -224,17 +227,18 @@ def _of_decimals(read: Read | None) -> dict[str, str]:
 
 def _of_path(path: Path) -> dict[str, str]:
     slides = sum(motion.kind == "slide" for motion in path.motions)
-    kept = {KEPT: f"{slides:,} slides: their two vertices are on their edges all the way"} if slides else {}
-    text = f"{len(path.motions):,} motions: they keep {float(path.clearance):g} from obstacles and workspace"
+    kept = {KEPT: f"{counted(slides, 'slide')}: two vertices on their edges, all the way"} if slides else {}
+    count = counted(len(path.motions), "motion")
+    text = f"{count}: at least {float(path.clearance):g} from obstacles and workspace"
     kept |= {CLEARANCE: text} if path.clearance else {}
     return kept | {
-        CONTINUOUS: f"{len(path.motions):,} motions lead from the start to the goal, one after the other",
-        FREE: f"{len(path.motions):,} motions: at no pose does the robot overlap anything",
+        CONTINUOUS: f"{count} from the start to the goal, one after the other",
+        FREE: f"{count}: at no pose does the robot overlap anything",
     }
 
 
 def _of_separation(proof: Separated) -> dict[str, str]:
-    count = f"{len(proof.pieces):,} pieces"
+    count = counted(len(proof.pieces), "piece")
     inside = f"{'everywhere nearer to' if proof.clearance else 'strictly inside'} the robot"
     inside += f" than {float(proof.clearance):g}" if proof.clearance else ""
     smaller = {INSIDE: f"{inside}; bounds, if any, are larger"} if proof.of == "closed" else {}
@@ -250,7 +254,7 @@ def _of_separation(proof: Separated) -> dict[str, str]:
 def _sentence(given: Path | Separated, read: Read | None) -> str:
     ends, far = (_text(given.start), _text(given.goal)), f"{float(given.clearance):g} from obstacles and workspace"
     if isinstance(given, Path):
-        count = f"{len(given.motions):,} motion{'s' * (len(given.motions) != 1)}"
+        count = counted(len(given.motions), "motion")
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
         keeps = f"keeps {far}" if given.clearance else "is free of collisions"
         return f"A path of {count} leads from {ends[0]} to {ends[1]}, and {keeps}{only}."

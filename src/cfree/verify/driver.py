@@ -21,6 +21,7 @@ from cfree.verify.missing import compared
 from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader, Side
+from cfree.words import counted
 
 BLOCK = 100  # trapezoids between two reports
 
@@ -109,11 +110,13 @@ def boundary(
     matching = matched(reader, loops) if len(chosen) == count else None
     if matching is not None:
         findings += [
-            Finding(CLOSED, _place(reader, owners), f"{number} edges of their sides find no partner")
+            Finding(CLOSED, _place(reader, owners), f"{counted(number, 'edge')} of their sides without a partner")
             for owners, number in sorted(matching.unmatched.items())
         ]
     report(1.0)
-    checks = _checks(reader, matching, len(chosen), f"{slices} exact slices, {places:,} free contacts")
+    checks = _checks(
+        reader, matching, len(chosen), f"{counted(slices, 'exact slice')}, {counted(places, 'free contact')}"
+    )
     euler = tuple(matching.euler) if matching is not None else ()
     return Verification(refuted(checks, findings), tuple(findings), euler, time.perf_counter() - begin)
 
@@ -123,7 +126,7 @@ def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:
     if scene is not None and (differing := differences(scene, boundary.scene)):
         return Finding("scene", differing, f"not the scene of the boundary: {differing} differ")
     if not boundary.complete:
-        done = f"{boundary.trimmed.sum():,} of {len(boundary.trimmed):,} patches trimmed"
+        done = f"{boundary.trimmed.sum():,} of {counted(len(boundary.trimmed), 'patch')} trimmed"
         return Finding("incomplete", done, "a limit stopped the computation; nothing is known about the others")
     return None
 
@@ -176,7 +179,7 @@ def _place(reader: Reader, numbers: Sequence[int]) -> str:
 
 def trapezoid_checks(count: int, total: int) -> tuple[Check, ...]:
     """What `trapezoid_findings` looks at, if nothing is wrong with so many trapezoids."""
-    every = f"{count:,} trapezoids" if count == total else f"{count:,} of {total:,} trapezoids"
+    every = counted(total, "trapezoid") if count == total else f"{count:,} of {counted(total, 'trapezoid')}"
     proved = PROVED if count == total else SAMPLED
     return (
         Check(ANGLES, proved, f"{every}: both angles are isolated roots of what they are named by, in order"),
@@ -198,16 +201,20 @@ def _checks(reader: Reader, matching: Matching | None, count: int, slices: str) 
     if matching is not None:
         numbers = ", ".join(f"{times:,} of {euler}" for euler, times in sorted(Counter(matching.euler).items()))
         pinched = f" ({matching.pinched:,} where more than two meet)" if matching.pinched else ""
-        surfaces = f"{len(matching.euler):,} surfaces; Euler numbers: {numbers or 'none'}"
-        closed = Check(CLOSED, PROVED, f"{matching.edges:,} edges have partners{pinched}; {surfaces}")
+        surfaces = f"{counted(len(matching.euler), 'surface')}; Euler numbers: {numbers or 'none'}"
+        closed = Check(CLOSED, PROVED, f"{counted(matching.edges, 'edge')} with partners{pinched}; {surfaces}")
     curves = int((parts.kind == CURVE).sum())
-    at = f"; {curves:,} are curves, looked at three angles each" if curves else ""
+    at = f"; {counted(curves, 'curve')}, looked at three angles each" if curves else ""
     return (
         Check(
             PIECES, PROVED, f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them"
         ),
         *trapezoid_checks(count, total),
         closed,
-        Check(ISOLATED, SAMPLED if curves else PROVED, f"{len(parts):,} parts: free, no width, on no trapezoid{at}"),
+        Check(
+            ISOLATED,
+            SAMPLED if curves else PROVED,
+            f"{counted(len(parts), 'part')}: free, no width, on no trapezoid{at}",
+        ),
         Check(MISSING, SAMPLED, f"{slices}: computed anew, and the same"),
     )

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from cfree.words import counted
+
 PROVED, SAMPLED, SKIPPED, REFUTED = "PROVED", "SAMPLED", "SKIPPED", "REFUTED"
 SHOWN = 20  # findings in a report
 
@@ -77,4 +79,5 @@ class Verification:
         if self.verified:
             return f"{self.proved and self.proved + ' '}verified ({self.seconds:.1f} s)"
         more = len(self.findings) - SHOWN
-        return f"REFUTED: {len(self.findings):,} findings{f', {more:,} not shown' * (more > 0)} ({self.seconds:.1f} s)"
+        hidden = f", {more:,} not shown" * (more > 0)
+        return f"REFUTED: {counted(len(self.findings), 'finding')}{hidden} ({self.seconds:.1f} s)"

@@ -19,6 +19,7 @@ from cfree.verify.result import Finding
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader, Side, Trapezoid
 from cfree.verify.world import Feature, numbers
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.planning.separation import Separated
@@ -58,7 +59,7 @@ def separation_findings(proof: Separated, world: World, report: Callable[[float]
     if len(pieces) < len(proof.pieces):
         return
     if odd := odd_ends(piece.sides() for piece in pieces):
-        yield Finding(CLOSED, "the surface", f"sides of its pieces end at {odd} places without a partner")
+        yield Finding(CLOSED, "the surface", f"sides of its pieces end at {counted(odd, 'place')} without a partner")
     if not apart:
         yield from _one_side(proof, reader.world.scale, pieces)
 

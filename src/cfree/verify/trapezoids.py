@@ -20,6 +20,7 @@ from cfree.exact.algebraic import Exact, Root, between, part, roots
 from cfree.verify.section import Section
 from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, Vector, polynomial
 from cfree.verify.world import Feature, World, name_of
+from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.forbidden.columns import IsolatedParts, Trapezoids
@@ -88,7 +89,7 @@ class Reader:
             raise Fault(f"its {end} angle is beyond the chart")
         found = [root for root, _ in roots(self.defining(first, second, surface, chart), lo, hi)]
         if place > len(found) or (len(found) != 1) == (place == 0):
-            raise Fault(f"its {end} angle: {len(found)} roots in the interval, place {place}")
+            raise Fault(f"its {end} angle: {counted(len(found), 'root')} in the interval, place {place}")
         root: Root = found[max(place, 1) - 1]
         if not Root.of(Fraction(-1)) <= root <= Root.of(Fraction(1)):
             raise Fault(f"its {end} angle is beyond the chart")

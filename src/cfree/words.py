@@ -1,0 +1,38 @@
+"""Words of messages: counted things, and long lists cut short."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+MOST_NAMES = 8
+"""Names in one message; of more their number is told."""
+
+
+ENDINGS = {"vertex": "vertices", "patch": "patches"}
+"""Nouns whose plural takes more than an s."""
+
+
+def counted(count: int, noun: str, plural: str | None = None) -> str:
+    """Return a number with its noun, in the singular for one.
+
+    Examples
+    --------
+    >>> counted(1, "polygon"), counted(1200, "polygon"), counted(0, "contact patch")
+    ('1 polygon', '1,200 polygons', '0 contact patches')
+    """
+    if plural is None:
+        last = noun.rsplit(" ", 1)[-1]
+        plural = noun.removesuffix(last) + ENDINGS.get(last, last + "s")
+    return f"{count:,} {noun if count == 1 else plural}"
+
+
+def listed(names: Sequence[str], by: str = "; ") -> str:
+    """Return names in one line, the first few of many.
+
+    Examples
+    --------
+    >>> listed(["a", "b"]), listed([str(k) for k in range(53)], ", ")
+    ('a; b', '0, 1, 2, 3, 4, 5, 6, 7, ... of 53')
+    """
+    shown = list(names[:MOST_NAMES])
+    return by.join([*shown, f"... of {len(names):,}"] if len(names) > MOST_NAMES else shown)
