@@ -396,10 +396,11 @@ def read_scene(data: Any) -> Scene:
     optional = dict.fromkeys(("workspace", "bounds", "start", "goal", "name", "note", "units", "source", "check"))
     got = members(data, "scene", version=1, robot=REQUIRED, obstacles=[], goals=[], **optional)
     one_of(got["version"], "version", 1)
-    robot = [got["robot"]] if isinstance(got["robot"], dict) else items(got["robot"], "robot", 1)
+    robot, obstacles = ([each] if is_ring(each) else each for each in (got["robot"], got["obstacles"]))
+    robot = [robot] if isinstance(robot, dict) else items(robot, "robot", 1)
     found = Scene(
         [read_polygon(part, f"robot[{k}]") for k, part in enumerate(robot)],
-        [read_polygon(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(got["obstacles"], "obstacles"))],
+        [read_polygon(o, f"obstacles[{k}]", name=None) for k, o in enumerate(items(obstacles, "obstacles"))],
         None if got["workspace"] is None else read_polygon(got["workspace"], "workspace"),
         None if got["bounds"] is None else read_bounds(got["bounds"], "bounds"),
     )
@@ -409,8 +410,13 @@ def read_scene(data: Any) -> Scene:
     found.asked["goal"] = [read_pose(goal, "goal", 2) for goal in goals]
     return found
 
+def is_ring(value: Any) -> bool:
+    """True if a list begins with a point: a polygon without holes may be written as its ring alone."""
+    first = value[0] if isinstance(value, list) and value else None
+    return isinstance(first, list) and bool(first) and not isinstance(first[0], (list, dict))
+
 def read_polygon(value: Any, place: str, **more: Any) -> Polygon:
-    got = members(value, place, outer=REQUIRED, holes=[], **more)
+    got = members({"outer": value} if is_ring(value) else value, place, outer=REQUIRED, holes=[], **more)
     rings = [got["outer"], *items(got["holes"], f"{place}.holes")]
     read: list[Any] = [[numbers(point, place, 2) for point in items(ring, place)] for ring in rings]
     return Polygon(read[0], read[1:], place)

@@ -206,6 +206,14 @@ def test_angles_are_written_in_three_ways(text: str, degrees: float, run: Run) -
     assert facts["length v-e"] > 0
 
 
+def test_internal_counters_are_shown_only_when_asked_for(run: Run) -> None:
+    internal = "patch and pillar pairs", "decided by intervals", "seconds, trim"
+    for options, shown in (((), False), (("-v",), True), (("--verbose",), True)):
+        said = run("boundary", FIG9, *options).stdout
+        assert "contact patches" in said and all((words in said) == shown for words in internal)
+    assert "decided_by_filter" in json.loads(run("boundary", FIG9, "--json").stdout)
+
+
 @pytest.mark.parametrize("text", ["90", "-90", "30", "1e3", "22/3", "6.3", "-6.5"])
 def test_an_angle_of_more_than_a_turn_needs_its_unit(text: str, run: Run, tmp_path: Path) -> None:
     remedy = f"{text} is more than a whole turn in radians; write {text}deg or {text}rad"

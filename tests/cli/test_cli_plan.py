@@ -166,7 +166,7 @@ def test_the_picture_shows_what_is_in_the_way(run: Run, tmp_path: Path) -> None:
     scene.write_text(json.dumps({"robot": shape, "obstacles": walls[:1]} | ends))
     result = run("plan", scene, "--what-if", "--picture", picture)
     assert result.exit_code == 1 and "there is a way without obstacle 0 (gate), 1 x 18 at (4.5, 0)" in result.stdout
-    assert "<!-- without gate -->" in picture.read_text()
+    assert "<!-- without obstacle 0 (gate), 1 x 18 at (4.5, 0) -->" in picture.read_text()
     scene.write_text(json.dumps({"robot": shape, "obstacles": walls} | ends))
     result = run("plan", scene, "--what-if", "--picture", picture)
     assert "no single obstacle" in result.stdout and "parted by" in picture.read_text()
@@ -327,8 +327,10 @@ def test_poses_with_times_and_standard_output(run: Run, tmp_path: Path) -> None:
     for options, said in (
         (["-o", "-", "--json"], "-o -: --json prints there, too; leave one of them out"),
         (["--step", "1"], "--step: of sampled poses; give -o with .csv, .yaml or .geojson, or --format"),
+        (["-o", "w.csv", "--speed", "0"], "--speed: '0'; give a speed above 0"),
+        (["-o", "w.csv", "--step", "0"], "--step: '0'; give a length above 0"),
+        (["-o", "w.csv", "--turn", "-5deg"], "--turn: -5deg; give an angle above 0"),
         (["-o", "w.csv", "--turn", "x"], "--turn: 'x' is no number"),
-        (["-o", "w.csv", "--speed", "0"], "--speed: '0'; give a length above 0"),
     ):
         result = run("plan", file, *options)
         assert result.exit_code == 2 and said in result.stderr
@@ -343,3 +345,28 @@ def test_improving_says_what_there_was_before(run: Run) -> None:
     said = run("plan", flat, "--improve", "100ms").stdout
     assert "before it was improved" in said and "least clearance" in said and "less way" in said
     assert "before it was improved" not in run("plan", flat, "--improve", "0").stdout
+
+
+def ring_of_posts(folder: Path) -> Path:
+    posts = [(x, y) for x in range(12) for y in (0, 11)] + [(x, y) for x in (0, 11) for y in range(1, 11)]
+    shapes = [[[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]] for x, y in posts]
+    file = folder / "posts.json"
+    robot = [[0, 0], [1, 0], [1, 1], [0, 1]]
+    file.write_text(json.dumps({"robot": robot, "obstacles": shapes, "start": [5, 5, 0], "goal": [20, 5, 0]}))
+    return file
+
+
+@pytest.mark.parametrize("columns", [60, 80, 132])
+def test_tables_are_wrapped_at_the_terminal_and_name_eight_obstacles(
+    run: Run, tmp_path: Path, columns: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    scene = ring_of_posts(tmp_path)
+    monkeypatch.setenv("COLUMNS", str(columns))
+    result = run("plan", scene, "-o", tmp_path / "answer.json")
+    assert result.exit_code == 1
+    for said in (result.stdout, run("verify", scene, tmp_path / "answer.json").stdout):
+        lines = [line for line in said.splitlines() if str(tmp_path) not in line and "No path" not in line]
+        assert max(map(len, lines)) <= columns, said
+    shown = " ".join(result.stdout.split())
+    assert shown.count("1 x 1 at (") == 8 and "; ... of 40 " in shown
+    assert "obstacle 0, 1 x 1 at (0.5, 0.5);" in shown

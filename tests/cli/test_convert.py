@@ -49,13 +49,13 @@ def test_check_says_what_was_changed_and_dropped(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("map.yaml", "a.json"), "map.yaml:1:1 there is no robot; give one: --robot"),
+        (("map.yaml", "a.json"), "map.yaml: there is no robot; give one: --robot"),
         (("a.svg", "a.wkt"), "a.wkt: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a.stl"), "a.stl: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a"), "a: no scene format; name the file .json, .geojson, .svg or .dxf"),
         (("a.svg", "a.json", "--role", "walls"), "--role: 'walls'; write it like \"walls=obstacle\""),
         (("a.svg", "a.json", "--tolerance", "0"), "tolerance: 0.0 is no length; give one above 0"),
-        (("none.dxf", "a.json"), "none.dxf:1:1 No such file"),
+        (("none.dxf", "a.json"), "none.dxf: No such file"),
     ],
 )
 def test_what_is_wrong_leaves_no_file(arguments: tuple[str, ...], message: str, folder: Path) -> None:

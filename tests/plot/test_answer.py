@@ -30,6 +30,7 @@ from cfree.paths.path import Path
 from cfree.paths.travel import GHOSTS
 from cfree.plot import unrolled as slab
 from cfree.plot.answer import picture, plot_path_space, surface_of
+from cfree.plot.blockers import plot_blockers
 from cfree.plot.boundary import plot_overview, save_figure
 from cfree.plot.depth_sort import Painting
 from cfree.plot.path import Track, plot_path, quantity
@@ -373,7 +374,7 @@ def test_separations_by_bounds_and_workspace_are_marked() -> None:
     figure = picture(answer, scene)
     assert to_rgb(artists(figure.axes[0])["workspace"].get_edgecolor()) == to_rgb(BARRIER)
     assert [text.get_text() for text in figure.texts] == [
-        "hall: no path from start to goal", "parted by workspace, obstacle 0",
+        "hall: no path from start to goal", "parted by the workspace; obstacle 0, 1 x 20 at (4.5, 0)",
     ]  # fmt: skip
 
 
@@ -392,3 +393,25 @@ def test_names_that_look_like_formulas_or_control_characters_are_shown_as_writte
     cfree.film.film_path(path, scene, tmp_path / "path.gif", seconds=0.4, fps=5, size=(160, 90))
     contact = Contact("e-v", Place(0, "robot", 0, 0, 1), Place(0, name, 0, 0))
     assert caption(contact).endswith(" of $O_{1}$")
+
+
+@pytest.mark.slow
+def test_a_small_obstacle_that_parts_is_pointed_at() -> None:
+    hall = [(-20, -10), (20, -10), (20, 10), (-20, 10)]
+    walls = [
+        [(0, -10), ("0.5", -10), ("0.5", "-0.2"), (0, "-0.2")],
+        [(0, "0.22"), ("0.5", "0.22"), ("0.5", 10), (0, 10)],
+    ]
+    pin = [("0.2", 0), ("0.22", 0), ("0.22", "0.02"), ("0.2", "0.02")]
+    robot = [("-0.2", "-0.2"), ("0.2", "-0.2"), ("0.2", "0.2"), ("-0.2", "0.2")]
+    scene = Scene(robot, [*walls, pin], workspace=hall, obstacle_names=[None, None, "pin"])
+    answer = cfree.plan(scene, Pose(-5, 0), Pose(5, 3))
+    assert isinstance(answer, cfree.Separated) and answer.obstacles == (-2, 0, 1, 2)
+    ax = picture(answer, scene).axes[0]
+    rings = [line for line in ax.lines if line.get_label() == "pointed at"]
+    assert [tuple(map(float, line.get_xydata()[0].round(6))) for line in rings] == [(0.21, 0.01)]
+    (name,) = (text for text in ax.texts if text.get_text().startswith("obstacle 2 (pin)"))
+    assert "0.02 x 0.02 at" in " ".join(name.get_text().split())
+    assert tuple(np.round(name.xy, 6)) == (0.21, 0.01)  # the line to it leads there
+    (found,) = plot_blockers(cfree.blockers(scene, Pose(-5, 0), Pose(5, 3))[-1:], scene).axes[:1]
+    assert [line.get_label() for line in found.lines].count("pointed at") == 1

@@ -6,6 +6,7 @@ That it does so of mutants is asserted where they are made, in `answer_mutations
 from __future__ import annotations
 
 import ast
+import json
 import random
 import subprocess
 import sys
@@ -22,7 +23,9 @@ from hypothesis import strategies as st
 from answers import corridor, separations, tee
 from cfree import Path, Pose, Rotation, Scene, Translation, load_scene, plan, save
 from cfree.errors import InvalidPolygonError
+from cfree.formats.scene_file import scene_from_text
 from cfree.polygons.polygon import Polygon
+from cfree.scene.digest import stamp_of
 from second_opinion import TOOL, check_answer, verified_in_a_file
 from shapes import box
 from spaces import ROD, TIGHT
@@ -166,6 +169,16 @@ def test_polygons_are_read_alike(outer: list[tuple[Any, Any]], holes: list[list[
 def test_angles_are_read_alike(theta: Any) -> None:
     value = Decimal(repr(theta)) if isinstance(theta, float) else theta
     assert check_answer.read_angle(value, "theta") == Pose(0, 0, value).tau
+
+
+def test_rings_alone_are_read_alike() -> None:
+    ring, other = [[0, 0], [4, 0], [0, 3]], [[5, 5], [6, 5], [5, 6]]
+    for robot, obstacles, workspace in (
+        (ring, [other], None), ([ring, {"outer": other}], other, None), (ring, [], ring), (ring, [other, ring], ring)
+    ):  # fmt: skip
+        text = json.dumps({"robot": robot, "obstacles": obstacles, "workspace": workspace})
+        found, scene = check_answer.read_scene(check_answer.decoded(text)), scene_from_text("scene.json", text)
+        assert found.sha256 == stamp_of(scene).sha256
 
 
 @pytest.mark.slow

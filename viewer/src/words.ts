@@ -41,7 +41,11 @@ function ring(value: Json, place: string): string {
   });
   return `ring ${points.join(" ")}`;
 }
+// A list that begins with a point: a polygon without holes may be written as its ring alone.
+const is_ring = (value: Json): boolean =>
+  Array.isArray(value) && Array.isArray(value[0]) && value[0].length > 0 && !Array.isArray(value[0][0]);
 function polygon(value: Json, place: string): string {
+  if (is_ring(value)) return ring(value, place);
   const of = fields(value, place);
   const holes = of.holes === undefined ? [] : list(of.holes, `${place}.holes`);
   return [ring(of.outer, `${place}.outer`), ...holes.map((hole, k) => ring(hole, `${place}.holes[${k}]`))].join(" ");
@@ -94,9 +98,9 @@ export function read_scene(source: string): SceneText {
   const unknown = Object.keys(of).find((key) => !KEYS.includes(key));
   if (unknown !== undefined) throw new Error(`unknown key "${plain(unknown)}"; those of scenes are ${KEYS.join(", ")}`);
   const words: string[] = [];
-  const parts = Array.isArray(of.robot) ? of.robot : [of.robot];
+  const parts = Array.isArray(of.robot) && !is_ring(of.robot) ? of.robot : [of.robot];
   parts.forEach((part, k) => words.push("robot", polygon(part, parts.length > 1 ? `robot[${k}]` : "robot")));
-  const obstacles = of.obstacles === undefined ? [] : list(of.obstacles, "obstacles");
+  const obstacles = of.obstacles === undefined ? [] : is_ring(of.obstacles) ? [of.obstacles] : list(of.obstacles, "obstacles");
   const names = obstacles.map((obstacle, k) => {
     words.push("obstacle", polygon(obstacle, `obstacles[${k}]`));
     return plain(text((obstacle as Record<string, Json>).name, `obstacles[${k}].name`)) || `obstacle ${k}`;

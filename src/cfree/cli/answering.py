@@ -60,8 +60,9 @@ class Sampling:
         if form == "json" and given:
             wrong = ", ".join(given)
             raise ValueError(f"{wrong}: of sampled poses; give -o with .csv, .yaml or .geojson, or --format")
+        kinds = {"--step": "a length", "--speed": "a speed"}
         length, most = (
-            float(read_length(given[name], name)) if name in given else None for name in ("--step", "--speed")
+            float(read_length(given[name], name, what)) if name in given else None for name, what in kinds.items()
         )
         return cls(form, length, read_turn(turn) if turn else math.radians(5), most)
 

@@ -79,8 +79,8 @@ def read_seconds(text: str) -> float:
     return seconds
 
 
-def read_length(text: str, name: str) -> Fraction:
-    """A length above 0, as it is written."""
+def read_length(text: str, name: str, what: str = "a length") -> Fraction:
+    """Read a length, or a speed, above 0, as it is written."""
     from cfree.exact.number import to_fraction
 
     try:
@@ -88,7 +88,7 @@ def read_length(text: str, name: str) -> Fraction:
     except ValueError:
         length = Fraction(0)
     if length <= 0:
-        raise ValueError(f'{name}: {text!r}; give a length above 0 such as "0.3" or "1/3"')
+        raise ValueError(f'{name}: {text!r}; give {what} above 0 such as "0.3" or "1/3"')
     return length
 
 

@@ -140,7 +140,7 @@ class BoundaryRecord(Value):
     def require_complete(self) -> None:
         """Raise `IncompleteError` if a limit stopped the computation."""
         if not self.complete:
-            done = f"{self.trimmed.sum()} of {len(self.trimmed)} patches were trimmed"
+            done = f"{self.trimmed.sum()} of {counted(len(self.trimmed), 'patch')} trimmed"
             raise IncompleteError(f"incomplete: {done} before a limit stopped it; compute it again with a higher limit")
 
     @cached_property

@@ -13,7 +13,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 
 from cfree.formats.answer_rules import Faults, completed, effect_faults, leeway_of, path_faults
-from cfree.formats.findings import Findings
+from cfree.formats.findings import Findings, InvalidFileError, whole
 from cfree.formats.json_positions import Path as Place
 from cfree.formats.path_format import PathModel
 from cfree.formats.scene_format import report
@@ -49,6 +49,8 @@ class Read:
 def answer_from_json(findings: Findings, data: Any) -> Read:
     """What a decoded JSON value says; raises every problem there is through `findings`."""
     kind = data.get("answer") if isinstance(data, dict) else None
+    if isinstance(data, dict) and "robot" in data and kind is None:
+        raise InvalidFileError(findings.file, [whole("a scene, no answer; give what cfree plan -o has written")])
     if not isinstance(kind, str) or kind not in _MODELS:
         named = isinstance(data, dict) and "answer" in data
         fault = 'no answer: "answer" is missing'

@@ -10,5 +10,5 @@ def is_archive(path: str | PathLike[str]) -> bool:
     try:
         with open(path, "rb") as file:
             return file.read(2) == b"PK"
-    except OSError:
+    except (OSError, ValueError):  # a name with a null byte is none of a file
         return False

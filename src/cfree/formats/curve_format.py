@@ -19,7 +19,7 @@ from cfree.formats.scene_values import Fault
 
 RINGS, ITEMS = ("circle", "ellipse", "path"), ("arc", "bezier", "spline")
 ROUND_KEYS = {*RINGS, "grown"}
-TAGS = ("<round>", "<polygon>", "<point>", "<segment>", "<points>", "<ring>")
+TAGS = ("<round>", "<polygon>", "<point>", "<segment>", "<points>", "<ring>", "<bare>")
 
 
 def _made(make: Callable[..., Any], *values: Any, **named: Any) -> Any:

@@ -18,7 +18,7 @@ from cfree.formats.boundary_file import load_archive, save_boundary, save_space
 from cfree.formats.findings import Findings, read_text
 from cfree.formats.json_text import read_literals, with_numbers
 from cfree.formats.mesh_file import save_mesh
-from cfree.formats.readers import is_drawing, is_wkt, read_json_file, read_wkt
+from cfree.formats.readers import is_drawing, is_wkt, read_json_file, read_wkt, refuse_other_kinds
 from cfree.formats.scene_file import load_scene, save_scene
 from cfree.formats.slice_geojson import save_slice
 from cfree.free.space import FreeSpace
@@ -108,6 +108,7 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Sep
     with collection_paused():
         if is_archive(path):
             return load_archive(path)
+        refuse_other_kinds(fspath(path))
         if is_drawing(path):
             return load_scene(path)
         findings = Findings(fspath(path), read_text(FilePath(path)))

@@ -24,7 +24,7 @@ LARGEST = 1 << 29
 
 @dataclass(frozen=True, slots=True, order=True)
 class Problem:
-    """One fault: line and column from 1, place inside the file, value and remedy."""
+    """One fault: line and column from 1, or 0 of the file as a whole; place inside the file, value and remedy."""
 
     line: int
     column: int
@@ -32,7 +32,13 @@ class Problem:
     message: str
 
     def __str__(self) -> str:
-        return f"{self.line}:{self.column} {self.place}{self.place and ': '}{self.message}"
+        where = f"{self.line}:{self.column}" if self.line else ""
+        return f"{where} {self.place}{self.place and ': '}{self.message}"
+
+
+def whole(message: str) -> Problem:
+    """Fault of a file as a whole, which has no place in it."""
+    return Problem(0, 0, "", message)
 
 
 class InvalidFileError(FormatError):
@@ -42,6 +48,8 @@ class InvalidFileError(FormatError):
     --------
     >>> print(InvalidFileError("a.json", [Problem(3, 21, "bounds[0]", "expected a number, got true")]))
     a.json:3:21 bounds[0]: expected a number, got true
+    >>> print(InvalidFileError("b.json", [whole("No such file or directory")]))
+    b.json: No such file or directory
     """
 
     def __init__(self, file: str, problems: Sequence[Problem]) -> None:
@@ -50,7 +58,7 @@ class InvalidFileError(FormatError):
         lines = [f"{file}:{problem}" for problem in self.problems[:SHOWN]]
         if len(self.problems) > SHOWN:
             lines.append(f"{file}: and {counted(len(self.problems) - SHOWN, 'more problem')}")
-        super().__init__("\n".join(lines), path=file, line=first.line, column=first.column)
+        super().__init__("\n".join(lines), path=file, line=first.line or None, column=first.column or None)
 
     def __reduce__(self) -> tuple[type[InvalidFileError], tuple[str | None, tuple[Problem, ...]]]:
         return InvalidFileError, (self.path, self.problems)
@@ -125,10 +133,10 @@ def read_text(file: FilePath, most: int | None = None) -> str:
     except (OSError, ValueError) as error:
         reason = error.strerror if isinstance(error, OSError) else error
         fault = f"{reason}; give the path of a file that can be read"
-        raise InvalidFileError(str(file), [Problem(1, 1, "", fault)]) from None
+        raise InvalidFileError(str(file), [whole(fault)]) from None
     if len(raw) > most:
         fault = f"more than {_size(most)}; give a file of a scene or an answer"
-        raise InvalidFileError(str(file), [Problem(1, 1, "", fault)])
+        raise InvalidFileError(str(file), [whole(fault)])
     try:
         return raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -10,7 +10,8 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from cfree.formats.findings import Findings, read_text
+from cfree.formats.archive import is_archive
+from cfree.formats.findings import Findings, InvalidFileError, read_text, whole
 from cfree.formats.json_text import read_literals, with_numbers
 from cfree.formats.scene_values import scene_from_plain
 from cfree.formats.shapes import Shapes, shapes_of
@@ -26,6 +27,8 @@ DRAWINGS = {
     ".urdf": "urdf.read_urdf",
 }
 """Suffixes of files that only their own readers open."""
+IMAGES = {".pgm", ".ppm", ".pbm", ".png", ".bmp", ".gif", ".jpg", ".jpeg", ".tif", ".tiff", ".webp"}
+"""Suffixes of images, which maps name."""
 
 
 def is_drawing(path: str | PathLike[str]) -> bool:
@@ -36,12 +39,33 @@ def is_drawing(path: str | PathLike[str]) -> bool:
 def read_file(path: str | PathLike[str], reading: Reading | None = None) -> Shapes | Scene:
     """What is in a file: a scene if it says all of one."""
     file = os.fspath(path)
+    refuse_other_kinds(file)
     if is_drawing(file):
         module, name = DRAWINGS[Path(file).suffix.lower()].split(".")
         found: Shapes = getattr(import_module(f"cfree.formats.{module}"), name)(Source(file, reading=reading))
         return found
     findings = Findings(file, read_text(Path(file)))
     return read_wkt(findings) if is_wkt(findings) else read_json_file(findings, read_literals(findings), reading)
+
+
+def refuse_other_kinds(file: str) -> None:
+    """See that a file is no boundary, and no image of a map.
+
+    Raises
+    ------
+    InvalidFileError
+        If it is one: what it is, and what to give instead.
+    """
+    path = Path(file)
+    if is_archive(file):
+        fault = "a boundary or free space, no scene; give the scene that it was computed for"
+    elif path.suffix.lower() in IMAGES and path.is_file():
+        beside = [path.with_suffix(suffix) for suffix in (".yaml", ".yml")]
+        named = next((str(each) for each in beside if each.is_file()), f"a YAML file with the line image: {path.name}")
+        fault = f"an image; give what says how to read it, {named}"
+    else:
+        return
+    raise InvalidFileError(file, [whole(fault)])
 
 
 def is_wkt(findings: Findings) -> bool:
@@ -64,6 +88,9 @@ def read_json_file(findings: Findings, data: object, reading: Reading | None = N
     """The scene, the GeoJSON, or the nesting instance that JSON with literals is."""
     source = Source(findings.file, reading=reading)
     source.findings = findings
+    if isinstance(data, Mapping) and "answer" in data and "robot" not in data:
+        fault = "an answer of cfree plan, no scene; give the scene that it is for"
+        raise InvalidFileError(findings.file, [whole(fault)])
     if isinstance(data, Mapping) and "type" in data:
         from cfree.formats.geojson import geojson_shapes
 

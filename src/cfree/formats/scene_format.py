@@ -41,6 +41,7 @@ from cfree.formats.scene_values import (
     MAX_TEXT,
     VERSION,
     Fault,
+    is_ring,
     known_version,
     list_of,
     not_empty,
@@ -55,11 +56,15 @@ from cfree.scene.scene import Scene, explained
 
 
 def _robot_parts(value: object) -> list[object]:
-    if isinstance(value, dict):
+    if isinstance(value, dict) or is_ring(value):
         return [value]
     if isinstance(value, list) and value:
         return value
     raise Fault(f"expected {_POLYGON} or a list of them, at least one, got {{got}}")
+
+
+def _one_or_more(value: object) -> object:
+    return [value] if is_ring(value) else value
 
 
 def _or_one(schema: dict[str, Any]) -> None:
@@ -67,8 +72,14 @@ def _or_one(schema: dict[str, Any]) -> None:
     schema["anyOf"] = [parts["items"], parts]
 
 
-ROUND, STRAIGHT = "<round>", "<polygon>"
-_POLYGON = 'a polygon {"outer": [[x, y], ...], "holes": []}'
+def _or_a_ring(schema: dict[str, Any]) -> None:
+    shapes = {"type": schema.pop("type"), "items": schema.pop("items")}
+    schema["anyOf"] = [_RING_SCHEMA, shapes]
+
+
+ROUND, STRAIGHT, BARE = "<round>", "<polygon>", "<bare>"
+_POLYGON = 'a polygon {"outer": [[x, y], ...], "holes": []} or its ring [[x, y], ...]'
+_RING_SCHEMA = TypeAdapter(list[Point]).json_schema()
 _EXPECTED = {
     "list_type": "a list",
     "dict_type": "an object {...}",
@@ -140,12 +151,26 @@ class ObstacleModel(PolygonModel):
 
 
 def _kind(data: Any) -> str:
-    """Polygons have an outer ring of points and nothing else; what has other keys of round shapes is one."""
+    """Polygons have an outer ring of points and nothing else, or are that ring; other keys are of round shapes."""
+    if isinstance(data, list):
+        return BARE
     return ROUND if isinstance(data, dict) and data.keys() & ROUND_KEYS else STRAIGHT
 
 
-def _either(polygon: Any, curved: Any) -> Any:
-    return Annotated[Annotated[polygon, Tag(STRAIGHT)] | Annotated[curved, Tag(ROUND)], Discriminator(_kind)]
+def _either(polygon: type[PolygonModel], curved: type[CurvedModel]) -> Any:
+    """A polygon, its ring alone, or a round shape."""
+
+    def of_ring(points: list[Any]) -> PolygonModel:
+        model = polygon.model_construct()
+        try:
+            model._polygon = Polygon(points)
+        except InvalidPolygonError as error:
+            raise Fault(explained(error)) from None
+        return model
+
+    bare = Annotated[list[Point], AfterValidator(of_ring), Tag(BARE)]
+    union: Any = Annotated[polygon, Tag(STRAIGHT)] | Annotated[curved, Tag(ROUND)] | bare
+    return Annotated[union, Discriminator(_kind)]
 
 
 class RoundObstacleModel(CurvedModel):
@@ -170,7 +195,7 @@ class SceneModel(Strict):
     units: Text = ""
     source: Annotated[dict[str, Text], AfterValidator(plain)] = Field({})
     robot: Annotated[list[Shape], BeforeValidator(_robot_parts), Field(json_schema_extra=_or_one)]
-    obstacles: list[Obstacle] = Field([])
+    obstacles: Annotated[list[Obstacle], BeforeValidator(_one_or_more)] = Field([], json_schema_extra=_or_a_ring)
     workspace: Shape | None = None
     bounds: Bounds | None = None
     start: Configuration | None = None
@@ -181,14 +206,15 @@ class SceneModel(Strict):
 
 def scene_from_models(findings: Findings, data: object) -> Scene:
     """Scene of a decoded JSON value; raises every problem there is through `findings`."""
-    single_robot = isinstance(data, dict) and isinstance(data.get("robot"), dict)
+    single = {key for key in ("robot", "obstacles") if isinstance(data, dict) and is_ring(data.get(key))}
+    single |= {"robot"} if isinstance(data, dict) and isinstance(data.get("robot"), dict) else set()
     try:
         model = SceneModel.model_validate(data)
     except ValidationError as error:
         for item in error.errors(include_url=False, include_input=False):
             path = tuple(step for step in item["loc"] if step not in TAGS)
-            if single_robot and path[:1] == ("robot",):
-                path = ("robot", *path[2:])
+            if path[:1] and path[0] in single:
+                path = (path[0], *path[2:])
             report(findings, path, item)
     else:
         if model.goal is not None and model.goals:
@@ -204,7 +230,7 @@ def scene_from_models(findings: Findings, data: object) -> Scene:
         out = range_fault(robot, obstacles, workspace, model.bounds)  # type: ignore[arg-type]
         if out:
             path, message = out
-            findings.under(path[:1] if path[0] == "robot" and single_robot else path, message)
+            findings.under(path[:1] if path[0] in single else path, message)
             findings.fail_if_any()
     return Scene(
         robot=robot,

@@ -130,7 +130,8 @@ def scene_from_plain(data: object) -> Scene | None:
     if not isinstance(data, dict) or not data.keys() <= _READERS.keys() | _SHAPES:
         return None
     robot, obstacles, workspace = data.get("robot"), data.get("obstacles", []), data.get("workspace")
-    robot = [robot] if isinstance(robot, dict) else robot
+    robot = [robot] if isinstance(robot, dict) or is_ring(robot) else robot
+    obstacles = [obstacles] if is_ring(obstacles) else obstacles
     if not isinstance(robot, list) or not isinstance(obstacles, list):
         return None
     parts, bodies = [plain_polygon(part, POLYGON) for part in robot], [plain_polygon(o, OBSTACLE) for o in obstacles]
@@ -139,7 +140,7 @@ def scene_from_plain(data: object) -> Scene | None:
         return None
     if data.get("goal") is not None and data.get("goals"):
         return None
-    names = [obstacle.get("name") for obstacle in obstacles]
+    names = [obstacle.get("name") if isinstance(obstacle, dict) else None for obstacle in obstacles]
     try:
         others = {key: read(data[key]) for key, read in _READERS.items() if key in data}
         return Scene(parts, bodies, obstacle_names=names, workspace=room, **others)
@@ -147,8 +148,22 @@ def scene_from_plain(data: object) -> Scene | None:
         return None
 
 
+def is_ring(value: Any) -> bool:
+    """True if a decoded JSON value is a list that begins with a point: a ring, and no list of rings or shapes.
+
+    Examples
+    --------
+    >>> is_ring([[0, 0], [1, 0]]), is_ring([[[0, 0], [1, 0]]]), is_ring([{"outer": []}]), is_ring([])
+    (True, False, False, False)
+    """
+    if not isinstance(value, list) or not value or not isinstance(value[0], list):
+        return False
+    return bool(value[0]) and not isinstance(value[0][0], (list, dict))
+
+
 def plain_polygon(data: Any, keys: Set[str]) -> Polygon | None:
     """The polygon of a decoded JSON value, if nothing is wrong with it: the core reads it."""
+    data = {"outer": data} if is_ring(data) else data
     if not isinstance(data, dict) or not data.keys() <= keys:
         return None
     name, holes = data.get("name"), data.get("holes", [])

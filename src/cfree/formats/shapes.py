@@ -14,7 +14,7 @@ from typing import Any
 
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
-from cfree.formats.findings import InvalidFileError, Problem
+from cfree.formats.findings import InvalidFileError, whole
 from cfree.formats.source import Source
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, Scene, shapes_in
@@ -87,9 +87,9 @@ class Shapes:
         parts = [shape.polygon for shape in self.of("robot")] if robot is None else shapes_in(robot, "robot")
         rooms = self.of("workspace")
         if not parts:
-            raise InvalidFileError(self.file, [Problem(1, 1, "", f"there is no robot; {self.remedy}")])
+            raise InvalidFileError(self.file, [whole(f"there is no robot; {self.remedy}")])
         if len(rooms) > 1:
-            raise InvalidFileError(self.file, [Problem(1, 1, "", f"{len(rooms)} workspaces; give one polygon")])
+            raise InvalidFileError(self.file, [whole(f"{len(rooms)} workspaces; give one polygon")])
         obstacles = self.of("obstacle")
         return Scene(
             robot=parts,

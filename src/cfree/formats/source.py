@@ -11,7 +11,7 @@ from typing import Literal, NoReturn
 
 from cfree.curves.drawn import Ring
 from cfree.curves.hulls import box_of
-from cfree.formats.findings import Findings, InvalidFileError, Problem
+from cfree.formats.findings import Findings, InvalidFileError, Problem, whole
 
 MOST_BYTES = 1 << 26
 """Of a drawing or a map; what is larger is refused."""
@@ -87,4 +87,4 @@ def read_bytes(path: str, most: int = MOST_BYTES) -> bytes:
         if len(raw) <= most:
             return raw
         message = f"more than {most >> 10:,} KiB; give a smaller file"
-    raise InvalidFileError(path, [Problem(1, 1, "", message)])
+    raise InvalidFileError(path, [whole(message)])
