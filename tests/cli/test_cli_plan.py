@@ -369,4 +369,4 @@ def test_tables_are_wrapped_at_the_terminal_and_name_eight_obstacles(
         assert max(map(len, lines)) <= columns, said
     shown = " ".join(result.stdout.split())
     assert shown.count("1 x 1 at (") == 8 and "; ... of 40 " in shown
-    assert "obstacle 0, 1 x 1 at (0.5, 0.5);" in shown
+    assert "obstacle 2, 1 x 1 at (1.5, 0.5);" in shown

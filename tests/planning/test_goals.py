@@ -23,6 +23,7 @@ from cfree import (
     Path,
     Pose,
     Scene,
+    UndecidedError,
     boundary,
     free_space,
     is_free,
@@ -31,7 +32,8 @@ from cfree import (
     save,
 )
 from cfree.exact import AlgebraicAngle, AngleInterval
-from cfree.planning.goals import _orientation
+from cfree.planning.goals import pose_in
+from cfree.plot.boundary import around
 from cfree.verify.orientations import left_out
 from cfree.verify.world import World
 from compared import scene_of
@@ -111,7 +113,7 @@ def test_a_proof_that_lacks_an_interval_is_refuted() -> None:
     assert isinstance(proof, AllSeparated) and len(proof.proofs) == 2
     for k in (0, 1):
         result = cfree.verify.answer(SHUT, replace(proof, proofs=(proof.proofs[k],)))
-        assert not result.verified and "1 intervals and 0 single ones" in str(result.findings[0])
+        assert not result.verified and "1 interval and 0 single ones" in str(result.findings[0])
     other = replace(proof.proofs[0], start=Pose(0, "5.1"))
     assert not cfree.verify.answer(SHUT, replace(proof, proofs=(proof.proofs[1], other))).verified
     assert not cfree.verify.answer(OPEN, proof).verified
@@ -124,15 +126,15 @@ def test_one_orientation_stands_for_an_interval() -> None:
     interval, place = cfree.turn_in_place(rod, (0, 0, 0))[0], (Fraction(0), Fraction(0))
     end = interval.start
     assert end and len(end.polynomial) == 3
-    assert _orientation(AngleInterval(end, end), START, place) is None, "single, and irrational"
-    assert _orientation(interval, Pose(0, 0, "180deg"), place) == Pose(0, 0, "180deg")
+    assert pose_in(AngleInterval(end, end), START, place) is None, "single, and irrational"
+    assert pose_in(interval, Pose(0, 0, "180deg"), place) == Pose(0, 0, "180deg")
     for start in (Pose(0, 0, "135deg"), Pose(0, 0, "225deg"), START):
-        found = _orientation(interval, start, place)
+        found = pose_in(interval, start, place)
         assert found and interval.contains({"tau": found.tau})
     right = AngleInterval(
         AlgebraicAngle.of((0, 0, "90deg")), AlgebraicAngle.of((0, 0, {"tau": 1 + Fraction(1, 2**90)}))
     )
-    found = _orientation(right, START, place)
+    found = pose_in(right, START, place)
     assert found and found.tau and right.contains({"tau": found.tau})
 
 
@@ -155,8 +157,10 @@ def test_ends_that_are_not_free_are_named() -> None:
             plan(SHUT, START, [(3, 5, 0)], **wish)  # type: ignore[call-overload]
     with pytest.raises(InvalidPoseError, match=r"start .* is forbidden"):
         plan(SHUT, (0, 0, 0), (3, 5))
-    with pytest.raises(InvalidPoseError, match="goal: a place, and a clearance; give it a theta"):
-        plan(SHUT, START, (0, 5), clearance="0.1")
+    with pytest.raises(InvalidPoseError, match=r"goal \(0, 8.4\): however it is turned there, .* nearer .* 0.2"):
+        plan(OPEN, START, (0, "8.4"), clearance="0.2")
+    with pytest.raises(InvalidPoseError, match=r"goal 1 \(9, 9\): however it is turned there"):
+        plan(OPEN, START, [(3, 5), (9, 9)], clearance="0.2")
 
 
 @pytest.mark.slow
@@ -241,3 +245,97 @@ def test_verdicts_are_those_of_the_cells(kind: str) -> None:
         if checked > 6 and len(found) > 1:
             break
     assert checked > 6 and Path in found
+
+
+# a place, and a clearance
+
+
+def test_a_path_to_a_place_keeps_a_clearance() -> None:
+    for goal, clearance in (((0, -5), "1/2"), ((0, "8.4"), "0.05"), ([(0, -5), (5, 5, 0)], "0.3"), ((0, 5), "0.1")):
+        path = plan(OPEN, START, goal, clearance=clearance)
+        assert isinstance(path, Path) and path.clearance == Fraction(clearance)
+        assert verified_in_a_file(OPEN, path).verified
+        least = cfree.clearance(path, OPEN)
+        assert least is not None and least.found >= float(path.clearance) * (1 - 1e-9)
+
+
+@pytest.mark.slow
+def test_no_path_to_a_place_keeps_a_clearance_is_proved_for_each_interval(tmp_path: FilePath) -> None:
+    several = [(0, -5), (0, "-2.6"), (3, -5, 0)]
+    for scene, goal, clearance, count in (
+        (OPEN, (0, -5), "0.501", 1), (SHUT, (0, "-2.6"), "0.05", 2), (SHUT, several, "0.05", 4)
+    ):  # fmt: skip
+        proof = plan(scene, START, goal, clearance=clearance)
+        assert isinstance(proof, AllSeparated) and proof.of == "closed" and len(proof.proofs) == count
+        assert proof.clearance == Fraction(clearance)
+        result = cfree.verify.answer(scene, proof)
+        assert result.verified and result.proved.startswith(f"No path that keeps {float(proof.clearance):g} from")
+        save(proof, tmp_path / "proof.json")
+        assert load(tmp_path / "proof.json") == proof
+        assert cfree.verify.answer(scene, tmp_path / "proof.json").verified
+        for one in proof.proofs:
+            assert verified_in_a_file(scene, one).verified
+
+
+@pytest.mark.slow
+def test_proofs_for_a_place_and_a_clearance_that_lack_something_are_refuted() -> None:
+    proof = plan(SHUT, START, (0, "-2.6"), clearance="0.05")
+    assert isinstance(proof, AllSeparated)
+    for k in (0, 1):
+        result = cfree.verify.answer(SHUT, replace(proof, proofs=(proof.proofs[k],)))
+        assert not result.verified and "no proof for 1 interval " in str(result.findings[0])
+    first, other = proof.proofs
+    finer = plan(SHUT, START, (0, "-2.6"), clearance="0.06")
+    assert isinstance(finer, AllSeparated)
+    mixed = cfree.verify.answer(SHUT, replace(proof, proofs=(first, finer.proofs[1])))
+    assert "the smaller robots of its proofs differ" in str(mixed.findings[-1])
+    # a clearance so small that the robot, a little larger, is not nearer than that
+    less = [replace(one, clearance=one.clearance * (1 - Fraction(1, 2**20))) for one in (first, other)]
+    assert not cfree.verify.answer(SHUT, replace(proof, proofs=tuple(less))).verified
+
+
+def keeps(scene: Scene, start: Pose, place: Any, clearance: Fraction, count: int) -> set[str]:
+    """The oracle: what planning to many orientations at a place says, one by one."""
+    said = set()
+    for k in range(count):
+        try:
+            found = plan(scene, start, Pose(*place, f"{Fraction(360 * k, count)}deg"), clearance=clearance, improve=0)
+        except InvalidPoseError:
+            continue
+        except UndecidedError:
+            said.add("undecided")
+        else:
+            said.add(type(found).__name__)
+    return said
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_place_is_reached_if_one_of_many_orientations_there_is(kind: str) -> None:
+    rng, decided = random.Random(kind), 0
+    for seed in range(20):
+        drawn = scene_of(random_scene(seed, kind))
+        x0, y0, x1, y1 = around([o.bounds for o in drawn.obstacles])
+        room = box(*(round(c) for c in (x0 - 2, y0 - 2, x1 + 2, y1 + 2)))[0]
+        scene = Scene(drawn.robot, drawn.obstacles, workspace=room)
+        for _ in range(3 if decided < 3 else 0):
+            places = [(rng.uniform(x0 - 2, x1 + 2), rng.uniform(y0 - 2, y1 + 2)) for _ in range(2)]
+            start, clearance = Pose(*places[0], rng.uniform(0, 6)), Fraction(rng.randint(1, 40), 100)
+            try:
+                found = plan(scene, start, places[1], clearance=clearance, improve=0)
+            except InvalidPoseError as error:
+                if "however it is turned" in str(error):
+                    assert not keeps(scene, start, places[1], clearance, 24)
+                continue
+            except UndecidedError:
+                continue
+            said = keeps(scene, start, places[1], clearance, 24)
+            decided += 1
+            if isinstance(found, Path):
+                assert cfree.verify.answer(scene, found).verified
+            else:
+                assert said <= {"Separated", "undecided"}, (kind, seed, places, clearance)
+                assert cfree.verify.answer(scene, found).verified
+            if "Path" in said:
+                assert isinstance(found, Path)
+    assert decided

@@ -103,17 +103,14 @@ def plan_any(
     planner: Planner,
     start: Pose,
     goals: Sequence[Goal],
-    clearance: Fraction | None,
     improve: float | None,
     objective: Objective,
 ) -> Path | AllSeparated:
     """A path to one of the goals, of those that are found the shortest; or a proof for each of them."""
     require_free(planner.scene, start, "start")
-    if clearance is not None and not all(isinstance(goal, Pose) for goal in goals):
-        raise InvalidPoseError("goal: a place, and a clearance; give it a theta")
     poses, is_whole = dict[Pose, None](), True
     for k, goal in enumerate(goals):
-        name = "goal" if len(goals) == 1 else f"goal {k}"
+        name = name_of(goals, k)
         if isinstance(goal, Pose):
             require_free(planner.scene, goal, name)
             poses[goal] = None
@@ -122,23 +119,31 @@ def plan_any(
             poses |= dict.fromkeys(pose for pose in found if pose is not None)
             is_whole = is_whole and None not in found
 
-    answers: Sequence[Path | Separated]
-    if clearance is None:
-        ways = [planner.way(start, pose, few=True) for pose in poses]
-        if not any(isinstance(way, list) for way in ways):
-            ways = [way or planner.way(start, pose) for way, pose in zip(ways, poses, strict=True)]
-        free = [way for way in ways if isinstance(way, list)]
-        share = improve and improve / len(free) if free else None
-        answers = [planner.improved(way, share, objective) for way in free]
-        answers = answers or [proof for proof in ways if isinstance(proof, Separated)]
-    else:
-        answers = [planner.plan(start, p, clearance=clearance, improve=improve, objective=objective) for p in poses]
-    if paths := [answer for answer in answers if isinstance(answer, Path)]:
-        return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
-    proofs = tuple(answer for answer in answers if isinstance(answer, Separated))
+    ways = [planner.way(start, pose, few=True) for pose in poses]
+    if not any(isinstance(way, list) for way in ways):
+        ways = [way or planner.way(start, pose) for way, pose in zip(ways, poses, strict=True)]
+    free = [way for way in ways if isinstance(way, list)]
+    if free:
+        paths = [planner.improved(way, improve and improve / len(free), objective) for way in free]
+        return cheapest(paths, planner)
+    return all_separated([proof for proof in ways if isinstance(proof, Separated)], goals, is_whole=is_whole)
+
+
+def name_of(goals: Sequence[Goal], k: int) -> str:
+    """Name of a goal in messages."""
+    return "goal" if len(goals) == 1 else f"goal {k}"
+
+
+def cheapest(paths: Sequence[Path], planner: Planner) -> Path:
+    """The path that costs least by the planner's preferences."""
+    return min(paths, key=lambda path: planner.preferences.cost(path, planner.scene))
+
+
+def all_separated(proofs: Sequence[Separated], goals: Sequence[Goal], *, is_whole: bool) -> AllSeparated:
+    """Proofs for all goals as one; `is_whole` if no orientation at a place is left out."""
     is_closed = is_whole and all(proof.of == "closed" for proof in proofs)
     places = tuple(dict.fromkeys(goal for goal in goals if not isinstance(goal, Pose)))
-    return AllSeparated(proofs, places, "closed" if is_closed else "interior")
+    return AllSeparated(tuple(proofs), places, "closed" if is_closed else "interior")
 
 
 def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterator[Pose | None]:
@@ -150,10 +155,12 @@ def _poses_at(scene: Scene, place: ExactPoint, start: Pose, name: str) -> Iterat
     if not intervals:
         raise InvalidPoseError(f"{name} ({float(x):g}, {float(y):g}): no orientation is free there; give another place")
     for interval in intervals:
-        yield _orientation(interval, start, place)
+        yield pose_in(interval, start, place)
 
 
-def _orientation(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | None:
+def pose_in(interval: AngleInterval, start: Pose, place: ExactPoint) -> Pose | None:
+    """A pose at a place with its orientation in an interval, turned little from the start; None if irrational."""
+
     def pose(tau: Fraction | None) -> Pose:
         return Pose(*place, {"tau": tau})
 

@@ -96,7 +96,8 @@ def plan(
     Raises
     ------
     InvalidPoseError
-        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance.
+        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance; of a place
+        in all orientations.
     IncompleteError
         If `max_seconds` were not enough. If the largest clearance of a path is within 0.1 % of the one asked for this
         is an `UndecidedError`, which has the interval; so if polygons for round shapes do not tell, with their error.

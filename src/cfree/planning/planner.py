@@ -143,7 +143,11 @@ class Planner(Value):
         distance, start = _wish(clearance, improve, objective), to_pose(start, "start")
         places = {f"goal {k}": goal if isinstance(goal, Pose) else Pose(*goal) for k, goal in enumerate(found)}
         _see_to_places({"start": start} | places)
-        return plan_any(self, start, found, distance, improve, objective)
+        if distance is not None:
+            from cfree.planning.clearance import plan_any_at_distance
+
+            return plan_any_at_distance(self, start, found, distance, self._of, improve, objective)
+        return plan_any(self, start, found, improve, objective)
 
     def _of(self, scene: Scene) -> Planner:
         """For the same question with another robot."""

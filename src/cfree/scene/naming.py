@@ -51,7 +51,11 @@ def placed(scene: Scene, obstacle: int) -> str:
     width, height, place = x1 - x0, y1 - y0, ((x0 + x1) / 2, (y0 + y1) / 2)
     digits = max(0, DIGITS - math.floor(math.log10(max(width, height))))
     x, y = (f"{round(c, digits) + 0.0:.12g}" for c in place)
-    return f"{numbered(scene, obstacle)}, {width:.3g} x {height:.3g} at ({x}, {y})"
+    return f"{numbered(scene, obstacle)}, {_length(width)} x {_length(height)} at ({x}, {y})"
+
+
+def _length(value: float) -> str:
+    return f"{value:.0f}" if 1000 <= value < 1e6 else f"{value:.3g}"
 
 
 def all_placed(scene: Scene, obstacles: Iterable[int]) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,7 @@ from cfree.scene.digest import Stamp, stamp_of
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.verify.curves import mismatches
-from cfree.verify.leeway import is_around_disc, roomier, with_disc
+from cfree.verify.leeway import is_around_disc, roomier, turning, with_disc
 from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
 from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
@@ -150,12 +150,21 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
         if proof.start != given.start or (given.of == "closed" and proof.of != "closed"):
             findings.append(Finding(ASKED, f"proof {k}", "it has another start, or proves less than is said of all"))
     for place in given.places:
-        poses = [proof.goal for proof in given.proofs if (proof.goal.x, proof.goal.y) == place]
-        intervals, single = left_out(world, place, poses) if world else (0, 0)
-        if intervals or (single and given.of == "closed"):
+        there = [proof for proof in given.proofs if (proof.goal.x, proof.goal.y) == place]
+        where = f"({float(place[0]):g}, {float(place[1]):g})"
+        turned = world
+        kept = bool(there) and bool(there[0].clearance)
+        if world and kept:
+            turned = turning(world, there[0]) if _is_one_robot(there) else None
+            if turned is None:
+                text = "the smaller robots of its proofs differ, or one is not convex, or too large to turn there"
+                findings.append(Finding(TURNS, where, text))
+        intervals, single = left_out(turned, place, [proof.goal for proof in there]) if turned else (0, 0)
+        # a robot that only just fits, and is nearer than a clearance, keeps none
+        if intervals or (single and given.of == "closed" and not kept):
             left = f"{counted(intervals, 'interval')} and {counted(single, 'single one')}"
             text = f"no proof for {left} of free orientations"
-            findings.append(Finding(TURNS, f"({float(place[0]):g}, {float(place[1]):g})", text))
+            findings.append(Finding(TURNS, where, text))
     if given.places:
         at = f"at {counted(len(given.places), 'place')}"
         text = f"{at} each free orientation is joined by turning to the goal of a proof"
@@ -166,6 +175,13 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
     proved = "" if findings else _none_leads(given, f"leads from {_text(given.start)} to any of {goals}")
     report(1.0)
     return Verification(tuple(checks), tuple(findings), (), _since(begin), proved)
+
+
+def _is_one_robot(proofs: Sequence[Separated]) -> bool:
+    """True if proofs about a clearance are all of contacts of one smaller robot."""
+    first = proofs[0]
+    alike = all((p.clearance, p.robot, p.cores) == (first.clearance, first.robot, first.cores) for p in proofs)
+    return alike and bool(first.clearance) and len(first.robot) == len(first.cores)
 
 
 def _since(begin: float) -> float:

@@ -9,10 +9,15 @@ from itertools import pairwise
 from math import lcm
 
 from cfree.exact.number import ExactPoint
+from cfree.planning.separation import Separated
 from cfree.polygons.minkowski import convex_sum
+from cfree.polygons.polygon import Polygon
+from cfree.verify.inside import is_near
 from cfree.verify.polygons import Ring, rectangle
 from cfree.verify.surfaces import cross, dot, minus
 from cfree.verify.world import World
+
+TURNING = Fraction(1, 2**21)  # of a clearance: half the square by which a smaller robot is larger where it turns
 
 
 def roomier(world: World, leeway: Fraction) -> World | None:
@@ -38,6 +43,27 @@ def with_disc(world: World, disc: Sequence[ExactPoint]) -> World:
     ring = [(int(x * found.scale), int(y * found.scale)) for x, y in disc]
     found.parts = [convex_sum(part, ring) for part in found.parts]
     return found
+
+
+def turning(world: World, proof: Separated) -> World | None:
+    """A world of the smaller robot of a proof about a clearance, larger by a square.
+
+    Where this robot is free at a place, the smaller one turns without touching. Orientations at which the scene's robot
+    keeps the clearance are among these: all of this one is nearer to it. None if it is not.
+    """
+    by = TURNING * proof.clearance
+    square = [(-by, -by), (by, -by), (by, by), (-by, by)]
+    larger = [Polygon(convex_sum(part.exact_vertices, square)) for part in proof.robot]
+    cores = zip(proof.robot, larger, proof.cores, strict=True)
+    if not all(_is_convex(part) and is_near(grown, core, proof.clearance) for part, grown, core in cores):
+        return None
+    found = _finer(world, lcm(*(part.denominator for part in larger)))
+    found.parts = [[(int(x * found.scale), int(y * found.scale)) for x, y in part.exact_vertices] for part in larger]
+    return found
+
+
+def _is_convex(polygon: Polygon) -> bool:
+    return len(polygon.ring_offsets) == 2 and bool(polygon.convex.all())
 
 
 def is_around_disc(ring: Sequence[ExactPoint], radius: Fraction) -> bool:
