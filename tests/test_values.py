@@ -83,6 +83,7 @@ def samples(x: int, folder: Path) -> dict[str, Any]:
         "LocalGeometry": cfree.geometry.local_geometry(ruled, [0.5], [0.1]),
         "Mesh": boundary.mesh(1.0),
         "MotionChecker": cfree.MotionChecker(scene),
+        "Moved": cfree.Moved(Pose(x, 0), (step, step)),
         "NearestMiss": cfree.NearestMiss(0.0, float(x), (cfree.analysis.Bottleneck(None, (0, x)),)),
         "Path": path,
         "Pieces": separated.pieces,

@@ -162,6 +162,8 @@ class Pose:
         return (-ONE, ZERO) if t is None else ((1 - t * t) / (1 + t * t), 2 * t / (1 + t * t))
 
     def __str__(self) -> str:
+        if self.tau == "any":
+            return f"({float(self.x):g}, {float(self.y):g}, any)"
         return f"({float(self.x):g}, {float(self.y):g}, {math.degrees(float(angle_to(self.tau)) % math.tau):g} deg)"
 
 def tau_sum(one: Fraction | None, other: Fraction | None) -> Fraction | None:
@@ -918,13 +920,17 @@ class Answer:
     def __init__(self, data: dict[str, Any], **more: Any) -> None:
         refuse_if(data.get("exact") is None, "decimals alone are not read here; cfree saves exact numbers, too")
         required = dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED)
-        self.got = got = members(data, "answer", **required, version=1, units="", frame="world", clearance=None, **more)
+        self.got = got = members(data, "answer", **required, version=1, units="", frame="world", clearance=None,
+                                  moved=None, **more)
         one_of(got["version"], "version", 1)
         refuse_if(not all(isinstance(got[key], str) for key in ("units", "frame")), "units, frame: expected texts")
         self.clearance = ZERO if got["clearance"] is None else number(got["clearance"], "clearance")
         refuse_if(self.clearance <= 0 and got["clearance"] is not None, "clearance: expected a length above 0")
         ends = members(got["exact"], "exact", start=REQUIRED, goal=REQUIRED)
         self.start, self.goal = (read_pose(ends[end], f"exact.{end}") for end in ("start", "goal"))
+        asked = {} if got["moved"] is None else members(got["moved"], "moved", start=None, goal=None)
+        self.asked = {k: read_pose(v, f"moved.{k}", 3 - (k == "goal")) for k, v in asked.items() if v is not None}
+        refuse_if(got["moved"] is not None and not self.asked, "moved: expected a start, a goal, or both")
         stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED)
         self.sha256, self.box = stamp["sha256"], read_bounds(stamp["robot"], "scene.robot")
         is_hash = isinstance(self.sha256, str) and re.fullmatch("[0-9a-f]{64}", self.sha256)
@@ -950,9 +956,19 @@ class Answer:
         refute_if(self.sha256 != scene.sha256, "it is an answer for another scene")
         refute_if(self.box != scene.box, "scene.robot is not the box around the robot")
         for name, asked in scene.asked.items():
-            pose = getattr(self, name)
+            pose = self.asked.get(name, getattr(self, name))
             known = not asked or any(q in (pose, Pose(pose.x, pose.y, "any")) for q in asked)
             refute_if(not known, f"the {name} is {pose}, and another in the scene")
+
+    def end(self, name: str) -> str:
+        """An end in words, with where it was asked for if it was moved."""
+        return str(getattr(self, name)) + (f" [moved from {self.asked[name]}]" if name in self.asked else "")
+
+    def check_moved(self, world: World) -> None:
+        """No pose that is free is moved. Of places, and of a clearance, that is not looked at."""
+        for name, pose in self.asked.items() if not self.clearance else ():
+            is_free = pose.tau != "any" and collision(world, next(STANDING.courses(pose, world.scale))) is None
+            refute_if(is_free, f"the {name} was moved from {pose}, which is free")
 
 def off(decimals: dict[Any, Fraction], place: Any, exact: Fractions) -> Fraction:
     return sum((abs(decimals[place, k] - c) for k, c in enumerate(exact)), ZERO)
@@ -1033,6 +1049,7 @@ class PathAnswer(Answer):
 def check_path(answer: PathAnswer, scene: Scene) -> str:
     """What is proved, in a sentence."""
     world, only = World(scene), "; its decimals are approximate"
+    answer.check_moved(world)
     check_pose(world, answer.start, "start")
     check_pose(world, answer.goal, "goal")
     worlds = {"the robot is where it may not be": world}
@@ -1058,7 +1075,7 @@ def check_path(answer: PathAnswer, scene: Scene) -> str:
     count = f"{len(answer.motions):,} motion{'s' * (len(answer.motions) != 1)}"
     kept = f"keeps {float(answer.clearance):g} from obstacles and workspace"
     only = (kept if answer.clearance else "is free of collisions") + only
-    return f"A path of {count} leads from {answer.start} to {answer.goal}, and {only}."
+    return f"A path of {count} leads from {answer.end('start')} to {answer.end('goal')}, and {only}."
 
 def check_kept(scene: Scene, course: Course, contact: Contact, what: str) -> None:
     """A slide keeps a contact: the vertex is on the edge's line, and never beyond its ends."""
@@ -1441,6 +1458,7 @@ def is_inside(pose: Pose, scale: int, pieces: list[Trapezoid]) -> bool:
 def check_proof(proof: Proof, scene: Scene) -> str:
     """What is proved, in a sentence."""
     world, inner, apart = World(scene), scene, False
+    proof.check_moved(world)
     check_pose(world, proof.start, "start")
     check_pose(world, proof.goal, "goal")
     if proof.is_closed:
@@ -1468,7 +1486,7 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     # where start or goal touches something, no path from it keeps a distance anyway
     if not apart and is_inside(proof.start, inner.scale, pieces) == is_inside(proof.goal, inner.scale, pieces):
         raise RefutedError("start and goal are on one side of the surface")
-    from_to = f"leads from {proof.start} to {proof.goal}"
+    from_to = f"leads from {proof.end('start')} to {proof.end('goal')}"
     if proof.clearance:
         return f"No path that keeps {float(proof.clearance):g} from obstacles and workspace {from_to}."
     if proof.is_closed:

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from cfree.collision.motion_checker import is_free_motion as is_free_motion
     from cfree.collision.nearest_free import ForbiddenPoseError as ForbiddenPoseError
     from cfree.collision.nearest_free import free_nearby as free_nearby
+    from cfree.collision.nearest_free import nearest_free as nearest_free
     from cfree.collision.nearest_free import require_free as require_free
     from cfree.collision.pose_checker import PoseChecker as PoseChecker
     from cfree.collision.pose_checker import is_free as is_free
@@ -68,6 +69,7 @@ if TYPE_CHECKING:
     from cfree.planning.separation import Separated as Separated
     from cfree.planning.separation import separation as separation
     from cfree.polygons.polygon import Polygon as Polygon
+    from cfree.scene.goals import Moved as Moved
     from cfree.scene.scene import Scene as Scene
     from cfree.viewer.browser import view as view
     from cfree.viewer.notebook import widget as widget
@@ -81,11 +83,12 @@ _HOMES = {
     "exact.pose": "Pose Poses",
     "polygons.polygon": "Polygon",
     "scene.scene": "Scene",
+    "scene.goals": "Moved",
     "collision.motion": "Rotation Translation motion_between",
     "collision.slide": "Slide",
     "collision.pose_checker": "PoseChecker is_free",
     "collision.motion_checker": "MotionChecker first_contact is_free_motion",
-    "collision.nearest_free": "ForbiddenPoseError free_nearby require_free",
+    "collision.nearest_free": "ForbiddenPoseError free_nearby nearest_free require_free",
     "forbidden.boundary": "Boundary boundary",
     "forbidden.cell_complex": "CellComplex",
     "forbidden.mesh": "Mesh",

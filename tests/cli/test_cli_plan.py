@@ -370,3 +370,50 @@ def test_tables_are_wrapped_at_the_terminal_and_name_eight_obstacles(
     shown = " ".join(result.stdout.split())
     assert shown.count("1 x 1 at (") == 8 and "; ... of 40 " in shown
     assert "obstacle 2, 1 x 1 at (1.5, 0.5);" in shown
+
+
+def test_a_forbidden_end_is_moved_when_asked_for(run: Run, tmp_path: Path) -> None:
+    file, answer = tmp_path / "scene.json", tmp_path / "answer.json"
+    square, wall = [[0, 0], [1, 0], [1, 1], [0, 1]], [[2, 0], [3, 0], [3, 9], [2, 9]]
+    ends = {"start": [1.25, 2, 0], "goals": [[2.25, 2], [40, 40, 0]]}
+    room = [[-9, -9], [9, -9], [9, 9], [-9, 9]]
+    file.write_text(json.dumps({"robot": square, "obstacles": [wall], "workspace": room} | ends))
+    refused = run("plan", file)
+    assert (
+        refused.exit_code == 2
+        and "start (1.25, 2, 0 deg) is forbidden: robot part 0 overlaps obstacle 0, 1 x 9" in refused.stderr
+    )
+    said = run("plan", file, "--nearest-free", "-o", answer)
+    assert said.exit_code == 0
+    lines = [" ".join(line.split()) for line in said.stdout.splitlines()]
+    assert lines[1:4] == [
+        "answer a path, each motion proved free",
+        "start moved from (1.25, 2, 0 deg) to (1, 2, 0 deg)",
+        "goal moved from (2.25, 2, any) to (3, 2, any)",
+    ]
+    verified = " ".join(run("verify", file, answer).stdout.split())
+    assert "start from (1.25, 2, 0 deg) to (1, 2, 0 deg), goal from (2.25, 2, any) to (3, 2, 0 deg)" in verified
+    assert (
+        "leads from (1, 2, 0 deg) [moved from (1.25, 2, 0 deg)] to (3, 2, 0 deg) [moved from (2.25, 2, any)]"
+        in verified
+    )
+    facts = json.loads(run("plan", file, "--nearest-free", "--json").stdout)
+    assert facts["moved"] == {
+        "start": {"from": [1.25, 2, 0], "to": [1, 2, 0]},
+        "goal": {"from": [2.25, 2], "to": [3, 2]},
+    }
+    one = run("plan", file, "--start", "0,2,0", "--goal", "2.25,2,0", "--nearest-free", "--clearance", "0.1")
+    assert "goal moved" in one.stdout and "start moved" not in one.stdout and "(3.1, 2, 0 deg)" in one.stdout
+    free = run("plan", file, "--start", "0,2,0", "--goal", "5,2,0", "--nearest-free")
+    assert free.exit_code == 0 and "start moved" not in free.stdout and "goal moved" not in free.stdout
+
+
+@pytest.mark.slow
+def test_a_place_and_a_clearance(run: Run, tmp_path: Path) -> None:
+    answer = tmp_path / "answer.json"
+    for scene, goal, clearance, code, said in (
+        (PARKING, "4,-2.6", "0.05", 0, "a path, each motion proved free and to keep 0.05"),
+        (SWIM, "9267.18,4601.6", "10", 1, "to none of the goals: no path that keeps 10, proved"),
+    ):
+        found = run("plan", scene, "--goal", goal, "--clearance", clearance, "-o", answer)
+        assert found.exit_code == code and said in " ".join(found.stdout.split()), found.output

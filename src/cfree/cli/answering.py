@@ -96,6 +96,8 @@ class Answering:
         ends: tuple[Pose | None, Sequence[Any]],
         files: dict[str, str],
         options: dict[str, Any],
+        *,
+        nearest_free: bool = False,
     ) -> Answering:
         """The answer, with options of `Planner.plan`, unless a limit leaves the command without one."""
         from cfree.errors import IncompleteError
@@ -105,11 +107,23 @@ class Answering:
         given, goals = ends[0], ends[1] or planner.scene.goals
         is_one = not goals or (len(goals) == 1 and isinstance(goals[0], Pose))
         start, goal = required(planner.scene, given, goals[0] if is_one and goals else None if is_one else Pose(0, 0))
+        free = None
+        if nearest_free:
+            from cfree.planning.moved_ends import free_ends
+            from cfree.scene.goals import to_goals
+
+            with bar("nearest free poses"):
+                several = to_goals(goals)
+                asked = [goal] if is_one or isinstance(several, Pose) else several
+                free = free_ends(planner.scene, start, asked, options["clearance"])
+            start, goals = free.start, free.goals
+            goal = goals[0] if isinstance(goals[0], Pose) else goal
         try:
             answers = [
                 planner.plan(start, goal, **wanted) if is_one else planner.plan_any(start, goals, **wanted)
                 for wanted in (options, *([options | {"improve": 0.0}] if options["improve"] else []))
             ]
+            answers = [free.marked(answer) if free else answer for answer in answers]
             return cls(planner, start, goal if is_one else None, files, *answers)
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
@@ -198,10 +212,12 @@ class Answering:
 
     def rows(self, *, for_machines: bool, nearest_miss: bool, what_if: bool) -> dict[str, Any]:
         """The answer in words and numbers."""
-        from cfree.cli.report import answer_facts, answer_rows
+        from cfree.cli.report import answer_facts, answer_rows, moved_facts, moved_rows
 
         with bar("least clearance"):
-            rows: dict[str, Any] = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+            said = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+        moved = moved_facts(self.answer) if for_machines else moved_rows(self.answer)
+        rows: dict[str, Any] = {"answer": said["answer"], **moved, **said}
         if self.path is not None and self.first is not None:
             facts = answer_facts(self.first, self.planner.scene)
             now = answer_facts(self.answer, self.planner.scene)

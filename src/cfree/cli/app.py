@@ -176,6 +176,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
         "cfree plan scene.json -o way.csv --improve 2s",
         "cfree plan scene.json -o - --format csv --step 0.05 --speed 0.5 > way.csv",
         "cfree plan scene.json --clearance 0.3",
+        "cfree plan scene.json --goal 5,3 --nearest-free",
         "cfree plan scene.json --prefer sideways=5,turning=2 --picture way.png",
         "cfree plan scene.json --what-if --picture blockers.png",
         "cfree plan scene.json --goal 5,3 --goal 7,1,90deg",
@@ -206,6 +207,9 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @click.option("--turn", metavar="ANGLE", help="And the angle it turns, at most.", show_default="5deg")
 @click.option("--speed", metavar="SPEED", help="Of no point of the robot more: sampled poses have times.")
 @click.option("--clearance", metavar="LENGTH", help="A distance that the path keeps from obstacles and workspace.")
+@click.option(
+    "--nearest-free", is_flag=True, help="Move a start or goal that is not free to the nearest free pose found."
+)
 @click.option(
     "--improve",
     metavar="TIME",
@@ -240,9 +244,9 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @options.as_json
 def plan(
     scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, step: str | None,
-    turn: str | None, speed: str | None, clearance: str | None, improve: str | None, objective: str, prefer: str | None,
-    picture: Path | None, film: Path | None, miss: bool, what_if: bool, tolerance: float | None, part: Path | None,
-    max_seconds: float | None, as_json: bool,
+    turn: str | None, speed: str | None, clearance: str | None, nearest_free: bool, improve: str | None,
+    objective: str, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
+    tolerance: float | None, part: Path | None, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
@@ -275,7 +279,9 @@ def plan(
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), tolerance)
         if (miss or what_if) and planner.scene.curved:
             raise ValueError("--nearest-miss, --what-if: of polygons; give what cfree convert --inner writes")
-        found = Answering.of(planner, ends, written, how)
+        if nearest_free and scene.is_dir():
+            raise ValueError("--nearest-free: not in a folder; give the scene itself")
+        found = Answering.of(planner, ends, written, how, nearest_free=nearest_free)
         if output:
             found.write(output, poses)
         if picture:

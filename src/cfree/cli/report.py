@@ -9,6 +9,8 @@ from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 from cfree.cli.terminal import columns, printable, terminal_width
+from cfree.exact.pose import Pose
+from cfree.scene.goals import Goal, Moved, text_of
 from cfree.scene.naming import all_placed, placed
 from cfree.words import counted
 
@@ -152,6 +154,35 @@ def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[
         place = {"motion": least.motion, "obstacle": least.obstacle[0]}
         found["clearance"] = {"found": least.found, "proved": proved, **place}
     return found
+
+
+def moved_rows(answer: Path | Separated | AllSeparated) -> dict[str, str]:
+    """Where start and goals were moved, in words."""
+    return {f"{name} moved": f"from {text_of(asked)} to {text_of(end)}" for name, asked, end in _moves(answer)}
+
+
+def moved_facts(answer: Path | Separated | AllSeparated) -> dict[str, Any]:
+    """The same as numbers: x, y and radians, without these of a place."""
+    found = {name: {"from": _row(asked), "to": _row(end)} for name, asked, end in _moves(answer)}
+    return {"moved": found} if found else {}
+
+
+def _moves(answer: Path | Separated | AllSeparated) -> list[tuple[str, Goal, Goal]]:
+    from cfree.planning.goals import AllSeparated
+
+    if isinstance(answer, AllSeparated):
+        begun, goals = answer.proofs[0].moved, answer.moved_goals
+        moves: list[tuple[str, Goal | None, Goal]] = [("start", begun.start if begun else None, answer.start)]
+        moves += [("goal" if len(goals) == 1 else f"goal {k}", goals[end], end) for k, end in enumerate(goals)]
+    else:
+        moved, goal = answer.moved or Moved(), answer.goal
+        end: Goal = (goal.x, goal.y) if isinstance(moved.goal, tuple) else goal
+        moves = [("start", moved.start, answer.start), ("goal", moved.goal, end)]
+    return [(name, asked, end) for name, asked, end in moves if asked is not None]
+
+
+def _row(end: Goal) -> list[float]:
+    return [float(end.x), float(end.y), end.theta] if isinstance(end, Pose) else [*map(float, end)]
 
 
 def motion_counts(path: Path) -> dict[str, int]:

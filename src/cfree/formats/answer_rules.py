@@ -36,10 +36,10 @@ def path_faults(model: PathModel, data: Any) -> Faults:
         return
     if not model.exact:
         yield from _missed(model)
-    elif model.moved.goal != model.ends[1]:
+    elif model.driven.goal != model.ends[1]:
         yield (), "the motions do not lead to the exact goal; correct one of them"
     else:
-        yield from effect_faults(model, model.moved, data)
+        yield from effect_faults(model, model.driven, data)
 
 
 def effect_faults(model: AnswerModel, path: Path, data: Any) -> Faults:
@@ -85,7 +85,7 @@ def leeway_of(model: PathModel, data: Any) -> Fraction | None:
     """See `Effect.leeway`."""
     assert model.stamp
     literals: Written = literals_of(data)
-    return Effect(model.moved, model.ends[1], model.stamp).leeway(literals)
+    return Effect(model.driven, model.ends[1], model.stamp).leeway(literals)
 
 
 # --- decimals alone ---
@@ -122,7 +122,7 @@ def _shown(pose: Pose, theta: float) -> str:
 
 def completed(model: PathModel) -> Path:
     """The path, with one motion more if it ends short of the goal as it is written."""
-    path, goal = model.moved, model.ends[1]
+    path, goal = model.driven, model.ends[1]
     if path.goal == goal:
         return path
     return replace(path, motions=(*path.motions, motion_between(path.goal, goal)))

@@ -19,10 +19,11 @@ from cfree.errors import CfreeError, InvalidPoseError
 from cfree.exact.pose import Pose
 from cfree.formats.contact_format import ContactModel
 from cfree.formats.json_types import Coordinate, Point, Strict
-from cfree.formats.scene_format import Bounds, Configuration, PolygonModel, Text, Version
+from cfree.formats.scene_format import Bounds, Configuration, Goal, PolygonModel, Text, Version
 from cfree.formats.scene_values import Fault, list_of
 from cfree.paths.path import Path
 from cfree.scene.digest import Stamp
+from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 
 
@@ -146,6 +147,24 @@ class ExactEnds(Strict):
     goal: Configuration
 
 
+class MovedModel(Strict):
+    """Where start and goal were asked for, if they were moved."""
+
+    start: Configuration | None = None
+    goal: Goal | None = None
+
+    @model_validator(mode="after")
+    def _is_one(self) -> Self:
+        if self.start is None and self.goal is None:
+            raise Fault("expected a start, a goal, or both, got {got}")
+        return self
+
+    @property
+    def made(self) -> Moved:
+        ends: Any = self
+        return Moved(ends.start, ends.goal)
+
+
 class StampModel(Strict):
     """Which scene it is an answer for."""
 
@@ -180,6 +199,7 @@ class AnswerModel(Strict):
     start: Configuration
     goal: Configuration
     exact: ExactEnds | None = None
+    moved: MovedModel | None = None
 
     @model_validator(mode="after")
     def _has_a_scene(self) -> Self:
@@ -219,8 +239,10 @@ class PathModel(AnswerModel):
         return self
 
     @cached_property
-    def moved(self) -> Path:
+    def driven(self) -> Path:
         """Where the motions lead."""
         motions = (m for model in self.motions for m in model.motions)
         kept = self.clearance or Fraction(0), tuple(self.disc)
-        return Path(self.ends[0], motions, self.units, self.frame, self._of_polygons, self.stamp, *kept)
+        asked = self.moved.made if self.moved else None
+        given = self.units, self.frame, self._of_polygons, self.stamp
+        return Path(self.ends[0], motions, *given, *kept, moved=asked)

@@ -18,6 +18,7 @@ from cfree.formats.json_text import json_line
 from cfree.paths.path import Path
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import Stamp
+from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 
 if TYPE_CHECKING:
@@ -59,7 +60,14 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "start": _numbers(decimals, ("start",), 3),
         "goal": _numbers(decimals, ("goal",), 3),
         "exact": {"start": _exact(answer.start), "goal": _exact(answer.goal)},
+        **({"moved": _asked(answer.moved)} if answer.moved else {}),
     }
+
+
+def _asked(moved: Moved) -> dict[str, Any]:
+    """Where start and goal were asked for."""
+    ends = {"start": moved.start, "goal": moved.goal}
+    return {name: _exact(end) if isinstance(end, Pose) else _exactly(end) for name, end in ends.items() if end}
 
 
 def has_polygons(answer: Path | Separated) -> bool:

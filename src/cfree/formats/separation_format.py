@@ -143,6 +143,7 @@ class SeparationModel(AnswerModel):
             frame=self.frame,
             scene=self._of_polygons,
             stamp=self.stamp,
+            moved=self.moved.made if self.moved else None,
         )
 
 

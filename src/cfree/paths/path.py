@@ -21,6 +21,7 @@ from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
+from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 from cfree.value import Shown
 from cfree.words import counted
@@ -54,6 +55,8 @@ class Path(Shown):
         sum with it.
     curved : Scene, optional
         With round shapes, if it is a path among these; `scene` has polygons around them.
+    moved : Moved, optional
+        Where start and goal were asked for, if they were moved to free poses.
 
     Examples
     --------
@@ -72,6 +75,7 @@ class Path(Shown):
     clearance: Fraction = Fraction(0)
     disc: tuple[ExactPoint, ...] = ()
     curved: Scene | None = field(default=None, compare=False)
+    moved: Moved | None = None
 
     def __init__(
         self,
@@ -84,8 +88,9 @@ class Path(Shown):
         clearance: Fraction = Fraction(0),
         disc: tuple[ExactPoint, ...] = (),
         curved: Scene | None = None,
+        moved: Moved | None = None,
     ) -> None:
-        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp, clearance, disc, curved)
+        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp, clearance, disc, curved, moved)
         for item, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, item.name, value)
 

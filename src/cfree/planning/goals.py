@@ -69,6 +69,16 @@ class AllSeparated(Shown):
         return self.proofs[0].start
 
     @property
+    def moved_goals(self) -> dict[Goal, Goal]:
+        """Where goals were asked for that were moved to free poses, by where they are."""
+        found = {}
+        for proof in self.proofs:
+            if proof.moved and proof.moved.goal is not None:
+                is_place = not isinstance(proof.moved.goal, Pose)
+                found[(proof.goal.x, proof.goal.y) if is_place else proof.goal] = proof.moved.goal
+        return found
+
+    @property
     def clearance(self) -> Fraction:
         """If not 0: no path leads to any of them that keeps at least this distance from obstacles and workspace."""
         return max(proof.clearance for proof in self.proofs)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Any, overload
+from typing import Any, cast, overload
 
 from cfree.arguments import checked
 from cfree.exact.number import Number
@@ -13,6 +13,7 @@ from cfree.paths.path import Objective, Path
 from cfree.paths.preferences import NONE, Preferences
 from cfree.planning.curved import CurvedPlanner
 from cfree.planning.goals import AllSeparated
+from cfree.planning.moved_ends import free_ends
 from cfree.planning.planner import Planner
 from cfree.planning.separation import Separated
 from cfree.scene.goals import to_goals
@@ -32,6 +33,7 @@ def plan(
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
     tolerance: float | None = None,
+    nearest_free: bool = False,
 ) -> Path | Separated: ...
 @overload
 def plan(
@@ -46,6 +48,7 @@ def plan(
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
     tolerance: float | None = None,
+    nearest_free: bool = False,
 ) -> Path | Separated | AllSeparated: ...
 @checked
 def plan(
@@ -60,6 +63,7 @@ def plan(
     max_seconds: float | None = None,
     progress: Callable[[float], object] | None = None,
     tolerance: float | None = None,
+    nearest_free: bool = False,
 ) -> Path | Separated | AllSeparated:
     """A path from start to goal, each motion of it proved free, or a proof that there is none.
 
@@ -87,6 +91,9 @@ def plan(
     tolerance : float, optional
         The least error of the polygons for round shapes; a 2**14th of the robot's size if left out. If neither this nor
         `max_seconds` is given, a question about round shapes ends undecided after 100,000 contact patches, about 10 s.
+    nearest_free : bool
+        Move a start or goal that is not free, or keeps less than the clearance, to the nearest free pose that a search
+        finds. The answer says so: `Path.moved`, `Separated.moved`.
 
     Returns
     -------
@@ -96,8 +103,8 @@ def plan(
     Raises
     ------
     InvalidPoseError
-        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance; of a place
-        in all orientations.
+        If there is no start or goal, or the robot overlaps an obstacle there, or is nearer than the clearance; at a
+        place in all orientations.
     IncompleteError
         If `max_seconds` were not enough. If the largest clearance of a path is within 0.1 % of the one asked for this
         is an `UndecidedError`, which has the interval; so if polygons for round shapes do not tell, with their error.
@@ -127,7 +134,15 @@ def plan(
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     if goal is None and scene.goals:
         goal = scene.goals
-    if goal is not None and isinstance(goals := to_goals(goal), tuple):
-        start, _ = required(scene, start, Pose(0, 0))
-        return planner.plan_any(start, goals, clearance=clearance, improve=improve, objective=objective)
-    return planner.plan(*required(scene, start, goal), clearance=clearance, improve=improve, objective=objective)
+    goals = () if goal is None else to_goals(goal)
+    start, one = required(scene, start, goals if isinstance(goals, Pose) else Pose(0, 0) if goals else None)
+    several = goals if isinstance(goals, tuple) and goals else None
+    ends = free_ends(scene, start, several or (one,), clearance) if nearest_free else None
+    if ends:
+        start, several, one = ends.start, several and ends.goals, cast(Pose, ends.goals[0])
+    answer: Path | Separated | AllSeparated
+    if several:
+        answer = planner.plan_any(start, several, clearance=clearance, improve=improve, objective=objective)
+    else:
+        answer = planner.plan(start, one, clearance=clearance, improve=improve, objective=objective)
+    return ends.marked(answer) if ends else answer

@@ -29,6 +29,7 @@ from cfree.planning.core_ways import numbers_of
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.digest import Stamp
 from cfree.scene.features import SceneFeatures, unpacked
+from cfree.scene.goals import Moved
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Shown, Value
 from cfree.words import counted, listed
@@ -144,6 +145,8 @@ class Separated(Shown):
         Then: convex polygons inside the scene's robot, one for each polygon of `robot`.
     curved : Scene, optional
         With round shapes, if it is a proof for these; `scene` has polygons inside of them.
+    moved : Moved, optional
+        Where start and goal were asked for, if they were moved to free poses.
     """
 
     start: Pose
@@ -159,6 +162,7 @@ class Separated(Shown):
     clearance: Fraction = field(default=Fraction(0), repr=False)
     cores: tuple[Polygon, ...] = field(default=(), repr=False)
     curved: Scene | None = field(default=None, compare=False, repr=False)
+    moved: Moved | None = field(default=None, repr=False)
 
     def __repr__(self) -> str:
         obstacles = listed([str(k) for k in self.obstacles], ", ")
@@ -182,8 +186,8 @@ class Separated(Shown):
         return cls(start, goal, "closed", pieces, robot, bounds, scene.units, scene=scene)
 
     def reversed(self) -> Separated:
-        """The same proof for the way back."""
-        return replace(self, start=self.goal, goal=self.start)
+        """The same proof for the way back, from pose to pose as they are."""
+        return replace(self, start=self.goal, goal=self.start, moved=None)
 
 
 class Insets:

@@ -2,17 +2,70 @@
 
 from __future__ import annotations
 
+import math
 import reprlib
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from cfree.arguments import checked
 from cfree.errors import InvalidPoseError
 from cfree.exact.number import ExactPoint, to_fraction
 from cfree.exact.pose import Pose, to_pose
 
 Goal = Pose | ExactPoint
+
+
+@checked
+@dataclass(frozen=True)
+class Moved:
+    """Where start and goal of an answer were asked for, before they were moved to free poses.
+
+    Parameters
+    ----------
+    start : Pose, optional
+        None if the start is the one asked for.
+    goal : Pose, or exact place (x, y), optional
+        None if the goal is the one asked for.
+
+    Examples
+    --------
+    >>> import cfree
+    >>> wall = [(2, 0), (3, 0), (3, 9), (2, 9)]
+    >>> scene = cfree.Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall])
+    >>> path = cfree.plan(scene, ("1.25", 2, 0), (5, 0, 0), nearest_free=True)
+    >>> path.start == cfree.Pose(1, 2), path.moved.start == cfree.Pose("1.25", 2), path.moved.goal
+    (True, True, None)
+    """
+
+    start: Pose | None = None
+    goal: Goal | None = None
+
+
+def text_of(goal: Goal) -> str:
+    """A pose, or a place, in words.
+
+    Examples
+    --------
+    >>> text_of(Pose("0.1", 2, "90deg")), text_of(to_goals([(0.5, 3)])[0])
+    ('(0.1, 2, 90 deg)', '(0.5, 3, any)')
+    """
+    if isinstance(goal, Pose):
+        return f"({float(goal.x):g}, {float(goal.y):g}, {math.degrees(goal.theta):g} deg)"
+    return f"({float(goal[0]):g}, {float(goal[1]):g}, any)"
+
+
+def text_of_move(asked: Goal | None, end: Goal) -> str:
+    """An end in words, with where it was asked for if it was moved.
+
+    Examples
+    --------
+    >>> text_of_move(None, Pose(1, 2)), text_of_move(Pose(0, 2), Pose(1, 2))
+    ('(1, 2, 0 deg)', '(1, 2, 0 deg) [moved from (0, 2, 0 deg)]')
+    """
+    return text_of(end) if asked is None else f"{text_of(end)} [moved from {text_of(asked)}]"
 
 
 def to_goals(value: Any) -> tuple[Goal, ...] | Pose:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import time
 from collections.abc import Callable, Sequence
@@ -10,16 +9,28 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from cfree.arguments import checked
+from cfree.exact.number import ExactPoint
+from cfree.exact.pose import Pose
 from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
 from cfree.scene.digest import Stamp, stamp_of
-from cfree.scene.goals import Goal
+from cfree.scene.goals import Moved, text_of, text_of_move
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.verify.curves import mismatches
 from cfree.verify.leeway import is_around_disc, roomier, turning, with_disc
-from cfree.verify.motions import CLEARANCE, CONTINUOUS, DECIMALS, ENDS, FREE, KEPT, end_findings, path_findings
+from cfree.verify.motions import (
+    CLEARANCE,
+    CONTINUOUS,
+    DECIMALS,
+    ENDS,
+    FREE,
+    KEPT,
+    end_findings,
+    fault_at,
+    path_findings,
+)
 from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
@@ -31,6 +42,7 @@ if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
 
 SCENE, ASKED, PIECES, TURNS, ROUND = "scene", "poses asked for", "convex pieces", "orientations", "round shapes"
+MOVED = "moved"
 NO_ROOM = {
     DECIMALS: 'they are said to be "free", and no room is enough for that; say "approximate"',
     CLEARANCE: "its polygon is not convex, or not around a disc of that radius; correct one of them",
@@ -102,6 +114,7 @@ def answer(
     world = World(given.scene if scene.curved and given.scene else scene)
     findings += [Finding(PIECES, name, "its convex pieces do not tile it") for name in world.untiled]
     findings += end_findings(given, world)
+    findings += _needless(given, world)
     if isinstance(given, Path):
         larger: dict[str, World | None] = {}
         if read and read.decimals == "free":
@@ -116,6 +129,7 @@ def answer(
     extents = {
         **_of_scene(given if read else None),
         ASKED: "start and goal, where the scene has them",
+        **_of_moved(given),
         **(_of_curves(scene, given) if scene.curved else {}),
         PIECES: f"{len(world.parts)} of the robot, {len(world.obstacle_pieces)} of the obstacles tile them",
         ENDS: "both are free" + (" among the polygons" if scene.curved else ""),
@@ -124,6 +138,7 @@ def answer(
     }
     refuted = {finding.kind for finding in findings}
     how = dict.fromkeys(extents, PROVED) | dict.fromkeys((CLOSED, SIDES), SKIPPED if CONTACTS in refuted else PROVED)
+    how |= {MOVED: SKIPPED} if given.moved and _is_left(given) else {}
     how |= {DECIMALS: SKIPPED} if read and read.decimals == "approximate" else {}
     how |= dict.fromkeys(refuted, REFUTED)
     checks = tuple(Check(name, how[name], text) for name, text in extents.items())
@@ -136,11 +151,14 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
     findings, checks = list[Finding](), list[Check]()
     polygons = given.scene if scene.curved else scene  # that these are inside is seen to for each proof
     world = polygons and World(polygons)
-    if scene.start not in (None, given.start):
-        findings.append(Finding(ASKED, "start", f"it is {_text(given.start)}, and another in the scene"))
+    begun = given.proofs[0].moved
+    asked_start = given.start if begun is None or begun.start is None else begun.start
+    if scene.start not in (None, asked_start):
+        findings.append(Finding(ASKED, "start", f"it is {text_of(asked_start)}, and another in the scene"))
+    asked_goals = [given.moved_goals.get(goal, goal) for goal in given.goals]
     for goal in (scene.goal, *scene.goals):
-        if goal is not None and goal not in given.goals:
-            findings.append(Finding(ASKED, "goal", f"{_goal_text(goal)} in the scene is none of them"))
+        if goal is not None and goal not in asked_goals:
+            findings.append(Finding(ASKED, "goal", f"{text_of(goal)} in the scene is none of them"))
     without = Scene(scene.robot, scene.obstacles, bounds=scene.bounds, workspace=scene.workspace)
     for k, proof in enumerate(given.proofs):
         report(k / len(given.proofs))
@@ -171,8 +189,9 @@ def _all_of(scene: Scene, given: AllSeparated, report: Callable[[float], object]
         checks.append(Check(TURNS, PROVED, text))
     refuted = {finding.kind for finding in findings}
     checks = [replace(check, how=REFUTED) if check.name in refuted else check for check in checks]
-    goals = ", ".join(_goal_text(goal) for goal in given.goals)
-    proved = "" if findings else _none_leads(given, f"leads from {_text(given.start)} to any of {goals}")
+    goals = ", ".join(text_of_move(given.moved_goals.get(goal), goal) for goal in given.goals)
+    start = text_of_move(begun.start if begun else None, given.start)
+    proved = "" if findings else _none_leads(given, f"leads from {start} to any of {goals}")
     report(1.0)
     return Verification(tuple(checks), tuple(findings), (), _since(begin), proved)
 
@@ -188,20 +207,51 @@ def _since(begin: float) -> float:
     return time.perf_counter() - begin
 
 
-def _goal_text(goal: Goal) -> str:
-    return f"({float(goal[0]):g}, {float(goal[1]):g}, any)" if isinstance(goal, tuple) else _text(goal)
-
-
 def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
-    asked = {"start": (scene.start, given.start), "goal": (scene.goal, given.goal)}
+    """Start and goal that are not the scene's, or were moved from there."""
+    asked = given.moved or Moved()
+    pairs = {"start": (scene.start, given.start, asked.start), "goal": (scene.goal, given.goal, asked.goal)}
     findings = [
-        Finding(ASKED, name, f"it is {_text(its)}, and {_text(pose)} in the scene")
-        for name, (pose, its) in asked.items()
-        if pose is not None and pose != its
+        Finding(ASKED, name, f"it is {text_of_move(moved, its)}, and {text_of(pose)} in the scene")
+        for name, (pose, its, moved) in pairs.items()
+        if pose is not None and pose != (its if moved is None else moved)
     ]
-    if scene.goals and given.goal not in scene.goals and (given.goal.x, given.goal.y) not in scene.goals:
-        goals = ", ".join(map(_goal_text, scene.goals))
-        findings.append(Finding(ASKED, "goal", f"it is {_text(given.goal)}, and one of {goals} in the scene"))
+    reached = (given.goal, (given.goal.x, given.goal.y)) if asked.goal is None else (asked.goal,)
+    if scene.goals and not any(goal in reached for goal in scene.goals):
+        goals = ", ".join(map(text_of, scene.goals))
+        findings.append(Finding(ASKED, "goal", f"it is {text_of(given.goal)}, and one of {goals} in the scene"))
+    return findings
+
+
+def _of_moved(given: Path | Separated) -> dict[str, str]:
+    """What was moved, and from where."""
+    asked = given.moved or Moved()
+    pairs = (("start", asked.start, given.start), ("goal", asked.goal, given.goal))
+    texts = [f"{name} from {text_of(end)} to {text_of(to)}" for name, end, to in pairs if end is not None]
+    why = "whether it had to be was not looked at" if _is_left(given) else "it is forbidden there"
+    return {MOVED: f"{', '.join(texts)}; {why}, and that none is nearer is not proved"} if texts else {}
+
+
+def _has_room(world: World, place: ExactPoint) -> bool:
+    """True if an orientation is free at a place."""
+    x0, y0, x1, y1 = world.scene.bounds or (place * 2)
+    return x0 <= place[0] <= x1 and y0 <= place[1] <= y1 and left_out(world, place, []) != (0, 0)
+
+
+def _is_left(given: Path | Separated) -> bool:
+    """True if it is not checked that what was moved is forbidden where it was asked for."""
+    return bool(given.clearance) or given.curved is not None or (given.scene is not None and given.stamp is not None)
+
+
+def _needless(given: Path | Separated, world: World) -> list[Finding]:
+    """Ends that were moved and need not have been: their poses are free."""
+    asked, findings = given.moved or Moved(), list[Finding]()
+    for name, end in (("start", asked.start), ("goal", asked.goal)):
+        if end is None or _is_left(given):
+            continue
+        is_free = fault_at(end, world) is None if isinstance(end, Pose) else _has_room(world, end)
+        if is_free:
+            findings.append(Finding(MOVED, name, f"{text_of(end)} is free, and it was moved; plan anew"))
     return findings
 
 
@@ -268,7 +318,8 @@ def _of_separation(proof: Separated) -> dict[str, str]:
 
 
 def _sentence(given: Path | Separated, read: Read | None) -> str:
-    ends, far = (_text(given.start), _text(given.goal)), f"{float(given.clearance):g} from obstacles and workspace"
+    asked, far = given.moved or Moved(), f"{float(given.clearance):g} from obstacles and workspace"
+    ends = text_of_move(asked.start, given.start), text_of_move(asked.goal, given.goal)
     if isinstance(given, Path):
         count = counted(len(given.motions), "motion")
         only = "; its decimals are approximate" if read and read.decimals == "approximate" else ""
@@ -283,7 +334,3 @@ def _none_leads(given: Separated | AllSeparated, anywhere: str) -> str:
     if given.of == "closed":
         return f"No path {anywhere}, not even one that touches."
     return f"No path that keeps a distance from everything {anywhere}; one that touches may."
-
-
-def _text(pose: Pose) -> str:
-    return f"({float(pose.x):g}, {float(pose.y):g}, {math.degrees(pose.theta):g} deg)"

@@ -88,12 +88,17 @@ def _course_in(there: World, placed: Placed, motion: Motion, world: World) -> Co
 def end_findings(given: Path | Separated, world: World) -> Iterator[Finding]:
     """Start and goal, if they are forbidden."""
     for name, pose in (("start", given.start), ("goal", given.goal)):
-        placed = place_of(pose, world.scale)
-        where = _beyond(world, placed)
-        if where is None and collision(world, Course(placed, STANDING, world.scale)) is not None:
-            where = "it is forbidden"
-        if where is not None:
-            yield Finding(ENDS, name, where)
+        if (fault := fault_at(pose, world)) is not None:
+            yield Finding(ENDS, name, fault)
+
+
+def fault_at(pose: Pose, world: World) -> str | None:
+    """What is wrong with a pose; None if it is free."""
+    placed = place_of(pose, world.scale)
+    where = _beyond(world, placed)
+    if where is None and collision(world, Course(placed, STANDING, world.scale)) is not None:
+        return "it is forbidden"
+    return where
 
 
 def touches(world: World, pose: Pose) -> bool:

@@ -1,0 +1,105 @@
+"""Starts and goals that are not free, moved to the nearest free poses that are found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from cfree.collision.nearer import require_distance
+from cfree.collision.nearest_free import nearest_free, require_free
+from cfree.collision.pose_checker import PoseChecker, is_free
+from cfree.errors import InvalidPoseError
+from cfree.exact.number import Number, to_fraction
+from cfree.exact.pose import Pose
+from cfree.free.turn_in_place import turn_in_place
+from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated, name_of
+from cfree.planning.separation import Separated
+from cfree.polygons.disc import around_disc
+from cfree.scene.dilation import grown_by
+from cfree.scene.goals import Goal, Moved, text_of
+from cfree.scene.scene import Scene, size_of, with_robot
+
+ROUND = 1e-3  # of the robot's size: error of the polygons around round shapes
+SIDES = 100  # of the polygon around a disc whose radius is a clearance
+
+
+@dataclass(frozen=True)
+class Ends:
+    """A start and goals that are free, and where they were asked for.
+
+    Attributes
+    ----------
+    start : Pose
+    goals : tuple of Pose or place
+    asked_start : Pose or None
+        None if the start was not moved.
+    asked_goals : tuple of Pose, place or None
+    """
+
+    start: Pose
+    goals: tuple[Goal, ...]
+    asked_start: Pose | None
+    asked_goals: tuple[Goal | None, ...]
+
+    def marked(self, answer: Path | Separated | AllSeparated) -> Path | Separated | AllSeparated:
+        """The answer, which says what was moved."""
+        if isinstance(answer, AllSeparated):
+            return replace(answer, proofs=tuple(replace(proof, moved=self._of(proof.goal)) for proof in answer.proofs))
+        return replace(answer, moved=self._of(answer.goal))
+
+    def _of(self, goal: Pose) -> Moved | None:
+        """What was moved of an answer to one of the goals."""
+        pairs = zip(self.goals, self.asked_goals, strict=True)
+        found = next((asked for end, asked in pairs if end in (goal, (goal.x, goal.y))), None)
+        return None if found is None and self.asked_start is None else Moved(self.asked_start, found)
+
+
+def free_ends(scene: Scene, start: Pose, goals: Sequence[Goal], clearance: Number | None) -> Ends:
+    """Start and goals, each of them moved to the nearest free pose that is found, unless it is free.
+
+    Parameters
+    ----------
+    scene : Scene
+    start : Pose
+    goals : sequence of Pose or place
+        At a place any orientation is enough.
+    clearance : number or None
+        What they have to keep from obstacles and workspace.
+
+    Raises
+    ------
+    InvalidPoseError
+        If no free pose is found.
+    """
+    straight = scene.outer(max(map(size_of, scene.robot)) * ROUND) if scene.curved else scene
+    distance = None if clearance is None else to_fraction(clearance)
+    ring = None if distance is None else around_disc(distance, SIDES)
+    room = PoseChecker(straight if ring is None else with_robot(straight, grown_by(straight, ring), straight.bounds))
+
+    def is_fit(end: Goal) -> bool:
+        if not isinstance(end, Pose):
+            return bool(turn_in_place(room.scene, Pose(*end)))
+        if distance is None or scene.curved:
+            return room.is_free(end) or (distance is None and is_free(scene, end) is True)
+        try:
+            require_free(scene, end)
+            require_distance(scene, end, distance)
+        except InvalidPoseError:
+            return False
+        return True
+
+    def moved(end: Goal, name: str) -> Goal:
+        if is_fit(end):
+            return end
+        found = nearest_free(room, end if isinstance(end, Pose) else Pose(*end, {"tau": start.tau}))
+        if found is None:
+            far = "" if distance is None else f" and {float(distance):g} away from everything"
+            raise InvalidPoseError(f"{name} {text_of(end)}: no pose near by is free{far}; give another")
+        return found if isinstance(end, Pose) else (found.x, found.y)
+
+    begin = moved(start, "start")
+    ends = tuple(moved(goal, name_of(goals, k)) for k, goal in enumerate(goals))
+    assert isinstance(begin, Pose)
+    asked = tuple(None if goal == end else goal for goal, end in zip(goals, ends, strict=True))
+    return Ends(begin, ends, None if begin == start else start, asked)
