@@ -126,7 +126,7 @@ def test_check_reports_removed_points_and_forbidden_poses(run: Run, tmp_path: Pa
         '"start": [2, 0, 0], "goal": [4, 0.5, "90deg"]}'
     )
     text = run("check", file).stdout
-    assert "removed    bench: outer ring, point 1: collinear" in text
+    assert "removed    obstacle 0 (bench), 2 x 1 at (4, 0.5): outer ring, point 1: collinear" in text
     assert "theta 0 degrees: free" in text  # touching is free
     assert "theta 90 degrees: FORBIDDEN" in text
 

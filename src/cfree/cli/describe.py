@@ -14,6 +14,7 @@ from cfree.forbidden.kinds import KINDS
 from cfree.free.turn_in_place import turn_in_place
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import BODY, SceneFeatures, scene_features
+from cfree.scene.naming import placed
 from cfree.scene.scene import round_count, shapes_of
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def describe(scene: Scene) -> dict[str, Any]:
     checker = PoseChecker(scene, features) if scene.start or scene.goal else None
     shapes = [
         *(("robot" if len(scene.robot) == 1 else f"robot[{k}]", part) for k, part in enumerate(scene.robot)),
-        *zip(scene.obstacle_names, scene.obstacles, strict=True),
+        *((placed(scene, k), obstacle) for k, obstacle in enumerate(scene.obstacles)),
         *([("workspace", scene.workspace)] if scene.workspace else []),
     ]
     return {

@@ -40,6 +40,7 @@ from cfree.formats.outlines import Drawn, shapes_of_drawing
 from cfree.formats.scene_settings import read_settings
 from cfree.formats.shapes import Shapes
 from cfree.formats.source import DEEPEST, Source, read_bytes
+from cfree.words import counted
 
 UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 7: "km", 10: "yd", 14: "dm"}
 """Of $INSUNITS."""
@@ -293,7 +294,7 @@ def _bezier(p: list[Vector]) -> Segment:
             return quadratic(a, b, c)
         case [a, b, c, d]:
             return Cubic((a, b, c, d))
-    raise ValueError(f"a curve of {len(p)} control points")
+    raise ValueError(f"a curve of {counted(len(p), 'control point')}")
 
 
 def _bulged_ring(given: list[Any], closed: bool) -> Ring:

@@ -180,7 +180,7 @@ class Scene(Shown):
         title = f"{self.name!r}, " if self.name else ""
         parts, count = len(self.robot), len(self.obstacles)
         robot = f"{parts} {'shapes' if self.curved else 'polygons'}, " if parts > 1 else ""
-        obstacles = f"{count} obstacle{'' if count == 1 else 's'}{f': {_edges(self.obstacles)}' if count else ''}"
+        obstacles = counted(count, "obstacle") + (f": {_edges(self.obstacles)}" if count else "")
         return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles})"
 
     @checked
