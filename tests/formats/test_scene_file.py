@@ -412,6 +412,10 @@ def test_an_image_given_as_a_scene_names_the_yaml_beside_it(tmp_path: Path) -> N
         for reader in (load_scene, cfree.load, cfree.load_shapes):
             with pytest.raises(FormatError, match=f"{name}: an image; .* a YAML file with the line image: {name}$"):
                 reader(image)
+        other = tmp_path / f"of_{image.stem}.yml"
+        other.write_text(f"resolution: 1\nimage: maps/{name}\n")
+        with pytest.raises(FormatError, match=f"{name}: an image; give what says how to read it, {other}$"):
+            load_scene(image)
         beside = image.with_suffix(".yaml")
         beside.write_text(f"image: {name}")
         with pytest.raises(FormatError, match=f"{name}: an image; give what says how to read it, {beside}$"):

@@ -65,6 +65,8 @@ function pose(value: Json, place: string): FilePose | undefined {
   const degrees = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*(?:deg|°)\s*$/.exec(angle) : null;
   const radians = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*rad\s*$/.exec(angle) : null;
   const theta = degrees ? Number(degrees[1]) * Math.PI / 180 : radians ? Number(radians[1]) : Number(number(angle, `${place}[2]`));
+  if (typeof angle === "string" && !degrees && !radians && Math.abs(theta) > 2 * Math.PI)
+    throw new Error(`${place}[2]: ${angle} is more than a whole turn in radians; write ${angle}deg or ${angle}rad`);
   return Number.isFinite(theta) ? { x, y, theta } : fail(`${place}[2]`, "an angle", angle);
 }
 

@@ -157,12 +157,12 @@ def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[
 
 
 def moved_rows(answer: Path | Separated | AllSeparated) -> dict[str, str]:
-    """Where start and goals were moved, in words."""
+    """Moves of start and goals, in words."""
     return {f"{name} moved": f"from {text_of(asked)} to {text_of(end)}" for name, asked, end in _moves(answer)}
 
 
 def moved_facts(answer: Path | Separated | AllSeparated) -> dict[str, Any]:
-    """The same as numbers: x, y and radians, without these of a place."""
+    """Moves of start and goals as numbers: x, y and radians, without these of a place."""
     found = {name: {"from": _row(asked), "to": _row(end)} for name, asked, end in _moves(answer)}
     return {"moved": found} if found else {}
 

@@ -148,7 +148,7 @@ class ExactEnds(Strict):
 
 
 class MovedModel(Strict):
-    """Where start and goal were asked for, if they were moved."""
+    """Start and goal as they were asked for, if they were moved."""
 
     start: Configuration | None = None
     goal: Goal | None = None
@@ -240,7 +240,7 @@ class PathModel(AnswerModel):
 
     @cached_property
     def driven(self) -> Path:
-        """Where the motions lead."""
+        """Path that the motions make from the start."""
         motions = (m for model in self.motions for m in model.motions)
         kept = self.clearance or Fraction(0), tuple(self.disc)
         asked = self.moved.made if self.moved else None

@@ -65,7 +65,7 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
 
 
 def _asked(moved: Moved) -> dict[str, Any]:
-    """Where start and goal were asked for."""
+    """Start and goal as they were asked for, exactly."""
     ends = {"start": moved.start, "goal": moved.goal}
     return {name: _exact(end) if isinstance(end, Pose) else _exactly(end) for name, end in ends.items() if end}
 

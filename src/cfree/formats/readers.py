@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib import import_module
 from os import PathLike
 from pathlib import Path
@@ -29,6 +30,9 @@ DRAWINGS = {
 """Suffixes of files that only their own readers open."""
 IMAGES = {".pgm", ".ppm", ".pbm", ".png", ".bmp", ".gif", ".jpg", ".jpeg", ".tif", ".tiff", ".webp"}
 """Suffixes of images, which maps name."""
+YAML = (".yaml", ".yml")
+MOST_BESIDE, MOST_HEAD = 50, 1 << 14
+"""Files beside an image that are looked at, and characters of each."""
 
 
 def is_drawing(path: str | PathLike[str]) -> bool:
@@ -60,12 +64,22 @@ def refuse_other_kinds(file: str) -> None:
     if is_archive(file):
         fault = "a boundary or free space, no scene; give the scene that it was computed for"
     elif path.suffix.lower() in IMAGES and path.is_file():
-        beside = [path.with_suffix(suffix) for suffix in (".yaml", ".yml")]
-        named = next((str(each) for each in beside if each.is_file()), f"a YAML file with the line image: {path.name}")
-        fault = f"an image; give what says how to read it, {named}"
+        fault = f"an image; give what says how to read it, {_yaml_of(path)}"
     else:
         return
     raise InvalidFileError(file, [whole(fault)])
+
+
+def _yaml_of(image: Path) -> str:
+    """The file beside an image of its name, or that names it; or words for it."""
+    beside = [file for suffix in YAML for file in sorted(image.parent.glob(f"*{suffix}"))[:MOST_BESIDE]]
+    for file in sorted(beside, key=lambda file: file.stem != image.stem):
+        with suppress(OSError):
+            with file.open(encoding="utf-8", errors="replace") as stream:
+                head = stream.read(MOST_HEAD)
+            if file.stem == image.stem or re.search(rf"^image:.*\b{re.escape(image.name)}\b", head, re.MULTILINE):
+                return str(file)
+    return f"a YAML file with the line image: {image.name}"
 
 
 def is_wkt(findings: Findings) -> bool:

@@ -56,7 +56,7 @@ class Path(Shown):
     curved : Scene, optional
         With round shapes, if it is a path among these; `scene` has polygons around them.
     moved : Moved, optional
-        Where start and goal were asked for, if they were moved to free poses.
+        Start and goal as they were asked for, if they were moved to free poses.
 
     Examples
     --------

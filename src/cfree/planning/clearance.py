@@ -168,7 +168,7 @@ def _ends(scene: Scene, start: Pose, goal: Goal) -> list[Pose]:
 
 
 def _proofs(asked: _Asked, goal: Goal, ring: Sequence[ExactPoint], name: str) -> list[Separated]:
-    """That no path keeps the clearance, if a robot all of which is nearer to the scene's proves it; else none.
+    """Prove by a robot all of which is nearer to the scene's that no path keeps the clearance; none if it does not.
 
     Where that robot touches an obstacle, the scene's is nearer than the clearance. Bounds are wider, so that none of
     its contacts is one with the scene's. At a place it turns freely, without touching, where it is free if it is a

@@ -70,7 +70,7 @@ class AllSeparated(Shown):
 
     @property
     def moved_goals(self) -> dict[Goal, Goal]:
-        """Where goals were asked for that were moved to free poses, by where they are."""
+        """Goals as they were asked for, by the free poses and places that they were moved to."""
         found = {}
         for proof in self.proofs:
             if proof.moved and proof.moved.goal is not None:

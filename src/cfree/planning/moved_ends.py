@@ -49,7 +49,7 @@ class Ends:
         return replace(answer, moved=self._of(answer.goal))
 
     def _of(self, goal: Pose) -> Moved | None:
-        """What was moved of an answer to one of the goals."""
+        """Return what was moved of an answer to one of the goals."""
         pairs = zip(self.goals, self.asked_goals, strict=True)
         found = next((asked for end, asked in pairs if end in (goal, (goal.x, goal.y))), None)
         return None if found is None and self.asked_start is None else Moved(self.asked_start, found)

@@ -146,7 +146,7 @@ class Separated(Shown):
     curved : Scene, optional
         With round shapes, if it is a proof for these; `scene` has polygons inside of them.
     moved : Moved, optional
-        Where start and goal were asked for, if they were moved to free poses.
+        Start and goal as they were asked for, if they were moved to free poses.
     """
 
     start: Pose

@@ -21,7 +21,7 @@ Goal = Pose | ExactPoint
 @checked
 @dataclass(frozen=True)
 class Moved:
-    """Where start and goal of an answer were asked for, before they were moved to free poses.
+    """Start and goal of an answer as they were asked for, before they were moved to free poses.
 
     Parameters
     ----------

@@ -224,7 +224,7 @@ def _other_poses(scene: Scene, given: Path | Separated) -> list[Finding]:
 
 
 def _of_moved(given: Path | Separated) -> dict[str, str]:
-    """What was moved, and from where."""
+    """Moves of start and goal, in words."""
     asked = given.moved or Moved()
     pairs = (("start", asked.start, given.start), ("goal", asked.goal, given.goal))
     texts = [f"{name} from {text_of(end)} to {text_of(to)}" for name, end, to in pairs if end is not None]
