@@ -294,6 +294,18 @@ def test_proofs_for_a_place_and_a_clearance_that_lack_something_are_refuted() ->
     assert not cfree.verify.answer(SHUT, replace(proof, proofs=tuple(less))).verified
 
 
+@pytest.mark.slow
+def test_where_only_the_clearance_keeps_the_robot_from_turning_round_each_side_needs_a_proof() -> None:
+    place = Fraction(0), Fraction("-3.1")
+    assert [interval.start for interval in cfree.turn_in_place(SHUT, Pose(*place))] == [None], "it can turn round there"
+    proof = plan(SHUT, START, place, clearance="0.1")
+    assert isinstance(proof, AllSeparated) and len(proof.proofs) == 8, "each of its corners by itself, both ways"
+    assert cfree.verify.answer(SHUT, proof).verified
+    for k in (0, 3, 7):
+        lacking = replace(proof, proofs=(*proof.proofs[:k], *proof.proofs[k + 1 :]))
+        assert "no proof for 1 interval " in str(cfree.verify.answer(SHUT, lacking).findings[0])
+
+
 def keeps(scene: Scene, start: Pose, place: Any, clearance: Fraction, count: int) -> set[str]:
     """The oracle: what planning to many orientations at a place says, one by one."""
     said = set()
