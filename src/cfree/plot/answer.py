@@ -43,7 +43,7 @@ NEAR = 1.6  # robot's radii, or twice the least clearance: patches farther from 
 FADE = 0.5  # share of that from which on patches are fainter
 TINY = 0.03  # of the window: patches narrower or lower have no lines around them
 DASH = 8  # steps of the path
-MOST_PLACED = 3  # obstacles named with their places in a headline
+WIDEST = 160  # characters of a headline; in a longer one obstacles have no places
 STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
@@ -167,7 +167,7 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     labels.name_bounds(scene)
     without = "path" if answer.of == "closed" else "path of positive clearance"
     named = all_placed(scene, answer.obstacles)
-    if len(answer.obstacles) > MOST_PLACED:
+    if len(named) > WIDEST:
         named = listed([numbered(scene, k) for k in answer.obstacles], ", ")
     parted = f"parted by {plain(named)}" if named else "the one or the other touches, and fits exactly"
     _head(figure, scene, f"no {without} from start to goal", parted)
