@@ -50,6 +50,14 @@ def test_the_pieces_of_a_round_shape_have_its_number_and_are_named_once() -> Non
     ]
 
 
+def test_the_pieces_of_named_round_shapes_have_their_numbers() -> None:
+    ell = Curved([(5, 0), (8, 0), (8, 1), (6, 1), (6, 3), (5, 3)], grown="1/10")
+    disc = Curved.circle((20, 0), 1)
+    scene = Scene(SQUARE, [ell, disc, ell, SQUARE], obstacle_names=["a", "b", None, "c"]).outer(0.01)
+    names = [numbered(scene, k) for k in range(len(scene.obstacles))]
+    assert list(dict.fromkeys(names)) == ["obstacle 0 (a)", "obstacle 1 (b)", "obstacle 2", "obstacle 3 (c)"]
+
+
 def test_of_many_obstacles_eight_are_named() -> None:
     scene = Scene(SQUARE, [SQUARE] * 53)
     assert all_placed(scene, range(53)).count("obstacle") == 8 and all_placed(scene, range(53)).endswith("; ... of 53")

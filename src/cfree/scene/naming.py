@@ -32,7 +32,7 @@ def numbered(scene: Scene, obstacle: int) -> str:
         return f"the {NAMES[obstacle]}"
     name = scene.obstacle_names[obstacle]
     # the obstacles of a part of a scene, and the pieces of a round shape, are called by their numbers in the whole
-    return name if re.fullmatch(r"obstacle \d+", name) else f"{default_name(obstacle)} ({name})"
+    return name if re.fullmatch(r"obstacle \d+( \(.*\))?", name) else f"{default_name(obstacle)} ({name})"
 
 
 def placed(scene: Scene, obstacle: int) -> str:

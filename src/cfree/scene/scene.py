@@ -252,11 +252,12 @@ def with_polygons(scene: Scene, errors: Sequence[float], *, outward: bool) -> Sc
         return scene
     given = iter(errors)
     robot = [polygon for shape in scene.robot for polygon in polygons_for(shape, next(given), outward)]
-    named = [
-        (name, polygon)
-        for name, shape in zip(scene.obstacle_names, scene.obstacles, strict=True)
-        for polygon in polygons_for(shape, next(given), outward)
-    ]
+    named = list[tuple[str, Polygon]]()
+    for k, (name, shape) in enumerate(zip(scene.obstacle_names, scene.obstacles, strict=True)):
+        for polygon in polygons_for(shape, next(given), outward):
+            # what has another number now is still called by that of its shape
+            is_moved = name != default_name(k) and len(named) != k
+            named.append((f"{default_name(k)} ({name})" if is_moved else name, polygon))
     room = scene.workspace
     rooms = () if room is None else polygons_for(room, next(given), not outward)
     if not robot or (room and not rooms):
