@@ -383,6 +383,7 @@ def test_a_forbidden_end_is_moved_when_asked_for(run: Run, tmp_path: Path) -> No
         refused.exit_code == 2
         and "start (1.25, 2, 0 deg) is forbidden: robot part 0 overlaps obstacle 0, 1 x 9" in refused.stderr
     )
+    assert refused.stderr.endswith("is free and near by; or give --nearest-free\n")
     said = run("plan", file, "--nearest-free", "-o", answer)
     assert said.exit_code == 0
     lines = [" ".join(line.split()) for line in said.stdout.splitlines()]

@@ -10,7 +10,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from cfree.cli.faults import INCOMPLETE, REFUTED, fail
+from cfree.cli.faults import BAD_INPUT, INCOMPLETE, REFUTED, fail
 from cfree.cli.files import bar
 from cfree.cli.terminal import printable
 from cfree.scene.naming import all_placed
@@ -100,6 +100,8 @@ class Answering:
         nearest_free: bool = False,
     ) -> Answering:
         """The answer, with options of `Planner.plan`, unless a limit leaves the command without one."""
+        from cfree.cli.folders import FolderPlanner
+        from cfree.collision.nearest_free import ForbiddenPoseError
         from cfree.errors import IncompleteError
         from cfree.exact.pose import Pose
         from cfree.scene.scene import required
@@ -127,6 +129,9 @@ class Answering:
             return cls(planner, start, goal if is_one else None, files, *answers)
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
+        except ForbiddenPoseError as error:
+            is_folder = isinstance(planner, FolderPlanner)  # which moves nothing
+            fail(str(error) if is_folder else f"{error}; or give --nearest-free", BAD_INPUT)
 
     @property
     def path(self) -> Motions | None:
