@@ -426,7 +426,10 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
 
 @app.command(
     epilog=examples(
-        "cfree verify scene.json scene.npz", "cfree verify scene.json answer.json", "cfree verify city --sample 100"
+        "cfree verify scene.json scene.npz",
+        "cfree verify scene.json answer.json",
+        "cfree verify scene.json scene.npz --deep",
+        "cfree verify city --sample 100",
     )
 )
 @options.scene
@@ -440,11 +443,15 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
     default=12, show_default=True,
 )  # fmt: skip
 @click.option("--seed", type=int, metavar="N", help="Of the random choices.", default=0, show_default=True)
+@click.option(
+    "--deep", is_flag=True,
+    help="Of a boundary: count Euler numbers by slices and by the degree of the Gauss map. For small scenes.",
+)  # fmt: skip
 @options.workers
 @options.scheduler
 @options.as_json
 def verify(
-    scene: Path, file: Path | None, sample: int | None, slices: int, seed: int, workers: int | None,
+    scene: Path, file: Path | None, sample: int | None, slices: int, seed: int, deep: bool, workers: int | None,
     scheduler: str | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Check a boundary or an answer by independent exact code.
@@ -455,6 +462,8 @@ def verify(
     read.
     """
     with one_line_faults():
+        if deep and (file is None or scene.is_dir() or not is_archive(file)):
+            raise ValueError("--deep: is for a boundary in one file, as cfree boundary -o writes it; leave it out")
         if scene.is_dir():
             from cfree.cli import folders
 
@@ -481,7 +490,9 @@ def verify(
         given = load_scene(scene)
         with bar("verify") as progress:
             if is_archive(file):
-                result = verified_boundary(file, given, sample=sample, slices=slices, seed=seed, progress=progress)
+                result = verified_boundary(
+                    file, given, sample=sample, slices=slices, seed=seed, deep=deep, progress=progress
+                )
             else:
                 result = verified_answer(given, file, progress=progress)
         _print_verified(result, file, as_json)

@@ -155,14 +155,15 @@ class BoundaryRecord(Value):
 
     @cached_property
     def ruled(self) -> Floats:
-        ruled = self._ruled_near.copy()
+        ruled = self.ruled_near.copy()
         ruled[:, 0:2] = self.features.obstacles.xy[self.contact_obstacle]
         ruled[:, 4:6] = self.features.robot.xy[self.contact_robot]
         ruled.flags.writeable = False
         return ruled
 
     @cached_property
-    def _ruled_near(self) -> Floats:
+    def ruled_near(self) -> Floats:
+        """The same rows in the features' frame; see `evaluate_near`."""
         a, b = self.features.robot, self.features.obstacles
         on_edge = self.contact_kind == Kind.VERTEX_EDGE
         i, j = self.contact_robot, self.contact_obstacle
@@ -210,7 +211,7 @@ class BoundaryRecord(Value):
     @checked
     def evaluate_near(self, patch: ArrayLike, t: ArrayLike, theta: ArrayLike) -> Floats:
         """The same from the features' frame, which keeps areas and has all digits in scenes that are far away."""
-        s, t, theta = self._ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
+        s, t, theta = self.ruled_near[np.asarray(patch)], np.asarray(t, float), np.asarray(theta, float)
         ax, ay = s[..., 4] + t * s[..., 6], s[..., 5] + t * s[..., 7]
         c, n = np.cos(theta), np.sin(theta)
         x, y = s[..., 0] + t * s[..., 2] - (c * ax - n * ay), s[..., 1] + t * s[..., 3] - (n * ax + c * ay)

@@ -1,9 +1,10 @@
 """The geometry of contact surfaces: the paper's section 4, for both kinds of surface.
 
 `local` has forms, curvatures and directions at a point; `rulings` what the lines on a surface say of it; `area` areas,
-`total_curvature` integrals of K, `curvature_sum` what these add up to on closed surfaces; `development` unrolls v-e
-surfaces, with `elliptic` integrals; `geodesics` go straight on a surface; `congruence` finds equal helices, surfaces
-and patches; `kinematic` measures the poses that meet; `ruled` reads the eight numbers of a surface.
+`total_curvature` integrals of K, `curvature_sum` what these add up to on closed surfaces, `normals` how often their
+normals cover the sphere; `development` unrolls v-e surfaces, with `elliptic` integrals; `geodesics` go straight on a
+surface; `congruence` finds equal helices, surfaces and patches; `kinematic` measures the poses that meet; `ruled` reads
+the eight numbers of a surface.
 """
 
 from typing import TYPE_CHECKING
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
     from cfree.geometry.kinematic import meeting_volume as meeting_volume
     from cfree.geometry.local import LocalGeometry as LocalGeometry
     from cfree.geometry.local import local_geometry as local_geometry
+    from cfree.geometry.normals import GaussMap as GaussMap
+    from cfree.geometry.normals import gauss_map as gauss_map
     from cfree.geometry.rulings import distribution_parameters as distribution_parameters
     from cfree.geometry.rulings import is_developable as is_developable
     from cfree.geometry.rulings import is_helicoid as is_helicoid
@@ -46,6 +49,7 @@ __getattr__, __dir__, __all__ = lazy_names(
         "geodesics": "Geodesic geodesic",
         "kinematic": "meeting_volume",
         "local": "LocalGeometry local_geometry",
+        "normals": "GaussMap gauss_map",
         "rulings": "distribution_parameters is_developable is_helicoid is_minimal "
         "striction_curve striction_is_on_patch striction_parameter striction_parameters",
         "total_curvature": "patch_curvatures trapezoid_curvatures",

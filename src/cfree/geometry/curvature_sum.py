@@ -2,7 +2,9 @@
 
 The curvature of a closed surface with edges is in three places: on faces, K; along edges, the geodesic curvatures of
 both faces there; and at vertices, 2 pi minus the angles of the faces around. Each is computed from the equations of
-surfaces and curves. docs/theory/surface-geometry.md, "Gauss and Bonnet".
+surfaces and curves. Every face satisfies the theorem alone, so that the sum is V - E + F of any gluing: it checks K,
+geodesic curvatures and angles, and not the gluing. `gauss_map` checks that. docs/theory/surface-geometry.md, "Gauss
+and Bonnet".
 """
 
 from __future__ import annotations
@@ -83,6 +85,9 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
 
     Notes
     -----
+    The sum is V - E + F of whatever gluing is given, even of a wrong one: it checks curvatures and angles of faces. The
+    gluing is checked by `gauss_map`, and by `gap`.
+
     Time is linear in the number of coedges, some microseconds each.
 
     Examples

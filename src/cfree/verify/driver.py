@@ -1,4 +1,7 @@
-"""The driver: trapezoids, isolated parts, and slices, one after the other; then how all sides match."""
+"""The driver: trapezoids, isolated parts, and slices, one after the other; then how all sides match.
+
+`deep` counts the Euler characteristic again in two ways that know nothing of vertices, edges and faces.
+"""
 
 from __future__ import annotations
 
@@ -9,16 +12,20 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import CURVE
 from cfree.formats.boundary_file import read_boundary
+from cfree.geometry.normals import gauss_map
 from cfree.scene.scene import Scene
 from cfree.verify.angles import orientation
+from cfree.verify.euler import euler_from_slices
 from cfree.verify.isolated import IsolatedPart
 from cfree.verify.matching import Matching, matched
 from cfree.verify.missing import compared
-from cfree.verify.result import PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
+from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
 from cfree.verify.surfaces import Fault
 from cfree.verify.trapezoids import Reader, Side
 from cfree.words import counted
@@ -28,6 +35,8 @@ BLOCK = 100  # trapezoids between two reports
 # names of the checks
 PIECES, ANGLES, DOMAINS, FREE = "convex pieces", "names and angles", "domains", "not forbidden"
 CLOSED, ISOLATED, MISSING = "closed surfaces", "isolated parts", "nothing missing"
+EULER, DEGREE = "Euler by slices", "Gauss map"
+NEAR = 1e-3  # of twice a degree to an Euler number
 
 
 @checked
@@ -38,6 +47,7 @@ def boundary(
     slices: int = 12,
     sample: int | None = None,
     seed: int = 0,
+    deep: bool = False,
     progress: Callable[[float], object] | None = None,
 ) -> Verification:
     """Check a boundary, from its scene's exact coordinates and without the code that computed it.
@@ -54,6 +64,9 @@ def boundary(
         Check that many trapezoids, chosen at random, and no sides; all by default.
     seed : int
         Of the random choices.
+    deep : bool
+        Count Euler numbers in two more ways, if all else is well: by slices at and between all critical angles, and by
+        the degree of the Gauss map.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
@@ -69,6 +82,7 @@ def boundary(
     Notes
     -----
     Time is about linear in the number of trapezoids, plus the time of the slices: contacts times pillars near them.
+    `deep` takes two slices for each critical angle, which is for scenes of up to some hundreds of trapezoids.
 
     Examples
     --------
@@ -113,12 +127,44 @@ def boundary(
             Finding(CLOSED, _place(reader, owners), f"{counted(number, 'edge')} of their sides without a partner")
             for owners, number in sorted(matching.unmatched.items())
         ]
+    deeper: tuple[Check, ...] = ()
+    if deep and matching is not None and not findings:
+        deeper, findings = _counted_again(given, reader, matching, report)
+    elif deep:
+        deeper = tuple(
+            Check(name, SKIPPED, "needs a boundary in which nothing else is wrong") for name in (EULER, DEGREE)
+        )
     report(1.0)
     checks = _checks(
         reader, matching, len(chosen), f"{counted(slices, 'exact slice')}, {counted(places, 'free contact')}"
-    )
+    ) + deeper
     euler = tuple(matching.euler) if matching is not None else ()
     return Verification(refuted(checks, findings), tuple(findings), euler, time.perf_counter() - begin)
+
+
+def _counted_again(
+    given: Boundary, reader: Reader, matching: Matching, report: Callable[[float], None]
+) -> tuple[tuple[Check, ...], list[Finding]]:
+    """Euler numbers by slices, of all surfaces together, and by the Gauss map, of each."""
+    findings = []
+    total, slices = euler_from_slices(reader, report)
+    if total is not None and total != sum(matching.euler):
+        findings.append(Finding(EULER, "all surfaces", f"{total} by slices, {sum(matching.euler)} by V - E + F"))
+    radius = float(np.hypot(*given.features.robot.xy.T).max(initial=0.0))
+    found = gauss_map(given, angle_scale=radius or 1.0)
+    euler, double = given.complex.euler, 2 * found.degree
+    off = float(np.abs(double - euler).max(initial=0.0))
+    if off > NEAR or sorted(euler.tolist()) != sorted(matching.euler):
+        degrees = ", ".join(f"{x:.3f}" for x in found.degree)
+        text = f"degrees {degrees}; Euler numbers {euler.tolist()}, and {matching.euler} as matched here"
+        findings.append(Finding(DEGREE, "all surfaces", text))
+    by_slices = f"{slices:,} exact slices, at critical angles and between them: together {total}, as V - E + F"
+    by_degree = f"{len(double):,} degrees are half the Euler numbers; farthest from that by {off / 2:.1e}"
+    by_slices_check = Check(EULER, SAMPLED, by_slices)
+    if total is None:
+        by_slices_check = Check(EULER, SKIPPED, "free sheets of no width, between bounds and a wall, are not in slices")
+    checks = by_slices_check, Check(DEGREE, MEASURED, by_degree)
+    return checks, findings
 
 
 def _unfit(boundary: Boundary, scene: Scene | None) -> Finding | None:

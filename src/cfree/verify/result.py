@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from cfree.words import counted
 
 PROVED, SAMPLED, SKIPPED, REFUTED = "PROVED", "SAMPLED", "SKIPPED", "REFUTED"
+MEASURED = "MEASURED"  # in doubles, by quadrature
 SHOWN = 20  # findings in a report
 
 
@@ -33,7 +34,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class Check:
-    """One check: its name, whether it PROVED, SAMPLED, SKIPPED or REFUTED, and what it says of how many."""
+    """One check: its name, whether it PROVED, SAMPLED, MEASURED, SKIPPED or REFUTED, and what it says of how many."""
 
     name: str
     how: str

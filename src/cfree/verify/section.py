@@ -77,6 +77,19 @@ class Section:
         """What pillars near two rounded points, times w, leave of a line from one to the other."""
         return left_over(self._near(rough, w), line, roughly(rough, w * self.world.unit))
 
+    def ring(self, number: int) -> Ring:
+        """A pillar."""
+        return self._pillar(number).ring
+
+    def at_point(self, point: Vector) -> list[int]:
+        """Numbers of the pillars that have a point inside or on their rim."""
+        points, w = self._rounded(point)
+        (box,) = boxes([points], w * self.world.unit)
+        numbers = map(int, near(self._boxes, box))
+        return [
+            k for k in numbers if all(cross(minus(q, p), minus(point, p)) >= 0 for _, p, q in corners(self.ring(k)))
+        ]
+
     def on_contact(self, surface: Surface) -> list[Interval]:
         """Closed intervals of t in [0, 1] that are free on a contact."""
         rounded = self.turn.rounded
