@@ -103,7 +103,8 @@ def test_check_describes_the_car_park(run: Run) -> None:
     assert facts["start"]["free"] and facts["goal"]["free"]
     assert facts["source"]["licence"].startswith("MIT")
     text = run("check", PARKING).stdout
-    assert "9,004 before trimming" in text and "licence: MIT" in text and "theta 90 degrees: free" in text
+    assert "9,000 of contacts, before trimming: 4,500 v-e, 4,500 e-v; and 4 sides of the bounds" in text
+    assert "licence: MIT" in text and "theta 90 degrees: free" in text
 
 
 @pytest.mark.slow
@@ -161,7 +162,11 @@ def test_boundary_writes_all_files_and_their_names(run: Run, tmp_path: Path) -> 
     files = {"-o": "fig9.npz", "--mesh": "fig9.glb", "--picture": "fig9.png"}
     result = run("boundary", FIG9, *(x for option, name in files.items() for x in (option, tmp_path / name)))
     assert result.exit_code == 0, result.output
-    assert "contact patches" in result.stdout and "trapezoids" in result.stdout
+    counts = dict(
+        line.rsplit(maxsplit=1) for line in result.stdout.splitlines() if "patches" in line or "sides" in line
+    )
+    assert counts == {" contact patches": "18", " sides of the bounds": "4", " sides that are live": "4"}
+    assert "trapezoids" in result.stdout
     assert all(str(tmp_path / name) in result.stdout for name in files.values())
     found = cfree.load(tmp_path / "fig9.npz")
     assert found == cfree.boundary(cfree.load_scene(FIG9))

@@ -94,6 +94,12 @@ def test_figure_10_draws_the_indicatrix_of_its_point() -> None:
         for x, y in line.get_xydata()[::200]:
             kappa = curving(x * curvature.AT.frame[0] + y * curvature.AT.frame[1])
             assert kappa == pytest.approx(-1 if line.is_dashed() else 1, abs=1e-3)
+    said = [text.get_text() for text in figure(10).axes[1].texts]
+    names = sorted(text for text in said if "II" in text)
+    assert names == 2 * [r"$\mathrm{II}(X, X) = -1$"] + 2 * [
+        r"$\mathrm{II}(X, X) = 1$"
+    ]  # of vectors, not of directions
+    assert not any("kappa" in text for text in said)
 
 
 # figure 11

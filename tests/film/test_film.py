@@ -368,6 +368,14 @@ def test_frames_show_the_robot_in_its_pose_and_the_configuration_space_at_its_or
 
 
 @pytest.mark.slow
+def test_the_title_says_whether_theta_turns_between_slices(fig9: Boundary) -> None:
+    for found in (fig9, boundary(Scene([(0, 0), (1, 0), (0, 1)], [[(4, 0), (5, 0), (5, 1), (4, 1)]]))):
+        (shot,) = storyboard(found, 60, ("slices",))
+        turns = len({moment.pose.theta for moment in shot.moments}) > 1
+        assert ("constant orientation" in shot.title) == (not turns) and ("two slices" in shot.title) == turns
+
+
+@pytest.mark.slow
 def test_later_scenes_show_what_is_new(fig9: Boundary, five: Boundary) -> None:
     first, second = shots_of([fig9, five], 60, "paper")
     assert [shot.kind for shot in first] == list(STORYBOARDS["paper"])

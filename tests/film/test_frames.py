@@ -199,6 +199,12 @@ def test_the_axes_stay_at_the_near_edges_all_around() -> None:
         box.show(False)
 
 
+def test_a_turntable_counts_contact_patches_and_sides_of_the_bounds_apart() -> None:
+    table = Turntable(boundary(load_scene("examples/scenes/paper_fig9.json")), SMALL)
+    said = [text.get_text() for text in table.figure.texts]
+    assert "18 of 18 contact patches and 4 of 4 sides of the bounds bound the forbidden space" in said
+
+
 @pytest.mark.slow
 def test_a_turntable_is_a_film(hall: Boundary, tmp_path: FilePath) -> None:
     cfree.film.save_film([hall], tmp_path / "turn.gif", seconds=1, fps=8, size=(160, 90), storyboard="turntable")

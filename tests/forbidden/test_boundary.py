@@ -484,7 +484,7 @@ print("done", flush=True)
 
 def test_repr_and_types() -> None:
     result = boundary(Scene(robot=[(0, 0), (1, 0), (0, 1)], obstacles=[Polygon([(3, 3), (5, 3), (4, 5)])]))
-    assert repr(result) == f"Boundary(18 of 18 patches live, {len(result.trapezoids)} trapezoids)"
+    assert repr(result) == f"Boundary(18 of 18 contact patches live, {len(result.trapezoids)} trapezoids)"
     with pytest.raises(ValueError, match="read-only"):
         result.trapezoids.patch[0] = 1
 

@@ -200,6 +200,12 @@ def test_overviews_of_all_sorts_of_scenes_are_drawn(name: str, tmp_path: Path) -
     assert [entry.name for entry in file.parent.iterdir()] == [file.name]
 
 
+def test_overviews_count_contact_patches_and_sides_of_the_bounds_apart() -> None:
+    figure = plot_overview(boundary(load_scene(SCENES / "paper_fig9.json")))
+    (counts,) = [text.get_text() for text in figure.texts if "patches" in text.get_text()]
+    assert counts.startswith("18 of 18 contact patches and 4 of 4 sides of the bounds bound the forbidden space: 38")
+
+
 def drawn_area(ax: Any) -> float:
     """Of the region that is drawn as forbidden; its rings are closed, and holes run clockwise."""
     (region,) = [patch.get_path() for patch in ax.patches if patch.get_label() == "forbidden"]

@@ -34,8 +34,9 @@ def describe(scene: Scene) -> dict[str, Any]:
     -------
     dict
         ``robot`` and ``obstacles`` hold counts; ``removed`` the points of the input that are no vertices;
-        ``patches`` the contact patches before trimming, by kind; ``start`` and ``goal`` whether they are free. With
-        round shapes these are counts of polygons around them, and ``round`` is how many there are.
+        ``patches`` the contact patches before trimming, by kind, and the sides of the bounds; ``start`` and ``goal``
+        whether they are free. With round shapes these are counts of polygons around them, and ``round`` is how many
+        there are.
 
     Examples
     --------
@@ -112,7 +113,7 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
 
 
 def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
-    """Numbers of contact patches before trimming: convex vertices times edges, both ways."""
+    """Numbers of patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds."""
     robot, obstacles = features.robot.core, features.obstacles.core
     body = robot.convex[robot.layer == BODY]
     met = obstacles.convex[(obstacles.layer == BODY) & (obstacles.emit > 0)]

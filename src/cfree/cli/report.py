@@ -37,8 +37,10 @@ def print_scene(facts: Mapping[str, Any]) -> None:
 
 def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     patches = facts["patches"]
-    kinds = ", ".join(f"{patches[kind]:,} {kind}" for kind in ("v-e", "e-v", "bound"))
-    yield f"patches    {patches['total']:,} before trimming: {kinds}"
+    contacts = patches["v-e"] + patches["e-v"]
+    bounds = f"; and {patches['bound']:,} sides of the bounds" if patches["bound"] else ""
+    kinds = f"{patches['v-e']:,} v-e, {patches['e-v']:,} e-v"
+    yield f"patches    {contacts:,} of contacts, before trimming: {kinds}{bounds}"
     if facts.get("round"):
         yield f"round      {counted(facts['round'], 'shape')}; counted are polygons around them"
     if facts["bounds"]:
@@ -67,10 +69,12 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
 
 def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float | str]:
     """Facts about a boundary in words, with the counters of the work that it took if `verbose`."""
-    stats = boundary.stats
+    stats, counts = boundary.stats, boundary.patch_counts
+    bounds = {"sides of the bounds": counts.bounds, "sides that are live": counts.live_bounds} if counts.bounds else {}
     rows: dict[str, int | float | str] = {
-        "contact patches": stats.patches,
-        "of them live": stats.live_patches,
+        "contact patches": counts.contacts,
+        "of them live": counts.live_contacts,
+        **bounds,
         "trapezoids": stats.trapezoids,
         "isolated parts (exact fits)": len(boundary.isolated),
     }

@@ -88,7 +88,10 @@ def _draw_normal_plane(ax: Any, section: Floats) -> None:
 
 @checked
 def indicatrix(ax: Axes) -> Axes:
-    """Figure 10: Dupin's indicatrix in the tangent plane: in each direction, 1 / sqrt(abs(normal curvature))."""
+    """Figure 10: Dupin's indicatrix in the tangent plane, the vectors X with II(X, X) = 1 or -1.
+
+    In each direction its distance is 1 / sqrt(abs(normal curvature)).
+    """
     reach = 2.3 * float(AT.dupin_radius(AT.principal_directions).min())
     set_plane(ax, (-1.25 * reach, -1.25 * reach, 1.25 * reach, 1.25 * reach))
     asymptotic, principal = AT.asymptotic_directions, AT.principal_directions
@@ -98,8 +101,10 @@ def indicatrix(ax: Axes) -> Axes:
             line(ax, -end, end, colour, width=1.8)
             label(ax, 1.13 * way * end, name if name != NAMES[0][1] else r"$\xi = \arctan\frac{2v}{F}$", colour=colour)
     for points, is_positive in conics(AT, reach):
-        at = points[len(points) // 7]
-        name = r"$\kappa_N = 1$" if is_positive else r"$\kappa_N = -1$"
+        at = min(
+            points[len(points) // 7], points[-(len(points) // 7)], key=lambda point: abs(point[1])
+        )  # beside a ruling
+        name = r"$\mathrm{II}(X, X) = 1$" if is_positive else r"$\mathrm{II}(X, X) = -1$"
         label(ax, at, name, 26 * points[len(points) // 2] / np.hypot(*points[len(points) // 2]), PATH, 12)
         ax.plot(*points.T, color=PATH, linewidth=2.2, linestyle="-" if is_positive else (0, (4, 2)), zorder=5)
     dot(ax, (0, 0), size=6)

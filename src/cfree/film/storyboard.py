@@ -170,7 +170,11 @@ class _Director:
         last = Ring.near(self.boundary, theta, goal)
         if last is None:
             return None
-        moments = self._two_slices(last, goal, n) or [last.moment(s) for s in eased(0, last.perimeter, n)]
+        if (moments := self._two_slices(last, goal, n)) is not None:
+            return Shot(
+                "slices", "Translation in two slices, a turn in contact between them", _FORMULAS["slices"], moments
+            )
+        moments = [last.moment(s) for s in eased(0, last.perimeter, n)]
         return Shot("slices", "Translation: a slice at constant orientation", _FORMULAS["slices"], moments)
 
     def _two_slices(self, last: Ring, goal: tuple[float, float], n: int) -> list[Moment] | None:

@@ -18,7 +18,6 @@ from cfree.palette import FORBIDDEN, GREY, INK, VIEW
 from cfree.plot.boundary import extent, plain
 from cfree.plot.depth_sort import paint
 from cfree.plot.pieces import WALL, pieces_of
-from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.forbidden.boundary import Boundary
@@ -51,11 +50,10 @@ class Turntable:
         self.pieces = pieces.chosen(pieces.sort != WALL)
         self.boxes = [Box(ax, self.window, axis_names(scene), quadrant) for quadrant in range(4)]
         self.painting = ax.add_collection(PolyCollection([], zorder=2, joinstyle="round"), autolim=False)
-        live, count = boundary.stats.live_patches, boundary.stats.patches
         text: Any = {"va": "center", "color": INK}
         title = plain(scene.name[:40]) or "the boundary of the forbidden space"
         self.figure.text(0.2 / width, 1 - 0.3 / height, title, fontsize=16, weight="bold", **text)
-        note = f"{live:,} of {counted(count, 'contact patch')} bound the forbidden space"
+        note = f"{boundary.patch_counts} bound the forbidden space"
         self.figure.text(0.2 / width, 1 - 0.63 / height, note, fontsize=12, **text | {"color": GREY})
         legend(self.figure, 0.25 / height, 5, {"section at 360°": FORBIDDEN})
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -33,7 +33,7 @@ class Stats:
     Attributes
     ----------
     patches, live_patches : int
-        Contact patches before trimming, and the ones of which something is left.
+        Patches before trimming, and the ones of which something is left: contact patches and the sides of the bounds.
     trapezoids : int
     pairs : int
         Pairs of a patch and a pillar near it.
@@ -54,6 +54,20 @@ class Stats:
     decided_by_intervals: int
     decided_exactly: int
     seconds: dict[str, float] = field(compare=False)
+
+
+class PatchCounts(NamedTuple):
+    """How many patches are live, and how many there are: those of contacts, and the sides of the bounds."""
+
+    live_contacts: int
+    contacts: int
+    live_bounds: int
+    bounds: int
+
+    def __str__(self) -> str:
+        counts = f"{self.live_contacts:,} of {counted(self.contacts, 'contact patch')}"
+        sides = f" and {self.live_bounds:,} of {counted(self.bounds, 'side')} of the bounds"
+        return counts + (sides if self.bounds else "")
 
 
 class BoundaryRecord(Value):
@@ -125,12 +139,28 @@ class BoundaryRecord(Value):
         patches = self.contact_kind, self.contact_robot, self.contact_obstacle
         return self.scene, *patches, self.trapezoids, self.isolated, self.trimmed
 
+    @property
+    def patch_counts(self) -> PatchCounts:
+        """Contact patches and sides of the bounds, each live and in all.
+
+        Examples
+        --------
+        >>> import cfree
+        >>> print(cfree.boundary(cfree.load_scene("examples/scenes/paper_fig9.json")).patch_counts)
+        18 of 18 contact patches and 4 of 4 sides of the bounds
+        """
+        live = np.zeros(len(self.contact_kind), bool)
+        live[self.trapezoids.patch] = True
+        of_bounds = self.patch_kind == PatchKind.BOUND
+        return PatchCounts(
+            int(live[~of_bounds].sum()), int((~of_bounds).sum()), int(live[of_bounds].sum()), int(of_bounds.sum())
+        )
+
     def __repr__(self) -> str:
         s = self.stats
         fits = f", {counted(len(self.isolated), 'isolated part')}" if len(self.isolated) else ""
         part = "" if self.complete else f"INCOMPLETE: {self.trimmed.sum()} of {counted(s.patches, 'patch')} trimmed; "
-        live = f"{s.live_patches} of {counted(s.patches, 'patch')} live"
-        return f"Boundary({part}{live}, {counted(s.trapezoids, 'trapezoid')}{fits})"
+        return f"Boundary({part}{self.patch_counts} live, {counted(s.trapezoids, 'trapezoid')}{fits})"
 
     @property
     def complete(self) -> bool:

@@ -191,7 +191,7 @@ def plot_overview(boundary: Boundary) -> Figure:
 
     The slices are those of start and goal; at the start's and a quarter turn on if these are the same or missing.
     """
-    scene, s = boundary.scene, boundary.stats
+    scene = boundary.scene
     figure = new_figure((14, 7.4))
     grid = figure.add_gridspec(2, 2, left=0.045, right=0.45, bottom=0.09, top=0.86, height_ratios=(2, 1), hspace=0.3)
     plot_workspace(scene, figure.add_subplot(grid[0, :]))
@@ -203,8 +203,8 @@ def plot_overview(boundary: Boundary) -> Figure:
             ax.plot(float(pose.x), float(pose.y), "o", color=ROBOT, markersize=5)
     plot_boundary(boundary, new_space(figure, (0.46, 0.09, 0.53, 0.82)))
     figure.suptitle(plain(scene.name) or "boundary of the forbidden space", weight="bold", fontsize=15)
-    counts = f"{s.live_patches:,} of {counted(s.patches, 'contact patch')} bound the forbidden space"
-    figure.text(0.5, 0.915, f"{counts}: {counted(s.trapezoids, 'trapezoid')}", ha="center")
+    trapezoids = counted(boundary.stats.trapezoids, "trapezoid")
+    figure.text(0.5, 0.915, f"{boundary.patch_counts} bound the forbidden space: {trapezoids}", ha="center")
     return figure
 
 
