@@ -16,6 +16,7 @@ from cfree.errors import InvariantError, UnsupportedError
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.mesh import Mesh
 from cfree.formats.scene_file import load_scene
+from cfree.geometry.ruled import read_ruled
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene, robot_radius
 from examples import POLYGONS
@@ -24,6 +25,7 @@ ROOT = Path(__file__).parents[2]
 SCENES = ROOT / "examples/scenes"
 SMALL = [path for path in POLYGONS if path.stat().st_size < 20_000]
 CASES = sorted((ROOT / "tests/cases").glob("*.json"))
+MESHES = ROOT / "tests/cases/meshes"
 ERRORS = (0.3, 0.03)  # in robot's radii
 
 
@@ -156,6 +158,24 @@ def distances(result: Boundary, trapezoid: Any, points: Any, scale: float, reach
         across = points[:, :2] - foot
         least = np.minimum(least, np.hypot(np.hypot(*across.T), scale * theta - points[:, 2]))
     return least
+
+
+@pytest.mark.parametrize("name", ["nearly_collinear_chain", "few_doubles_between_angles", "sliver_between_boxes"])
+def test_triangles_of_thin_trapezoids_are_as_near_as_theory_says(name: str) -> None:
+    result = boundary(load_scene(MESHES / f"{name}.json"), threads=1)
+    mesh, table = result.mesh(0.05, angle_scale=1.5), result.trapezoids
+    thin = (table.theta_to - table.theta_from < 1e-9)[mesh.trapezoid]
+    assert thin.any()
+    corners = mesh.vertices[mesh.triangles[thin]]
+    theta = corners[..., 2] / mesh.angle_scale
+    surface = read_ruled(result.ruled[mesh.patch[thin], None])
+    start = result.evaluate(mesh.patch[thin, None], np.zeros_like(theta), theta)
+    t = ((corners[..., :2] - start) * surface.ruling(theta)).sum(axis=-1) / surface.L
+    radius = np.hypot(*result.features.robot.xy.T).max()
+    for weights in np.random.default_rng(4).dirichlet((1, 1, 1), 20):
+        at = result.evaluate(mesh.patch[thin], t @ weights, theta.mean(axis=1))
+        off = np.linalg.norm(weights @ corners[..., :2] - at, axis=-1)
+        assert off.max() <= 2e-9 * radius + 1e-13 * abs(corners).max()
 
 
 @pytest.mark.slow

@@ -1,7 +1,7 @@
-"""Contact surfaces among each other: before any trimming, and the arrangement of all.
+"""Contact surfaces among each other: before any trimming, and the arrangement of what bounds each pair.
 
-`intersection` has the curve of two surfaces, `triple` the poses on three. `arrangement` has every vertex, edge, face
-and cell of a scene's configuration space, with the depth of each cell.
+`intersection` has the curve of two surfaces, `triple` the poses on three, `census` those of all triples. `arrangement`
+has every vertex, edge, face and cell that the boundaries of all pairs make, with the depth of each cell.
 """
 
 from typing import TYPE_CHECKING
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from cfree.arrangements.regions import planar_cells as planar_cells
     from cfree.arrangements.statistics import ArrangementStatistics as ArrangementStatistics
     from cfree.arrangements.statistics import DepthCell as DepthCell
+    from cfree.arrangements.triple_census import Census as Census
+    from cfree.arrangements.triple_census import census as census
     from cfree.arrangements.triples import Triple as Triple
     from cfree.arrangements.triples import TripleContact as TripleContact
     from cfree.arrangements.triples import triple as triple
@@ -28,6 +30,7 @@ __getattr__, __dir__, __all__ = lazy_names(
     __name__,
     {
         "arranged": "Arrangement arrangement",
+        "triple_census": "Census census",
         "curve": "IntersectionCurve",
         "intersections": "Intersection SharedLine intersection",
         "regions": "planar_cells",

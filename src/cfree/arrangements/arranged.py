@@ -1,8 +1,9 @@
-"""The arrangement of all contact surfaces of a scene: vertices, edges, faces, and cells with their depth.
+"""The arrangement of the boundaries of all pairs of a scene: vertices, edges, faces, and cells with their depth.
 
 A *pair* is a polygon of the robot and an obstacle, and F its poses in which their interiors meet. The surfaces are the
-boundaries of all F, each pair's own: of convex shapes the paper's patches. The *depth* of a pose is the number of pairs
-with the pose in F; depth 0 is free. docs/theory/arrangement.md has the proofs.
+boundaries of all F, each pair's own: of convex shapes the paper's contact patches (Definition 2). They are not its
+contact surfaces (Definition 1), which go on where the pair overlaps: see `cfree.arrangements.census`. The *depth* of a
+pose is the number of pairs with the pose in F; depth 0 is free. docs/theory/arrangement.md has the proofs.
 """
 
 from __future__ import annotations
@@ -40,7 +41,11 @@ Pair = tuple[int, int]
 
 @checked
 def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float | None = None) -> Arrangement:
-    """Every contact surface against every other: the whole configuration space, not only what is free.
+    """The boundary of every pair against every other: the whole configuration space, not only what is free.
+
+    A pair is a polygon of the robot and an obstacle. Its boundary consists of contact patches, where the two touch. The
+    paper's contact surfaces also have the pseudo contacts, at poses where the two overlap: two of one pair may cross
+    there, which is no vertex here. `census` has these.
 
     Parameters
     ----------
@@ -106,11 +111,12 @@ def arrangement(scene: Scene, *, threads: int | None = None, max_memory: float |
 
 
 class Arrangement(Value):
-    """All contact surfaces of a scene; see `arrangement`.
+    """The boundaries of all pairs of a scene; see `arrangement`.
 
-    A *face* is a part of one patch on which nothing changes, and has two sides: the outer one, and the inner one, just
-    in F of its pair. Surfaces of several pairs may coincide; such a face has all of them as owners. *Edges* are where
-    faces end or others meet them, and *vertices* where edges do. *Pieces* are the trapezoids that faces are made of.
+    A *face* is a part of one contact patch on which nothing changes, and has two sides: the outer one, and the inner
+    one, just in F of its pair. Surfaces of several pairs may coincide; such a face has all of them as owners. *Edges*
+    are where faces end or others meet them, and *vertices* where edges do. *Pieces* are the trapezoids that faces are
+    made of.
 
     Attributes
     ----------
@@ -208,7 +214,7 @@ class Arrangement(Value):
 
     @property
     def volume_errors(self) -> Floats:
-        """(C,) bounds of their errors."""
+        """(C,) estimates of their errors; see `FreeSpace.volume_errors`."""
         return self._volumes[1]
 
     @cached_property

@@ -1,4 +1,4 @@
-"""What is told of an arrangement: its cells, how many there are of each sort, and bounds from the literature."""
+"""What is told of an arrangement: its cells, how many there are of each sort, and at most."""
 
 from __future__ import annotations
 
@@ -52,11 +52,8 @@ class ArrangementStatistics:
     vertices_by_kind, edges_by_kind, faces_by_contact : dict of str to int
     vertices_by_degree, vertices_by_pairs, faces_by_depth, cells_by_depth : dict of int to int
     bounds : dict of str to int
-        What the number of vertices is at most. ``"surfaces"``: k contact surfaces have 4 for each three, 2 for each of
-        their helices and 1 for each of their edge-edge segments with each surface, and 4 corners each, which is O(k^3);
-        that is also the worst case of such arrangements (Halperin and Sharir 1992). ``"(mn)^3"``, without its constant:
-        a robot of n vertices among obstacles of m (Avnaim, Boissonnat and Faverjon 1988). Single cells are much
-        simpler: n^3 m^2 2^O(log^(2/3) m) (Halperin and Sharir 1993).
+        What the number of vertices is at most, constants included. ``"surfaces"``: k patches have 4 for each three, 2
+        for each of their helices and 1 for each of their edge-edge segments with each patch, and 4 corners each.
     """
 
     vertices: int
@@ -88,5 +85,10 @@ def counted(values: NDArray[Any], names: Sequence[str] = ()) -> Any:
 
 def vertex_bounds(features: SceneFeatures) -> dict[str, int]:
     """See `ArrangementStatistics.bounds`."""
-    k, m, n = features.patches, len(features.robot.previous), len(features.obstacles.previous)
-    return {"surfaces": 4 * comb(k, 3) + 6 * k * k + 4 * k, "(mn)^3": (m * n) ** 3}
+    k = features.patches
+    return {"surfaces": 4 * comb(k, 3) + 6 * k * k + 4 * k}
+
+
+def pseudo_vertex_bound(surfaces: int) -> int:
+    """Greatest possible number of poses on three of so many surfaces that meet in points."""
+    return 4 * comb(surfaces, 3)

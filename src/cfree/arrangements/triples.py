@@ -141,9 +141,13 @@ def triple(
     -----
     Exact; the time depends on the length of the numbers alone. See the theory's page on intersections.
     """
-    surfaces = first, second, third
+    return triple_of((first, second, third), True)
+
+
+def triple_of(surfaces: tuple[AnySurface, AnySurface, AnySurface], outside: bool) -> Triple:
+    """The same; poses outside one of the surfaces are left out unless they are wanted."""
     lines = moving_lines(surfaces)
-    origin = whole(first).p
+    origin = whole(surfaces[0]).p
     D = {(i, j): cross(lines[i].U, lines[j].U) for i, j in combinations(range(3), 2)}
     gaps = [cross(between(lines[i].P, lines[j].P), lines[i].U) for i, j in D]
     polynomial = _determinant(lines, D)
@@ -151,7 +155,7 @@ def triple(
     shared = tuple(shared_line(angle, 1, lines) for angle, _ in zeros(coincident)) if any(coincident) else ()
     if any(polynomial):
         angles = {line.angle for line in shared}
-        found = (_contact(a, times, lines, origin, D) for a, times in zeros(polynomial) if a not in angles)
+        found = (_contact(a, times, lines, origin, D, outside) for a, times in zeros(polynomial) if a not in angles)
         return Triple(surfaces, "points", polynomial, tuple(pose for pose in found if pose), shared)
     pair = next((pair for pair in D if any(D[pair])), None)
     if pair is not None:
@@ -174,15 +178,22 @@ def _determinant(lines: tuple[MovingLine, ...], D: dict[Pair, Form]) -> Form:
 
 
 def _contact(
-    angle: AlgebraicAngle, times: int, lines: tuple[MovingLine, ...], origin: ExactPoint, D: dict[Pair, Form]
+    angle: AlgebraicAngle,
+    times: int,
+    lines: tuple[MovingLine, ...],
+    origin: ExactPoint,
+    D: dict[Pair, Form],
+    outside: bool,
 ) -> TripleContact | None:
-    """The pose at a zero of the determinant; None if three parallel lines are apart there."""
+    """The pose at a zero of the determinant; None if three parallel lines are apart there, or if it is not wanted."""
     pair = next((pair for pair in D if value_at(D[pair], angle) != 0), None)
     if pair is None:
         return None
     curve = _curve(pair, lines, origin, D)
     t = [ratio(*(value_at(form, angle) for form in along(curve, line))) for line in lines]
     if not is_on_patches(lines, angle) or not all(0 <= s <= 1 for s in t):
+        if not outside:
+            return None
         location = Location.OUTSIDE
     else:
         location = (

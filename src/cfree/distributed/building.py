@@ -224,8 +224,10 @@ class _Build:
     def _measure(
         self, store: SceneStore, joined: JoinedSurfaces, present: dict[int, Any], count: int
     ) -> tuple[list[Fraction], list[Fraction], list[bool]]:
-        """Of each closed surface the volume between it and its free side, a bound of its error, and whether more than
-        obstacles bound it."""
+        """Volumes between closed surfaces and their free sides, estimates of the errors, and who bounds them.
+
+        The last is whether more than obstacles do.
+        """
         values, errors, foreign = [Fraction(0)] * count, [Fraction(0)] * count, [False] * count
         features = Features(store)
         x, y, *_ = store.rest.frame
@@ -260,13 +262,13 @@ class _Build:
             caged[cell] &= not measured[2][surface]
         volumes = np.array([float(value) for value in values])
         # one rounding of an exact sum
-        bounds = np.array([float(error) for error in errors]) + np.spacing(np.abs(volumes))
+        estimates = np.array([float(error) for error in errors]) + np.spacing(np.abs(volumes))
         if outside == 0:
-            volumes[0] = bounds[0] = np.inf
+            volumes[0] = estimates[0] = np.inf
             caged[0] = False
         arrays = {name: getattr(joined, name) for name in ("faces", "euler", "turns", "surface", "lift", "first")}
         arrays |= {"parent": nesting.parent, "free_inside": nesting.free_inside, "cell_of": cell_of}
-        arrays |= {"volume": volumes, "volume_error": bounds, "caged": caged}
+        arrays |= {"volume": volumes, "volume_error": estimates, "caged": caged}
         write_shard(self.folder / "cells.npz", arrays, self.key)
         write_json(
             self.folder / "manifest.json",

@@ -64,7 +64,7 @@ class Cells:
     Attributes
     ----------
     volume, volume_error : (n,) float64
-        In length^2 radians, and a bound of the error; infinite if unbounded.
+        In length^2 radians, and an estimate of the error; infinite if unbounded.
     caged : (n,) bool
         Whether obstacles alone enclose it.
     """

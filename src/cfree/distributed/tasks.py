@@ -156,7 +156,7 @@ def nest_task(folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any],
 def measure_task(
     folder: str, stamp: str, tile: int, surface: np.ndarray[Any, Any], origins: np.ndarray[Any, Any]
 ) -> dict[int, tuple[Fraction, Fraction, bool]]:
-    """What a tile gives to the volumes of surfaces, bounds of the errors, and whether others than obstacles bound them.
+    """Share of a tile in the volumes of surfaces, estimates of the errors, and whether more than obstacles bound them.
 
     `surface` is that of each component, `origins` the points from which each surface is seen, by surface.
     """

@@ -258,7 +258,9 @@ class Boundary(BoundaryRecord, Shown):
         Notes
         -----
         Distances are measured by dx^2 + dy^2 + w^2 dtheta^2. The bound is proved in docs/theory/meshes.md for exact
-        arithmetic; points are computed in doubles. Time is about linear in the triangles. Isolated parts have none.
+        arithmetic; points are computed in doubles. It does not hold for trapezoids between angles less than 1e-9
+        radians apart: triangles of these are within 1e-9 (2 r + w) of them, r the robot's radius, and they may reach
+        beyond their triangles. Time is about linear in the triangles. Isolated parts have none.
 
         Examples
         --------

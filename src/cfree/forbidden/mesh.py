@@ -55,7 +55,8 @@ class Mesh(Value, Shown):
         Vertices at theta = -pi/2 and at 3 pi/2 that are the same pose.
     error : float
         No point of a triangle is farther from the boundary, and no point of the boundary from the triangles: a bound of
-        the Hausdorff distance.
+        the Hausdorff distance, up to rounding. Trapezoids between angles less than 1e-9 radians apart are an exception:
+        docs/theory/meshes.md, "Thin trapezoids".
     angle_scale : float
         Length per radian.
     least : float

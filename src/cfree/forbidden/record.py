@@ -57,7 +57,7 @@ class Stats:
 
 
 class PatchCounts(NamedTuple):
-    """How many patches are live, and how many there are: those of contacts, and the sides of the bounds."""
+    """Counts of live patches and of all: those of contacts, and the sides of the bounds."""
 
     live_contacts: int
     contacts: int

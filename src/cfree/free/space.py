@@ -199,19 +199,19 @@ class FreeSpace(Value, Shown):
 
         Notes
         -----
-        By the divergence theorem, exact along t, over theta by quadrature; `volume_errors` bounds the error. It is
+        By the divergence theorem, exact along t, over theta by quadrature; `volume_errors` estimates the error. It is
         relative to the volume of the closed surfaces, not to what they leave over.
         """
         return self._volumes[0]
 
     @property
     def volume_errors(self) -> Floats:
-        """(cells,) bounds of the errors of `volumes`, in the same unit; infinite if unbounded.
+        """(cells,) estimates of the errors of `volumes`, in the same unit; infinite if unbounded.
 
         Notes
         -----
-        What quadrature leaves out is bounded by the integrand's size on ellipses in the complex plane, what rounding
-        does by counting operations, to first order: docs/theory/volumes.md.
+        What quadrature leaves out is bounded by the integrand's size on ellipses in the complex plane. What rounding
+        does is estimated by counting operations, to first order, so that the sum is no bound: docs/theory/volumes.md.
 
         Examples
         --------

@@ -45,15 +45,15 @@ class GaussMap(Value):
     Attributes
     ----------
     faces : (F,) float64
-        Of each trapezoid, the integral of K.
+        Integral of K over each trapezoid.
     edges : (H,) float64
-        Of each coedge, half of the area between its face's normals and those of its twin's face.
+        Half of the area between the normals of a coedge's face and those of its twin's face.
     vertices : (V,) float64
-        Of the normals around each vertex. Vertices are found by going round from twin to twin.
+        Area within the normals around each vertex. Vertices are found by going round from twin to twin.
     degree : (C,) float64
-        Of each closed surface, the sum of its areas over 4 pi.
+        Sum of the areas of each closed surface, over 4 pi.
     error : (C,) float64
-        How much of `degree` changes when the intervals of quadrature are halved: a measured error.
+        Change of `degree` when the intervals of quadrature are halved: a measured error.
     """
 
     faces: Floats
@@ -168,7 +168,7 @@ class _Sides:
 
 
 def _places(surface: Ruled, t: Floats, theta: Floats) -> Floats:
-    """Where S(t, theta) is in the plane."""
+    """Position of S(t, theta) in the plane."""
     a = surface.a + t[..., None] * surface.g
     c, n = np.cos(theta), np.sin(theta)
     turned = np.stack([c * a[..., 0] - n * a[..., 1], n * a[..., 0] + c * a[..., 1]], axis=-1)

@@ -65,7 +65,7 @@ def critical_turns(reader: Reader) -> list[Turn]:
 
 
 def quarter(turn: Turn) -> int:
-    """0 at -90 degrees, 1 up to 90 degrees, 2 there, 3 beyond."""
+    """Part of the circle: 0 at -90 degrees, 1 up to 90 degrees, 2 there, 3 beyond."""
     if turn.tau in (1, -1):
         return 2 if turn.chart == (turn.tau < 0) else 0
     return 3 if turn.chart else 1
@@ -129,7 +129,7 @@ class Outlines:
         return self.onward[point][0] if len(self.onward[point]) == 1 else first_from(minus(*arc), self.onward[point])
 
     def sector(self, point: Vector, direction: Vector) -> Arc:
-        """Of the forbidden sectors at a point the one that a direction is in, by the arc that leaves along it."""
+        """Forbidden sector at a point that holds a direction, named by the arc that leaves along it."""
         return first_from(direction, self.onward[point], backwards=True)
 
 
@@ -146,7 +146,7 @@ def first_from(direction: Vector, arcs: list[Arc], backwards: bool = False) -> A
 
 
 def touching(outlines: Outlines, point: Vector) -> int:
-    """How many forbidden sectors at a point only touch there: none of theirs meet just before or after the angle.
+    """Count the forbidden sectors at a point that only touch there, and do not meet just before or after the angle.
 
     Notes
     -----
@@ -185,7 +185,7 @@ def meet(one: Ring, other: Ring) -> bool:
 
 
 def _half(back: Vector, ray: Vector) -> int:
-    """0 for less than half a turn from a direction on, 1 for half a turn or more."""
+    """Number of half turns from one direction to another: 0 for less than half a turn, 1 for half a turn or more."""
     side = cross(back, ray)
     return 0 if side > 0 or (side == 0 and dot(back, ray) > 0) else 1
 
@@ -231,7 +231,7 @@ def _between(key: LineKey, lo: Exact, hi: Exact, rough: dict[Vector, list[float]
 
 
 def _without(intervals: list[Interval], others: list[Interval]) -> list[Interval]:
-    """What disjoint intervals have outside of others, both in order."""
+    """Remainder of disjoint intervals outside of others, both in order."""
     found = []
     for lo, hi in intervals:
         for begin, end in others:

@@ -4,7 +4,7 @@
 
 namespace cfree {
 
-// In length^2 radians, by the divergence theorem, and bounds of their errors; infinite if unbounded.
+// In length^2 radians, by the divergence theorem, and estimates of their errors, in the part of rounding to first order; infinite if unbounded.
 struct Volumes {
     std::vector<double> values, errors;
 };

@@ -1,0 +1,125 @@
+"""The census of triple contacts among all contact surfaces of Definition 1, pseudo contacts included.
+
+A contact surface is the set of all poses with a fixed vertex on a fixed edge, whatever else overlaps. `arrangement`
+takes the boundaries of pairs of polygons, which are parts of some of these surfaces; here each three whole surfaces
+are looked at by `triple`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import combinations
+from math import comb
+
+from cfree.arguments import checked
+from cfree.arrangements.statistics import pseudo_vertex_bound
+from cfree.arrangements.triples import TripleContact, triple_of
+from cfree.contact.contact import EdgeVertex, VertexEdge
+from cfree.contact.surface import Surface, contact_surface
+from cfree.errors import UnsupportedError
+from cfree.exact.algebraic import Exact, ratio
+from cfree.exact.forms import value_at
+from cfree.exact.orientation import Location
+from cfree.scene.scene import Scene
+
+MOST_TRIPLES = 10_000
+RELATIONS = ("points", "curve", "parallel", "identical")
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Census:
+    """All poses that are on three contact surfaces of a scene; see `census`.
+
+    Attributes
+    ----------
+    surfaces : tuple of Surface
+        Every vertex of the robot on every edge of an obstacle, and every edge on every vertex: reflex ones as well.
+    relations : dict of str to int
+        Number of triples that meet in "points", and those that are "curve", "parallel" and "identical": see
+        `Triple.relation`.
+    inside, rim : tuple of TripleContact
+        Different poses on three surfaces that meet in points, by orientation: those that are inside all three surfaces
+        of some triple, and the others, where an edge ends.
+    bound : int
+        Greatest possible number of poses: 4 for each three surfaces.
+    """
+
+    surfaces: tuple[Surface, ...]
+    relations: dict[str, int] = field(hash=False)
+    inside: tuple[TripleContact, ...]
+    rim: tuple[TripleContact, ...]
+    bound: int
+
+    def __repr__(self) -> str:
+        counts = f"{len(self.surfaces)} surfaces, {sum(self.relations.values()):,} triples"
+        return f"Census({counts}: {len(self.inside)} triple contacts inside, {len(self.rim)} at rims)"
+
+
+@checked
+def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
+    """Every pose on three contact surfaces of Definition 1, pseudo contacts included, exactly.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its robot and obstacles count; bounds and workspace do not, which are no obstacles of the paper.
+    max_triples : int
+        More triples of surfaces are refused.
+
+    Returns
+    -------
+    Census
+
+    Raises
+    ------
+    UnsupportedError
+        If there are more triples, or shapes are round.
+
+    Notes
+    -----
+    k surfaces make k (k - 1) (k - 2) / 6 triples, which take some milliseconds each: ten seconds for two quadrangles.
+
+    Examples
+    --------
+    >>> from cfree import Scene
+    >>> square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    >>> census(Scene(square, [square]), max_triples=100)
+    Traceback (most recent call last):
+        ...
+    cfree.errors.UnsupportedError: 32 contact surfaces make 4,960 triples, more than max_triples=100; give more
+    """
+    if scene.curved:
+        raise UnsupportedError(
+            "the census of triple contacts is of polygons: give scene.outer(error) or scene.inner(error)"
+        )
+    surfaces = tuple(
+        contact_surface(robot, obstacle, kind(i, j))
+        for robot in scene.robot
+        for obstacle in scene.obstacles
+        for kind in (VertexEdge, EdgeVertex)
+        for i in range(len(robot))
+        for j in range(len(obstacle))
+    )
+    count = comb(len(surfaces), 3)
+    if count > max_triples:
+        made = f"{len(surfaces):,} contact surfaces make {count:,} triples"
+        raise UnsupportedError(f"{made}, more than max_triples={max_triples:,}; give more")
+    relations = dict.fromkeys(RELATIONS, 0)
+    found: dict[tuple[Exact, ...], TripleContact] = {}
+    for three in combinations(surfaces, 3):
+        meeting = triple_of(three, outside=False)
+        relations[meeting.relation] += 1
+        for contact in meeting.poses:
+            key = _place(contact)
+            if key not in found or contact.location is Location.INSIDE:
+                found[key] = contact
+    poses = sorted(found.values(), key=lambda contact: contact.angle)
+    inside = tuple(pose for pose in poses if pose.location is Location.INSIDE)
+    rim = tuple(pose for pose in poses if pose.location is not Location.INSIDE)
+    return Census(surfaces, relations, inside, rim, pseudo_vertex_bound(len(surfaces)))
+
+
+def _place(contact: TripleContact) -> tuple[Exact, ...]:
+    """Key that is equal for equal poses: at one angle x and y are numbers of one field."""
+    x, y, w = (value_at(form, contact.angle) for form in (contact.curve.x, contact.curve.y, contact.curve.w))
+    return contact.angle, ratio(x, w), ratio(y, w)
