@@ -104,6 +104,23 @@ def test_areas_at_edges_and_vertices_are_the_curvature_there() -> None:
     np.testing.assert_allclose(np.sort(found.vertices), np.sort(sums.vertices), atol=1e-7)
 
 
+def test_sheets_at_a_pinched_edge_may_be_glued_across_free_or_forbidden_space_and_not_otherwise() -> None:
+    result = boundary(load_scene(CASES / "tangencies" / "pinch_at_one_angle.json"), threads=1)
+    cells = result.complex
+    assert len(cells.pinched)
+    np.testing.assert_allclose(2 * gauss_map(result).degree, cells.euler, atol=1e-9)
+    for edge in cells.pinched.tolist():
+        around = cells.at_edge(edge).tolist()
+        first = around[0]
+        off = []
+        for other in set(around) - {first, int(cells.twin[first])}:
+            wrong = reglued(cells, exchanged(cells, first, other))
+            degree = gauss_map(glued_otherwise(result, complex=wrong)).degree
+            off.append(round(float(abs(2 * degree - wrong.euler).max()), 6))
+        assert sorted(off) == [0, 2]  # the third way pairs sheets that run the same way
+        glued_otherwise(result, complex=cells)
+
+
 def glued_otherwise(result: Boundary, **columns: object) -> Boundary:
     for name, values in columns.items():
         result.__dict__[name] = values
