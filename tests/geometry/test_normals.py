@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import cfree.verify
 import shapes
-from cfree.errors import IncompleteError
+from cfree.errors import IncompleteError, UnsupportedError
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.formats.scene_file import load_scene
 from cfree.geometry import gauss_bonnet, gauss_map
@@ -37,6 +38,23 @@ def test_degree_is_half_the_euler_number_on_all_example_scenes(path: Path) -> No
     found = gauss_map(result, angle_scale=radius(result))
     np.testing.assert_allclose(2 * found.degree, result.complex.euler, atol=1e-6)
     assert found.error.max(initial=0.0) < 1e-4
+
+
+@pytest.mark.parametrize("name", ["symmetry/square_that_just_turns", "fits/bar_in_open_corridor"])
+def test_vertices_whose_normals_are_all_around(name: str) -> None:
+    result = boundary(load_scene(CASES / f"{name}.json"), threads=1)  # tips of spikes; saddles
+    found = gauss_map(result, angle_scale=radius(result))
+    np.testing.assert_allclose(2 * found.degree, result.complex.euler, atol=1e-9)
+
+
+def test_edges_too_short_for_doubles_leave_the_degree_open() -> None:
+    chain = boundary(load_scene(CASES / "meshes" / "nearly_collinear_chain.json"), threads=1)
+    assert gauss_map(chain).error.tolist() == [math.inf] * chain.complex.components
+    found = cfree.verify.boundary(chain, slices=0, deep=True)
+    assert found.verified and "doubles leave degrees open" in found.checks[-1].extent
+    fingerprint = boundary(load_scene(CASES / "crossings" / "one_fingerprint.json"), threads=1)
+    with pytest.raises(UnsupportedError, match="no length in doubles"):
+        gauss_map(fingerprint)
 
 
 @pytest.mark.slow
@@ -138,7 +156,7 @@ def test_wrong_partners_change_the_degree_and_not_the_sum_of_curvature(name: str
         broken = glued_otherwise(result, complex=wrong)
         np.testing.assert_allclose(gauss_bonnet(broken).euler, wrong.euler, atol=1e-7)  # "agrees"
         seen += bool(abs(2 * gauss_map(broken).degree - wrong.euler).max() > 0.5)
-    assert seen > 0.8 * tries  # sides of two surfaces in one place may be exchanged
+    assert seen > 0.6 * tries  # not all: sides of two surfaces in one place may be exchanged
 
 
 @pytest.mark.parametrize("name", ["paper_fig9", "five_convex", "degenerate_workspace"])

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 import cfree._core as _core
 from cfree.arguments import checked
+from cfree.errors import UnsupportedError
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.geometry.ruled import Floats, Ruled, check_scale, read_ruled
@@ -28,6 +29,8 @@ Ints = NDArray[np.int64]
 UPPER = 1  # of the sides of a trapezoid; the walls are 0 and 2
 TIE = 1e-3  # the arc between two unit normals whose sum is shorter is led through `_middle`
 ROUNDING = 1e-12  # two unit normals whose sum is shorter are opposite
+SHORT, APART = 1e-9, 1e-6  # radians along an edge, and how far apart its faces put its end, over the length of a radian
+ONE_WAY = 1e-6  # how much shorter the mean of directions is that are one
 ROUNDS = 400  # of the search for a half of the sphere around the normals of a vertex
 PRECISION, SURE, HALVINGS = 1e-9, 6, 30  # of areas along edges; more than 6 times only where that helps
 BLOCK = 8192  # edges at a time
@@ -53,7 +56,9 @@ class GaussMap(Value):
     degree : (C,) float64
         Sum of the areas of each closed surface, over 4 pi.
     error : (C,) float64
-        Change of `degree` when the intervals of quadrature are halved: a measured error.
+        Change of `degree` when the intervals of quadrature are halved: a measured error. Added is how much of a radian
+        doubles lose in the greatest coordinate, for each coedge. Infinite where an edge is too short for doubles: its
+        faces then put the same vertex in different places.
     """
 
     faces: Floats
@@ -85,6 +90,8 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     ------
     IncompleteError
         If the boundary is incomplete.
+    UnsupportedError
+        If some edge has no length in doubles.
     ValueError
         If `angle_scale` is not positive.
 
@@ -95,7 +102,8 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
     `gauss_bonnet` cannot. Sheets at a pinched edge are taken in the pairs in which they are glued. Isolated parts
     belong to no closed surface and have no area.
 
-    Time is linear in the number of coedges, some 50 microseconds each.
+    All is computed in doubles: where shapes are 1e12 times as large as others, or nearly touch, `error` says that a
+    degree says nothing. Time is linear in the number of coedges, some 50 microseconds each.
 
     Examples
     --------
@@ -118,7 +126,9 @@ def gauss_map(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussMap:
         return np.array(sums, np.float64) / (2 * math.tau)
 
     degree = summed((faces, cells.component), (edges, surface), (vertices, of_vertex))
-    error = summed((faces_off, cells.component), (edges_off, surface))
+    lost = np.full(len(surface), np.spacing(float(np.abs(cells.near).max(initial=0.0))) / w)
+    lost[_is_unsettled(sides, vertex)] = np.inf
+    error = summed((faces_off, cells.component), (edges_off, surface), (lost, surface))
     return GaussMap(faces, edges, vertices, degree, error)
 
 
@@ -134,19 +144,22 @@ class _Sides:
         self.after[self.before] = np.arange(count)
         self.is_curve = cells.side % 2 == 1
         self.rows = boundary.ruled[boundary.trapezoids.patch[cells.face]].reshape(-1, 8)
-        self.theta, self.t = self._starts()
+        if not (self.rows[:, 2:4] + self.rows[:, 6:8]).any(axis=-1).all():
+            raise UnsupportedError("gauss_map: an edge has no length in doubles beside the largest coordinates")
+        self.theta, self.t, self.place = self._starts()
         self.normal = self._normals(read_ruled(self.rows), self.t, self.theta)
 
-    def _starts(self) -> tuple[Floats, Floats]:
-        """Theta and t where coedges start, on the surface of their face."""
+    def _starts(self) -> tuple[Floats, Floats, Floats]:
+        """Theta and t where coedges start, on the surface of their face; and where that is, NaN inside a wall."""
         cells = self.cells
         start = _core.side_curvatures(self.boundary.core_complex, self.w)[3].reshape(-1, 3).copy()
+        place = start[:, :2].copy()
         within = ~np.isfinite(start[:, 0])  # inside a wall: only the vertex says where
         start[within, :2] = cells.near[cells.vertex[within]]
         near = self.boundary.ruled_near[self.boundary.trapezoids.patch[cells.face]].reshape(-1, 8)
         theta, surface = start[:, 2] / self.w, read_ruled(near)
         along = start[:, :2] - _places(surface, np.zeros(len(theta)), theta)
-        return theta, (along * surface.ruling(theta)).sum(axis=-1) / surface.L
+        return theta, (along * surface.ruling(theta)).sum(axis=-1) / surface.L, place
 
     def _normals(self, surface: Ruled, t: Floats, theta: Floats) -> Floats:
         """S_t x S_theta = (w U_y, -w U_x, s), as unit vectors."""
@@ -258,7 +271,8 @@ def _change(values: Floats) -> Floats:
 
 
 def _unit(vectors: Floats) -> Floats:
-    return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
+    length = np.linalg.norm(vectors, axis=-1, keepdims=True)
+    return np.asarray(np.divide(vectors, length, out=np.zeros_like(vectors), where=length > 0))
 
 
 # --- vertices ---
@@ -269,10 +283,11 @@ def _at_vertices(sides: _Sides, arriving: Floats) -> tuple[Ints, Floats]:
 
     Notes
     -----
-    The polygon is cut into triangles from a centre, none of which has the point opposite to it. If all normals are on
-    the centre's half of the sphere, so is what the vertex covers, and it is these triangles. If they are not, as at
-    some saddles, the vertex is taken not to cover that point either. At the tip of a spike of free space normals are on
-    a great circle, and the vertex covers the half in which its edges are.
+    The polygon is cut into triangles from a centre, none of which has the point opposite to it. They are what the
+    vertex covers if it does not cover that point. If all normals are on the centre's half of the sphere, so is what it
+    covers. Else, as at some saddles, the centre is a direction whose height has no critical point at the vertex: a
+    plane at right angles to it crosses the link of the vertex just twice. At the tip of a spike all edges leave in one
+    direction, which is the centre, since free space is inside.
     """
     following = sides.cells.twin[sides.before].astype(np.int64)
     vertex, count = _cycles(following)
@@ -282,24 +297,34 @@ def _at_vertices(sides: _Sides, arriving: Floats) -> tuple[Ints, Floats]:
     length = np.linalg.norm(middle, axis=-1, keepdims=True)
     aside = _middle(start, stop, arriving[sides.before])  # of the edge between the two
     middle = np.where(length > TIE, middle / np.maximum(length, TIE), aside)
-    points, of = np.concatenate([start, middle]), np.tile(vertex, 2)
-    centre = _centres(points, of, count)
-    aside_of = np.zeros(count)
-    np.maximum.at(aside_of, of, np.abs(_dot(points, centre[of])))
-    along = np.zeros((count, 3))
-    np.add.at(along, vertex, -arriving[sides.cells.twin])
-    spike = (aside_of < TIE) & (_dot(centre, along) < 0)  # normals go round: free space is on the side of the edges
-    at = np.where(spike[:, None], -centre, centre)[vertex]
+    leaving = -arriving[sides.cells.twin]
+    centre, height = _centres(np.concatenate([start, middle]), np.tile(vertex, 2), count)
+    _regular(centre, height, vertex, leaving, leaving[following])
+    at = centre[vertex]
     areas = np.bincount(vertex, _triangle(at, start, middle) + _triangle(at, middle, stop), count)
     return vertex, areas.astype(np.float64)
 
 
-def _centres(points: Floats, of: Ints, count: int) -> Floats:
-    """Centres of halves of the sphere that have the points of each, or have the lowest of them as high as is found.
+def _is_unsettled(sides: _Sides, vertex: Ints) -> NDArray[np.bool_]:
+    """True for coedges that start at an end of a very short edge, if faces do not put that end in one place."""
+    short = sides.is_curve & (np.abs(sides.theta[sides.after] - sides.theta) < SHORT)
+    count = int(vertex.max(initial=-1)) + 1
+    at_short = np.zeros(count, bool)
+    at_short[vertex[short]] = at_short[vertex[sides.after[short]]] = True
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    known = np.isfinite(sides.place[:, 0])
+    np.minimum.at(low, vertex[known], sides.place[known])
+    np.maximum.at(high, vertex[known], sides.place[known])
+    apart = (high - low > APART * sides.w).any(axis=-1)
+    return np.asarray((at_short & apart)[vertex])
+
+
+def _centres(points: Floats, of: Ints, count: int) -> tuple[Floats, Floats]:
+    """Centres of halves of the sphere that have the points of each, and the height of the lowest of them over the rim.
 
     Notes
     -----
-    Rosenblatt's perceptron: centres move towards the lowest points.
+    Rosenblatt's perceptron: centres move towards the lowest points. Heights of 0 and less may not be the greatest.
     """
     centre = np.zeros((count, 3))
     np.add.at(centre, of, points)
@@ -317,7 +342,40 @@ def _centres(points: Floats, of: Ints, count: int) -> Floats:
         active = active[height[of[active]] < TIE]
         if not len(active):
             break
-    return best
+    return best, height
+
+
+def _regular(centre: Floats, height: Floats, vertex: Ints, leaving: Floats, following: Floats) -> None:
+    """Set the centres of vertices to directions in which a height is regular, if the edges around have one.
+
+    Notes
+    -----
+    Faces have angles of at most pi: where the heights of two edges that follow each other have different signs, and
+    only there, a plane crosses the face between them, once.
+    """
+    along = np.zeros_like(centre)
+    np.add.at(along, vertex, leaving / np.bincount(vertex)[vertex, None])
+    spike = (height < TIE) & (np.linalg.norm(along, axis=-1) > 1 - ONE_WAY)
+    centre[spike] = along[spike]
+    left = np.flatnonzero((height <= 0) & ~spike)
+    for direction in DIRECTIONS:
+        if not len(left):
+            return
+        own = np.isin(vertex, left)
+        changes = (leaving[own] @ direction > 0) != (following[own] @ direction > 0)
+        regular = left[np.bincount(vertex[own], changes, len(centre))[left] == 2]
+        centre[regular] = direction
+        left = np.setdiff1d(left, regular)
+
+
+def _directions(count: int) -> Floats:
+    """Unit vectors all around, along a spiral."""
+    k = np.arange(count) + 0.5
+    z, angle = 1 - 2 * k / count, k * math.pi * (1 + 5**0.5)
+    return np.column_stack([np.sqrt(1 - z * z) * np.cos(angle), np.sqrt(1 - z * z) * np.sin(angle), z])
+
+
+DIRECTIONS = _directions(500)
 
 
 def _cycles(following: Ints) -> tuple[Ints, int]:

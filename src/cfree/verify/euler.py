@@ -16,7 +16,7 @@ from fractions import Fraction
 from functools import cmp_to_key
 from itertools import pairwise
 
-from cfree.exact.algebraic import Exact, Root, between, part, rounded
+from cfree.exact.algebraic import Exact, Root, between, near, part
 from cfree.verify.angles import angles_of
 from cfree.verify.missing import united
 from cfree.verify.polygons import Ring, corners
@@ -28,7 +28,7 @@ from cfree.verify.world import World
 Interval = tuple[Exact, Exact]
 Arc = tuple[Vector, Vector]  # from point to point, times w; what is forbidden is on its left
 CLOSE = Fraction(1, 1 << 40)  # to a critical angle, as a half-angle tangent
-NEAR = 1e-6  # of points to a line, in doubles, for points of size 1
+NEAR, BITS = 1e-6, 60  # of points to a line, in doubles, for points of size 1; what these are rounded to
 ENDS = [Turn.of(chart, Fraction(-1)) for chart in (0, 1)]  # -90 and 90 degrees
 
 
@@ -208,23 +208,23 @@ def _arcs(section: Section) -> tuple[list[Arc], bool]:
             slits = slits or outside != ways[ascends]
             found += [(key, lo, hi, ascends) for lo, hi in outside]
     points = {point_at(key, x): None for key, *ends, _ in found for x in ends}
-    rough = {point: [rounded(x) for x in point] for point in points}
-    size = max((abs(x) for place in rough.values() for x in place), default=0.0)
+    size = world.unit * turn.rounded.w  # no point is farther, but for rounding
+    rough = {point: [float(near(x / Fraction(size), BITS)) for x in point] for point in points}
     arcs = []
     for key, lo, hi, ascends in found:
-        cuts = [lo, *sorted(_between(key, lo, hi, rough, NEAR * size)), hi]
+        cuts = [lo, *sorted(_between(key, lo, hi, rough)), hi]
         ways_on = [(point_at(key, p), point_at(key, q)) for p, q in pairwise(cuts)]
         arcs += ways_on if ascends else [(q, p) for p, q in ways_on]
     return arcs, slits
 
 
-def _between(key: LineKey, lo: Exact, hi: Exact, rough: dict[Vector, list[float]], near: float) -> Iterator[Exact]:
+def _between(key: LineKey, lo: Exact, hi: Exact, rough: dict[Vector, list[float]]) -> Iterator[Exact]:
     """Positions of points within an interval of a line. Doubles say which are not near it."""
     (px, py), (qx, qy) = rough[point_at(key, lo)], rough[point_at(key, hi)]
     length = math.hypot(qx - px, qy - py)
     for point, (x, y) in rough.items():
         height = abs((qx - px) * (y - py) - (qy - py) * (x - px))
-        if height <= near * (length + near):
+        if height <= NEAR * (length + NEAR):
             position = position_of(key, point)
             if position is not None and lo < position < hi:
                 yield position
