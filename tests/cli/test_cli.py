@@ -387,6 +387,14 @@ def test_verify_says_what_is_proved_and_what_is_sampled(run: Run, fig9_boundary:
     assert facts["verified"] and {check["how"] for check in facts["checks"]} == {"PROVED", "SAMPLED", "SKIPPED"}
 
 
+def test_verify_deep_counts_euler_numbers_again_and_is_for_boundaries(run: Run, fig9_boundary: Path) -> None:
+    result = run("verify", FIG9, fig9_boundary, "--deep", "--slices", 0)
+    assert result.exit_code == 0 and "Euler by slices   SAMPLED" in result.stdout and "Gauss map" in result.stdout
+    for file in ([], [FIG9]):
+        refused = run("verify", FIG9, *file, "--deep")
+        assert refused.exit_code == 2 and "--deep: is for a boundary in one file" in refused.output
+
+
 def test_verify_refutes_with_exit_code_1(run: Run, fig9_boundary: Path) -> None:
     result = run("verify", SCENES / "five_convex.json", fig9_boundary)
     assert result.exit_code == 1 and "not the scene" in result.stdout

@@ -169,7 +169,7 @@ def _counted_again(
         degrees = ", ".join(f"{x:.3f}" for x in found.degree)
         text = f"degrees {degrees}; Euler numbers {euler.tolist()}, and {matching.euler} as matched here"
         findings.append(Finding(DEGREE, "all surfaces", text))
-    by_degree = f"{len(double):,} degrees are half the Euler numbers; farthest from that by {off / 2:.1e}"
+    by_degree = f"the degree of every surface is half its Euler number, or off by {off / 2:.1e} at most"
     return (of_slices, Check(DEGREE, MEASURED, by_degree)), findings
 
 
