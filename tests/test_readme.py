@@ -93,3 +93,16 @@ def test_pages_and_names_in_sources_exist() -> None:
 def test_sources_of_the_core_open_with_what_they_do() -> None:
     for file in (ROOT / "cpp").rglob("*.?pp"):
         assert "tests" in file.parts[-2:] or file.read_text().startswith("// "), file
+
+
+def test_the_readme_says_of_sampling_planners_what_the_comparison_measured() -> None:
+    readme, table = ((ROOT / name).read_text() for name in ("README.md", "docs/comparison.md"))
+    head, row = (
+        next(line for line in table.splitlines() if line.startswith(start)) for start in ("| scene |", "| nest_swim |")
+    )
+    said = dict(zip(head.split("|"), row.split("|"), strict=True))
+    assert "**f**" in said[" RRTConnect, 1 % "] and "**–**" in said[" RRTConnect, 0.1 % "]  # a false path, no answer
+    said_here = (
+        "A sampling planner cannot tell: it runs until its time limit, or [returns a false path](docs/comparison.md)."
+    )
+    assert said_here in " ".join(readme.split())

@@ -232,7 +232,7 @@ class Arrangement(Value):
 
     @cached_property
     def statistics(self) -> ArrangementStatistics:
-        """How many there are of each sort."""
+        """Counts by sort."""
         return ArrangementStatistics(
             vertices=len(self.vertex_pose),
             edges=len(self.edge_kind),
@@ -275,7 +275,7 @@ class Arrangement(Value):
 
     @checked
     def depth(self, pose: PoseLike) -> int:
-        """In how many pairs the interiors meet at a pose, exactly."""
+        """Number of pairs whose interiors meet at a pose, exactly."""
         cell, on = self._place(pose)
         if cell != ON_SURFACE:
             return int(self.cell_depth[cell])

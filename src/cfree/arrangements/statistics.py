@@ -1,4 +1,4 @@
-"""What is told of an arrangement: its cells, how many there are of each sort, and at most."""
+"""Statistics of an arrangement: its cells, counts by sort, and a bound of the number of vertices."""
 
 from __future__ import annotations
 
@@ -38,13 +38,13 @@ class DepthCell:
 
     @property
     def depth(self) -> int:
-        """How many pairs overlap."""
+        """Number of pairs that overlap."""
         return len(self.pairs)
 
 
 @dataclass(frozen=True, slots=True)
 class ArrangementStatistics:
-    """How many vertices, edges, faces and cells there are, by sort.
+    """Counts of vertices, edges, faces and cells, by sort.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class ArrangementStatistics:
     vertices_by_kind, edges_by_kind, faces_by_contact : dict of str to int
     vertices_by_degree, vertices_by_pairs, faces_by_depth, cells_by_depth : dict of int to int
     bounds : dict of str to int
-        What the number of vertices is at most, constants included. ``"surfaces"``: k patches have 4 for each three, 2
+        Greatest possible numbers of vertices, constants included. ``"surfaces"``: k patches have 4 for each three, 2
         for each of their helices and 1 for each of their edge-edge segments with each patch, and 4 corners each.
     """
 
@@ -72,7 +72,7 @@ class ArrangementStatistics:
 
 
 def counted(values: NDArray[Any], names: Sequence[str] = ()) -> Any:
-    """How often each value occurs, by name if there are names; of others only those that do.
+    """Counts of each value, by name if there are names; without names only of values that occur.
 
     Examples
     --------

@@ -25,7 +25,7 @@ from cfree.value import Value
 
 @dataclass(frozen=True, eq=False)
 class GaussBonnet(Value):
-    """Where the curvature of closed surfaces is; see `gauss_bonnet`.
+    """Curvature of closed surfaces, by place; see `gauss_bonnet`.
 
     Attributes
     ----------
@@ -108,7 +108,7 @@ def gauss_bonnet(boundary: Boundary, *, angle_scale: float = 1.0) -> GaussBonnet
     of_vertex[cells.vertex] = surface
 
     def summed(*parts: tuple[NDArray[Any], NDArray[Any]]) -> Floats:
-        """Of each closed surface, with one rounding: terms are many, and large ones cancel."""
+        """Sums over closed surfaces, with one rounding: terms are many, and large ones cancel."""
         sums = [math.fsum(x for values, of in parts for x in values[of == k].tolist()) for k in range(cells.components)]
         return np.array(sums, np.float64) / math.tau
 
