@@ -177,9 +177,7 @@ def test_a_question_that_only_a_touch_decides_ends_and_more_is_asked_for_by_seco
     monkeypatch.setattr(curved, "PATCHES", 5000)
     walls = [cfree.Curved.circle((0, y), 1) for y in (-2, 2)]
     scene = cfree.Scene(cfree.Curved.circle((0, 0), 1), walls, bounds=(-4, -4, 4, 4), start=(-3, 0, 0), goal=(3, 0, 0))
-    with pytest.raises(
-        cfree.UndecidedError, match="contact patches were not enough; give max_seconds"
-    ) as caught:
+    with pytest.raises(cfree.UndecidedError, match="contact patches were not enough; give max_seconds") as caught:
         cfree.plan(scene)
     assert 0 < caught.value.error < 0.01
     with pytest.raises(cfree.UndecidedError, match="1 seconds were not enough; give more"):

@@ -21,6 +21,7 @@ from cfree.exact.algebraic import Exact, ratio
 from cfree.exact.forms import value_at
 from cfree.exact.orientation import Location
 from cfree.scene.scene import Scene
+from cfree.words import counted
 
 MOST_TRIPLES = 10_000
 RELATIONS = ("points", "curve", "parallel", "identical")
@@ -51,7 +52,7 @@ class Census:
     bound: int
 
     def __repr__(self) -> str:
-        counts = f"{len(self.surfaces)} surfaces, {sum(self.relations.values()):,} triples"
+        counts = f"{counted(len(self.surfaces), 'surface')}, {counted(sum(self.relations.values()), 'triple')}"
         return f"Census({counts}: {len(self.inside)} triple contacts inside, {len(self.rim)} at rims)"
 
 

@@ -136,9 +136,10 @@ def boundary(
             Check(name, SKIPPED, "needs a boundary in which nothing else is wrong") for name in (EULER, DEGREE)
         )
     report(1.0)
-    checks = _checks(
-        reader, matching, len(chosen), f"{counted(slices, 'exact slice')}, {counted(places, 'free contact')}"
-    ) + deeper
+    checks = (
+        _checks(reader, matching, len(chosen), f"{counted(slices, 'exact slice')}, {counted(places, 'free contact')}")
+        + deeper
+    )
     euler = tuple(matching.euler) if matching is not None else ()
     return Verification(refuted(checks, findings), tuple(findings), euler, time.perf_counter() - begin)
 
