@@ -53,7 +53,7 @@ class Census:
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self.surfaces), 'surface')}, {counted(sum(self.relations.values()), 'triple')}"
-        return f"Census({counts}: {len(self.inside)} triple contacts inside, {len(self.rim)} at rims)"
+        return f"Census({counts}: {counted(len(self.inside), 'triple contact')} inside, {len(self.rim)} at rims)"
 
 
 @checked
@@ -103,7 +103,7 @@ def census(scene: Scene, *, max_triples: int = MOST_TRIPLES) -> Census:
     )
     count = comb(len(surfaces), 3)
     if count > max_triples:
-        made = f"{len(surfaces):,} contact surfaces make {count:,} triples"
+        made = f"{counted(len(surfaces), 'contact surface')} make {counted(count, 'triple')}"
         raise UnsupportedError(f"{made}, more than max_triples={max_triples:,}; give more")
     relations = dict.fromkeys(RELATIONS, 0)
     found: dict[tuple[Exact, ...], TripleContact] = {}
