@@ -120,6 +120,39 @@ def test_samples_are_close_together_and_on_the_path(path: Path, step: float, tur
     assert np.allclose(samples.xy[-1], [float(path.goal.x), float(path.goal.y)])
 
 
+def test_a_path_is_a_sequence_of_its_motions() -> None:
+    assert (len(WAY), [*WAY], WAY[0], WAY[-1]) == (3, MOVES, MOVES[0], MOVES[2])
+    assert MOVES[1] in WAY and [*reversed(WAY)] == MOVES[::-1] and WAY[np.int64(1)] == MOVES[1]
+    for index in (3, -4):
+        with pytest.raises(IndexError, match=rf"motion {index}: the number of motions is 3; give -3 to 2"):
+            WAY[index]
+    with pytest.raises(IndexError, match="motion 0: the number of motions is none"):
+        Path(Pose(0, 0), [])[0]
+    with pytest.raises(TypeError, match="index: '1' is a str"):
+        WAY["1"]  # type: ignore[call-overload]
+
+
+@pytest.mark.parametrize(
+    "part", [slice(1, 3), slice(None, -1), slice(2, 2), slice(3, None), slice(2, 1), slice(-9, 99)]
+)
+def test_a_slice_of_a_path_is_the_part_of_it(part: slice) -> None:
+    whole = Path(Pose(1, "1/3", "30deg"), MOVES, "m", "map", SQUARE, clearance=Fraction(1, 9))
+    found = whole[part]
+    first = part.indices(3)[0]
+    assert isinstance(found, Path) and found.motions == whole.motions[part]
+    assert found.poses == whole.poses[first : first + len(found) + 1]
+    assert (found.units, found.frame, found.scene, found.clearance) == ("m", "map", SQUARE, Fraction(1, 9))
+    assert whole[:2].goal == whole[2:].start and whole[:] == whole
+    for step in (-1, 2):
+        with pytest.raises(ValueError, match=f"step {step}: only motions that follow each other"):
+            whole[part.start : part.stop : step]
+
+
+def test_a_path_is_true_without_motions_as_well() -> None:
+    for path in (WAY, WAY[:0], Path(Pose(0, 0), [])):
+        assert bool(path) is True and len(path) == len(path.motions)
+
+
 def test_positions_count_motions() -> None:
     assert [WAY.at(k) for k in range(4)] == list(WAY.poses)
     assert WAY.at("1/2") == Pose(1, "1/6")

@@ -64,6 +64,16 @@ def test_any_orientation_at_a_place_will_do() -> None:
     assert abs(math.remainder(turned.goal.theta, math.pi)) > math.radians(60)
 
 
+def test_a_proof_has_no_truth_value() -> None:
+    """So `if plan(scene)` never takes a proof for a path."""
+    one, several = plan(SHUT, START, (0, -5, 0)), plan(SHUT, START, (0, -5))
+    assert isinstance(one, Separated) and isinstance(several, AllSeparated)
+    for proof in (one, several):
+        for ask in (bool, lambda answer: not answer, lambda answer: answer or None, lambda answer: any([answer])):
+            with pytest.raises(TypeError, match=rf"^{type(proof).__name__}: .*isinstance\(answer, cfree\.Path\)$"):
+                ask(proof)
+
+
 def test_of_several_the_nearest_is_reached() -> None:
     for goals, best in (
         ([(8, -5), (3, 5)], (3, 5)),

@@ -263,7 +263,7 @@ class Answering:
 
         with bar("nearest miss") as progress:
             found = nearest_miss(self.planner.scene, self.start, self.goal, progress=progress)
-        return str(found) if found else "no smaller robot gets there either"
+        return str(found) if found is not None else "no smaller robot gets there either"
 
     def _leave_out(self, name: str, file: Path, why: str) -> None:
         self.files.pop(name, None)

@@ -6,11 +6,11 @@ Between two motions the robot stands still, so every path is continuous. Files a
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, fields, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal
+from typing import Literal, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,10 @@ Floats = NDArray[np.float64]
 @dataclass(frozen=True, repr=False)
 class Path(Shown):
     """A start and motions.
+
+    A path is a sequence of its motions: it has a length, can be iterated over, and ``path[2]`` is a motion. A slice
+    such as ``path[2:5]`` is the part of the path from ``path.poses[2]`` to ``path.poses[5]``, again a path. A path is
+    always true, even without motions.
 
     Parameters
     ----------
@@ -64,6 +68,8 @@ class Path(Shown):
     >>> path = Path(Pose(0, 0), [Translation((2, 0)), Rotation((2, 1), "90deg")])
     >>> path.goal == Pose(3, 1, "90deg"), path.turning == math.pi / 2, path.length == 2 + math.pi / 2
     (True, True, True)
+    >>> len(path), path[-1].turn == math.pi / 2, path[1:].start == path[:1].goal == Pose(2, 0)
+    (2, True, True)
     """
 
     start: Pose
@@ -97,6 +103,47 @@ class Path(Shown):
     def __repr__(self) -> str:
         n = len(self.motions)
         return f"Path({counted(n, 'motion')}, length {self.length:.6g}, turning {self.turning:.6g})"
+
+    def __bool__(self) -> Literal[True]:
+        return True
+
+    def __len__(self) -> int:
+        return len(self.motions)
+
+    def __iter__(self) -> Iterator[Motion]:
+        return iter(self.motions)
+
+    @overload
+    def __getitem__(self, index: int) -> Motion: ...
+    @overload
+    def __getitem__(self, index: slice) -> Path: ...
+    @checked
+    def __getitem__(self, index: int | slice) -> Motion | Path:
+        """Return the motion at an index, or the part of the path in a slice.
+
+        Raises
+        ------
+        IndexError
+            If there is no such motion.
+        ValueError
+            If the slice has a step other than 1: its motions do not follow each other.
+
+        Examples
+        --------
+        >>> path = Path(Pose(0, 0), [Translation((2, 0)), Translation((0, 3)), Translation((1, 1))])
+        >>> path[1].vector == (0, 3), path[1:].start == Pose(2, 0), path[:-1].goal == Pose(2, 3), len(path[1:1])
+        (True, True, True, 0)
+        """
+        count = len(self.motions)
+        if isinstance(index, slice):
+            start, stop, step = index.indices(count)
+            if step != 1:
+                raise ValueError(f"step {step}: only motions that follow each other are a path; give no step")
+            return replace(self, start=self.poses[start], motions=self.motions[start:stop])
+        if not -count <= index < count:
+            give = f"{count}; give {-count} to {count - 1}" if count else "none"
+            raise IndexError(f"motion {index}: the number of motions is {give}")
+        return self.motions[index]
 
     @cached_property
     def poses(self) -> tuple[Pose, ...]:

@@ -170,7 +170,7 @@ class CurvedPlanner:
             lo, hi = self._interval
             if self._is_limited and 0 < hi - lo <= NARROW * lo:
                 raise self._undecided("the clearance is too near to the largest; give another, or a tolerance")
-            if not self.near.refine(_poses(within, ends), apart.obstacles if apart else ()):
+            if not self.near.refine(_poses(within, ends), () if apart is None else apart.obstacles):
                 raise self._undecided(self._reason or TOUCHING)
 
     def _asked(

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, NoReturn
 
 from cfree.arguments import checked
 from cfree.collision.nearest_free import require_free
@@ -18,7 +18,7 @@ from cfree.errors import InvalidPoseError
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
 from cfree.paths.path import Objective, Path
-from cfree.planning.separation import Separated
+from cfree.planning.separation import NO_TRUTH_VALUE, Separated
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
@@ -38,6 +38,8 @@ INWARD = math.radians(10)  # from the end of an interval, or a quarter of it
 class AllSeparated(Shown):
     """A proof that no motion leads to any of several goals.
 
+    It has no truth value, as `Separated` has none.
+
     Parameters
     ----------
     proofs : tuple of Separated
@@ -52,6 +54,9 @@ class AllSeparated(Shown):
     proofs: tuple[Separated, ...]
     places: tuple[ExactPoint, ...]
     of: Literal["closed", "interior"]
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError(f"{type(self).__name__}: {NO_TRUTH_VALUE}")
 
     def __repr__(self) -> str:
         counts = f"{counted(len(self.goals), 'goal')}, {counted(len(self.proofs), 'proof')}"
@@ -131,7 +136,7 @@ def plan_any(
 
     ways = [planner.way(start, pose, few=True) for pose in poses]
     if not any(isinstance(way, list) for way in ways):
-        ways = [way or planner.way(start, pose) for way, pose in zip(ways, poses, strict=True)]
+        ways = [planner.way(start, pose) if way is None else way for way, pose in zip(ways, poses, strict=True)]
     free = [way for way in ways if isinstance(way, list)]
     if free:
         paths = [planner.improved(way, improve and improve / len(free), objective) for way in free]

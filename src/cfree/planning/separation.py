@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,8 @@ from cfree.scene.goals import Moved
 from cfree.scene.scene import Bounds, Scene
 from cfree.value import Shown, Value
 from cfree.words import counted, listed
+
+NO_TRUTH_VALUE = "a proof that there is no path is neither true nor false; ask isinstance(answer, cfree.Path)"
 
 
 @dataclass(frozen=True)
@@ -118,6 +120,9 @@ def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary
 class Separated(Shown):
     """A proof that no motion joins two poses.
 
+    It has no truth value: ``if cfree.plan(scene):`` raises a `TypeError` where no path exists.
+    ``isinstance(answer, cfree.Path)`` tells paths from proofs.
+
     Attributes
     ----------
     start, goal : Pose or (x, y, theta)
@@ -163,6 +168,9 @@ class Separated(Shown):
     cores: tuple[Polygon, ...] = field(default=(), repr=False)
     curved: Scene | None = field(default=None, compare=False, repr=False)
     moved: Moved | None = field(default=None, repr=False)
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError(f"{type(self).__name__}: {NO_TRUTH_VALUE}")
 
     def __repr__(self) -> str:
         obstacles = listed([str(k) for k in self.obstacles], ", ")

@@ -271,7 +271,7 @@ def _box(stamp: Stamp) -> str:
 
 def _of_scene(given: Path | Separated | None) -> dict[str, str]:
     """If a file says which one it is for."""
-    return {SCENE: "the one that the answer is for"} if given and given.stamp else {}
+    return {SCENE: "the one that the answer is for"} if given is not None and given.stamp else {}
 
 
 def _of_curves(scene: Scene, given: Path | Separated) -> dict[str, str]:

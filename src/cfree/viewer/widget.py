@@ -59,7 +59,7 @@ class Widget(AnyWidget):
     def __init__(self, scene: Scene, answer: Path | Separated | None = None) -> None:
         ends = (scene.start, scene.goal) if answer is None else (answer.start, answer.goal)
         super().__init__(source=text_of_polygons(scene), start=ends[0], goal=ends[1], poses=poses_text(answer))
-        self._answer: tuple[object, Path | Separated | None] = (answer and self._question, answer)
+        self._answer: tuple[object, Path | Separated | None] = (None if answer is None else self._question, answer)
 
     @default("page")
     def _default_page(self) -> str:
@@ -93,7 +93,9 @@ class Widget(AnyWidget):
         asked, found = self._answer
         if asked != self._question:
             scene = self.scene
-            asked, found = self._answer = self._question, self._shown(scene) or plan(scene, self.start, self.goal)
+            found = self._shown(scene)
+            found = plan(scene, self.start, self.goal) if found is None else found
+            self._answer = self._question, found
         return found
 
     def _shown(self, scene: Scene) -> Path | None:
