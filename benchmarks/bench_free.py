@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from copy import copy
 from functools import cache
 from importlib.util import find_spec
 from typing import Any
@@ -54,10 +55,10 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float
     calls = [uniform(scene, obstacles, seed) for seed in range(CALLS)]
     poses = calls[-1]
     checker, by_numba, by_fcl = cfree.PoseChecker(scene), numba_test(robot, obstacles), fcl_test(robot, obstacles)
-    (prepare,) = timed(lambda: cfree.PoseChecker(scene).is_free(poses[:1], threads=1), rounds=3)
+    (prepare,) = timed(lambda: cfree.PoseChecker(copy(scene)).is_free(poses[:1], threads=1), rounds=3)
 
     def ask() -> None:
-        fresh = cfree.PoseChecker(scene)
+        fresh = cfree.PoseChecker(copy(scene))  # a scene keeps what is prepared for it, a copy does not
         for new in calls:
             fresh.is_free(new, threads=1)
 
@@ -70,7 +71,7 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float
     )
     free = checker.is_free(poses)
     verdicts = np.empty(len(poses), np.uint8)
-    checker._core.check(poses, 1, verdicts)
+    checker.core.check(poses, 1, verdicts)
     differ = [int((rival(poses[:n]) != free[:n]).sum()) for rival, n in ((by_numba, NUMBA_COUNT), (by_fcl, FCL_COUNT))]
     best = ours.best / (CALLS * COUNT)
     ratios = numbas.best / NUMBA_COUNT / best, fcls.best / FCL_COUNT / best

@@ -5,18 +5,43 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <numbers>
+
 #include "arrays.hpp"
 #include "cfree/collision/motion_checker.hpp"
-#include "cfree/collision/pose_checker.hpp"
-#include "integers.hpp"
+#include "given_poses.hpp"
 #include "watched.hpp"
 
 using namespace nb::literals;
-using cfree::MotionChecker, cfree::PoseChecker;
+using cfree::Int, cfree::MotionChecker, cfree::PoseChecker;
 
 static void check(const PoseChecker& c, const In<double, 2>& poses, int threads, const Out<std::uint8_t, 1>& out) {
     require(poses.shape(1) == 3 && out.shape(0) == poses.shape(0), "poses must have three columns and as many rows as out");
     watched([&] { c.check(poses.data(), poses.shape(0), threads, reinterpret_cast<cfree::Verdict*>(out.data())); });
+}
+
+// Of a `Pose` or x, y and theta in doubles True or False, of a table of one such row a list of that; None of other tuples and
+// lists, and of a `Pose` that is not known to be within the limits where doubles do not tell. Angles of rows are brought to
+// [0, 2 pi) in doubles, as those of `Poses` are.
+static nb::object is_free(const PoseChecker& c, nb::handle poses, bool is_within) {
+    if (length(poses) < 0) return nb::cast(c.is_free(pose_of(poses), is_within));
+    const bool is_table = length(poses) == 1;
+    const auto given = doubles_of(is_table ? item(poses, 0) : poses);
+    if (!given) return nb::none();
+    auto [x, y, theta] = *given;
+    constexpr double turn = 2 * std::numbers::pi;
+    if (is_table && !(0 <= theta && theta < turn)) {
+        theta = std::fmod(theta, turn);
+        if (theta < 0) theta += turn;
+        if (!(theta < turn)) theta = 0;
+    }
+    const auto found = c.is_free(x, y, theta);
+    if (!found) return nb::none();
+    const nb::bool_ verdict(*found);
+    if (!is_table) return verdict;
+    nb::list one;
+    one.append(verdict);
+    return one;
 }
 
 // c, s, w, x, y, unit; vx, vy; start, q, p
@@ -25,6 +50,32 @@ using MotionIntegers = std::array<nb::int_, 11>;
 static cfree::Motion motion(bool turns, const MotionIntegers& n) {
     const auto at = [&](int k) { return integer(n[static_cast<std::size_t>(k)]); };
     return {at(0), at(1), at(2), at(3), at(4), at(5), turns, at(6), at(7), at(8), at(9), at(10)};
+}
+
+// A `Translation` or a `Rotation` from a pose, in doubles or as a `Pose`: is it free? None for other poses.
+static std::optional<bool> is_motion_free(const MotionChecker& checker, nb::handle from, nb::handle motion, bool turns) {
+    static const Attribute vector("vector"), pole("pole"), tau("tau"), clockwise("clockwise");
+    const auto given = given_pose(from);
+    if (!given) return {};
+    const nb::object pair = (turns ? pole : vector).of(motion);
+    const cfree::Ratio vx = ratio_of(item(pair, 0)), vy = ratio_of(item(pair, 1));
+    const auto& [x, y, q, p, theta] = *given;
+    Int unit = lcm(x.d, y.d);
+    if (unit != vx.d || unit != vy.d) unit = lcm(unit, lcm(vx.d, vy.d));
+    const Int scale = unit * checker.scene->scale;
+    const auto whole = [&](const cfree::Ratio& c) { return Int(c.n * (scale / c.d)); };
+    cfree::Motion m{q * q - p * p, 2 * p * q, q * q + p * p, whole(x), whole(y), unit, turns, whole(vx), whole(vy), 1, 1, 0};
+    if (turns) {
+        const nb::object half = tau.of(motion);
+        if (half.is_none()) {
+            m.q = 0, m.p = clockwise.of(motion).is(nb::handle(Py_True)) ? -1 : 1;
+        } else {
+            const cfree::Ratio tangent = ratio_of(half);
+            m.q = tangent.d, m.p = tangent.n;
+        }
+        m.start = sqrt(Int(m.q * m.q + m.p * m.p));
+    }
+    return !checker.begins_outside(m) && checker.is_free(m);
 }
 
 // c, s, w, q, p; and five coefficients each of x, y, d
@@ -45,21 +96,23 @@ static std::optional<Collision> first_collision(const MotionChecker& checker, bo
     return Collision{integers(found->at.p), found->robot_piece, found->obstacle_piece, found->kind, found->robot, found->obstacle};
 }
 
+// tau = p / q as (p, q), half a turn (1, 0); the angle in [0, 2 pi), and the bound of its distance from 2 atan(tau).
+static std::optional<std::tuple<nb::int_, nb::int_, double, double>> read_radians(double theta) {
+    const auto found = cfree::read_radians(theta);
+    if (!found) return {};
+    return std::tuple{integer(found->p), integer(found->q), found->theta, found->error};
+}
+
 void bind_checkers(nb::module_& m) {
+    m.def("read_radians", &read_radians, "theta"_a);
     nb::class_<PoseChecker>(m, "PoseChecker")
         .def(nb::init<std::shared_ptr<const cfree::Scene>, std::array<double, 4>>(), "scene"_a, "limits"_a)
         .def("check", &check, "poses"_a, "threads"_a, "out"_a)
         .def("sweep_is_free", &PoseChecker::sweep_is_free, "start"_a, "by"_a)
-        .def("is_free", [](const PoseChecker& c, std::array<double, 4> placement, const std::array<nb::int_, 6>& exact) {
-            const auto [x, y, cos, sin] = placement;
-            const auto at = [&](std::size_t k) { return integer(exact[k]); };
-            return c.is_free({x, y, cos, sin}, {at(0), at(1), at(2), at(3), at(4), at(5)});
-        }, "placement"_a, "exact"_a);
+        .def("is_free", &is_free, "poses"_a, "is_within"_a = false);
     nb::class_<MotionChecker>(m, "MotionChecker")
         .def(nb::init<std::shared_ptr<const cfree::Scene>>(), "scene"_a)
-        .def("is_free", [](const MotionChecker& checker, bool turns, const MotionIntegers& numbers) {
-            return checker.is_free(motion(turns, numbers));
-        }, "turns"_a, "numbers"_a)
+        .def("is_free", &is_motion_free, "pose"_a, "motion"_a, "turns"_a)
         .def("is_slide_free", [](const MotionChecker& checker, const SlideIntegers& numbers) {
             return checker.is_free(slide(numbers));
         }, "numbers"_a)

@@ -8,12 +8,14 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.hpp"
-#include "integers.hpp"
+#include "cfree/planning/rational_pose.hpp"
+#include "given_poses.hpp"
 #include "watched.hpp"
 
 using namespace nb::literals;
 using cfree::FreeSpace, cfree::Surfaces;
 using PoseIntegers = std::array<nb::int_, 5>;
+constexpr int forbidden = -1, no_cell = -2;
 
 static cfree::ExactPose pose_of(const PoseIntegers& n, int chart) {
     return {integer(n[0]), integer(n[1]), integer(n[2]), chart, integer(n[3]), integer(n[4])};
@@ -37,6 +39,24 @@ static Made<int> locate(const FreeSpace& space, const In<double, 2>& xy, const C
     std::vector<int> found(n);
     watched([&] { space.locate(xy.data(), chart.data(), tau.data(), n, threads, found.data()); });
     return array_of(std::move(found));
+}
+
+// Of one pose, in doubles or as a `Pose`: its cell, or -1 if it is forbidden, -2 if it is in the closure of none. None where
+// Python has to say whether the limits hold it, and for other poses.
+static std::optional<int> locate_one(const FreeSpace& space, const cfree::PoseChecker& checker, nb::handle pose) {
+    const auto numbers = doubles_of(pose);
+    if (!numbers && length(pose) >= 0) return {};
+    if (numbers && checker.is_free((*numbers)[0], (*numbers)[1], (*numbers)[2]) == false) return forbidden;
+    const auto given = numbers ? given_pose(*numbers) : given_pose(pose);
+    if (!given) return {};
+    if (!numbers) {
+        const auto is_free = checker.is_free(*given, false);
+        if (!is_free) return {};
+        if (!*is_free) return forbidden;
+    }
+    const cfree::RationalPose exact{given->x, given->y, {given->q, given->p}};
+    const int cell = space.locate(exact.exact(*space.boundary->scene));
+    return cell == forbidden ? no_cell : cell;
 }
 
 static void bind_surfaces(nb::module_& m) {
@@ -99,6 +119,7 @@ void bind_free_space(nb::module_& m) {
         .def("locate_exactly", [](const FreeSpace& space, const PoseIntegers& pose, int chart) {
             return space.locate(pose_of(pose, chart));
         }, "pose"_a, "chart"_a)
+        .def("locate_one", &locate_one, "checker"_a, "pose"_a)
         .def("locate", &locate, "xy"_a, "chart"_a, "tau"_a, "threads"_a);
     m.def("fluxes", [](const cfree::SharedBoundary& boundary, const In<double, 2>& origins) {
         require(origins.shape(0) == boundary->trapezoids.size() && origins.shape(1) == 2, "a point for each trapezoid");

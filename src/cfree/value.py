@@ -1,12 +1,16 @@
-"""What values have in common: they are equal if what they are made of is, and are copied and pickled as that; shown."""
+"""Base classes of values: equality, copies and pickles by content; display in notebooks; what is made of them, kept."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import fields
 from importlib import import_module
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+
+V = TypeVar("V", bound="Keeping")
+T = TypeVar("T")
 
 
 class Value:
@@ -57,6 +61,53 @@ class Shown:
         # by name: what draws all kinds of values imports all of them
         found: str | None = import_module("cfree.viewer.pictures").picture(self)
         return found
+
+
+class Answer(Shown):
+    """Base of answers to a question about a scene, which are drawn among its obstacles."""
+
+    __slots__ = ()
+
+    def plot(self, scene: Any = None, boundary: Any = None, *, preferences: Any = None) -> Any:
+        """Draw the answer with `cfree.plot.picture`, which says what is drawn; return the matplotlib figure.
+
+        Parameters
+        ----------
+        scene : Scene, optional
+            The answer's own unless given. An answer that was read from a file knows none.
+        boundary : Boundary, optional
+            Of that scene: a path is then drawn in the configuration space as well.
+        preferences : Preferences, optional
+            Where a path does what these find dear is marked.
+        """
+        return import_module("cfree.plot").picture(self, scene, boundary, preferences=preferences)
+
+
+class Keeping:
+    """Base of values that keep what functions make of them: no part of the value, not compared, copied or pickled."""
+
+    __slots__ = ("_kept",)
+    _kept: dict[Any, Any]
+
+
+def kept(value: V, make: Callable[[V], T]) -> T:
+    """Return what a function makes of a value: at the first call it is made, and kept as long as the value.
+
+    It must not refer to the value, or the two would outlive their last use.
+
+    Examples
+    --------
+    >>> value = Keeping()
+    >>> kept(value, repr) is kept(value, repr)
+    True
+    """
+    try:
+        return value._kept[make]  # type: ignore[no-any-return]
+    except AttributeError:
+        object.__setattr__(value, "_kept", {})
+    except KeyError:
+        pass
+    return value._kept.setdefault(make, make(value))  # type: ignore[no-any-return]
 
 
 def _shown(part: Any) -> str:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import math
+import random
 from fractions import Fraction
 from itertools import pairwise
 
@@ -11,7 +12,7 @@ from hypothesis import strategies as st
 
 import strategies
 from cfree.collision.motion import Motion, Rotation, Translation, rotations
-from cfree.collision.motion_checker import FirstContact, MotionChecker
+from cfree.collision.motion_checker import FirstContact, MotionChecker, is_free_motion
 from cfree.collision.pose_checker import is_free
 from cfree.contact.contact import VertexEdge
 from cfree.errors import InvalidPoseError
@@ -105,6 +106,37 @@ def test_bounds_and_workspaces_hold(
 ) -> None:
     scene = Scene(robot=Polygon(*robot), obstacles=[], workspace=Polygon(*room), bounds=(-3, -3, 3, 3))
     check(scene, pose, motion)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_motions_from_poses_in_doubles_are_those_from_their_exact_poses(seed: int) -> None:
+    """With bounds or a workspace or both, from within, on the rim, and far outside."""
+    rng = random.Random(seed)
+    room = [(-4, -4), (4, -4), (4, 4), (-4, 4)]
+    limits = ({"bounds": (-3, -3, 3, 3)}, {"workspace": room}, {"workspace": room, "bounds": (-3, "-10/3", 3, 3)})[seed]
+    scene = Scene([[(0, 0), (1, 0), (0, 1)], [(2, 0), (3, 0), (2, 1)]], [[(0, 2), (1, 2), (1, 3)]], **limits)
+    checker, verdicts = MotionChecker(scene), []
+    for _ in range(150):
+        x, y = rng.randint(-40, 40) / 8, rng.choice((0, -3, rng.uniform(-9, 9), 1e9))
+        theta = rng.choice((0.0, -2.5, 4.0))
+        turn = rng.choice((0.5, "-90deg", {"tau": "inf"}, {"tau": "-inf"}))
+        motion = rng.choice((Translation((rng.randint(-3, 3), "1/3")), Rotation((rng.randint(-3, 3), 0), turn)))
+        pose = Pose(x, y, theta)
+        expected = checker.first_contact(pose, motion) is None
+        for start in (pose, (x, y, theta), [x, y, theta], np.array([x, y, theta]), (Fraction(x), y, theta)):
+            assert checker.is_free(start, motion) == is_free_motion(scene, start, motion) == expected
+        verdicts.append(expected)
+    assert 10 < sum(verdicts) < 140
+
+
+def test_nothing_is_free_beyond_the_frames() -> None:
+    """Far outside of bounds or a workspace there is no obstacle in the way of a motion."""
+    square, step = [(0, 0), (1, 0), (1, 1), (0, 1)], Translation((1, 0))
+    for limits in ({"bounds": (-3, -3, 3, 3)}, {"workspace": [(-3, -3), (3, -3), (3, 3), (-3, 3)]}):
+        checker = MotionChecker(Scene(square, [], **limits))
+        for x in (0, 1, 2, Fraction(5, 2), 3, 4, 10, 19, 20, 21, 10**9, 10**40):
+            is_within = x + 1 + ("workspace" in limits) <= 3
+            assert checker.is_free(Pose(x, 0), step) == checker.is_free((float(x), 0, 0), step) == is_within
 
 
 @pytest.mark.slow

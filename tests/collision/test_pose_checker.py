@@ -1,11 +1,16 @@
 from __future__ import annotations
 
+import gc
 import math
+import pickle
 import random
 from collections.abc import Iterator
+from copy import copy, deepcopy
 from fractions import Fraction
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
+from weakref import ref
 
 import numpy as np
 import pytest
@@ -15,9 +20,25 @@ from hypothesis import strategies as st
 import oracles
 import shapes
 import strategies
-from cfree import InvalidPoseError, Polygon, Pose, PoseChecker, Poses, Scene, boundary, is_free, load_scene
+from cfree import (
+    InvalidPoseError,
+    MotionChecker,
+    Polygon,
+    Pose,
+    PoseChecker,
+    Poses,
+    Scene,
+    Translation,
+    boundary,
+    is_free,
+    is_free_motion,
+    load_scene,
+)
 from cfree.collision.pose_checker import UNCERTAIN
 from cfree.contact import is_forbidden
+from cfree.scene.digest import stamp_of
+from cfree.scene.features import scene_features
+from cfree.scene.scene import with_ends
 from compared import plain_of, scene_of
 from examples import POLYGONS
 from shapes import PlainScene
@@ -148,7 +169,7 @@ def test_what_doubles_are_certain_of_is_true() -> None:
             off = 10.0 ** -rng.uniform(9, 18)
             row = Poses([[float(pose.x) + off * rng.uniform(-1, 1), float(pose.y) + off]], [pose.theta])
             verdict = np.empty(1, np.uint8)
-            checker._core.check(np.column_stack([row.xy, row.theta]), 1, verdict)
+            checker.core.check(np.column_stack([row.xy, row.theta]), 1, verdict)
             expected = oracle(plain, row[0])
             assert checker.is_free(row).tolist() == [expected]
             if verdict[0] == UNCERTAIN:
@@ -268,6 +289,110 @@ def test_arrays_mean_the_poses_they_hold() -> None:
     assert 0 < sum(expected) < len(expected)
 
 
+def in_all_forms(scene: Scene, x: float, y: float, theta: float) -> list[bool]:
+    """One pose in doubles, given in each way, to a scene and to a checker."""
+    row, answers = (x, y, theta), []
+    for asked in (scene, PoseChecker(scene)):
+        for poses in (row, list(row), np.array(row), Pose(*row), (Fraction(x), str(Fraction(y)), theta)):
+            answers.append(is_free(asked, poses))
+            assert type(answers[-1]) is bool
+        for table in ([row], [list(row)], (row,), np.array([row]), Poses([row[:2]], [theta])):
+            found = is_free(asked, table)
+            assert found.shape == (1,) and found.dtype == bool
+            assert found[0] == is_free(asked, Poses([row[:2]], [theta])[0])
+    return answers
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_one_pose_in_doubles_has_the_verdict_of_its_exact_pose(seed: int) -> None:
+    """Poses in contact, or all but so, at angles of all kinds: turned further by whole turns, negative, tiny, huge."""
+    rng = random.Random(seed)
+    plain = shapes.random_scene(seed, ("nonconvex", "holed", "touching")[seed])
+    scene, contacts = scene_of(plain), 0
+    for pose in contact_poses(scene, rng, 12):
+        x, y = float(pose.x), float(pose.y)
+        turned = (pose.theta - math.tau, pose.theta + 3 * math.tau, round(pose.theta / (math.pi / 2)) * math.pi / 2)
+        for theta in (pose.theta, *turned, rng.choice((-1, 1)) * 10.0 ** rng.uniform(-320, 300), -0.0):
+            expected = oracle(plain, Pose(x, y, theta))
+            assert in_all_forms(scene, x, y, theta) == [expected] * 10
+            contacts += any(oracle(plain, Pose(x + off, y, theta)) != expected for off in (-1e-9, 1e-9))
+    assert contacts
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["five_convex", "degenerate_workspace", "nest_swim"])
+def test_one_of_many_poses_is_as_free_as_all_at_once(name: str) -> None:
+    scene = load_scene(f"examples/scenes/{name}.json")
+    table = random_poses(scene, 20_000)
+    table[:, 2] = np.where(np.arange(len(table)) % 3, table[:, 2], table[:, 2].round())
+    at_once = is_free(copy(scene), table)
+    assert [is_free(scene, row) for row in table] == [is_free(scene, tuple(row)) for row in table.tolist()]
+    assert [is_free(scene, row) for row in table] == at_once.tolist() and 0 < at_once.sum() < len(table)
+
+
+@pytest.mark.parametrize("bounds", [("1/3", "1/3", "2/3", "2/3"), (0.1, 0.1, 0.7, 0.7), (-1, -1, 1, 1)])
+def test_limits_hold_exactly_for_one_pose(bounds: tuple) -> None:
+    scene = Scene(SQUARE, [[(90, 90), (91, 90), (91, 91)]], bounds=bounds)
+    low, high = (Fraction(bounds[k]) for k in (0, 2))
+    for end, inwards in ((low, 1), (high, -1)):
+        for off in (0, inwards * Fraction(1, 10**40), -inwards * Fraction(1, 10**40)):
+            assert is_free(scene, Pose(end + off, (low + high) / 2)) == (low <= end + off <= high)
+            assert is_free(scene, Pose((low + high) / 2, end + off)) == (low <= end + off <= high)
+        for x in (float(end), math.nextafter(end, math.inf), math.nextafter(end, -math.inf)):
+            assert is_free(scene, (x, 0.5, 0)) == (low <= Fraction(x) <= high and low <= 0.5 <= high)
+
+
+@pytest.mark.parametrize(
+    ("pose", "said"),
+    [
+        ((0.0, 0.0, math.nan), "poses: theta: nan is not finite"),
+        ((math.inf, 0.0, 0.0), "poses: x: inf is not finite"),
+        ((0.0, "north", 0.0), "poses: y: 'north' is no number"),
+        ((0.0, True, 0.0), "poses"),
+        (np.array([0, 0, math.nan]), "poses: theta: nan is not finite"),
+        ((0.0, 0.0), "poses"),
+        ([], "shape"),
+    ],
+)
+def test_what_is_no_single_pose_is_refused_with_its_place(pose: Any, said: str) -> None:
+    scene = Scene(SQUARE, SQUARE)
+    for asked in (scene, PoseChecker(scene)):
+        with pytest.raises((InvalidPoseError, TypeError), match=said):
+            is_free(asked, pose)
+
+
+def test_a_scene_keeps_its_checker_and_is_the_same_value() -> None:
+    def values(scene: Scene) -> tuple[Any, ...]:
+        return scene, hash(scene), repr(scene), pickle.dumps(scene), stamp_of(scene)
+
+    asked, other = (Scene(SQUARE, TRIANGLE, bounds=(-5, -5, 5, 5), start=(2, 2, 0)) for _ in range(2))
+    for ask in (lambda: is_free(asked, (3, 3, 0)), lambda: is_free_motion(asked, (3, 3, 0), Translation((1, 0)))):
+        assert ask() and values(asked) == values(other)
+    assert PoseChecker(asked).core is PoseChecker(asked).core and MotionChecker(asked).core is MotionChecker(asked).core
+    for same in (copy(asked), deepcopy(asked), pickle.loads(pickle.dumps(asked)), replace_start(asked)):
+        assert same == asked and not hasattr(same, "_kept")
+        assert PoseChecker(same).core is not PoseChecker(asked).core
+    larger = asked.grown(1)  # made of a copy
+    assert is_free(asked, (3, 0, 0)) and is_free(larger, (2.5, 0, 0)) is False
+
+
+def test_what_a_scene_keeps_ends_with_it() -> None:
+    gc.collect()
+    gc.disable()
+    try:
+        scene = Scene(SQUARE, TRIANGLE)
+        assert is_free(scene, (3, 3, 0)) and is_free_motion(scene, (3, 3, 0), Translation((1, 0)))
+        kept_features = ref(scene_features(scene).robot)
+        del scene
+        assert kept_features() is None
+    finally:
+        gc.enable()
+
+
+def replace_start(scene: Scene) -> Scene:
+    return with_ends(scene, scene.start, None)
+
+
 def test_threads_and_what_was_prepared_change_nothing() -> None:
     scene = load_scene("examples/scenes/nest_shirts.json")
     poses = random_poses(scene, 20000)
@@ -289,7 +414,7 @@ def test_boxes_of_poses(name: str) -> None:
     answers = [warm.is_free(poses) for _ in range(3)]
     exactly = [warm.is_free(pose) for pose in Poses(poses[:500, :2], poses[:500, 2])]
     assert (answers[0] == answers[2]).all() and answers[2][:500].tolist() == exactly
-    cold = np.concatenate([PoseChecker(scene).is_free(part) for part in np.array_split(poses[:2000], 200)])
+    cold = np.concatenate([PoseChecker(copy(scene)).is_free(part) for part in np.array_split(poses[:2000], 200)])
     assert (cold == answers[2][:2000]).all()
 
 

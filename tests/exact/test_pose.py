@@ -1,5 +1,7 @@
 import cmath
 import math
+import random
+from collections.abc import Iterator
 from fractions import Fraction
 
 import numpy as np
@@ -7,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from cfree import _core
 from cfree.errors import InvalidPoseError
-from cfree.exact.half_angle import chart_of, half_angle_rotation, normalize_angles, place_of, theta_of
+from cfree.exact.half_angle import chart_of, half_angle_rotation, normalize_angles, place_of, read_radians, theta_of
 from cfree.exact.pose import Pose, Poses
 
 numbers = st.fractions(-9, 9, max_denominator=12)
@@ -73,6 +76,51 @@ def test_degrees_are_degrees() -> None:
     for degrees in range(-720, 1000, 7):
         assert math.isclose(math.cos(Pose(0, 0, f"{degrees}deg").theta), math.cos(math.radians(degrees)), abs_tol=3e-15)
     assert Pose(0, 0, "1e300deg").theta_error < 1e-15
+
+
+def radians_of_all_kinds(count: int, seed: int) -> Iterator[float]:
+    """Multiples of a right angle and their neighbours, huge, tiny, subnormal, negative and ordinary angles."""
+    rng = random.Random(seed)
+    ends = (0.0, -0.0, math.tau, -math.tau, math.nextafter(math.tau, 0), 2.0**63, math.nextafter(2.0**63, 0), 1e308)
+    for k in range(count):
+        multiple = rng.randint(-400, 400) * math.pi / rng.choice((1, 2, 3, 4, 6))
+        for _ in range(rng.randint(0, 4)):
+            multiple = math.nextafter(multiple, rng.choice((-1, 1)) * math.inf)
+        yield (
+            multiple,
+            rng.uniform(-10, 10),
+            rng.randint(-(10**9), 10**9) * math.pi / 2,
+            math.ldexp(rng.uniform(-1, 1), rng.randint(-1074, 1023)),
+            math.ldexp(rng.uniform(-1, 1), rng.randint(-70, 70)),
+            rng.randint(-9, 9) * 5e-324,
+            math.radians(rng.randint(-720, 720)),
+            2 * math.atan(rng.randint(-99, 99) / rng.randint(1, 99)),
+            float(rng.randint(-(10**6), 10**6)),
+            rng.choice(ends) * rng.choice((1, -1)),
+        )[k % 10]
+
+
+@pytest.mark.parametrize("count", [2_000, pytest.param(100_000, marks=pytest.mark.slow)])
+def test_the_core_reads_radians_as_python_does(count: int) -> None:
+    """The half-angle tangent, the angle and its error, bit for bit."""
+    for theta in radians_of_all_kinds(count, seed=count):
+        tau, angle, error = read_radians(Fraction(theta))
+        found = _core.read_radians(theta)
+        if found is None:
+            assert abs(theta) >= 2.0**63
+        else:
+            assert found[:2] == ((1, 0) if tau is None else (tau.numerator, tau.denominator)), theta
+            assert list(map(float.hex, found[2:])) == list(map(float.hex, (angle, error))), theta
+        assert (Pose(0, 0, theta).tau, Pose(0, 0, theta).theta) == (tau, angle)
+    assert _core.read_radians(math.nan) is None and _core.read_radians(-math.inf) is None
+
+
+def test_angles_are_the_same_as_integers_and_as_doubles() -> None:
+    for theta in (0, 1, -3, 355, 2**53, -(2**53), 2**53 + 1, 10**30):
+        q, exact = Pose(0, 0, theta), read_radians(Fraction(theta))
+        assert (q.tau, q.theta, q.theta_error) == exact
+    with pytest.raises(InvalidPoseError, match="theta: True is a truth value"):
+        Pose(0, 0, True)
 
 
 @pytest.mark.parametrize(

@@ -123,6 +123,23 @@ def test_an_exact_fit_longer_than_one_patch() -> None:
     assert space.locate([Pose(x + 1, 1, "90deg") for x in xs]).tolist() == [-2] * 7
 
 
+@pytest.mark.parametrize("kind", ["touching", "holed"])
+def test_one_pose_in_doubles_is_in_the_cell_of_its_exact_pose(kind: str) -> None:
+    plain, rng = random_scene(1, kind), np.random.default_rng(3)
+    space = space_of(plain)
+    x0, y0, x1, y1 = oracles.box_of([*plain.obstacles, *([plain.workspace] if plain.workspace else [])])
+    found = []
+    for x, y, theta in rng.uniform((x0, y0, -7), (x1, y1, 7), (60, 3)).tolist():
+        for row in ((x, y, theta), (float(round(x)), float(round(y)), round(theta) * math.pi / 2)):
+            found.append(space.locate([Pose(*row)]).tolist()[0])
+            for given in (row, list(row), np.array(row), Pose(*row), (Fraction(row[0]), *row[1:])):
+                assert space.locate(given) == found[-1]
+    assert len(set(found)) > 1
+    for wrong in ((0, 0, math.nan), (0, 0), "000"):
+        with pytest.raises((TypeError, ValueError), match="poses"):
+            space.locate(wrong)  # type: ignore[arg-type]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_location_agrees_with_exact_overlap(kind: str) -> None:

@@ -5,6 +5,7 @@ import math
 import random
 from fractions import Fraction
 from pathlib import Path as FilePath
+from typing import Any
 
 import numpy as np
 import pytest
@@ -161,6 +162,32 @@ def test_positions_count_motions() -> None:
         WAY.at(4)
 
 
+def test_poses_are_written_without_a_step(tmp_path: FilePath) -> None:
+    """A twentieth of the robot's radius, as on the command line; of a robot that only a file tells, of its reach."""
+    file, moves, rod = tmp_path / "way.csv", [Translation((8, 0))], Scene([(0, 0), (3, 0), (3, 4)])
+
+    def steps(path: Path, **more: Any) -> float:
+        save(path, file, **more)
+        x = np.loadtxt(file, delimiter=",", skiprows=1)[:, 0]
+        return float(np.diff(x).max())
+
+    assert steps(Path(Pose(0, 0), moves, scene=rod)) == steps(Path(Pose(0, 0), moves), scene=rod) == 5 / 20
+    assert steps(Path(Pose(0, 0), moves)) == pytest.approx(8 / 100)
+    save(Path(Pose(0, 0), moves, scene=rod), tmp_path / "way.json")
+    again = cfree.load(tmp_path / "way.json")
+    assert isinstance(again, Path) and again.scene is None and 5 / 20 < steps(again) <= 7 / 20
+    for suffix in ("yaml", "geojson"):
+        save(WAY, tmp_path / f"way.{suffix}")
+    for turned in (Path(Pose(0, 0), []), Path(Pose(0, 0), [Rotation((0, 0), "90deg")])):
+        save(turned, file)
+    disc = cfree.Curved.circle((0, 0), 2)
+    hall = Scene(disc, [], bounds=(-9, -9, 9, 9), start=(0, 0, 0), goal=(8, 0, 0))
+    path = cfree.plan(hall)
+    assert isinstance(path, Path) and steps(path, scene=hall) == pytest.approx(2 / 20, rel=0.1)
+    with pytest.raises(ValueError, match="step 0"):
+        save(WAY, file, step=0)
+
+
 def test_exports_for_others(tmp_path: FilePath) -> None:
     save(WAY, tmp_path / "way.csv", step=0.5)
     header, *rows = (tmp_path / "way.csv").read_text().splitlines()
@@ -171,8 +198,6 @@ def test_exports_for_others(tmp_path: FilePath) -> None:
     assert (np.abs(np.diff(read[:, 2])) <= math.radians(5) + 1e-12).all() and read[-1, 2] == math.pi / 2
     with pytest.raises(UnsupportedError, match=r"way\.txt: paths are written as"):
         save(WAY, tmp_path / "way.txt")
-    with pytest.raises(ValueError, match="no step"):
-        save(WAY, tmp_path / "way.csv")
     with pytest.raises(ValueError, match="no scene"):
         save(Path(Pose(0, 0), MOVES), tmp_path / "way.geojson", step=1)
     with pytest.raises(ValueError, match=r"way\.json: no scene; give the one that it is an answer for"):

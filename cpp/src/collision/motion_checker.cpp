@@ -380,8 +380,45 @@ private:
 };
 
 MotionChecker::MotionChecker(std::shared_ptr<const Scene> s)
-    : scene(std::move(s)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)) {}
+    : scene(std::move(s)), reach(reach_of(scene->robot)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)) {
+    const Shape& o = scene->obstacles;
+    std::array<bool, 2> has_frame{false, true};
+    for (Index v = 0; v < o.ring_vertices; ++v)
+        if (!o.emit[v]) has_frame[0] = true;  // it is on the rim of the frame around the workspace
+    for (Index k = 0; k < o.pieces(); ++k) {
+        const Index layer = o.piece_layer[k];
+        if (!has_frame[layer]) continue;
+        for (Index m = o.piece[k]; m < o.piece[k + 1]; ++m) {
+            const Int &x = o.X[o.piece_vertex[m]], &y = o.Y[o.piece_vertex[m]];
+            auto& rim = rims[layer];
+            if (!rim) rim = Rim{x, y, x, y};
+            rim->x0 = std::min(rim->x0, x), rim->y0 = std::min(rim->y0, y), rim->x1 = std::max(rim->x1, x), rim->y1 = std::max(rim->y1, y);
+        }
+    }
+}
 MotionChecker::~MotionChecker() = default;
+
+// A point of each piece is enough, as no piece overlaps the frame. In doubles all of the robot is mostly far from its rim.
+bool MotionChecker::begins_outside(const Motion& m) const {
+    const Shape& a = scene->robot;
+    const double x = std::ldexp(ratio(m.x, m.unit), -scene->shift), y = std::ldexp(ratio(m.y, m.unit), -scene->shift);
+    const double r = (reach + std::abs(x) + std::abs(y)) * 0x1p-40 + reach;
+    const auto rounded = [&](const Int& c) { return std::ldexp(ratio(c, Int(1)), -scene->shift); };
+    for (Index layer = 0; layer < 2; ++layer) {
+        if (!rims[layer]) continue;
+        const auto& [x0, y0, x1, y1] = *rims[layer];
+        const double slack = 0x1p-40 * (std::abs(rounded(x0)) + std::abs(rounded(y0)) + std::abs(rounded(x1)) + std::abs(rounded(y1))) + r;
+        if (rounded(x0) < x - slack && x + slack < rounded(x1) && rounded(y0) < y - slack && y + slack < rounded(y1)) continue;
+        const Int whole = m.w * m.unit, left = x0 * whole, right = x1 * whole, low = y0 * whole, high = y1 * whole;
+        for (Index k = 0; k < a.pieces(); ++k) {
+            if (a.piece_layer[k] != layer) continue;
+            const Int &vx = a.X[a.piece_vertex[a.piece[k]]], &vy = a.Y[a.piece_vertex[a.piece[k]]];
+            const Int px = (m.c * vx - m.s * vy) * m.unit + m.x * m.w, py = (m.s * vx + m.c * vy) * m.unit + m.y * m.w;
+            if (!(left < px && px < right && low < py && py < high)) return true;
+        }
+    }
+    return false;
+}
 
 bool MotionChecker::is_free(const Motion& motion) const {
     Run<2> run(*this, frames_of(motion), true);

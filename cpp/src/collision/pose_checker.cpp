@@ -6,6 +6,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "cfree/exact/radians.hpp"
+#include "cfree/exact/ratio.hpp"
 #include "cfree/support/elementary.hpp"
 #include "support/parallel.hpp"
 
@@ -13,26 +15,32 @@ namespace cfree {
 
 // The error of a distance n . p - h. u = 2^-53; M bounds all coordinates that are compared, the robot's placed: those of the
 // obstacles plus twice the robot's. To first order in u:
-//   placed vertex   x + (c a_x - s a_y): 16 u (|a_x| + |a_y|) from c and s, 3 u of that from rounding, 2 u M from x and the
-//                   sum; below 40 u M in each coordinate, 57 u M along n
-//   edge's normal   3 u in each component (an exact difference, rounded; its length; the quotient), 40 u more when it is
-//                   turned; times |p - v| <= 2 M in each coordinate: 172 u M
+//   placed vertex   x + (c a_x - s a_y): 32 u (|a_x| + |a_y|) from c and s, 3 u of that from rounding, 2 u M from x and the
+//                   sum; below 72 u M in each coordinate, 102 u M along n
+//   edge's normal   3 u in each component (an exact difference, rounded; its length; the quotient), 72 u more when it is
+//                   turned; times |p - v| <= 2 M in each coordinate: 300 u M
 //   n . p, h and their difference: 10 u M
-//   vertex seen from the robot, instead of the first and the turned normal: 78 u M in each coordinate, 111 u M along n;
+//   vertex seen from the robot, instead of the first and the turned normal: 142 u M in each coordinate, 201 u M along n;
 //                   edge's normal 3 u times at most 4 M, 24 u M; n . p and h 29 u M
-// In all below 239 u M; 512 u M is allowed. A range of poses adds its width: a point of the robot moves by at most
+// In all below 412 u M; 512 u M is allowed. A range of poses adds its width: a point of the robot moves by at most
 // shift + turn |a|, a point b of an obstacle, seen from the robot, by shift + turn |b - r|.
 namespace {
 constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_square = 0x1p-1022;
 constexpr double cells_in_reach = 8;
 constexpr Index few = 4;  // vertices of a piece: looking at all is quicker than choosing
 constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
+constexpr double farthest = 1e300;  // what is farther away is as far as this
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
 
 Vec<double> unit_normal(const Vec<Int>& e) {
     const auto bits = static_cast<int>(std::max(e.x.is_zero() ? 0 : msb(abs(e.x)), e.y.is_zero() ? 0 : msb(abs(e.y))));
     const double dx = ball(e.x, bits).hi, dy = ball(e.y, bits).hi, length = std::sqrt(dx * dx + dy * dy);
     return {dy / length, -dx / length};
+}
+
+double rounded(const Ratio& x) {
+    const bool is_large = !x.n.is_zero() && msb(abs(x.n)) > msb(x.d) + 1000;
+    return is_large ? std::copysign(farthest, x.n.sign()) : std::clamp(nearest(x.n, x.d), -farthest, farthest);
 }
 
 double middle_of(std::size_t sector) { return (static_cast<double>(sector) + 0.5) * (two_pi / sectors); }
@@ -316,7 +324,7 @@ std::size_t PoseChecker::Grid::slot(double x, double y, double theta) const {
 }
 
 // Cosine and sine of an angle in a sector: those of its middle, turned by series to the 8th power of at most pi / 64, whose
-// next terms are below 2^-57. In all within 2^-50.
+// next terms are below 2^-57. In all within 2^-50; angles of poses are rounded to doubles, and stand for tangents, within 2^-49.
 static Vec<double> direction(double theta, std::size_t sector) {
     static const auto middles = [] {
         std::array<Vec<double>, sectors> found;
@@ -357,7 +365,8 @@ void PoseChecker::check(const double* poses, std::size_t count, int threads, Ver
     Grid& g = near(count);
     std::atomic<bool> stop = false;
     std::atomic<std::size_t> next = 0;
-    in_parallel(threads, stop, [&] {
+    const auto chunks = static_cast<int>(std::min<std::size_t>((count + chunk - 1) / chunk, 1 << 20));
+    in_parallel(std::min(threads, chunks), stop, [&] {  // no thread for less than a chunk
         Placed placed(robot);
         std::vector<std::size_t> slots(chunk), open(chunk);
         for (std::size_t begin; (begin = next.fetch_add(chunk)) < count && !stop;) {
@@ -365,9 +374,9 @@ void PoseChecker::check(const double* poses, std::size_t count, int threads, Ver
             const std::size_t end = std::min(count, begin + chunk);
             for (std::size_t k = begin; k < end; ++k) {
                 const double* q = poses + 3 * k;
-                const bool is_within = limits[0] <= q[0] && q[0] <= limits[2] && limits[1] <= q[1] && q[1] <= limits[3];
-                out[k] = is_within ? Verdict::free : Verdict::forbidden;
-                const std::size_t slot = is_within ? g.slot(q[0], q[1], q[2]) : outside;
+                const bool is_inside = is_within(q[0], q[1]);
+                out[k] = is_inside ? Verdict::free : Verdict::forbidden;
+                const std::size_t slot = is_inside ? g.slot(q[0], q[1], q[2]) : outside;
                 slots[k - begin] = slot;
                 if (slot != outside) __builtin_prefetch(&g.known[slot]);
             }
@@ -390,8 +399,7 @@ PoseChecker::Looks::Looks(std::shared_ptr<const PoseChecker> of) : checker(std::
 PoseChecker::Looks::~Looks() = default;
 
 bool PoseChecker::Looks::is_forbidden(double x, double y, double theta) {
-    const auto& limits = checker->limits;
-    if (!(limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3])) return true;
+    if (!checker->is_within(x, y)) return true;
     if (left-- == 0) grid = &checker->near(chunk), left = chunk - 1;
     const std::size_t slot = grid->slot(x, y, theta);
     if (slot == outside) return false;
@@ -406,8 +414,7 @@ bool PoseChecker::Looks::is_forbidden(double x, double y, double theta) {
 bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::array<double, 3>& by) const {
     constexpr double rounding = 0x1p-44;
     constexpr int deepest = 20;
-    const auto within = [&](double x, double y) { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; };
-    if (!within(from[0], from[1]) || !within(from[0] + by[0], from[1] + by[1])) return false;
+    if (!is_within(from[0], from[1]) || !is_within(from[0] + by[0], from[1] + by[1])) return false;
     const double length = norm(by[0], by[1]) * (1 + rounding), angle = std::abs(by[2]) * (1 + rounding);
     const double slack = rounding * (std::abs(from[0]) + std::abs(from[1]) + length), turned = rounding * (std::abs(from[2]) + angle);
     std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
@@ -429,14 +436,57 @@ bool PoseChecker::sweep_is_free(const std::array<double, 3>& from, const std::ar
     return true;
 }
 
-bool PoseChecker::is_free(const Placement& at, const ExactPlacement& exact) const {
+// By what is known of the poses around, else by this one in doubles, else exactly: `exact` makes the pose only then.
+template <class Exact>
+bool PoseChecker::decide(double x, double y, double theta, Exact&& exact) const {
+    Grid& g = near(1);
+    const std::size_t slot = g.slot(x, y, theta);
+    if (slot == outside) return true;
+    const State state = g.known[slot].load(std::memory_order_relaxed);
+    if (state == State::forbidden || state == State::free) return state == State::free;
     Placed placed(robot);
-    placed.place(at);
-    std::vector<Index> all(static_cast<std::size_t>(obstacles.count()));
-    std::iota(all.begin(), all.end(), 0);
-    return against(placed, all.data(), all.size(), {}, [&](Index i, Index j) {
-        return overlap(exact, i, j) ? Verdict::forbidden : Verdict::free;
+    const double pose[3] = {x, y, theta};
+    if (const Verdict v = verdict(g, slot, pose, placed); v != Verdict::uncertain) return v == Verdict::free;
+    const ExactPlacement at = exact();  // the robot is still placed there
+    const std::size_t cell = slot / sectors;
+    const auto count = static_cast<std::size_t>(g.start[cell + 1] - g.start[cell]);
+    return against(placed, &g.member[g.start[cell]], count, {}, [&](Index i, Index j) {
+        return overlap(at, i, j) ? Verdict::forbidden : Verdict::free;
     }) == Verdict::free;
+}
+
+ExactPlacement GivenPose::exact() const {
+    const Int unit = x.d == y.d ? x.d : lcm(x.d, y.d);
+    return {q * q - p * p, 2 * p * q, q * q + p * p, x.n * (unit / x.d), y.n * (unit / y.d), unit};
+}
+
+// A limit is rounded inwards: what is rounded to a number beyond the next double is beyond it, what is rounded to one further
+// in is within.
+std::optional<bool> PoseChecker::is_free(const GivenPose& pose, bool is_known_within) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const double x = rounded(pose.x), y = rounded(pose.y);
+    if (!is_known_within) {
+        const auto [x0, y0, x1, y1] = limits;
+        const auto is_less = [](double a, double b) { return a < std::nextafter(b, -infinity); };
+        if (is_less(x, x0) || is_less(y, y0) || is_less(x1, x) || is_less(y1, y)) return false;
+        if (!(x0 < x && y0 < y && x < x1 && y < y1)) return {};
+    }
+    return decide(x, y, pose.theta, [&] { return pose.exact(); });
+}
+
+std::optional<bool> PoseChecker::is_free(double x, double y, double theta) const {
+    if (!is_within(x, y)) return false;
+    const auto is_in_a_turn = [](double angle) { return 0 <= angle && angle < two_pi; };
+    double angle = is_in_a_turn(theta) ? theta : in_a_turn(theta);
+    if (!is_in_a_turn(angle)) {  // it is next to 0, or large
+        const auto read = read_radians(theta);
+        if (!read) return {};
+        angle = read->theta;
+    }
+    return decide(x, y, angle, [&] {
+        const auto read = *read_radians(theta);
+        return GivenPose{ratio_of(x), ratio_of(y), read.q, read.p, angle}.exact();
+    });
 }
 
 // Everything times scale * w * unit.

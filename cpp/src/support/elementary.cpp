@@ -54,18 +54,35 @@ constexpr double pi_rounding = 1.2246467991473532e-16, half_pi_rounding = pi_rou
 
 }  // namespace
 
+// The nearest number of quarters, and the rest, within 2^-53.
+struct Quarters {
+    double count, rest;
+    explicit Quarters(double x)
+        : count(std::nearbyint(x * (2 / std::numbers::pi))),
+          rest(((x - count * quarter) - count * quarter_next) - count * quarter_last) {}
+    bool are_too_many() const { return !(std::abs(count) < most_quarters); }
+    int in_a_turn() const { return static_cast<int>(static_cast<long long>(count) & 3); }
+};
+
 CosineSine cosine_sine(double x) {
-    const double turns = std::nearbyint(x * (2 / std::numbers::pi));
-    if (!(std::abs(turns) < most_quarters)) return {none, none};
-    const double r = ((x - turns * quarter) - turns * quarter_next) - turns * quarter_last, z = r * r;
+    const Quarters q(x);
+    if (q.are_too_many()) return {none, none};
+    const double r = q.rest, z = r * r;
     const double s = r + r * z * horner(sine_series, z), most = 1 - 0.5 * z;
     const double c = most + (((1 - most) - 0.5 * z) + z * z * horner(cosine_series, z));
-    switch (static_cast<long long>(turns) & 3) {
+    switch (q.in_a_turn()) {
     case 0: return {c, s};
     case 1: return {-s, c};
     case 2: return {-c, -s};
     default: return {s, -c};
     }
+}
+
+double in_a_turn(double x) {
+    const Quarters q(x);
+    if (q.are_too_many()) return none;
+    const int count = q.in_a_turn();
+    return (count == 0 && q.rest < 0 ? 4 : count) * (std::numbers::pi / 2) + q.rest;
 }
 
 double norm_of_extremes(double x, double y) {

@@ -153,9 +153,9 @@ class Answering:
         from cfree.paths.path import Path as Motions
 
         if isinstance(self.answer, Motions):
-            step, scene = poses.step or self.planner.angle_scale / 20, self.planner.scene
+            scene = self.planner.scene
             text = text_of(
-                self.answer, output, step=step, turn=poses.turn, speed=poses.speed, scene=scene, form=poses.form
+                self.answer, output, step=poses.step, turn=poses.turn, speed=poses.speed, scene=scene, form=poses.form
             )
         elif poses.form == "json":
             text = text_of_proof(self.answer, output)

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from typing import Any
 
 import cfree._core as _core
 from cfree.arguments import checked
@@ -19,11 +20,13 @@ from cfree.contact.contact import EdgeVertex, VertexEdge
 from cfree.contact.kind import Kind
 from cfree.errors import UnsupportedError
 from cfree.exact.number import common_denominator
-from cfree.exact.pose import Pose, PoseLike, to_pose
+from cfree.exact.pose import PLAIN, Pose, PoseLike, for_core, to_pose
 from cfree.exact.surd import Surd
 from cfree.scene.features import BODY, BOUNDS, WORKSPACE, SceneFeatures, ShapeFeatures, scene_features
 from cfree.scene.scene import Scene
-from cfree.value import Value
+from cfree.value import Value, kept
+
+PLAIN_MOTIONS = frozenset({Translation, Rotation})  # kinds of motions that the core reads
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,7 @@ class MotionChecker(Value):
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
         self.features: SceneFeatures = scene_features(scene)
-        self.core = _core.MotionChecker(self.features.core)
+        self.core = kept(scene, _prepared)
         self._rim = None if scene.workspace is None else _extent(self.features.obstacles)
 
     @property
@@ -92,7 +95,6 @@ class MotionChecker(Value):
         """The core's integers are coordinates times the first, its doubles those halved as often as the second says."""
         return self.features.scale, self.features.core.shift
 
-    @checked
     def is_free(self, pose: PoseLike, motion: Motion) -> bool:
         """Is every pose of a motion free? Exact; touching is free, also all the way.
 
@@ -107,12 +109,18 @@ class MotionChecker(Value):
         >>> checker.is_free(Pose(0, 0), Rotation((0, "1e-30"), "90deg"))
         False
         """
+        if type(pose) in PLAIN and type(motion) in PLAIN_MOTIONS:
+            free = _of_one(self.core, pose, motion)
+            if free is not None:
+                return free
+        return self._is_free(pose, motion)
+
+    @checked
+    def _is_free(self, pose: PoseLike, motion: Motion) -> bool:
         pose = to_pose(pose, "pose")
-        if self._outside(pose) is not None:
-            return False
         if isinstance(motion, Slide):
-            return self.core.is_slide_free(self._slide_integers(pose, motion))
-        return self.core.is_free(*self._integers(pose, motion))
+            return self._outside(pose) is None and self.core.is_slide_free(self._slide_integers(pose, motion))
+        return bool(self.core.is_free(pose, motion, motion.kind == "rotation"))
 
     @checked
     def joins(self, poses: Sequence[Pose]) -> bool:
@@ -189,9 +197,8 @@ class MotionChecker(Value):
         return motion.kind == "rotation", (*pose.rotation, x, y, unit, along, across, *half)
 
 
-@checked
 def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
-    """Is every pose of a motion free? Exact; for many motions in one scene use a `MotionChecker`.
+    """Is every pose of a motion free? Exact; the scene keeps what is prepared for it.
 
     Examples
     --------
@@ -204,8 +211,26 @@ def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
     >>> is_free_motion(scene, Pose("0.6", 0), Rotation(("0.6", 0), "90deg"))
     False
     """
+    if type(pose) in PLAIN and type(motion) in PLAIN_MOTIONS and isinstance(scene, Scene) and not scene.curved:
+        free = _of_one(kept(scene, _prepared), pose, motion)
+        if free is not None:
+            return free
+    return _is_free_motion(scene, pose, motion)
+
+
+@checked
+def _is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
     pose = to_pose(pose, "pose")
     return MotionChecker(scene).is_free(pose, motion)
+
+
+def _of_one(core: _core.MotionChecker, pose: Any, motion: Motion) -> bool | None:
+    """Return the verdict of the core, if the pose is a `Pose`, or one in doubles."""
+    return core.is_free(for_core(pose), motion, type(motion) is Rotation)
+
+
+def _prepared(scene: Scene) -> _core.MotionChecker:
+    return _core.MotionChecker(scene_features(scene).core)
 
 
 @checked

@@ -1,7 +1,8 @@
 """Is a pose free? One, or millions; exact for each.
 
 The core compares convex pieces in doubles with a proven error bound, and says which poses that leaves uncertain: those
-in contact, or within about 1e-13 of the size of the scene. These are decided in integers, one by one.
+in contact, or within about 1e-13 of the size of the scene. These are decided in integers, one by one. A single pose
+goes to the core as it is given.
 """
 
 from __future__ import annotations
@@ -19,14 +20,13 @@ import cfree._core as _core
 from cfree.arguments import checked
 from cfree.collector import collection_paused
 from cfree.errors import InvalidPoseError, UndecidedError
-from cfree.exact.pose import Floats, OnePose, Pose, PoseLike, Poses, one_pose, to_pose
+from cfree.exact.pose import PLAIN, Floats, OnePose, Pose, PoseLike, Poses, for_core, one_pose, to_pose
 from cfree.scene.features import SceneFeatures, scene_features
 from cfree.scene.scene import Scene
-from cfree.value import Value
+from cfree.value import Value, kept
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two looks at Ctrl-C
-FARTHEST = 1e300  # what is further away is as far as this
 
 Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | float]
 
@@ -43,7 +43,6 @@ def is_free(
     threads: int | None = None,
     tolerance: float | None = None,
 ) -> NDArray[np.bool_]: ...
-@checked
 def is_free(
     scene: Scene | PoseChecker,
     poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike,
@@ -56,7 +55,7 @@ def is_free(
     Parameters
     ----------
     scene : Scene or PoseChecker
-        A `PoseChecker` keeps what has been prepared for a scene.
+        Either keeps what has been prepared for it.
     poses : Pose or (x, y, theta), Poses, sequence of the former, or (n, 3) float64
         Columns x, y, theta in radians. Row k means the exact pose ``Poses(...)[k]``: x and y are the numbers that the
         doubles are, theta is replaced by the rational half-angle tangent that `Pose` takes for it.
@@ -80,8 +79,9 @@ def is_free(
     -----
     A pose is free if no interior of a convex piece of the robot meets one of the obstacles' pieces (or the
     complement of the workspace), and the reference point is in the bounds. Preparing takes time about linear in the
-    vertices; a pose takes time in the number of pieces near by. An uncertain pose (see above) takes some 100
-    microseconds.
+    vertices, once for a scene, which keeps what is prepared. A pose takes time in the number of pieces near by: a
+    single one, in doubles or as a `Pose`, mostly 1 to 3 microseconds. An uncertain pose (see above) takes some ten
+    more.
 
     Examples
     --------
@@ -93,6 +93,24 @@ def is_free(
     >>> is_free(scene, [[1, 0, 0], [1, 1, math.pi / 2], [1, 1, math.pi]])
     array([ True,  True, False])
     """
+    if threads is None and tolerance is None and type(poses) in PLAIN:
+        if type(scene) is PoseChecker:
+            return scene.is_free(poses)
+        if isinstance(scene, Scene) and not scene.curved:
+            free = _of_one(kept(scene, _prepared)[0], poses)
+            if free is not None:
+                return free
+    return _is_free(scene, poses, threads=threads, tolerance=tolerance)
+
+
+@checked
+def _is_free(
+    scene: Scene | PoseChecker,
+    poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike,
+    *,
+    threads: int | None,
+    tolerance: float | None,
+) -> bool | NDArray[np.bool_]:
     if isinstance(scene, Scene) and scene.curved:
         found: NDArray[np.bool_] = _among_curves(scene, poses, threads, tolerance)
         return found
@@ -100,6 +118,12 @@ def is_free(
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     return checker.is_free(poses, threads=threads)
+
+
+def _of_one(core: _core.PoseChecker, poses: Any) -> bool | NDArray[np.bool_] | None:
+    """Return the verdict of one `Pose`, of one in doubles, or of a table of one row; None for anything else."""
+    free: Any = core.is_free(for_core(poses))
+    return np.array(free) if type(free) is list else free
 
 
 def _among_curves(scene: Scene, poses: Any, threads: int | None, tolerance: float | None) -> Any:
@@ -150,13 +174,8 @@ class PoseChecker(Value):
     """
 
     def __init__(self, scene: Scene, features: SceneFeatures | None = None) -> None:
-        with collection_paused():
-            self.scene = scene
-            features = features or scene_features(scene)
-            self.limits = limits_of(scene)
-            x0, y0, x1, y1 = self.limits
-            limits = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
-            self._core = _core.PoseChecker(features.core, limits)
+        self.scene = scene
+        self.core, self.limits = kept(scene, _prepared) if features is None else _prepared_with(scene, features)
 
     @property
     def _content(self) -> tuple[Scene]:
@@ -168,11 +187,20 @@ class PoseChecker(Value):
     def is_free(
         self, poses: Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
     ) -> NDArray[np.bool_]: ...
-    @checked
     def is_free(
         self, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
     ) -> bool | NDArray[np.bool_]:
         """See `cfree.is_free`."""
+        if threads is None and type(poses) in PLAIN:
+            free = _of_one(self.core, poses)
+            if free is not None:
+                return free
+        return self._is_free(poses, threads=threads)
+
+    @checked
+    def _is_free(
+        self, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None
+    ) -> bool | NDArray[np.bool_]:
         if threads is not None and threads < 1:
             raise ValueError(f"threads: {threads}; give at least 1")
         if (pose := one_pose(poses, "poses")) is not None:
@@ -192,7 +220,7 @@ class PoseChecker(Value):
         verdicts = np.empty(len(table), np.uint8)
         for k in range(0, len(table), BLOCK):
             rows = slice(k, k + BLOCK)
-            self._core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
+            self.core.check(table[rows], threads or os.cpu_count() or 1, verdicts[rows])
         return verdicts
 
     @checked
@@ -219,21 +247,26 @@ class PoseChecker(Value):
         (True, False)
         """
         first, change = (np.asarray(each, float).tolist() for each in (start, by))
-        return self._core.sweep_is_free(first, change)
+        return self.core.sweep_is_free(first, change)
 
     def _is_free_exactly(self, pose: Pose) -> bool:
-        x0, y0, x1, y1 = self.limits
-        if not (x0 <= pose.x <= x1 and y0 <= pose.y <= y1):
-            return False
-        c, s, w = pose.rotation
-        return self._core.is_free([_rounded(pose.x), _rounded(pose.y), c / w, s / w], (c, s, w, *pose.integers))
+        free: Any = self.core.is_free(pose)
+        if free is None:  # on a limit, or all but so
+            x0, y0, x1, y1 = self.limits
+            is_within = x0 <= pose.x <= x1 and y0 <= pose.y <= y1
+            free = is_within and self.core.is_free(pose, is_within)
+        return bool(free)
 
 
-def _rounded(x: Fraction) -> float:
-    try:
-        return max(-FARTHEST, min(FARTHEST, float(x)))
-    except OverflowError:
-        return FARTHEST if x > 0 else -FARTHEST
+def _prepared(scene: Scene) -> tuple[_core.PoseChecker, Limits]:
+    return _prepared_with(scene, scene_features(scene))
+
+
+def _prepared_with(scene: Scene, features: SceneFeatures) -> tuple[_core.PoseChecker, Limits]:
+    with collection_paused():
+        x0, y0, x1, y1 = limits = limits_of(scene)
+        doubles = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
+        return _core.PoseChecker(features.core, doubles), limits
 
 
 def _is_table(rows: Sequence[Any]) -> bool:

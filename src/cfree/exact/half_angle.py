@@ -16,11 +16,13 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+import cfree._core as _core
 from cfree.errors import InvalidPoseError
 from cfree.exact.arctangent import pi
 from cfree.exact.number import ExactPoint, Number, simplest_between, to_fraction
 
 Floats = NDArray[np.float64]
+MOST_EXACT = 2**53  # all integers up to it are doubles
 # radians, also as "1.5rad"; degrees as in "90deg" or "90°"; or the half-angle tangent: {"tau": "1/3"}, {"tau": "inf"},
 # {"tau": None}
 Angle = Number | Mapping[str, Number | None]
@@ -245,7 +247,23 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
         quarter_turns = round(degrees / 90)
         rest = (degrees - 90 * quarter_turns) / 180 * pi(128)
         return _rationalize(quarter_turns, rest)
-    radians = to_rational("theta", value)
+    if isinstance(theta, float) or (type(theta) is int and abs(theta) <= MOST_EXACT):
+        read = _core.read_radians(theta)
+        if read is not None:
+            p, q, angle, error = read
+            return Fraction(p, q) if q else None, angle, error
+    return read_radians(value)
+
+
+def read_radians(theta: Number) -> tuple[Fraction | None, float, float]:
+    """The same of radians, of any kind and size; the core's twin is for doubles below 2^63.
+
+    Examples
+    --------
+    >>> read_radians("0.5") == read_angle(0.5), read_radians(Fraction(1, 3)) == read_angle(1 / 3)
+    (True, False)
+    """
+    radians = to_rational("theta", theta)
     try:
         ulp = math.ulp(float(radians))
     except OverflowError:

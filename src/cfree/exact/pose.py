@@ -181,6 +181,22 @@ PoseLike = Pose | Sequence[Any]  # or (x, y, theta), as `Pose` takes them
 OnePose = Pose | tuple[Number, Number, Angle]  # the same, for what takes many as well
 
 
+PLAIN = frozenset({tuple, list, np.ndarray, Pose})  # kinds of poses that the core is asked about first
+
+
+def for_core(poses: Any) -> Any:
+    """Return plain poses as the core reads them: lists for arrays of three numbers, and nothing for larger arrays.
+
+    Examples
+    --------
+    >>> for_core(np.array([1, 2, 0.5])), for_core((1, 2, 0)), for_core(np.zeros((9, 3)))
+    ([1.0, 2.0, 0.5], (1, 2, 0), ())
+    """
+    if type(poses) is not np.ndarray:
+        return poses
+    return poses.tolist() if poses.size == 3 else ()
+
+
 def one_pose(value: object, name: str) -> Pose | None:
     """The pose, if one is given and not many.
 

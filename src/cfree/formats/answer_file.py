@@ -14,13 +14,14 @@ from cfree.paths.leeway import keeps_leeway
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
-from cfree.scene.digest import Stamp, stamp_for
-from cfree.scene.scene import Scene
+from cfree.scene.digest import Stamp, stamp_for, stamp_of
+from cfree.scene.scene import Scene, robot_radius
 
 if TYPE_CHECKING:
     from cfree.formats.answer_format import Read
 
 
+PARTS_OF_RADIUS, PARTS_OF_LENGTH = 20, 100  # steps from pose to pose, unless given: of the robot, of the path
 FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files with paths
 ALSO = {"ros": (".yml",), "geojson": (".json",)}  # suffixes that fit a form that is asked for
 ANY = ("", ".txt")  # and those that fit every form
@@ -105,7 +106,8 @@ def save_path(
         the same as a ROS nav_msgs/Path. ``.geojson`` holds the way of the reference point, and the robot's outlines
         at these poses.
     step, turn : float
-        As in `Path.sample`; step is needed for all but ``.json``.
+        As in `Path.sample`. Unless given, a step is a twentieth of the robot's radius, or a
+        hundredth of the length of a path that knows no robot.
     speed : float, optional
         Lengths a second that no point of the robot is faster than: poses have times then, in seconds.
     scene : Scene, optional
@@ -118,7 +120,7 @@ def save_path(
     UnsupportedError
         If the file's name ends otherwise or says another form, or there is no such form.
     ValueError
-        If step or scene is missing.
+        If the scene is missing.
     """
     text = text_of(path, file, step=step, turn=turn, speed=speed, scene=scene, form=form_of(file, form))
     with replacing(file) as unfinished:
@@ -137,8 +139,7 @@ def text_of(
     if form == "json":
         stamp = _stamp(file, path, scene)
         return path_text(path, stamp, lambda leeway: scene is not None and keeps_leeway(path, scene, leeway))
-    if step is None:
-        raise ValueError(f"{file}: no step; give the longest distance between poses")
+    step = usual_step(path, scene) if step is None else step
     if scene is None and (form == "geojson" or speed is not None):
         raise ValueError(f"{file}: no scene; give the one whose robot moves")
     seconds = None if speed is None or scene is None else times(path, scene, speed, step, turn).tolist()
@@ -148,6 +149,26 @@ def text_of(
         return ros_text(path, step, turn, seconds)
     assert scene is not None
     return geojson_text(path, scene, step, turn, seconds)
+
+
+def usual_step(path: Path, scene: Scene | None) -> float:
+    """Return a twentieth of the robot's radius; if no robot is known, a hundredth of the path's length.
+
+    Examples
+    --------
+    >>> from cfree import Pose, Scene, Translation
+    >>> way = Path(Pose(0, 0), [Translation((4, 0))])
+    >>> usual_step(way, None), usual_step(way, Scene([(0, 0), (3, 0), (3, 4)]))
+    (0.04, 0.25)
+    """
+    if scene is None or scene.curved:
+        scene = path.scene or scene
+    if scene is not None and not scene.curved:
+        return robot_radius(scene) / PARTS_OF_RADIUS
+    stamp = path.stamp if scene is None else stamp_of(scene)
+    if stamp is not None:
+        return float(stamp.reach) / PARTS_OF_RADIUS
+    return path.length / PARTS_OF_LENGTH or 1.0
 
 
 def text_of_proof(proof: Separated | AllSeparated, file: object) -> str:

@@ -50,7 +50,8 @@ def save(
         ``.obj`` or ``.stl`` for meshes, ``.geojson`` for slices. Poses of paths also as ``.csv``, ``.yaml`` (a ROS
         nav_msgs/Path) or ``.geojson`` with the robot's outlines.
     step, turn : float
-        Of paths, as in `Path.sample`: needed for poses.
+        Of paths, as in `Path.sample`. Unless given, a step is a twentieth of the robot's radius, or a
+        hundredth of the length of a path that knows no robot.
     speed : float, optional
         Of paths: lengths a second that no point of the robot is faster than; poses have times then, in seconds.
     scene : Scene, optional
@@ -63,7 +64,7 @@ def save(
     UnsupportedError
         If the file's name ends otherwise.
     ValueError
-        If step or scene is missing, or given for a value that is no path.
+        If a scene is missing, or something of these is given for a value that is no path.
     OSError
         If the file cannot be written.
 

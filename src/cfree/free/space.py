@@ -22,7 +22,7 @@ from cfree.arguments import checked
 from cfree.collision.pose_checker import FORBIDDEN as CERTAINLY_FORBIDDEN
 from cfree.errors import InvalidPoseError, InvariantError
 from cfree.exact.half_angle import chart_of, tau_in_chart
-from cfree.exact.pose import OnePose, Pose, PoseLike, Poses, one_pose, to_pose
+from cfree.exact.pose import PLAIN, OnePose, Pose, PoseLike, Poses, for_core, one_pose, to_pose
 from cfree.forbidden.boundary import Boundary, boundary_of, regularize_by
 from cfree.forbidden.cell_complex import CellComplex
 from cfree.forbidden.columns import Floats, Ints
@@ -249,7 +249,6 @@ class FreeSpace(Value, Shown):
     def locate(self, poses: OnePose, *, threads: int | None = None) -> int: ...
     @overload
     def locate(self, poses: Poses | Iterable[PoseLike], *, threads: int | None = None) -> Ints: ...
-    @checked
     def locate(self, poses: OnePose | Poses | Iterable[PoseLike], *, threads: int | None = None) -> int | Ints:
         """Cell of each pose, exactly.
 
@@ -269,8 +268,16 @@ class FreeSpace(Value, Shown):
         Notes
         -----
         Time per free pose is about proportional to the faces at its height to the left of it, at its orientation; a
-        forbidden one is mostly recognised as by `is_free`. Some microseconds each; tens for a single `Pose`.
+        forbidden one is mostly recognised as by `is_free`. Some microseconds each.
         """
+        if threads is None and type(poses) in PLAIN:
+            cell = self.core.locate_one(self.boundary.checker.core, for_core(poses))
+            if cell is not None:
+                return cell
+        return self._located(poses, threads=threads)
+
+    @checked
+    def _located(self, poses: OnePose | Poses | Iterable[PoseLike], *, threads: int | None) -> int | Ints:
         if threads is not None and threads < 1:
             raise ValueError(f"threads: {threads}; give at least 1")
         if (pose := one_pose(poses, "poses")) is not None:

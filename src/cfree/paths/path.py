@@ -23,7 +23,7 @@ from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
-from cfree.value import Shown
+from cfree.value import Answer
 from cfree.words import counted
 
 Objective = Literal["balanced", "short", "clear"]
@@ -32,7 +32,7 @@ Floats = NDArray[np.float64]
 
 @checked
 @dataclass(frozen=True, repr=False)
-class Path(Shown):
+class Path(Answer):
     """A start and motions.
 
     A path is a sequence of its motions: it has a length, can be iterated over, and ``path[2]`` is a motion. A slice

@@ -19,8 +19,19 @@ from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.palette import BARRIER, EDGE_EDGE, EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, VERTEX_EDGE, VIEW, paler
 from cfree.paths.path import Path
 from cfree.paths.preferences import NONE, Preferences
+from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
-from cfree.plot.boundary import around, new_figure, new_space, plain, roomy, set_ticks, set_window, with_unit
+from cfree.plot.boundary import (
+    around,
+    new_figure,
+    new_space,
+    plain,
+    plot_workspace,
+    roomy,
+    set_ticks,
+    set_window,
+    with_unit,
+)
 from cfree.plot.depth_sort import Painting
 from cfree.plot.labels import BODY, Labels, name_in_space
 from cfree.plot.looks import looks, of_polygons
@@ -90,19 +101,20 @@ def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) ->
 
 @checked
 def picture(
-    answer: Path | Separated,
-    scene: Scene,
+    answer: Path | Separated | AllSeparated | Scene,
+    scene: Scene | None = None,
     boundary: Boundary | None = None,
     *,
     preferences: Preferences | None = None,
 ) -> Figure:
-    """An answer in the workspace, and beside it in the configuration space.
+    """An answer in the workspace, and beside it in the configuration space; or a scene.
 
     Parameters
     ----------
-    answer : Path or Separated
-    scene : Scene
-        To which it is the answer.
+    answer : Path, Separated, AllSeparated or Scene
+        Several proofs are shown by their first. A scene is drawn as by `plot_workspace`.
+    scene : Scene, optional
+        To which it is the answer; its own unless given. An answer that was read from a file knows none.
     boundary : Boundary, optional
         Of that scene; without it a path is drawn in the workspace alone. A separation brings its own surface.
     preferences : Preferences, optional
@@ -115,7 +127,7 @@ def picture(
     Raises
     ------
     ValueError
-        If a path is not free.
+        If a path is not free, or the scene is missing, or a scene is given for a scene.
 
     See Also
     --------
@@ -132,8 +144,17 @@ def picture(
     >>> [text.get_text() for text in figure.texts]
     ['no path from start to goal', 'parted by the workspace; obstacle 0, 1 x 5 at (4.5, 1.5)']
     """
-    from cfree.planning.separation import Separated
-
+    if isinstance(answer, Scene):
+        if scene is not None or boundary is not None:
+            raise ValueError("scene, boundary: a scene is drawn alone; leave them out")
+        figure = plot_workspace(answer).get_figure(root=True)
+        assert figure is not None
+        return figure
+    if isinstance(answer, AllSeparated):
+        answer = answer.proofs[0]
+    scene = scene or answer.curved or answer.scene
+    if scene is None:
+        raise ValueError("scene: the answer knows none, as it was read from a file; give the one it is an answer for")
     scene = of_polygons(answer, scene)
     if isinstance(answer, Separated):
         return _picture_of_separation(answer, scene)

@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 import cfree._core as _core
 from cfree.errors import UnsupportedError
 from cfree.scene.core_shapes import core_shapes
+from cfree.value import kept
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
@@ -141,7 +142,11 @@ def unpacked(code: Any) -> tuple[Any, Any, Any]:
 
 
 def scene_features(scene: Scene) -> SceneFeatures:
-    """Number everything the core needs to know of a scene."""
+    """Number everything the core needs to know of a scene, which keeps it."""
+    return kept(scene, _numbered)
+
+
+def _numbered(scene: Scene) -> SceneFeatures:
     shapes = core_shapes(scene.robot, scene.obstacles, scene.workspace, scene.bounds)
     features = SceneFeatures.of(_core.SceneFeatures(*shapes))
     refuse_too_many(features)

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, field
 from fractions import Fraction
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from cfree.exact.pose import Pose, PoseLike, to_pose
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.coordinate_range import range_fault
 from cfree.scene.goals import Goal, to_goals
-from cfree.value import Shown
+from cfree.value import Keeping, Shown
 from cfree.words import counted
 
 Bounds = tuple[Fraction, Fraction, Fraction, Fraction]
@@ -36,7 +37,7 @@ AnyShape = Polygon | Curved
 
 @checked
 @dataclass(frozen=True, slots=True, init=False, repr=False)
-class Scene(Shown):
+class Scene(Shown, Keeping):
     """A robot among obstacles.
 
     Parameters
@@ -182,6 +183,10 @@ class Scene(Shown):
         robot = f"{parts} {'shapes' if self.curved else 'polygons'}, " if parts > 1 else ""
         obstacles = counted(count, "obstacle") + (f": {_edges(self.obstacles)}" if count else "")
         return f"Scene({title}robot: {robot}{_edges(self.robot)}; {obstacles})"
+
+    def plot(self) -> Any:
+        """Draw obstacles, bounds, workspace, start and goal with `cfree.plot.picture`; return the matplotlib figure."""
+        return import_module("cfree.plot").picture(self)
 
     @checked
     def outer(self, error: float) -> Scene:

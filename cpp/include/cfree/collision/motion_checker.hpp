@@ -50,14 +50,22 @@ public:
     MotionChecker& operator=(const MotionChecker&) = delete;
     bool is_free(const Motion& motion) const;
     bool is_free(const Slide& slide) const;
+    // Does it begin beyond the frames around the bounds and the workspace, where nothing is in the way?
+    bool begins_outside(const Motion& motion) const;
     std::optional<Collision> first_collision(const Motion& motion) const;
     // Of a translation: the parameter of the first collision.
     std::optional<Ratio> free_share(const Motion& translation) const;
 
+    const std::shared_ptr<const Scene> scene;
+
 private:
     template <int N>
     class Run;
-    const std::shared_ptr<const Scene> scene;
+    struct Rim {
+        Int x0, y0, x1, y1;
+    };
+    std::array<std::optional<Rim>, 2> rims;  // by layer, of the frames
+    double reach;                            // of the robot, in the scene's doubles
     const std::vector<Box> boxes;
     const std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
 };

@@ -9,14 +9,16 @@
 #include <atomic>
 #include <memory>
 #include <mutex>
+#include <optional>
 
+#include "cfree/exact/ratio.hpp"
 #include "cfree/scene/scene.hpp"
 
 namespace cfree {
 
 enum class Verdict : std::uint8_t { forbidden, free, uncertain };
 
-// A pose in doubles: x and y correctly rounded, cosine and sine within 2^-49 of those of the pose meant.
+// A pose in doubles: x and y correctly rounded, cosine and sine within 2^-48 of those of the pose meant.
 struct Placement {
     double x, y, c, s;
 };
@@ -26,6 +28,14 @@ struct ExactPlacement {
     Int c, s, w, x, y, unit;
 };
 
+// A pose with rational numbers: its half-angle tangent is p / q, half a turn 1 / 0; theta is rounded, in [0, 2 pi).
+struct GivenPose {
+    Ratio x, y;
+    Int q, p;
+    double theta;
+    ExactPlacement exact() const;
+};
+
 class PoseChecker {
 public:
     // The reference point stays in limits: x0, y0, x1, y1.
@@ -33,8 +43,11 @@ public:
 
     // Verdicts of poses x, y and theta in [0, 2 pi], radians.
     void check(const double* poses, std::size_t count, int threads, Verdict* out) const;
-    // One pose within the limits, exactly.
-    bool is_free(const Placement& at, const ExactPlacement& exact) const;
+    // One pose, exactly. Nothing where it is so near to a limit that doubles do not tell, unless it is known to be within.
+    std::optional<bool> is_free(const GivenPose& pose, bool is_known_within) const;
+    // Exactly the pose that Python's `Pose` makes of three finite doubles. Nothing for an angle that `read_radians` leaves
+    // out.
+    std::optional<bool> is_free(double x, double y, double theta) const;
 
     // Certainly free are all poses from + u (by), u in [0, 1]: x, y and theta, radians, change evenly. False may mean that
     // they come too close to tell.
@@ -65,6 +78,9 @@ private:
     template <class F>
     Verdict against(Placed& robot, const Index* near, std::size_t count, const Range& range, F&& decide) const;
     bool overlap(const ExactPlacement& at, Index i, Index j) const;
+    bool is_within(double x, double y) const { return limits[0] <= x && x <= limits[2] && limits[1] <= y && y <= limits[3]; }
+    template <class Exact>
+    bool decide(double x, double y, double theta, Exact&& exact) const;
 
     // Which obstacle pieces the robot may reach from somewhere in a cell of a grid. By cell and sector of angles: what is known
     // of all poses there; threads may find it twice, and find the same.

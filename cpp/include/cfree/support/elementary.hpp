@@ -12,6 +12,7 @@ CosineSine cosine_sine(double x);  // up to 2^18 turns; else no numbers
 inline double cosine(double x) { return cosine_sine(x).c; }
 inline double sine(double x) { return cosine_sine(x).s; }
 double tangent(double x);
+double in_a_turn(double x);  // in [0, 2 pi), or 2 pi by rounding, within 2^-50; up to 2^18 turns, else no number
 
 double arc_tangent(double x);
 double arc_tangent(double y, double x);  // of the point (x, y), in [-pi, pi]
