@@ -60,8 +60,9 @@ static std::optional<bool> is_motion_free(const MotionChecker& checker, nb::hand
     const nb::object pair = (turns ? pole : vector).of(motion);
     const cfree::Ratio vx = ratio_of(item(pair, 0)), vy = ratio_of(item(pair, 1));
     const auto& [x, y, q, p, theta] = *given;
-    Int unit = lcm(x.d, y.d);
-    if (unit != vx.d || unit != vy.d) unit = lcm(unit, lcm(vx.d, vy.d));
+    Int unit = x.d;
+    for (const Int* d : {&y.d, &vx.d, &vy.d})
+        if (*d != 1 && *d != unit) unit = lcm(unit, *d);
     const Int scale = unit * checker.scene->scale;
     const auto whole = [&](const cfree::Ratio& c) { return Int(c.n * (scale / c.d)); };
     cfree::Motion m{q * q - p * p, 2 * p * q, q * q + p * p, whole(x), whole(y), unit, turns, whole(vx), whole(vy), 1, 1, 0};

@@ -2,6 +2,9 @@
 
 import doctest
 import math
+import subprocess
+import sys
+import textwrap
 import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path as FilePath
@@ -315,6 +318,45 @@ def test_the_headline_says_what_it_is(car_park: Boundary, parking: Path) -> None
 
 
 # separations
+
+
+@pytest.mark.slow
+def test_answers_and_scenes_plot_themselves(tmp_path: FilePath) -> None:
+    """As `picture` does, of their own scene, or of one that is given to an answer from a file."""
+
+    def texts(figure: Figure) -> list[str]:
+        return [text.get_text() for text in (*figure.texts, *(ax.title for ax in figure.axes))]
+
+    wall, hall = [(4, -9), (5, -9), (5, 9), (4, 9)], [(0, 0), (9, 0), (9, 3), (0, 3)]
+    scene = Scene(SQUARE, [wall], workspace=hall, start=(1, 1, 0), goals=[(2, 1), (3, 2, 0)], name="hall")
+    path, proof, proofs = cfree.plan(scene), cfree.plan(scene, goal=(7, 1, 0)), cfree.plan(scene, goal=(7, 1))
+    assert isinstance(path, Path) and isinstance(proof, cfree.Separated) and isinstance(proofs, cfree.AllSeparated)
+    whole = boundary(scene)
+    for answer in (path, proof, proofs):
+        assert texts(answer.plot()) == texts(picture(answer)) == texts(picture(answer, scene))
+        save(answer, tmp_path / "answer.json")
+        read = cfree.load(tmp_path / "answer.json")
+        assert isinstance(read, type(answer)) and texts(read.plot(scene)) == texts(answer.plot())
+        with pytest.raises(ValueError, match="scene: the answer knows none"):
+            read.plot()
+    assert len(path.plot(boundary=whole, preferences=cfree.Preferences(sideways=2)).axes) > len(path.plot().axes)
+    assert texts(scene.plot()) == texts(picture(scene)) == ["workspace"]
+    with pytest.raises(ValueError, match="a scene is drawn alone"):
+        picture(scene, scene)
+    disc = Scene(cfree.Curved.circle((0, 0), 1), [wall], bounds=(-3, -3, 3, 3), start=(0, 0, 0), goal=(1, 0, 0))
+    assert texts(disc.plot()) == ["workspace"] and texts(cfree.plan(disc).plot())  # type: ignore[union-attr]
+
+
+def test_nothing_is_drawn_with_before_it_is_asked_for() -> None:
+    """matplotlib takes a quarter of a second, which planning does not need."""
+    program = """
+        import sys, cfree
+        scene = cfree.Scene([(0, 0), (1, 0), (0, 1)], start=(0, 0, 0), goal=(1, 0, 0))
+        path = cfree.plan(scene)
+        assert cfree.is_free(scene, path.goal) and callable(path.plot) and callable(scene.plot)
+        assert "matplotlib" not in sys.modules
+    """
+    subprocess.run([sys.executable, "-c", textwrap.dedent(program)], check=True)
 
 
 ROOM = [[(0, 0), (8, 0), (8, 1), (0, 1)], [(0, 5), (8, 5), (8, 6), (0, 6)], [(0, 0), (1, 0), (1, 6), (0, 6)],

@@ -57,19 +57,18 @@ std::optional<Radians> read_radians(double angle) {
     const double size = std::abs(angle);
     const Split at = split(angle, std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
     Ratio tau;
-    if (at.rest != 0) {  // the library's tangent, which is Python's
+    if (at.rest != 0) {  // the library's tangent, which is Python's, and a 2^53rd of it
         const Ratio tangent = ratio_of(std::tan(std::abs(at.rest) / 2));
-        const Int below = tangent.n * ((Int(1) << 53) - 1), above = tangent.n * ((Int(1) << 53) + 1), unit = tangent.d << 53;
-        tau = simplest_between({below, unit}, {above, unit});
+        const Int scaled = tangent.n << 53, unit = tangent.d << 53;
+        tau = simplest_between({scaled - tangent.n, unit}, {scaled + tangent.n, unit});
         if (at.rest < 0) tau = -tau;
     }
     Int q = tau.d, p = tau.n;
-    for (int k = 0; k < at.quarters; ++k) {  // half a right angle further: (1, 1) times it
+    for (int k = 0; k < at.quarters; ++k) {  // half a right angle further: (1, 1) times it, in lowest terms
         const Int x = q - p;
         p += q, q = x;
+        if (!bit_test(abs(q), 0) && !bit_test(abs(p), 0)) q /= 2, p /= 2;
     }
-    const Int common = gcd(q, p);
-    if (common != 1) q /= common, p /= common;
     if (q.sign() < 0 || (q.is_zero() && p.sign() < 0)) q = -q, p = -p;
     return Radians{q, p, at.theta, std::abs(at.rest) * 0x1p-50};
 }

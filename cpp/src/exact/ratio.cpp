@@ -131,22 +131,46 @@ Ratio power_of_two(int exponent) {
     return exponent < 0 ? Ratio{1, power} : Ratio{power, 1};
 }
 
-// The common beginning of the two continued fractions, then the least number that separates them.
-Ratio simplest_between(const Ratio& low, const Ratio& high) {
-    if (low.n.sign() <= 0) return high.n.sign() < 0 ? -simplest_between(-high, -low) : Ratio{};
-    Int a = low.n, b = low.d, c = high.n, d = high.d;
-    Int p = 1, q = 0, before_p = 0, before_q = 1;  // the last two convergents
+namespace {
+
+// The common beginning of the two continued fractions a / b and c / d, then the least number that separates them. What is
+// computed stays below the largest of a, b, c and d, but for the multiple of d, which `is_at_most` sees to.
+template <class T, class IsAtMost>
+std::pair<T, T> simplest(T a, T b, T c, T d, IsAtMost&& is_at_most) {
+    T p = 1, q = 0, before_p = 0, before_q = 1;  // the last two convergents
     for (;;) {
-        Int floor, rest;
-        divide_qr(a, b, floor, rest);
-        if (!rest.is_zero()) floor += 1;
-        if (floor * d <= c) return {floor * p + before_p, floor * q + before_q};
+        T floor = a / b;
+        if (T(floor * b) != a) floor += 1;
+        if (is_at_most(floor, d, c)) return {floor * p + before_p, floor * q + before_q};
         floor -= 1;
-        Int next_p = floor * p + before_p, next_q = floor * q + before_q;
+        T next_p = floor * p + before_p, next_q = floor * q + before_q;
         before_p = std::move(p), before_q = std::move(q), p = std::move(next_p), q = std::move(next_q);
-        Int next_b = c - floor * d, next_d = a - floor * b;
+        T next_b = c - floor * d, next_d = a - floor * b;
         a = std::move(d), c = std::move(b), b = std::move(next_b), d = std::move(next_d);
     }
+}
+
+Wide wide(const Int& x) {
+    const auto low = static_cast<std::uint64_t>(x & Int(~std::uint64_t{0}));
+    return static_cast<Wide>(static_cast<std::uint64_t>(x >> 64)) << 64 | static_cast<Wide>(low);
+}
+Int narrow(Wide x) { return (Int(static_cast<std::uint64_t>(x >> 64)) << 64) + Int(static_cast<std::uint64_t>(x)); }
+
+}  // namespace
+
+Ratio simplest_between(const Ratio& low, const Ratio& high) {
+    if (low.n.sign() <= 0) return high.n.sign() < 0 ? -simplest_between(-high, -low) : Ratio{};
+    constexpr unsigned most = 126;  // bits
+    if (msb(low.n) < most && msb(low.d) < most && msb(high.n) < most && msb(high.d) < most) {
+        const auto is_at_most = [](Wide f, Wide d, Wide c) {
+            Wide product;
+            return !__builtin_mul_overflow(f, d, &product) && product <= c;
+        };
+        const auto [p, q] = simplest(wide(low.n), wide(low.d), wide(high.n), wide(high.d), is_at_most);
+        return {narrow(p), narrow(q)};
+    }
+    const auto [p, q] = simplest(low.n, low.d, high.n, high.d, [](const Int& f, const Int& d, const Int& c) { return f * d <= c; });
+    return {p, q};
 }
 
 Ratio simple_middle(const Ratio& low, const Ratio& high) {

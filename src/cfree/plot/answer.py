@@ -147,9 +147,9 @@ def picture(
     if isinstance(answer, Scene):
         if scene is not None or boundary is not None:
             raise ValueError("scene, boundary: a scene is drawn alone; leave them out")
-        figure = plot_workspace(answer).get_figure(root=True)
-        assert figure is not None
-        return figure
+        drawn = plot_workspace(answer).figure
+        assert isinstance(drawn, Figure)
+        return drawn
     if isinstance(answer, AllSeparated):
         answer = answer.proofs[0]
     scene = scene or answer.curved or answer.scene
