@@ -2,13 +2,16 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/shared_ptr.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <numbers>
 
 #include "arrays.hpp"
+#include "cfree/collision/edge_distances.hpp"
 #include "cfree/collision/motion_checker.hpp"
+#include "cfree/support/elementary.hpp"
 #include "given_poses.hpp"
 #include "watched.hpp"
 
@@ -74,7 +77,7 @@ static std::optional<bool> is_motion_free(const MotionChecker& checker, nb::hand
             const cfree::Ratio tangent = ratio_of(half);
             m.q = tangent.d, m.p = tangent.n;
         }
-        m.start = sqrt(Int(m.q * m.q + m.p * m.p));
+        m.start = cfree::root_below(m.q * m.q + m.p * m.p);
     }
     return !checker.begins_outside(m) && checker.is_free(m);
 }
@@ -97,6 +100,68 @@ static std::optional<Collision> first_collision(const MotionChecker& checker, bo
     return Collision{integers(found->at.p), found->robot_piece, found->obstacle_piece, found->kind, found->robot, found->obstacle};
 }
 
+using cfree::EdgeDistances;
+
+static std::vector<EdgeDistances::Segment> segments_of(const In<double, 2>& ends) {
+    require(ends.shape(1) == 4, "segments must have four columns");
+    std::vector<EdgeDistances::Segment> segments;
+    for (std::size_t k = 0; k < ends.shape(0); ++k) {
+        const double* s = ends.data() + 4 * k;
+        segments.push_back({s[0], s[1], s[2], s[3]});
+    }
+    return segments;
+}
+
+static double rounded(const cfree::Ratio& x) { return cfree::nearest(x.n, x.d); }
+
+static cfree::MeasuredPose measured(const cfree::GivenPose& pose) {
+    const auto& [x, y, q, p, theta] = pose;
+    const Int w = q * q + p * p;
+    return {rounded(x), rounded(y), theta, cfree::ratio(q * q - p * p, w), cfree::ratio(2 * p * q, w)};
+}
+
+// From -pi to pi: a `Rotation` by half a turn goes either way.
+static double signed_angle(const Int& q, const Int& p) {
+    const double half = abs(p) <= q ? cfree::arc_tangent(cfree::ratio(p, q))
+                                    : std::copysign(0.5 * std::numbers::pi, p.sign()) - cfree::arc_tangent(cfree::ratio(q, p));
+    return 2 * half;
+}
+
+// The motions from pose to pose; `robot` are points of the robot, of which slides are asked how far they move.
+static std::tuple<double, double, int, double, int, int> least(const EdgeDistances& distances, nb::handle poses, nb::handle motions,
+                                                               nb::handle robot, double tolerance) {
+    static const Attribute kind("kind"), pole("pole"), turn("turn"), tau("tau"), clockwise("clockwise"), reach("reach");
+    static const std::array<Attribute, 3> terms{Attribute("x"), Attribute("y"), Attribute("d")};
+    std::vector<cfree::MeasuredMotion> moved;
+    cfree::GivenPose from = pose_of(item(poses, 0));
+    for (Py_ssize_t k = 0; k < length(motions); ++k) {
+        const nb::handle motion = item(motions, k);
+        cfree::GivenPose to = pose_of(item(poses, k + 1));
+        auto& m = moved.emplace_back(measured(from), measured(to), cfree::Straight{});
+        const auto name = nb::cast<std::string_view>(kind.of(motion));
+        if (name == "rotation") {
+            const nb::object center = pole.of(motion), half = tau.of(motion);
+            const auto apart = [](const cfree::Ratio& a, const cfree::Ratio& b) { return cfree::nearest(b.n * a.d - a.n * b.d, a.d * b.d); };
+            const bool is_back = clockwise.of(motion).is(nb::handle(Py_True));
+            const cfree::Ratio tangent = half.is_none() ? cfree::Ratio{is_back ? -1 : 1, 0} : ratio_of(half);
+            m.kind = cfree::Turning{apart(from.x, to.x), apart(from.y, to.y), rounded(ratio_of(item(center, 0))),
+                                    rounded(ratio_of(item(center, 1))), signed_angle(tangent.d, tangent.n)};
+        } else if (name == "slide") {
+            cfree::Sliding slide{{}, {}, {}, nb::cast<double>(turn.of(motion)), 0};
+            std::array<std::array<double, 5>*, 3> of{&slide.x, &slide.y, &slide.d};
+            for (std::size_t i = 0; i < 3; ++i) {
+                const nb::object given = terms[i].of(motion);
+                for (Py_ssize_t n = 0; n < length(given); ++n) (*of[i])[static_cast<std::size_t>(n)] = rounded(ratio_of(item(given, n)));
+            }
+            slide.reach = nb::cast<double>(reach.of(motion)(item(poses, k), robot));
+            m.kind = slide;
+        }
+        from = std::move(to);
+    }
+    const auto found = watched([&] { return distances.least(moved, tolerance); });
+    return {found.least, found.found, found.motion, found.share, found.edge, found.other};
+}
+
 // tau = p / q as (p, q), half a turn (1, 0); the angle in [0, 2 pi), and the bound of its distance from 2 atan(tau).
 static std::optional<std::tuple<nb::int_, nb::int_, double, double>> read_radians(double theta) {
     const auto found = cfree::read_radians(theta);
@@ -111,6 +176,11 @@ void bind_checkers(nb::module_& m) {
         .def("check", &check, "poses"_a, "threads"_a, "out"_a)
         .def("sweep_is_free", &PoseChecker::sweep_is_free, "start"_a, "by"_a)
         .def("is_free", &is_free, "poses"_a, "is_within"_a = false);
+    nb::class_<EdgeDistances>(m, "EdgeDistances")
+        .def("__init__", [](EdgeDistances* x, const In<double, 2>& robot, const In<double, 2>& others) {
+            new (x) EdgeDistances(segments_of(robot), segments_of(others));
+        }, "robot"_a, "others"_a)
+        .def("least", &least, "poses"_a, "motions"_a, "robot"_a, "tolerance"_a);
     nb::class_<MotionChecker>(m, "MotionChecker")
         .def(nb::init<std::shared_ptr<const cfree::Scene>>(), "scene"_a)
         .def("is_free", &is_motion_free, "pose"_a, "motion"_a, "turns"_a)

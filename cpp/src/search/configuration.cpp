@@ -49,7 +49,7 @@ Motion motion_between(const Configuration& a, const Configuration& b) {
     m.unit = unit * twice, m.x = ax * twice, m.y = ay * twice;
     m.vx = (ax + bx) * p - q * (by - ay), m.vy = (ay + by) * p + q * (bx - ax);
     if (p < 0) m.vx = -m.vx, m.vy = -m.vy;
-    m.q = q, m.p = p, m.start = sqrt(Int(q * q + p * p));
+    m.q = q, m.p = p, m.start = root_below(q * q + p * p);
     return m;
 }
 

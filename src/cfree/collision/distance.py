@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+import cfree._core as _core
 from cfree.exact.pose import Poses
 from cfree.scene.features import WORKSPACE
 from cfree.scene.scene import robot_radius
@@ -38,15 +40,23 @@ class EdgeDistances:
     """
 
     def __init__(self, scene: Scene) -> None:
-        import shapely
-
         shapes = [*enumerate(scene.obstacles), *([(WORKSPACE, scene.workspace)] if scene.workspace else [])]
         self.robot, self.robot_names = _edges(list(enumerate(scene.robot)))
         self.radius = robot_radius(scene)
         self.segments, self.names = _edges(shapes)
         # a power of two near their size, so that squares of tiny and of huge numbers are doubles
         self._unit = 2.0 ** (math.frexp(np.abs(self.segments).max(initial=0) or 1.0)[1])
-        self._tree: Any = shapely.STRtree(shapely.linestrings(self.segments / self._unit))
+
+    @cached_property
+    def core(self) -> _core.EdgeDistances:
+        """The same edges, for distances along motions."""
+        return _core.EdgeDistances(self.robot.reshape(-1, 4), self.segments.reshape(-1, 4))
+
+    @cached_property
+    def _tree(self) -> Any:
+        import shapely
+
+        return shapely.STRtree(shapely.linestrings(self.segments / self._unit))
 
     def placed(self, rows: Floats) -> Floats:
         """The robot's edges, (n, e, 2, 2), at rows x, y, theta."""

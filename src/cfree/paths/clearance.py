@@ -1,9 +1,8 @@
-"""Least distances along a path, of what translations sweep, and by halving other motions."""
+"""Least distances along a path; the core measures (`edge_distances.cpp`)."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from decimal import ROUND_FLOOR, Context
 from fractions import Fraction
@@ -12,16 +11,13 @@ import numpy as np
 
 from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances, Floats, Ints
-from cfree.collision.motion import Motion, Translation
-from cfree.collision.motion_checker import MotionChecker
-from cfree.exact.pose import Pose, Poses
-from cfree.paths.path import Path
+from cfree.collision.motion_checker import is_free_motion
+from cfree.paths.path import STILL, Path
 from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
+from cfree.value import kept
 
 MOST_SAMPLES = 20_000  # to tell narrow places of a path apart
-MOST = 1 << 12  # parts of motions looked at together: where more would be needed, what is known is the bound
-ROUNDING = 2.0**-40  # relative to the coordinates: a thousand times what placing and measuring round away
 
 
 @dataclass(frozen=True)
@@ -110,9 +106,10 @@ def distances_beside(path: Path, scene: Scene) -> EdgeDistances:
     ValueError
         If it is not free.
     """
-    if not path.is_free(MotionChecker(scene)):
+    legs = zip(path.poses, path.motions or (STILL,), strict=False)
+    if not all(is_free_motion(scene, pose, motion) for pose, motion in legs):
         raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-    return EdgeDistances(scene)
+    return kept(scene, EdgeDistances)
 
 
 def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | None) -> Clearance | None:
@@ -122,65 +119,13 @@ def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | Non
         if found is None or found.least > 0 or found.found == 0:
             return found
         return least_clearance(path, distances, found.found / 4)
-    segments, robot = distances.segments, distances.robot
-    if not len(segments):
+    if not len(distances.segments):
         return None
     if not tolerance > 0:
         raise ValueError(f"tolerance {tolerance}: give a positive one")
-    motions, poses = path.motions or (Translation((0, 0)),), path.poses
-    travel = np.array([m.reach(q, robot) for q, m in zip(poses, motions, strict=False)])
-    places = max(abs(float(c)) for q in poses for c in (q.x, q.y))
-    size = max(float(np.abs(segments).max()), places + distances.radius + float(travel.max()))
-    least, best = _swept(poses, motions, distances)
-    motion = np.array([k for k, m in enumerate(motions) if not isinstance(m, Translation)], np.int64)
-    low, high = np.zeros(len(motion)), np.ones(len(motion))
-    while len(motion):
-        middle = (low + high) / 2
-        placed = np.empty((len(motion), *robot.shape))
-        for k in set(motion.tolist()):
-            placed[motion == k] = distances.at(motions[k].sample(poses[k], middle[motion == k]))
-        part = travel[motion] * (high - low)
-        nearest, edge, other = distances.nearest(placed, best[0] + float(part.max()))  # farther ones change nothing
-        k = int(nearest.argmin())
-        if nearest[k] < best[0]:
-            best = float(nearest[k]), int(motion[k]), float(middle[k]), int(edge[k]), int(other[k])
-        bound = nearest - part / 2
-        open_ = bound < best[0] - tolerance
-        if open_.sum() > MOST:
-            open_[:] = False
-        least = min(least, float(bound[~open_].min(initial=math.inf)))
-        motion, low, middle, high = motion[open_], low[open_], middle[open_], high[open_]
-        motion, low, high = np.tile(motion, 2), np.concatenate((low, middle)), np.concatenate((middle, high))
-    value, at, share, i, j = best
-    return Clearance(max(0.0, least - ROUNDING * size), value, at, share, distances.robot_names[i], distances.names[j])
-
-
-def _swept(
-    poses: Sequence[Pose], motions: Sequence[Motion], distances: EdgeDistances
-) -> tuple[float, tuple[float, int, float, int, int]]:
-    """The least distance of the translations, and what is measured there: distance, motion, share and the two edges.
-
-    The region that a free robot sweeps has no obstacle in it, and its rim is part of the edges at both ends and of the
-    vertices' tracks.
-    """
-    moved = [k for k, m in enumerate(motions) if isinstance(m, Translation)]
-    if not moved:
-        return math.inf, (math.inf, 0, 0.0, 0, 0)
-    ends = [poses[k] for k in moved], [motions[k].apply(poses[k]) for k in moved]
-    start, end = (distances.at(Poses.from_poses(some)) for some in ends)
-    tracks = np.stack((start[:, :, 0], end[:, :, 0]), axis=2)
-    lines = np.concatenate((start, end, tracks), axis=1)
-    nearest, line, other = distances.nearest(lines)
-    k = int(nearest.argmin())
-    part, edge = divmod(int(line[k]), len(distances.robot))
-    share = float(part)
-    if part == 2:
-        begin, stop = tracks[k, edge]
-        point, _ = distances.between(tracks[k, edge], int(other[k]))
-        share = min(1.0, float(np.hypot(*(point - begin)) / max(np.hypot(*(stop - begin)), math.ulp(0))))
-    there = distances.at(motions[moved[k]].sample(poses[moved[k]], np.array([share])))
-    (found,), (edge,), (beside,) = distances.nearest(there)
-    return float(nearest[k]), (float(found), moved[k], share, int(edge), int(beside))
+    motions, poses = (path.motions, path.poses) if path.motions else ((STILL,), 2 * path.poses)
+    least, found_there, motion, share, i, j = distances.core.least(poses, motions, distances.robot, float(tolerance))
+    return Clearance(least, found_there, motion, share, distances.robot_names[i], distances.names[j])
 
 
 @checked

@@ -26,6 +26,7 @@ from cfree.scene.scene import Scene
 from cfree.value import Answer
 from cfree.words import counted
 
+STILL = Translation((0, 0))  # of a path without motions
 Objective = Literal["balanced", "short", "clear"]
 Floats = NDArray[np.float64]
 
@@ -278,5 +279,5 @@ class Path(Answer):
         >>> Path(Pose(0, 0), [Translation((1, 0)), Translation((0, 4))]).is_free(checker)
         True
         """
-        motions = self.motions or (Translation((0, 0)),)
+        motions = self.motions or (STILL,)
         return all(checker.is_free(pose, motion) for pose, motion in zip(self.poses, motions, strict=False))

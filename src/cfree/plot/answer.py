@@ -34,7 +34,7 @@ from cfree.plot.boundary import (
 )
 from cfree.plot.depth_sort import Painting
 from cfree.plot.labels import BODY, Labels, name_in_space
-from cfree.plot.looks import looks, of_polygons
+from cfree.plot.looks import looks, of_polygons, smooth
 from cfree.plot.path import Track, draw_track, statement
 from cfree.plot.pieces import ON_TOP, OVER, Colours, Pieces, joined, level, of_line, patches_of
 from cfree.plot.strips import strips
@@ -112,7 +112,7 @@ def picture(
     Parameters
     ----------
     answer : Path, Separated, AllSeparated or Scene
-        Several proofs are shown by their first. A scene is drawn as by `plot_workspace`.
+        Several proofs are shown by their first. A scene is drawn as by `plot_workspace`, round shapes with many edges.
     scene : Scene, optional
         To which it is the answer; its own unless given. An answer that was read from a file knows none.
     boundary : Boundary, optional
@@ -147,7 +147,7 @@ def picture(
     if isinstance(answer, Scene):
         if scene is not None or boundary is not None:
             raise ValueError("scene, boundary: a scene is drawn alone; leave them out")
-        drawn = plot_workspace(answer).figure
+        drawn = plot_workspace(smooth(answer)).figure
         assert isinstance(drawn, Figure)
         return drawn
     if isinstance(answer, AllSeparated):

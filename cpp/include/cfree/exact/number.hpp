@@ -36,6 +36,15 @@ inline double ratio(const Int& n, const Int& d) {
     return n.sign() * d.sign() * std::ldexp(static_cast<double>(bits), -up);
 }
 
+// The largest integer whose square is at most n, which is not negative.
+inline Int root_below(const Int& n) {
+    if (n.is_zero() || msb(n) > 100) return sqrt(n);
+    Int root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(n)));
+    while (root * root > n) root -= 1;
+    while ((root + 1) * (root + 1) <= n) root += 1;
+    return root;
+}
+
 // Where it is known to be wide enough.
 __extension__ typedef __int128 Wide;
 
