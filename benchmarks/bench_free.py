@@ -1,8 +1,12 @@
-"""Poses a second, on one thread: `is_free` beside a separating-axis test in doubles compiled by numba, and FCL."""
+"""Poses a second, on one thread: `is_free` beside a separating-axis test in doubles compiled by numba, and FCL.
+
+Single poses and motions as well: what a call from Python takes, and what of it is the core's.
+"""
 
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable
 from copy import copy
 from functools import cache
@@ -13,9 +17,12 @@ import numpy as np
 from measure import POLYGONS, REAL, SCENES, Report, timed
 
 import cfree
+from cfree.paths.clearance import distances_beside
+from cfree.paths.path import STILL
 from cfree.scene.features import BODY, ShapeFeatures, scene_features
 
 COUNT, CALLS, NUMBA_COUNT, FCL_COUNT = 1_000_000, 5, 200_000, 4_000
+ALONE = 2_000  # poses, one a call
 Rival = Callable[[np.ndarray], np.ndarray]
 
 
@@ -29,6 +36,8 @@ def run(quick: bool) -> Report:
             "prepare: features and grid; ratios: to one thread; differ: poses on which the rival says otherwise",
         ],
     )  # fmt: skip
+    for name in ("benchmr_parking1",) if quick else REAL:
+        alone(name, cfree.load_scene(SCENES / f"{name}.json"), report)
     missing = [name for name in ("numba", "fcl") if find_spec(name) is None]
     if missing:
         report.notes.append(f"nothing to compare: no {', no '.join(missing)}; pip install -e '.[bench]'")
@@ -47,6 +56,43 @@ def run(quick: bool) -> Report:
         worst = min(rest, key=lambda name: rest[name])
         report.figure(what, f"the worst of {len(rest)} small scenes: {worst}", rest[worst], ">=", target)
     return report
+
+
+def alone(name: str, scene: cfree.Scene, report: Report) -> None:
+    """One pose a call, by the slowest of all ways to ask; one motion and one path without motions, above the core."""
+    poses, motion = uniform(scene, pieces_of(scene_features(scene).obstacles), 0)[:ALONE], cfree.Translation((0, 1))
+    checker, motions = cfree.PoseChecker(scene), cfree.MotionChecker(scene)
+    rows, tables = list(map(tuple, poses.tolist())), list(poses.reshape(-1, 1, 3))
+    path = cfree.Path(cfree.Pose(*next(row for row in rows if checker.is_free(row))), [])
+    distances, same = distances_beside(path, scene), [path] * ALONE
+    least = 2 * path.poses, (STILL,), distances.robot, 1e-3 * distances.radius
+    asked = max(
+        each(checker.is_free, rows),
+        each(lambda row: cfree.is_free(scene, row), rows),
+        each(checker.is_free, tables),
+        each(lambda table: cfree.is_free(scene, table), tables),
+    )
+    moved = each(lambda row: cfree.is_free_motion(scene, row, motion), rows)
+    moved_in_core = each(lambda row: motions.core.is_free(row, motion, False), rows)
+    cleared = each(lambda path: cfree.clearance(path, scene), same)
+    cleared_in_core = each(lambda path: distances.core.least(*least), same)
+    free_in_core = each(lambda path: checker.core.is_free(path.start), same)
+    report.figure("is_free, one pose a call", name, asked, "<=", 3, "µs")
+    report.figure("of that the core", name, each(checker.core.is_free, rows), "<=", 3, "µs")
+    report.figure("is_free_motion, above the core", name, moved - moved_in_core, "<=", 2, "µs")
+    above = cleared - cleared_in_core - free_in_core
+    report.figure("clearance of one pose, above the core", name, above, "<=", 2, "µs")
+
+
+def each(call: Callable[[Any], object], arguments: list[Any], rounds: int = 9) -> float:
+    """Microseconds of a call, on average: the best of some rounds for each of its arguments."""
+    best = [math.inf] * len(arguments)
+    for _ in range(rounds):
+        for k, argument in enumerate(arguments):
+            start = time.perf_counter()
+            call(argument)
+            best[k] = min(best[k], time.perf_counter() - start)
+    return 1e6 * sum(best) / len(best)
 
 
 def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float]:

@@ -21,7 +21,7 @@ from cfree.collision.distance import EdgeDistances
 from cfree.collision.motion import Rotation, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import FormatError, UnsupportedError
-from cfree.exact.pose import Pose
+from cfree.exact.pose import Pose, Poses
 from cfree.formats.answer_file import load_answer
 from cfree.paths.clearance import narrowest
 from cfree.paths.path import Path
@@ -309,6 +309,28 @@ def test_the_narrowest_place_of_a_translation_is_that_of_samples(seed: int) -> N
     sampled, _, _ = distances.nearest(distances.at(path.motions[0].sample(path.start, shares)))
     assert sampled[-1] == pytest.approx(found.found, abs=1e-12) and found.least <= found.found
     assert found.found - 1e-12 <= sampled.min() <= found.found + 0.02
+
+
+@pytest.mark.parametrize("unit", [1, Fraction(1, 10**140), 10**140])
+def test_the_clearance_of_one_pose_is_the_distance_there(unit: Any) -> None:
+    """By shapely's distances of all edges, and the two closest edges are as far apart."""
+    rng = random.Random(3)
+    pegs = [[(x, y), (x + 1, y), (x, y + 1)] for x in range(0, 20, 5) for y in (-6, 3)]
+    robot = [(-1, -1), (2, 0), (0, 1)]
+    scene = Scene(*([[(x * unit, y * unit) for x, y in ring] for ring in rings] for rings in ([robot], pegs)))
+    distances = EdgeDistances(scene)
+    for _ in range(40):
+        pose = Pose(rng.randint(-90, 90) * unit / 5, rng.randint(-40, 40) * unit / 5, rng.uniform(-9, 9))
+        if not cfree.is_free(scene, pose):
+            continue
+        found = cfree.clearance(Path(pose, []), scene)
+        placed = distances.at(Poses.from_poses([pose]))
+        (expected,), _, _ = distances.nearest(placed)
+        assert found is not None and (found.motion, found.share) == (0, 0)
+        assert found.found == pytest.approx(expected, rel=1e-12, abs=1e-14 * float(unit)) and found.least <= found.found
+        edge = placed[0, distances.robot_names.index(found.robot)]
+        near = np.hypot(*np.subtract(*distances.between(edge, distances.names.index(found.obstacle))))
+        assert near == pytest.approx(expected, rel=1e-9, abs=1e-12 * float(unit))
 
 
 def test_a_path_that_touches_has_no_clearance() -> None:

@@ -12,6 +12,7 @@ import numpy as np
 from cfree.arguments import checked
 from cfree.collision.distance import EdgeDistances, Floats, Ints
 from cfree.collision.motion_checker import is_free_motion
+from cfree.collision.pose_checker import is_free
 from cfree.paths.path import STILL, Path
 from cfree.paths.travel import Travel
 from cfree.scene.scene import Scene
@@ -106,26 +107,29 @@ def distances_beside(path: Path, scene: Scene) -> EdgeDistances:
     ValueError
         If it is not free.
     """
-    legs = zip(path.poses, path.motions or (STILL,), strict=False)
-    if not all(is_free_motion(scene, pose, motion) for pose, motion in legs):
+    distances = kept(scene, EdgeDistances)
+    if path.motions:
+        free = all(is_free_motion(scene, *leg) for leg in zip(path.poses, path.motions, strict=False))
+    else:
+        free = is_free(scene, path.start)
+    if not free:
         raise ValueError("the path is not free: it has no clearance; see MotionChecker.first_contact")
-    return kept(scene, EdgeDistances)
+    return distances
 
 
 def least_clearance(path: Path, distances: EdgeDistances, tolerance: float | None) -> Clearance | None:
-    """Of a free path; see `clearance`."""
-    if tolerance is None:
-        found = least_clearance(path, distances, 1e-3 * distances.radius)
-        if found is None or found.least > 0 or found.found == 0:
-            return found
-        return least_clearance(path, distances, found.found / 4)
-    if not len(distances.segments):
+    """Return the least clearance of a free path; see `clearance`."""
+    if not distances.names:
         return None
-    if not tolerance > 0:
+    if tolerance is not None and not tolerance > 0:
         raise ValueError(f"tolerance {tolerance}: give a positive one")
     motions, poses = (path.motions, path.poses) if path.motions else ((STILL,), 2 * path.poses)
-    least, found_there, motion, share, i, j = distances.core.least(poses, motions, distances.robot, float(tolerance))
-    return Clearance(least, found_there, motion, share, distances.robot_names[i], distances.names[j])
+    core, robot = distances.core, distances.robot
+    found = core.least(poses, motions, robot, 1e-3 * distances.radius if tolerance is None else float(tolerance))
+    if tolerance is None and found[0] == 0 < found[1]:
+        found = core.least(poses, motions, robot, found[1] / 4)
+    least, there, motion, share, edge, other = found
+    return Clearance(least, there, motion, share, distances.robot_names[edge], distances.names[other])
 
 
 @checked
