@@ -72,8 +72,8 @@ class StateValidityChecker(ob.StateValidityChecker):
         self._space, self._checker = si.getStateSpace(), checker
 
     def isValid(self, state: Any) -> bool:
-        rows = [(state.getX(), state.getY(), state.getYaw())]
-        return self._space.satisfiesBounds(state) and bool(self._checker.is_free(rows, threads=1)[0])
+        pose = (state.getX(), state.getY(), state.getYaw())
+        return bool(self._space.satisfiesBounds(state)) and self._checker.is_free(pose)
 
 
 class MotionValidator(ob.MotionValidator):

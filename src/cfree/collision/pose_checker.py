@@ -80,8 +80,7 @@ def is_free(
     A pose is free if no interior of a convex piece of the robot meets one of the obstacles' pieces (or the
     complement of the workspace), and the reference point is in the bounds. Preparing takes time about linear in the
     vertices, once for a scene, which keeps what is prepared. A pose takes time in the number of pieces near by: a
-    single one, in doubles or as a `Pose`, mostly 1 to 3 microseconds. An uncertain pose (see above) takes some ten
-    more.
+    single one, in doubles or as a `Pose`, about a microsecond. An uncertain pose (see above) takes a few more.
 
     Examples
     --------
@@ -93,9 +92,9 @@ def is_free(
     >>> is_free(scene, [[1, 0, 0], [1, 1, math.pi / 2], [1, 1, math.pi]])
     array([ True,  True, False])
     """
-    if threads is None and tolerance is None and type(poses) in PLAIN:
+    if tolerance is None and type(poses) in PLAIN and _is_count(threads):
         if type(scene) is PoseChecker:
-            return scene.is_free(poses)
+            return scene.is_free(poses, threads=threads)
         if isinstance(scene, Scene) and not scene.curved:
             free = _of_one(kept(scene, _prepared)[0], poses)
             if free is not None:
@@ -118,6 +117,11 @@ def _is_free(
         raise ValueError(f"tolerance {tolerance}: of scenes with round shapes; leave it out")
     checker = scene if isinstance(scene, PoseChecker) else PoseChecker(scene)
     return checker.is_free(poses, threads=threads)
+
+
+def _is_count(threads: int | None) -> bool:
+    """True if there is nothing wrong with the number of threads, of which one pose needs no more than this one."""
+    return threads is None or (type(threads) is int and threads > 0)
 
 
 def _of_one(core: _core.PoseChecker, poses: Any) -> bool | NDArray[np.bool_] | None:
@@ -191,7 +195,7 @@ class PoseChecker(Value):
         self, poses: OnePose | Poses | Sequence[PoseLike] | ArrayLike, *, threads: int | None = None
     ) -> bool | NDArray[np.bool_]:
         """See `cfree.is_free`."""
-        if threads is None and type(poses) in PLAIN:
+        if type(poses) in PLAIN and _is_count(threads):
             free = _of_one(self.core, poses)
             if free is not None:
                 return free
@@ -210,7 +214,7 @@ class PoseChecker(Value):
         table = _table(poses)
         verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
-            verdicts[k] = self._is_free_exactly(Pose(*table[k].tolist()))
+            verdicts[k] = FREE if self.core.is_free(table[k].tolist()) else FORBIDDEN
         free: NDArray[np.bool_] = verdicts == FREE
         return free
 

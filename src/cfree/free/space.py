@@ -270,7 +270,7 @@ class FreeSpace(Value, Shown):
         Time per free pose is about proportional to the faces at its height to the left of it, at its orientation; a
         forbidden one is mostly recognised as by `is_free`. Some microseconds each.
         """
-        if threads is None and type(poses) in PLAIN:
+        if type(poses) in PLAIN and (threads is None or (type(threads) is int and threads > 0)):
             cell = self.core.locate_one(self.boundary.checker.core, for_core(poses))
             if cell is not None:
                 return cell
