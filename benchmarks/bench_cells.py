@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from bench_free import pieces_of, uniform
 from families import FAMILIES, SceneArrays
-from measure import REAL, SCENES, Report, timed
+from measure import REAL, SCENES, Report, each, timed
 
 import cfree
 
@@ -56,6 +56,9 @@ def compare(name: str, scene: cfree.Scene, report: Report) -> None:
         f"{ratio:.0f}", str(differ),
     ))  # fmt: skip
     report.figure("locate, one pose", name, 1e6 * one.best / len(free), "<=", 1000, " µs")
+    rows, core = table[:SINGLE].tolist(), space.boundary.checker.core
+    above = each(space.locate, rows) - each(lambda row: space.core.locate_one(core, row), rows)
+    report.figure("locate, one pose, above the core", name, above, "<=", 2, "µs")
 
 
 def by_whole_slice(space: cfree.FreeSpace, x: float, y: float, theta: float) -> int:

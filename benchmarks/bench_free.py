@@ -6,7 +6,6 @@ Single poses and motions as well: what a call from Python takes, and what of it 
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable
 from copy import copy
 from functools import cache
@@ -14,7 +13,7 @@ from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
-from measure import POLYGONS, REAL, SCENES, Report, timed
+from measure import POLYGONS, REAL, SCENES, Report, each, timed
 
 import cfree
 from cfree.paths.clearance import distances_beside
@@ -82,17 +81,6 @@ def alone(name: str, scene: cfree.Scene, report: Report) -> None:
     report.figure("is_free_motion, above the core", name, moved - moved_in_core, "<=", 2, "µs")
     above = cleared - cleared_in_core - free_in_core
     report.figure("clearance of one pose, above the core", name, above, "<=", 2, "µs")
-
-
-def each(call: Callable[[Any], object], arguments: list[Any], rounds: int = 9) -> float:
-    """Microseconds of a call, on average: the best of some rounds for each of its arguments."""
-    best = [math.inf] * len(arguments)
-    for _ in range(rounds):
-        for k, argument in enumerate(arguments):
-            start = time.perf_counter()
-            call(argument)
-            best[k] = min(best[k], time.perf_counter() - start)
-    return 1e6 * sum(best) / len(best)
 
 
 def compare(name: str, scene: cfree.Scene, report: Report) -> tuple[float, float]:

@@ -63,11 +63,9 @@ static std::optional<bool> is_motion_free(const MotionChecker& checker, nb::hand
     const nb::object pair = (turns ? pole : vector).of(motion);
     const cfree::Ratio vx = ratio_of(item(pair, 0)), vy = ratio_of(item(pair, 1));
     const auto& [x, y, q, p, theta] = *given;
-    Int unit = x.d;
-    for (const Int* d : {&y.d, &vx.d, &vy.d})
-        if (*d != 1 && *d != unit) unit = lcm(unit, *d);
-    const Int scale = unit * checker.scene->scale;
-    const auto whole = [&](const cfree::Ratio& c) { return Int(c.n * (scale / c.d)); };
+    using cfree::common_multiple;
+    const Int unit = common_multiple(common_multiple(x.d, y.d), common_multiple(vx.d, vy.d)), scale = unit * checker.scene->scale;
+    const auto whole = [&](const cfree::Ratio& c) { return Int(c.d == unit ? c.n * checker.scene->scale : c.n * (scale / c.d)); };
     cfree::Motion m{q * q - p * p, 2 * p * q, q * q + p * p, whole(x), whole(y), unit, turns, whole(vx), whole(vy), 1, 1, 0};
     if (turns) {
         const nb::object half = tau.of(motion);

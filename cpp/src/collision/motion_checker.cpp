@@ -380,7 +380,7 @@ private:
 };
 
 MotionChecker::MotionChecker(std::shared_ptr<const Scene> s)
-    : scene(std::move(s)), reach(reach_of(scene->robot)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)) {
+    : scene(std::move(s)), boxes(piece_boxes(scene->obstacles)), tree(std::make_unique<BoxTree>(boxes)) {
     const Shape& o = scene->obstacles;
     std::array<bool, 2> has_frame{false, true};
     for (Index v = 0; v < o.ring_vertices; ++v)
@@ -391,24 +391,29 @@ MotionChecker::MotionChecker(std::shared_ptr<const Scene> s)
         for (Index m = o.piece[k]; m < o.piece[k + 1]; ++m) {
             const Int &x = o.X[o.piece_vertex[m]], &y = o.Y[o.piece_vertex[m]];
             auto& rim = rims[layer];
-            if (!rim) rim = Rim{x, y, x, y};
+            if (!rim) rim = Rim{x, y, x, y, {}};
             rim->x0 = std::min(rim->x0, x), rim->y0 = std::min(rim->y0, y), rim->x1 = std::max(rim->x1, x), rim->y1 = std::max(rim->y1, y);
         }
+    }
+    for (auto& rim : rims) {
+        if (!rim) continue;
+        const auto rounded = [&](const Int& c) { return std::ldexp(ratio(c, Int(1)), -scene->shift); };
+        const double x0 = rounded(rim->x0), y0 = rounded(rim->y0), x1 = rounded(rim->x1), y1 = rounded(rim->y1), reach = reach_of(scene->robot);
+        const double slack = reach + 0x1p-40 * (reach + std::abs(x0) + std::abs(y0) + std::abs(x1) + std::abs(y1));
+        rim->inner = {x0 + slack, y0 + slack, x1 - slack, y1 - slack};
     }
 }
 MotionChecker::~MotionChecker() = default;
 
-// A point of each piece is enough, as no piece overlaps the frame. In doubles all of the robot is mostly far from its rim.
+// A point of each piece is enough, as no piece overlaps the frame. Mostly doubles tell that all of the robot is within.
 bool MotionChecker::begins_outside(const Motion& m) const {
+    if (!rims[0] && !rims[1]) return false;
     const Shape& a = scene->robot;
-    const double x = std::ldexp(ratio(m.x, m.unit), -scene->shift), y = std::ldexp(ratio(m.y, m.unit), -scene->shift);
-    const double r = (reach + std::abs(x) + std::abs(y)) * 0x1p-40 + reach;
-    const auto rounded = [&](const Int& c) { return std::ldexp(ratio(c, Int(1)), -scene->shift); };
+    const double x = std::ldexp(nearest(m.x, m.unit), -scene->shift), y = std::ldexp(nearest(m.y, m.unit), -scene->shift);
     for (Index layer = 0; layer < 2; ++layer) {
         if (!rims[layer]) continue;
-        const auto& [x0, y0, x1, y1] = *rims[layer];
-        const double slack = 0x1p-40 * (std::abs(rounded(x0)) + std::abs(rounded(y0)) + std::abs(rounded(x1)) + std::abs(rounded(y1))) + r;
-        if (rounded(x0) < x - slack && x + slack < rounded(x1) && rounded(y0) < y - slack && y + slack < rounded(y1)) continue;
+        const auto& [x0, y0, x1, y1, inner] = *rims[layer];
+        if (inner[0] < x && x < inner[2] && inner[1] < y && y < inner[3]) continue;
         const Int whole = m.w * m.unit, left = x0 * whole, right = x1 * whole, low = y0 * whole, high = y1 * whole;
         for (Index k = 0; k < a.pieces(); ++k) {
             if (a.piece_layer[k] != layer) continue;

@@ -456,7 +456,7 @@ bool PoseChecker::decide(double x, double y, double theta, Exact&& exact) const 
 }
 
 ExactPlacement GivenPose::exact() const {
-    const Int unit = x.d == y.d ? x.d : lcm(x.d, y.d);
+    const Int unit = common_multiple(x.d, y.d);
     return {q * q - p * p, 2 * p * q, q * q + p * p, x.n * (unit / x.d), y.n * (unit / y.d), unit};
 }
 

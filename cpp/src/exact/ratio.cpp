@@ -133,8 +133,8 @@ Ratio power_of_two(int exponent) {
 
 namespace {
 
-// The common beginning of the two continued fractions a / b and c / d, then the least number that separates them. What is
-// computed stays below the largest of a, b, c and d, but for the multiple of d, which `is_at_most` sees to.
+// The common beginning of the two continued fractions a / b and c / d, then the least number that separates them. Nothing
+// becomes larger than a, b, c and d are, but for a multiple of d, which `is_at_most` compares.
 template <class T, class IsAtMost>
 std::pair<T, T> simplest(T a, T b, T c, T d, IsAtMost&& is_at_most) {
     T p = 1, q = 0, before_p = 0, before_q = 1;  // the last two convergents
@@ -162,10 +162,7 @@ Ratio simplest_between(const Ratio& low, const Ratio& high) {
     if (low.n.sign() <= 0) return high.n.sign() < 0 ? -simplest_between(-high, -low) : Ratio{};
     constexpr unsigned most = 126;  // bits
     if (msb(low.n) < most && msb(low.d) < most && msb(high.n) < most && msb(high.d) < most) {
-        const auto is_at_most = [](Wide f, Wide d, Wide c) {
-            Wide product;
-            return !__builtin_mul_overflow(f, d, &product) && product <= c;
-        };
+        const auto is_at_most = [](Wide f, Wide d, Wide c) { return f <= c / d; };  // the product may be too wide
         const auto [p, q] = simplest(wide(low.n), wide(low.d), wide(high.n), wide(high.d), is_at_most);
         return {narrow(p), narrow(q)};
     }

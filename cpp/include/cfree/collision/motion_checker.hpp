@@ -63,9 +63,9 @@ private:
     class Run;
     struct Rim {
         Int x0, y0, x1, y1;
+        std::array<double, 4> inner;  // where the reference point may be in doubles so that all of the robot is within
     };
     std::array<std::optional<Rim>, 2> rims;  // by layer, of the frames
-    double reach;                            // of the robot, in the scene's doubles
     const std::vector<Box> boxes;
     const std::unique_ptr<BoxTree> tree;  // of the obstacles' pieces
 };

@@ -36,6 +36,14 @@ inline double ratio(const Int& n, const Int& d) {
     return n.sign() * d.sign() * std::ldexp(static_cast<double>(bits), -up);
 }
 
+// The least common multiple of positive integers of which one mostly divides the other.
+inline Int common_multiple(const Int& a, const Int& b) {
+    if (a == b || b == 1) return a;
+    if (a == 1) return b;
+    if (a > b ? Int(a % b).is_zero() : Int(b % a).is_zero()) return a > b ? a : b;
+    return lcm(a, b);
+}
+
 // The largest integer whose square is at most n, which is not negative.
 inline Int root_below(const Int& n) {
     if (n.is_zero() || msb(n) > 100) return sqrt(n);
