@@ -63,7 +63,7 @@ class Shown:
         return found
 
 
-class Answer(Shown):
+class Answer:
     """Base of answers to a question about a scene, which are drawn among its obstacles."""
 
     __slots__ = ()

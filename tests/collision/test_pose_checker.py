@@ -17,10 +17,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import cfree.collision.motion_checker
 import oracles
 import shapes
 import strategies
 from cfree import (
+    FreeSpace,
     InvalidPoseError,
     MotionChecker,
     Polygon,
@@ -30,6 +32,7 @@ from cfree import (
     Scene,
     Translation,
     boundary,
+    free_space,
     is_free,
     is_free_motion,
     load_scene,
@@ -317,6 +320,28 @@ def test_one_pose_in_doubles_has_the_verdict_of_its_exact_pose(seed: int) -> Non
             assert in_all_forms(scene, x, y, theta) == [expected] * 10
             contacts += any(oracle(plain, Pose(x + off, y, theta)) != expected for off in (-1e-9, 1e-9))
     assert contacts
+
+
+def test_one_pose_goes_straight_to_the_core(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nothing is checked, converted or divided among threads on the way; touching poses and turned ones included."""
+    scene, motion = Scene(SQUARE, TRIANGLE, bounds=(-9, -9, 9, 9)), Translation((1, 0))
+    space, checker, motions = free_space(boundary(scene)), PoseChecker(scene), MotionChecker(scene)
+    for home, name in (
+        (cfree.collision.pose_checker, "_is_free"),
+        (cfree.collision.motion_checker, "_is_free_motion"),
+        (PoseChecker, "_is_free"),
+        (MotionChecker, "_is_free"),
+        (FreeSpace, "_located"),
+        (Pose, "__init__"),
+    ):
+        monkeypatch.setattr(home, name, None)
+    far = (5.0, 2, -40.5)
+    for pose in (far, (2.0, 0.0, 0.0), list(far), np.array(far)):
+        for asked in (scene, checker):
+            assert is_free(asked, pose) is True and is_free(asked, pose, threads=2) is True
+        assert is_free_motion(scene, pose, motion) and motions.is_free(pose, motion) and space.locate(pose) == 0
+    for table in ([far], np.array([far])):
+        assert is_free(scene, table).tolist() == checker.is_free(table).tolist() == [True]
 
 
 @pytest.mark.slow

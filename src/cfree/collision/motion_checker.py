@@ -96,7 +96,7 @@ class MotionChecker(Value):
         return self.features.scale, self.features.core.shift
 
     def is_free(self, pose: PoseLike, motion: Motion) -> bool:
-        """Is every pose of a motion free? Exact; touching is free, also all the way.
+        """True if every pose of a motion is free, decided exactly. Touching is free, also all the way.
 
         Examples
         --------
@@ -198,7 +198,7 @@ class MotionChecker(Value):
 
 
 def is_free_motion(scene: Scene, pose: PoseLike, motion: Motion) -> bool:
-    """Is every pose of a motion free? Exact; the scene keeps what is prepared for it.
+    """True if every pose of a motion is free, decided exactly. The scene keeps what is prepared for it.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Is a pose free? One, or millions; exact for each.
+"""Collision checks of poses, one or millions, each decided exactly.
 
 The core compares convex pieces in doubles with a proven error bound, and says which poses that leaves uncertain: those
 in contact, or within about 1e-13 of the size of the scene. These are decided in integers, one by one. A single pose
@@ -50,7 +50,7 @@ def is_free(
     threads: int | None = None,
     tolerance: float | None = None,
 ) -> bool | NDArray[np.bool_]:
-    """Are poses free? Exact; touching is free, because the forbidden space is open.
+    """True if a pose is free, decided exactly. Touching is free, because the forbidden space is open.
 
     Parameters
     ----------
@@ -67,8 +67,8 @@ def is_free(
     Returns
     -------
     bool, or (n,) bool
-        Of a scene with round shapes None where polygons within the tolerance do not tell, (n,) object: where these
-        touch, or all but do.
+        One for each pose. In a scene with round shapes (n,) object: None where polygons within the tolerance do not
+        tell, because the shapes touch, or all but do.
 
     Raises
     ------

@@ -256,7 +256,7 @@ def read_angle(theta: Angle) -> tuple[Fraction | None, float, float]:
 
 
 def read_radians(theta: Number) -> tuple[Fraction | None, float, float]:
-    """The same of radians, of any kind and size; the core's twin is for doubles below 2^63.
+    """Read radians of any kind and size, to the same values; the core's twin reads doubles below 2^63.
 
     Examples
     --------

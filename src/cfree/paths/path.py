@@ -23,7 +23,7 @@ from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
-from cfree.value import Answer
+from cfree.value import Answer, Shown
 from cfree.words import counted
 
 STILL = Translation((0, 0))  # of a path without motions
@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 
 @checked
 @dataclass(frozen=True, repr=False)
-class Path(Answer):
+class Path(Shown, Answer):
     """A start and motions.
 
     A path is a sequence of its motions: it has a length, can be iterated over, and ``path[2]`` is a motion. A slice

@@ -22,7 +22,7 @@ from cfree.planning.separation import NO_TRUTH_VALUE, Separated
 from cfree.scene.digest import Stamp
 from cfree.scene.goals import Goal
 from cfree.scene.scene import Scene
-from cfree.value import Answer
+from cfree.value import Answer, Shown
 from cfree.words import counted
 
 if TYPE_CHECKING:
@@ -35,7 +35,7 @@ INWARD = math.radians(10)  # from the end of an interval, or a quarter of it
 
 @checked
 @dataclass(frozen=True, repr=False)
-class AllSeparated(Answer):
+class AllSeparated(Shown, Answer):
     """A proof that no motion leads to any of several goals.
 
     It has no truth value, as `Separated` has none.

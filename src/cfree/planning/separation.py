@@ -31,7 +31,7 @@ from cfree.scene.digest import Stamp
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Bounds, Scene
-from cfree.value import Answer, Value
+from cfree.value import Answer, Shown, Value
 from cfree.words import counted, listed
 
 NO_TRUTH_VALUE = "a proof that there is no path is neither true nor false; ask isinstance(answer, cfree.Path)"
@@ -117,7 +117,7 @@ def _auxiliary(features: SceneFeatures, table: Trapezoids) -> Iterator[Auxiliary
 
 
 @dataclass(frozen=True, repr=False)
-class Separated(Answer):
+class Separated(Shown, Answer):
     """A proof that no motion joins two poses.
 
     It has no truth value: ``if cfree.plan(scene):`` raises a `TypeError` where no path exists.
