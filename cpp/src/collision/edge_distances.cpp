@@ -143,7 +143,6 @@ double EdgeDistances::travel(const MeasuredMotion& m) const {
 double EdgeDistances::swept(const std::vector<MeasuredMotion>& motions, Found& best) const {
     double least = infinite;
     const auto count = static_cast<Index>(robot.size());
-    Nearest nearest_of_all{infinite, 0, 0};
     for (std::size_t k = 0; k < motions.size(); ++k) {
         const MeasuredMotion& m = motions[k];
         if (!std::holds_alternative<Straight>(m.kind)) continue;
