@@ -29,7 +29,7 @@ constexpr double margin_by_size = 0x1p-44, least_margin = 0x1p-1000, least_squar
 constexpr double cells_in_reach = 8;
 constexpr Index few = 4;  // vertices of a piece: looking at all is quicker than choosing
 constexpr std::size_t chunk = 1024, sectors = 64, outside = std::numeric_limits<std::size_t>::max();
-constexpr double farthest = 1e300;  // what is farther away is as far as this
+constexpr double farthest = 0x1p+997;  // what is farther away is as far as this
 constexpr double two_pi = 2 * std::numbers::pi, half_sector = two_pi / sectors / 2 * (1 + 0x1p-20);
 
 Vec<double> unit_normal(const Vec<Int>& e) {

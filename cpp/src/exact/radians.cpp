@@ -57,7 +57,7 @@ std::optional<Radians> read_radians(double angle) {
     const double size = std::abs(angle);
     const Split at = split(angle, std::nextafter(size, std::numeric_limits<double>::infinity()) - size);
     Ratio tau;
-    if (at.rest != 0) {  // the library's tangent, which is Python's, and a 2^53rd of it
+    if (at.rest != 0) {  // the library's tangent, which is Python's: it says which pose is meant, and decides nothing of it
         const Ratio tangent = ratio_of(std::tan(std::abs(at.rest) / 2));
         const Int scaled = tangent.n << 53, unit = tangent.d << 53;
         tau = simplest_between({scaled - tangent.n, unit}, {scaled + tangent.n, unit});
