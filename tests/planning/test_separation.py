@@ -174,7 +174,7 @@ def test_ends_that_touch_and_exact_fits() -> None:
     start = Pose("-3/2", "3/2")  # in a corner
     assert proved(gate, start, OUTSIDE).of == "interior"
     assert separation(gate, start, INSIDE) is None
-    assert gate.locate(Pose("5/2", 0)) == -2 and proved(gate, Pose("5/2", 0), OUTSIDE)
+    assert gate.locate(Pose("5/2", 0)) == -2 and proved(gate, Pose("5/2", 0), OUTSIDE).of == "interior"
 
 
 def test_files_hold_separations_exactly(tmp_path: Path) -> None:
