@@ -23,6 +23,7 @@ from cfree import (
     Path,
     Pose,
     Scene,
+    Separated,
     UndecidedError,
     boundary,
     free_space,
