@@ -403,6 +403,7 @@ def test_a_forbidden_end_is_moved_when_asked_for(run: Run, tmp_path: Path) -> No
         "start": {"from": [1.25, 2, 0], "to": [1, 2, 0]},
         "goal": {"from": [2.25, 2], "to": [3, 2]},
     }
+    assert run("plan", file, "--start", "0,2,0", "--nearest-free").exit_code == 0  # the goal is the scene's
     one = run("plan", file, "--start", "0,2,0", "--goal", "2.25,2,0", "--nearest-free", "--clearance", "0.1")
     assert "goal moved" in one.stdout and "start moved" not in one.stdout and "(3.1, 2, 0 deg)" in one.stdout
     free = run("plan", file, "--start", "0,2,0", "--goal", "5,2,0", "--nearest-free")

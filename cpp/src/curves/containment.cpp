@@ -295,7 +295,7 @@ private:
 
     // A line that edges meet is cut there; what is between is on one side.
     bool line_is_on(const Piece& piece, Side wanted) {
-        const auto& [p, q] = *piece.line;
+        const Corner<Int>&p = (*piece.line)[0], &q = (*piece.line)[1];
         starts.emplace_back(piece, 0, 0);
         const Edges met = near(box_of(piece.about.points), edges);
         if (std::any_of(met.begin(), met.end(), [&](Index e) { return is_between(p, e) && is_between(q, e); })) {

@@ -115,8 +115,8 @@ class Answering:
             from cfree.scene.goals import to_goals
 
             with bar("nearest free poses"):
-                several = to_goals(goals)
-                asked = [goal] if is_one or isinstance(several, Pose) else several
+                several = goal if is_one else to_goals(goals)
+                asked = [several] if isinstance(several, Pose) else several
                 free = free_ends(planner.scene, start, asked, options["clearance"])
             start, goals = free.start, free.goals
             goal = goals[0] if isinstance(goals[0], Pose) else goal
