@@ -3,9 +3,11 @@
 import inspect
 import math
 import pkgutil
+import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
-from typing import Any, get_type_hints
+from pathlib import Path
+from typing import Any, Literal, get_args, get_origin, get_type_hints
 
 import numpy as np
 import pytest
@@ -62,6 +64,11 @@ PARAMETERS = [
 ]
 
 
+def words_of(hint: Any) -> tuple[Any, ...]:
+    """The words that an argument may be, if there are few."""
+    return sum((get_args(part) for part in (hint, *get_args(hint)) if get_origin(part) is Literal), ())
+
+
 @pytest.fixture(scope="module")
 def pool() -> list[Any]:
     """One value of each type."""
@@ -85,11 +92,8 @@ def pool() -> list[Any]:
     ]  # fmt: skip
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "function", "parameter"), PARAMETERS, ids=[f"{x[0]}-{x[2]}" for x in PARAMETERS])
-def test_an_argument_of_a_wrong_type_is_named(
-    name: str, function: Callable[..., Any], parameter: str, pool: list[Any]
-) -> None:
+def fitting(name: str, function: Callable[..., Any], pool: list[Any]) -> dict[str, Any]:
+    """What a function takes, of the right types."""
     hints = get_type_hints(function)
     arguments: dict[str, Any] = {}
     for other in inspect.signature(function).parameters.values():
@@ -99,11 +103,73 @@ def test_an_argument_of_a_wrong_type_is_named(
         elif other.default is inspect.Parameter.empty:
             hint = hints.get(other.name, Any)
             arguments[other.name] = SQUARE if hint is Any else next(value for value in pool if fits(hint, value))
+    return arguments
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "function", "parameter"), PARAMETERS, ids=[f"{x[0]}-{x[2]}" for x in PARAMETERS])
+def test_an_argument_of_a_wrong_type_is_named(
+    name: str, function: Callable[..., Any], parameter: str, pool: list[Any]
+) -> None:
+    hints, arguments = get_type_hints(function), fitting(name, function, pool)
     for wrong in (object(), 1j, None, "a text", {1: 2}):
         if (wrong is not None and not isinstance(wrong, str | dict)) or not fits(hints.get(parameter, Any), wrong):
             with pytest.raises((TypeError, ValueError), match=rf"\b{parameter}\b") as caught:
                 function(**{**arguments, parameter: wrong})
             assert "\n" not in str(caught.value) and len(str(caught.value)) < 400
+
+
+WORDS = [(*x, words_of(get_type_hints(x[1])[x[2]])) for x in PARAMETERS if words_of(get_type_hints(x[1]).get(x[2]))]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "function", "parameter", "words"), WORDS, ids=[f"{x[0]}-{x[2]}" for x in WORDS])
+def test_a_word_that_is_no_option_is_refused_with_those_that_are(
+    name: str, function: Callable[..., Any], parameter: str, words: tuple[Any, ...], pool: list[Any]
+) -> None:
+    """Whatever the word: misspelled, in capital letters, a part of one that is right, or empty."""
+    arguments = fitting(name, function, pool)
+    wrong: list[Any] = ["occupied", "", " ", words[0], f"{words[0]} ", *words]
+    wrong = [word.upper() if word in words else word for word in wrong] if isinstance(words[0], str) else [0, -1, 10**9]
+    for word in (word for word in wrong if word not in words):
+        with pytest.raises(ValueError, match=rf"^{parameter}: ") as caught:
+            function(**{**arguments, parameter: word})
+        assert str(caught.value).startswith(f"{parameter}: {word!r}; give ")
+        said = str(caught.value).partition("; give ")[2]
+        assert re.findall(r'"(\w[\w-]*)"' if isinstance(words[0], str) else r"(\d+)", said) == [*map(str, words)]
+
+
+def test_the_options_of_words_are_found() -> None:
+    found = {(name, parameter) for name, _, parameter, _ in WORDS}
+    assert found >= {
+        ("load_shapes", "unknown"), ("plan", "objective"), ("plan_many", "objective"), ("save", "form"),
+        ("Shapes.of", "role"), ("film.save_film", "storyboard"), ("figures.draw_all", "renderer"),
+        ("plot.painted", "by"), ("collision.Touch", "kind"), ("distributed.Sharded.plan", "objective"),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(("name", "function", "parameter"), PARAMETERS, ids=[f"{x[0]}-{x[2]}" for x in PARAMETERS])
+def test_an_argument_documented_by_words_takes_only_them(
+    name: str, function: Callable[..., Any], parameter: str
+) -> None:
+    owner = NAMES[name] if function.__name__ == "__init__" else function
+    documented = re.search(rf"^ +(?:\w+, )*{parameter}(?:, \w+)* : (\"\w.*)$", owner.__doc__ or "", re.MULTILINE)
+    if documented:
+        words = tuple(re.findall(r'"([\w-]+)"', documented[1]))
+        assert words_of(get_type_hints(function)[parameter]) == words
+
+
+@pytest.mark.parametrize("role", ["robots", "Obstacle", "part", ""])
+def test_a_role_that_is_none_is_refused_with_those_that_are(role: str) -> None:
+    with pytest.raises(ValueError, match=f'^roles: walls: \'{role}\'; give "robot", .* or "ignore"$'):
+        cfree.load_shapes("examples/scenes/flat.json", roles={"walls": role})
+
+
+@pytest.mark.parametrize("suffix", ["bmp", "SVG", ".svg", ""])
+def test_a_format_of_figures_that_is_none_is_refused_with_those_that_are(suffix: str, tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match=f'^formats: \'{suffix}\'; give "svg", "pdf" or "png"$'):
+        cfree.figures.draw_all(tmp_path, only=[1], formats=["svg", suffix])
+    assert not [*tmp_path.iterdir()]
 
 
 @pytest.mark.parametrize(

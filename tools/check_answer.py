@@ -80,17 +80,14 @@ REQUIRED, ROUND = object(), {"circle", "ellipse", "path", "grown"}  # keys of sh
 
 def decoded(text: str) -> Any:
     """A JSON value: decimals as `Decimal`, integers as int."""
-
     def exact(literal: str) -> Any:
         if len(literal) > MAX_DIGITS:
             return literal  # a text of that length is no number
         return int(literal) if literal.lstrip("-").isdigit() else Decimal(literal)
-
     def unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
         found = dict(pairs)
         refuse_if(len(found) < len(pairs), f"a key is there twice, one of {list(found)!a:.60}")
         return found
-
     try:
         return json.loads(text, parse_int=exact, parse_float=exact, parse_constant=int, object_pairs_hook=unique)
     except (ValueError, InvalidOperation, RecursionError) as error:
@@ -142,7 +139,6 @@ def literals(value: Any, place: str, count: int) -> tuple[Fraction, ...]:
     return numbers(value, place, count)
 
 # === Angles: tau = tan(theta / 2), a Fraction, or None for the half turn ===
-#
 # The formats define which rational an angle in radians or degrees stands for. Let k be the integer nearest to theta /
 # (pi / 2), and r = theta - k pi / 2, which counts as 0 if it is at most an ulp of the double theta. Then tau is that of
 # r, plus k right angles; that of r is the fraction of least denominator within 2^-53 t of the double t = tan(r / 2).
@@ -184,8 +180,7 @@ def angle_to(tau: Fraction | None) -> Fraction:
         x = x * unit // (unit + math.isqrt(unit * unit + x * x))
     total, power, k = 0, x, 1
     while abs(power) > 1:
-        total += power // k
-        power, k = -(power * x // unit) * x // unit, k + 2
+        total, power, k = total + power // k, -(power * x // unit) * x // unit, k + 2
     return Fraction(total << 9, unit)
 
 def turns_off(theta: Fraction, exact: Fraction) -> Fraction:
@@ -919,9 +914,8 @@ class Answer:
 
     def __init__(self, data: dict[str, Any], **more: Any) -> None:
         refuse_if(data.get("exact") is None, "decimals alone are not read here; cfree saves exact numbers, too")
-        required = dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED)
-        self.got = got = members(data, "answer", **required, version=1, units="", frame="world", clearance=None,
-                                  moved=None, **more)
+        more |= dict.fromkeys(("answer", "scene", "start", "goal", "exact"), REQUIRED) | {"whole": {}, "moved": None}
+        self.got = got = members(data, "answer", version=1, units="", frame="world", clearance=None, **more)
         one_of(got["version"], "version", 1)
         refuse_if(not all(isinstance(got[key], str) for key in ("units", "frame")), "units, frame: expected texts")
         self.clearance = ZERO if got["clearance"] is None else number(got["clearance"], "clearance")
@@ -933,8 +927,10 @@ class Answer:
         refuse_if(got["moved"] is not None and not self.asked, "moved: expected a start, a goal, or both")
         stamp = members(got["scene"], "scene", sha256=REQUIRED, robot=REQUIRED)
         self.sha256, self.box = stamp["sha256"], read_bounds(stamp["robot"], "scene.robot")
-        is_hash = isinstance(self.sha256, str) and re.fullmatch("[0-9a-f]{64}", self.sha256)
-        refuse_if(not is_hash, "scene.sha256: expected 64 digits 0-9 and a-f")
+        self.whole = members(got["whole"], "whole", sha256=self.sha256, obstacles=[])
+        self.kept = [whole(k, "whole.obstacles", 0) for k in items(self.whole["obstacles"], "whole.obstacles")]
+        is_hash = [isinstance(x, str) and re.fullmatch("[0-9a-f]{64}", x) for x in (self.sha256, self.whole["sha256"])]
+        refuse_if(not all(is_hash), "sha256: expected 64 digits 0-9 and a-f")
         self.size = max(self.box[2] - self.box[0], self.box[3] - self.box[1])
         self.reach = sum(max(abs(self.box[k]), abs(self.box[k + 2])) for k in (0, 1))
         self.decimals: dict[Any, Fraction] = {}
@@ -952,13 +948,18 @@ class Answer:
         if off(self.decimals, place, (pose.x, pose.y)) + self.reach * apart > self.size / 10**9:
             raise BadFileError(f"{place}: the decimals are another pose than the exact numbers")
 
-    def check_asked(self, scene: Scene) -> None:
-        refute_if(self.sha256 != scene.sha256, "it is an answer for another scene")
+    def check_asked(self, scene: Scene) -> Scene:
+        """The scene that it is about: this one, or some of its obstacles (what parts poses among these always does)."""
+        part = copy(scene)
+        if self.sha256 != scene.sha256 == self.whole["sha256"]:
+            part.obstacles = [scene.obstacles[k] for k in self.kept if k < len(scene.obstacles)]
+        refute_if(self.sha256 != part.sha256, "it is an answer for another scene")
         refute_if(self.box != scene.box, "scene.robot is not the box around the robot")
         for name, asked in scene.asked.items():
             pose = self.asked.get(name, getattr(self, name))
             known = not asked or any(q in (pose, Pose(pose.x, pose.y, "any")) for q in asked)
             refute_if(not known, f"the {name} is {pose}, and another in the scene")
+        return part
 
     def end(self, name: str) -> str:
         """An end in words, with where it was asked for if it was moved."""
@@ -1023,8 +1024,7 @@ class PathAnswer(Answer):
         turned = turns_off(decimals["start", 2], angle_to(self.start.tau))
         moved, pose = off(decimals, "start", (self.start.x, self.start.y)), self.start
         for k, motion in enumerate(self.motions):
-            angle = decimals.get(((k, "angle"), 0), ZERO)
-            apart = abs(angle - motion.angle)
+            apart = abs((angle := decimals.get(((k, "angle"), 0), ZERO)) - motion.angle)
             turned += apart
             if motion.pole:
                 moved += min(Fraction(2), abs(angle)) * off(decimals, (k, "pole"), motion.pole)
@@ -1046,7 +1046,7 @@ class PathAnswer(Answer):
         power = Fraction(2) ** (most.numerator.bit_length() - most.denominator.bit_length())
         return most and (power if most <= power else 2 * power)
 
-def check_path(answer: PathAnswer, scene: Scene) -> str:
+def check_path(answer: PathAnswer, scene: Scene, part: Scene) -> str:
     """What is proved, in a sentence."""
     world, only = World(scene), "; its decimals are approximate"
     answer.check_moved(world)
@@ -1067,7 +1067,7 @@ def check_path(answer: PathAnswer, scene: Scene) -> str:
     for k, motion in enumerate(answer.motions):
         for course in motion.courses(pose, world.scale):
             for contact in motion.contacts:
-                check_kept(scene, course, contact, f"motion {k}")
+                check_kept(part, course, contact, f"motion {k}")
             for said, there in worlds.items():
                 if (u := collision(there, course)) is not None:
                     raise RefutedError(f"motion {k}: {said}, near u = {float(u):.6g}")
@@ -1487,11 +1487,10 @@ def check_proof(proof: Proof, scene: Scene) -> str:
     if not apart and is_inside(proof.start, inner.scale, pieces) == is_inside(proof.goal, inner.scale, pieces):
         raise RefutedError("start and goal are on one side of the surface")
     from_to = f"leads from {proof.end('start')} to {proof.end('goal')}"
-    if proof.clearance:
-        return f"No path that keeps {float(proof.clearance):g} from obstacles and workspace {from_to}."
-    if proof.is_closed:
-        return f"No path {from_to}, not even one that touches."
-    return f"No path that keeps a distance from everything {from_to}; one that touches may."
+    kept = f"No path that keeps {float(proof.clearance):g} from obstacles and workspace {from_to}."
+    closed = f"No path {from_to}, not even one that touches."
+    touching = f"No path that keeps a distance from everything {from_to}; one that touches may."
+    return kept if proof.clearance else closed if proof.is_closed else touching
 
 # === The command ===
 def verdict(scene: str, answer: str) -> tuple[int, str]:
@@ -1500,8 +1499,8 @@ def verdict(scene: str, answer: str) -> tuple[int, str]:
         world, data = read_scene(decoded(scene)), decoded(answer)
         kind = one_of(data.get("answer") if isinstance(data, dict) else None, "answer", "path", "separated")
         given = (PathAnswer if kind == "path" else Proof)(data)
-        given.check_asked(world)
-        proved = check_path(given, world) if isinstance(given, PathAnswer) else check_proof(given, world)
+        part = given.check_asked(world)
+        proved = check_path(given, world, part) if isinstance(given, PathAnswer) else check_proof(given, part)
         return VERIFIED, f"{proved} verified"
     except RefutedError as error:
         return REFUTED, f"REFUTED: {error}"

@@ -9,7 +9,7 @@ from __future__ import annotations
 import collections.abc
 import os
 import reprlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import cache, update_wrapper
 from numbers import Integral, Real
 from types import FunctionType, NoneType, UnionType
@@ -34,6 +34,8 @@ def checked(function: T) -> T:
     ------
     TypeError
         With the name of the argument, what it is, and what to give.
+    ValueError
+        If an argument is one of a few words, and another is given.
 
     Examples
     --------
@@ -74,18 +76,47 @@ def checked(function: T) -> T:
     return cast(T, update_wrapper(at_home, function))
 
 
+def one_of(name: str, value: Any, words: Sequence[Any]) -> None:
+    """Refuse all but a few words.
+
+    Raises
+    ------
+    ValueError
+        With the name of the argument, what it is, and the words.
+
+    Examples
+    --------
+    >>> one_of("unknown", "occupied", ("obstacle", "free"))
+    Traceback (most recent call last):
+        ...
+    ValueError: unknown: 'occupied'; give "obstacle" or "free"
+    """
+    if value not in words:
+        raise ValueError(f"{name}: {reprlib.repr(value)}; give {_listed(words)}")
+
+
+def _listed(words: Sequence[Any]) -> str:
+    *others, last = [f'"{word}"' if isinstance(word, str) else repr(word) for word in words]
+    return f"{', '.join(others)} or {last}" if others else last
+
+
 class _Check:
-    """Of one argument; `known` are types all values of which will do."""
+    """The check of one argument. Any value of the types in `known` is good; of the types of `words` only these are."""
 
     def __init__(self, hint: Any) -> None:
         self.hint, self.test = hint, _test_of(hint)
-        self.plain = [_test_of(part) for part in (hint, *get_args(hint)) if _is_plain(part)]
+        parts = (hint, *get_args(hint))
+        self.words = [word for part in parts if get_origin(part) is Literal for word in get_args(part)]
+        self.kinds = tuple({type(word) for word in self.words if type(word) not in parts})
+        self.plain = [_test_of(part) for part in parts if _is_plain(part)]
         self.known: set[type] = set()
 
     def __call__(self, name: str, value: Any) -> None:
         if not self.test(value):
             kind = "None" if value is None else f"{reprlib.repr(value)} is {_article(type(value).__name__)}"
             raise TypeError(f"{name}: {kind}; give {expected(self.hint)}")
+        if isinstance(value, self.kinds):
+            one_of(name, value, self.words)
         if any(test(value) for test in self.plain):
             self.known.add(type(value))
 
@@ -176,7 +207,7 @@ def expected(hint: Any) -> str:
         others = [expected(part) for part in parts if not (numbers and part in _ARRAY)]
         return " or ".join(dict.fromkeys([*numbers, *others]))
     if origin is Literal:
-        return " or ".join(map(repr, parts))
+        return _listed(parts)
     if origin is tuple:
         return f"({', '.join('...' if part is Ellipsis else expected(part) for part in parts)})"
     if origin in _SEQUENCES:

@@ -458,7 +458,7 @@ def test_figures_are_written_as_asked(run: Run, tmp_path: Path) -> None:
         (("--only", "21"), "there are the figures 1 to 20"),
         (("--renderer", "gl"), "pyvista"),
         (("--only", "6,x"), 'as in "7" or "7,9"'),
-        (("--format", "png,gif"), "format 'gif'"),
+        (("--format", "png,gif"), "--format: 'gif'; give"),
         (("--only", ""), "give numbers of figures"),
     ],
 )

@@ -162,7 +162,7 @@ def test_ends_that_are_not_free_are_named() -> None:
             plan(SHUT, START, goal)  # type: ignore[call-overload]
     with pytest.raises(InvalidPoseError, match="goal 1: its position is beyond 1e150"):
         plan(SHUT, START, [(3, 5), (10**151, 0)])
-    for wish, said in (({"improve": -1}, "improve -1: give seconds"), ({"objective": "x"}, "objective 'x'; give "),
+    for wish, said in (({"improve": -1}, "improve -1: give seconds"), ({"objective": "x"}, "objective: 'x'; give "),
                        ({"clearance": 0}, "clearance 0: give a length above 0")):  # fmt: skip
         with pytest.raises(ValueError, match=said):
             plan(SHUT, START, [(3, 5, 0)], **wish)  # type: ignore[call-overload]

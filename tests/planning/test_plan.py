@@ -375,7 +375,7 @@ def test_three_feet_slide_on_three_walls_and_off_them() -> None:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"objective": "fast"}, "objective 'fast'"),
+        ({"objective": "fast"}, "objective: 'fast'; give"),
         ({"improve": -1}, "improve -1"),
         ({"improve": math.nan}, "improve nan"),
         ({"goal": Pose(10**200, 0)}, "beyond 1e150"),

@@ -380,7 +380,7 @@ def roots_in_chart(good: Boundary, k: int, end: str) -> int:
         return 0
     reader = reader_of(good)
     defining = reader.defining(first, second, reader.surface(int(t.patch[k])), int(t.chart[k]))
-    found = np.roots([float(c) for c in reversed(defining.coeffs())])
+    found = np.roots([float(c) for c in reversed(defining)])
     return int(np.sum((abs(found.imag) < 1e-9) & (abs(found.real) < 1)))
 
 

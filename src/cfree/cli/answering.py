@@ -18,6 +18,7 @@ from cfree.scene.naming import all_placed
 if TYPE_CHECKING:
     from cfree.analysis.blockers import Blocker
     from cfree.exact.pose import Pose
+    from cfree.formats.answer_file import Form
     from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Unwanted
     from cfree.planning.goals import AllSeparated
@@ -31,19 +32,19 @@ class Sampling:
 
     Attributes
     ----------
-    form : str
+    form : "json", "csv", "ros" or "geojson"
     step, speed : float or None
     turn : float, radians
     """
 
-    form: str
+    form: Form
     step: float | None
     turn: float
     speed: float | None
 
     @classmethod
     def of(
-        cls, output: Path | None, form: str | None, step: str | None, turn: str | None, speed: str | None
+        cls, output: Path | None, form: Form | None, step: str | None, turn: str | None, speed: str | None
     ) -> Sampling:
         """From the options of the command line.
 

@@ -15,7 +15,7 @@ import click
 from cfree.cli import options
 from cfree.cli.faults import INCOMPLETE, REFUTED, fail, one_line_faults, own_exit_codes
 from cfree.cli.files import answer_for, bar, check_outputs, computed, planner_of, read_source
-from cfree.cli.options import FILE, examples, file_option
+from cfree.cli.options import FILE, Word, examples, file_option
 from cfree.cli.scenes import check, convert
 from cfree.cli.terminal import print_json, printable
 from cfree.cli.values import (
@@ -23,7 +23,6 @@ from cfree.cli.values import (
     read_goals,
     read_length,
     read_numbers,
-    read_objective,
     read_pixels,
     read_pose,
     read_preferences,
@@ -34,7 +33,10 @@ from cfree.formats.archive import is_archive
 from cfree.words import counted
 
 if TYPE_CHECKING:
+    from cfree.film import Storyboard
     from cfree.forbidden.boundary import Boundary
+    from cfree.formats.answer_file import Form
+    from cfree.paths.path import Objective
     from cfree.plot.rendered import Renderer
     from cfree.verify.result import Verification
 
@@ -197,6 +199,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @click.option(
     "--format",
     "form",
+    type=Word(["json", "csv", "ros", "geojson"]),
     metavar="FORM",
     help="Of the file that -o writes: json, exact; or of a path sampled poses: csv, geojson, ros.",
     show_default="by the file's name, else json",
@@ -218,6 +221,7 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 )
 @click.option(
     "--objective",
+    type=Word(["balanced", "short", "clear"]),
     metavar="WORD",
     default="balanced",
     show_default=True,
@@ -243,9 +247,9 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 @options.max_seconds
 @options.as_json
 def plan(
-    scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: str | None, step: str | None,
+    scene: Path, start: str | None, goal: tuple[str, ...], output: Path | None, form: Form | None, step: str | None,
     turn: str | None, speed: str | None, clearance: str | None, nearest_free: bool, improve: str | None,
-    objective: str, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
+    objective: Objective, prefer: str | None, picture: Path | None, film: Path | None, miss: bool, what_if: bool,
     tolerance: float | None, part: Path | None, max_seconds: float | None, as_json: bool,
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
@@ -270,12 +274,11 @@ def plan(
         )
         poses = Sampling.of(output, form, step, turn, speed)
         seconds = None if improve is None else read_seconds(improve)
-        wanted = read_objective(objective)
-        if seconds == 0 and wanted != "clear":
+        if seconds == 0 and objective != "clear":
             options.refuse("of a path that is improved, and --improve 0 asks for the first", "objective")
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
-        how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": wanted}
+        how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": objective}
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), tolerance)
         if (miss or what_if) and planner.scene.curved:
             raise ValueError("--nearest-miss, --what-if: of polygons; give what cfree convert --inner writes")
@@ -353,6 +356,7 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
 @file_option("--output", "-o", metavar="FILE", help="The film: .mp4 or .gif.", required=True)
 @click.option(
     "--storyboard",
+    type=Word(["paper", "path", "separation", "turntable"]),
     metavar="NAME",
     help='"paper": slices, a helix, patches, all of the boundary, a path; or "path", "separation", "turntable".',
     default="paper",
@@ -368,7 +372,7 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
 @click.option("--fps", type=int, metavar="N", help="Frames a second.", default=25, show_default=True)
 @click.option("--size", metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF")
 def film(
-    scenes: tuple[Path, ...], output: Path, storyboard: str, seconds: float | None, fps: int, size: str | None
+    scenes: tuple[Path, ...], output: Path, storyboard: Storyboard, seconds: float | None, fps: int, size: str | None
 ) -> None:
     """Make a film of the robot and of its configuration.
 
@@ -517,7 +521,7 @@ def _print_verified(result: Verification, file: Path, as_json: bool) -> None:
 )
 @click.option(
     "--renderer",
-    type=click.Choice(["matplotlib", "pyvista"]),
+    type=Word(["matplotlib", "pyvista"]),
     help="Who draws surfaces: matplotlib as vectors, PyVista as pixels in true depth order.",
     show_default="the best",
 )
@@ -528,9 +532,13 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
     And ten more.
     """
     with one_line_faults():
+        from cfree.arguments import one_of
         from cfree.figures import FIGURES, draw_all
+        from cfree.figures.style import FORMATS
         from cfree.plot.rendered import MISSING, best_renderer
 
+        for word in formats.split(","):
+            one_of("--format", word, FORMATS)
         numbers = None if only is None else read_numbers(only)
         has_space = any(panel.in_space for e in FIGURES if numbers is None or e.number in numbers for panel in e.panels)
         if not has_space:

@@ -9,11 +9,17 @@ from typing import TYPE_CHECKING, Any
 from cfree.cli.files import answer_for, bar, computed, read_source
 
 if TYPE_CHECKING:
+    from cfree.film import Storyboard
     from cfree.scene.scene import Scene
 
 
 def film_scenes(
-    sources: Sequence[Path], output: Path, storyboard: str, seconds: float | None, fps: int, size: tuple[int, int]
+    sources: Sequence[Path],
+    output: Path,
+    storyboard: Storyboard,
+    seconds: float | None,
+    fps: int,
+    size: tuple[int, int],
 ) -> dict[str, Any]:
     """Film scenes one after the other.
 
@@ -27,7 +33,7 @@ def film_scenes(
     from cfree.forbidden.boundary import Boundary
 
     seconds = length_of(storyboard, output) if seconds is None else seconds
-    check_options(len(sources), seconds, fps, size, storyboard)
+    check_options(len(sources), seconds, fps, size)
     given = [read_source(source) for source in sources]
     if storyboard != "turntable":
         for source, found in zip(sources, given, strict=True):
@@ -85,7 +91,7 @@ def film_answer(
         return {"answer": "a path", "size": "x".join(map(str, size))}
     shown = answer if isinstance(answer, Separated) else answer.proofs[0]
     seconds = length_of("separation", output) if seconds is None else seconds
-    check_options(1, seconds, fps, size, "separation")
+    check_options(1, seconds, fps, size)
     boundary = computed(given, None)
     with bar("film") as progress:
         film_separation(shown, boundary, output, seconds=seconds, fps=fps, size=size, progress=progress)

@@ -37,20 +37,27 @@ def make(
 
 
 def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, client: Any) -> Verification:
-    """Check the shards of a folder, or a path among its obstacles."""
+    """Check the shards of a folder, or an answer among its obstacles."""
     from cfree.distributed.sharded import Sharded
     from cfree.formats.files import load
     from cfree.paths.path import Path as Motions
+    from cfree.planning.separation import Separated
     from cfree.verify.answers import answer as verified_answer
+    from cfree.verify.result import REFUTED, Check, Finding, Verification
 
     found = Sharded(folder)
     if answer is None:
         with stages() as progress:
             return found.verify(sample=sample, seed=seed, client=client, progress=progress)
     given = load(answer)
-    if not isinstance(given, Motions):
-        raise ValueError(f"{answer}: no path; give the scene that cfree plan --part has written, not the folder")
-    return verified_answer(found.scene_near(given), given)
+    if not isinstance(given, Motions | Separated):
+        raise ValueError(f"{answer}: no path and no proof; give an answer of the folder")
+    if given.whole is not None and given.whole.sha256 != found.scene_sha256:
+        text = f"the answer is for the one of sha256 {given.whole.sha256[:12]}..., and this folder is of another"
+        finding = Finding("scene", "another scene", f"{text}; give its own, or plan anew")
+        return Verification((Check("scene", REFUTED, "nothing else was checked"),), (finding,), (), 0.0)
+    scene, asked = found.scene_for(given)
+    return verified_answer(scene, asked)
 
 
 @contextmanager

@@ -9,7 +9,23 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
+from cfree.cli.faults import one_line_faults
+
 FILE = click.Path(path_type=Path)
+
+
+class Word(click.Choice[str]):
+    """One of a few words; any other is refused in one line that names the option, the word and the allowed words."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        from cfree.arguments import one_of
+
+        name = param.opts[0] if param is not None else "word"
+        with one_line_faults():
+            one_of(name, value, self.choices)
+        return str(value)
+
+
 Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 

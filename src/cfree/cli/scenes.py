@@ -11,7 +11,7 @@ import click
 from cfree.cli import options
 from cfree.cli.faults import one_line_faults
 from cfree.cli.files import bar
-from cfree.cli.options import FILE, Decorator, examples
+from cfree.cli.options import FILE, Decorator, Word, examples
 from cfree.cli.terminal import print_json, printable
 from cfree.words import counted
 
@@ -28,7 +28,7 @@ def _reading(command: Any) -> Any:
     given: list[Decorator] = [
         click.option("--tolerance", type=float, metavar="E", help="Error of the polygons that curves become.",
                      show_default="drawing's size / 1000"),
-        click.option("--unknown", type=click.Choice(["obstacle", "free"]), default="obstacle", show_default=True,
+        click.option("--unknown", type=Word(["obstacle", "free"]), default="obstacle", show_default=True,
                      help="What unknown cells of a map are."),
         click.option("--role", "roles", multiple=True, metavar="NAME=ROLE",
                      help="Of a layer, group or name: robot, obstacle, workspace or ignore."),

@@ -12,7 +12,6 @@ from cfree.words import counted
 if TYPE_CHECKING:
     from cfree.exact.half_angle import Angle
     from cfree.exact.pose import Pose
-    from cfree.paths.path import Objective
     from cfree.paths.preferences import Preferences
 
 
@@ -106,15 +105,6 @@ def read_turn(text: str) -> float:
     if turn <= 0:
         raise ValueError(f"--turn: {text}; give an angle above 0 such as 5deg")
     return min(math.radians(turn) if unit == "deg" else turn, math.tau)
-
-
-def read_objective(text: str) -> Objective:
-    """What to prefer among paths."""
-    word: Objective
-    for word in ("balanced", "short", "clear"):
-        if text == word:
-            return word
-    raise ValueError(f'--objective: {text!r}; give "balanced", "short" or "clear"')
 
 
 def read_preferences(text: str | None) -> Preferences:

@@ -27,6 +27,7 @@ from cfree.value import Value, kept
 
 FORBIDDEN, FREE, UNCERTAIN = 0, 1, 2  # the core's verdicts
 BLOCK = 1 << 22  # poses between two looks at Ctrl-C
+FARTHEST = 1e300  # coordinates beyond are as far as this
 
 Limits = tuple[Fraction | float, Fraction | float, Fraction | float, Fraction | float]
 
@@ -209,9 +210,9 @@ class PoseChecker(Value):
             raise ValueError(f"threads: {threads}; give at least 1")
         if (pose := one_pose(poses, "poses")) is not None:
             return self._is_free_exactly(pose)
-        if isinstance(poses, list | tuple) and not _is_table(poses):
-            return np.array([self._is_free_exactly(to_pose(pose, f"poses[{k}]")) for k, pose in enumerate(poses)], bool)
-        table = _table(poses)
+        table = rows_of(poses)
+        if isinstance(table, list):
+            return np.array([self._is_free_exactly(pose) for pose in table], bool)
         verdicts = self.verdicts(table, threads)
         for k in np.flatnonzero(verdicts == UNCERTAIN).tolist():
             verdicts[k] = FREE if self.core.is_free(table[k].tolist()) else FORBIDDEN
@@ -271,6 +272,21 @@ def _prepared_with(scene: Scene, features: SceneFeatures) -> tuple[_core.PoseChe
         x0, y0, x1, y1 = limits = limits_of(scene)
         doubles = [_least_double(x0), _least_double(y0), -_least_double(-x1), -_least_double(-y1)]
         return _core.PoseChecker(features.core, doubles), limits
+
+
+def clamped(x: Fraction) -> float:
+    """The nearest double; what is beyond `FARTHEST` is as far as that."""
+    try:
+        return max(-FARTHEST, min(FARTHEST, float(x)))
+    except OverflowError:
+        return FARTHEST if x > 0 else -FARTHEST
+
+
+def rows_of(poses: Any) -> Floats | list[Pose]:
+    """Rows x, y and theta if these are plain numbers; else exact poses."""
+    if isinstance(poses, list | tuple) and not _is_table(poses):
+        return [to_pose(pose, f"poses[{k}]") for k, pose in enumerate(poses)]
+    return _table(poses)
 
 
 def _is_table(rows: Sequence[Any]) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -17,7 +18,7 @@ from cfree.distributed.joining import JoinedSurfaces, join
 from cfree.distributed.nesting import Answer, Nesting, Question, nest
 from cfree.distributed.reading import read_source, source_key
 from cfree.distributed.running import check_client, run
-from cfree.distributed.shard import VERSION, key_of, read_json, write_json, write_shard
+from cfree.distributed.shard import VERSION, key_of, read_json, read_shard, write_json, write_shard
 from cfree.distributed.sharded import Sharded
 from cfree.distributed.store import NO_ROUNDING, SceneStore, is_small, store_scene
 from cfree.distributed.trim import MODULUS
@@ -28,6 +29,7 @@ from cfree.scene.scene import Scene
 TILE = 20_000
 ROUNDS = 3
 BLOCK = 1_000  # obstacles
+SIGNED = ("source.json", "plan.json", "manifest.json", "scene/facts.json")  # with the key of the source
 Progress = Callable[[str, int, int], object]
 
 
@@ -49,7 +51,8 @@ def boundary(
         Of several files the first is a scene, the others are GeoJSON (also one feature a line), WKT or GeoParquet of
         more obstacles, which are read one after the other.
     folder : path
-        Where everything is kept. If it has the unfinished boundary of the same source, that is continued.
+        Where everything is kept. If it has the boundary of the same source, every file of it is looked at: what is
+        missing or damaged is made, and nothing else.
     client : distributed.Client, optional
         Whose workers see the same folder. Without one the same tasks run here, one after the other.
     tile : int
@@ -111,32 +114,52 @@ class _Build:
         self._claim()
         store = self._stored()
         division = self._divided(store)
-        if not (self.folder / "manifest.json").exists():
-            self._describe(store, division)
-            counts = self._trim(division)
-            self._finish(store, division, counts, *self._cells(store, division))
+        self._describe(store, division)
+        counts = {"tiles": len(division), "obstacles": len(store), "vertices": store.vertices} | self._trim(division)
+        components = self._glue(division)
+        if not self._is_finished(counts):
+            self._finish(store, counts, *self._cells(store, division, components))
         return Sharded(self.folder)
 
     def _claim(self) -> None:
-        """The folder is made, or is that of the same computation."""
-        path = self.folder / "source.json"
-        if path.exists() and (known := read_json(path).get("key")) != self.key:
+        """Make the folder, or see that it is that of the same computation."""
+        path, known = self.folder / "source.json", None
+        for name in SIGNED:  # one of them may be damaged
+            with suppress(FormatError):
+                known = known or read_json(self.folder / name).get("key")
+        if known is not None and known != self.key:
             raise FormatError(
                 f"{self.folder}: the folder of another scene, or of other tiles ({known}); give another", path=str(path)
             )
-        if not path.exists():
-            if self.folder.exists() and any(self.folder.iterdir()):
-                raise FormatError(f"{self.folder}: the folder is not empty; give another", path=str(self.folder))
-            self.folder.mkdir(parents=True, exist_ok=True)
+        if known is None and self.folder.exists() and any(self.folder.iterdir()):
+            raise FormatError(
+                f"{self.folder}: the folder is not empty, and no file tells that it is of this scene; "
+                "give another, or delete it",
+                path=str(self.folder),
+            )
+        self.folder.mkdir(parents=True, exist_ok=True)
+        if not _is_sound(path):
             write_json(path, {"key": self.key, "version": VERSION})
 
     def _stored(self) -> SceneStore:
         """The scene as files; `facts.json` is written last."""
         place = self.folder / "scene"
-        if (place / "facts.json").exists():
-            return SceneStore(place)
+        with suppress(FormatError):
+            store = SceneStore(place)
+            if store.facts["key"] == self.key:
+                store.check()
+                return store
         head, obstacles = read_source(self.source)
-        return store_scene(head, self._counted(obstacles), place)
+        return store_scene(head, self._counted(obstacles), place, self.key)
+
+    def _is_finished(self, counts: Mapping[str, Any]) -> bool:
+        """True if there are cells, and the manifest is of the same shards."""
+        try:
+            manifest = read_json(self.folder / "manifest.json")
+            read_shard(self.folder / "cells.npz", self.key)
+        except FormatError:
+            return False
+        return counts.items() <= manifest.items()
 
     def _counted(self, obstacles: Iterator[Polygon]) -> Iterator[Polygon]:
         self.progress("read", 0, 0)
@@ -156,7 +179,7 @@ class _Build:
     def _describe(self, store: SceneStore, division: Division) -> None:
         """What tasks need to know of all obstacles."""
         path = self.folder / "plan.json"
-        if path.exists() and read_json(path).get("measured"):
+        if _is_sound(path) and read_json(path).get("measured"):
             return
         rounded = list(NO_ROUNDING)
         write_json(path, {"key": self.key, "rounded": rounded})
@@ -204,8 +227,9 @@ class _Build:
                 self._trim(division)
         raise AssertionError
 
-    def _cells(self, store: SceneStore, division: Division) -> tuple[JoinedSurfaces, Nesting, Any]:
-        components = self._glue(division)
+    def _cells(
+        self, store: SceneStore, division: Division, components: Mapping[int, int]
+    ) -> tuple[JoinedSurfaces, Nesting, Any]:
         self.progress("join", 0, 1)
         work = tasks.Work(self.folder)
         joined = join(len(division), lambda tile: work.shard(tasks.GLUED, tile))
@@ -244,7 +268,6 @@ class _Build:
     def _finish(
         self,
         store: SceneStore,
-        division: Division,
         counts: dict[str, Any],
         joined: JoinedSurfaces,
         nesting: Nesting,
@@ -272,7 +295,13 @@ class _Build:
         write_shard(self.folder / "cells.npz", arrays, self.key)
         write_json(
             self.folder / "manifest.json",
-            {"version": VERSION, "key": self.key, "tiles": len(division), "obstacles": len(store)}
-            | {"vertices": store.vertices, "surfaces": len(joined), "cells": cells}
-            | counts,
+            {"version": VERSION, "key": self.key, "surfaces": len(joined), "cells": cells} | counts,
         )
+
+
+def _is_sound(path: Path) -> bool:
+    """True if it is as it was written."""
+    try:
+        return bool(read_json(path))
+    except FormatError:
+        return False

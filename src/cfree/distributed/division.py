@@ -8,13 +8,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.distributed.shard import read_shard, write_shard
+from cfree.distributed.shard import check_sums, file_sums, read_shard, write_shard
 from cfree.distributed.store import SceneStore
 from cfree.distributed.tiles import divide, grown_by, merged, near_each
 
 Ints = NDArray[np.int64]
 Floats = NDArray[np.float64]
 LISTS = ("features", "obstacles", "neighbours")
+FILES = tuple(f"{name}.bin" for name in LISTS)
 
 
 @dataclass(frozen=True)
@@ -55,9 +56,10 @@ class Division:
         Raises
         ------
         FormatError
-            If there is none of that key.
+            If there is none of that key, or a file of it is damaged; it says how that is mended.
         """
         table = read_shard(folder / "division.npz", key)
+        check_sums(folder, dict(zip(FILES, table["sums"].tolist(), strict=True)))
         return cls(folder, {name: table[name] for name in LISTS}, table["boxes"], table["spans"])
 
 
@@ -125,5 +127,6 @@ def divide_scene(store: SceneStore, tiles: int, folder: Path, key: str) -> Divis
     for name, parts in lists.items():
         first[name] = np.cumsum([0, *map(len, parts)]).astype(np.int64)
         np.concatenate([np.zeros(0, np.int64), *parts]).astype(np.int64).tofile(folder / f"{name}.bin")
-    write_shard(folder / "division.npz", first | {"boxes": boxes, "spans": spans}, key)
+    sums = np.array(list(file_sums(folder / name for name in FILES).values()))
+    write_shard(folder / "division.npz", first | {"boxes": boxes, "spans": spans, "sums": sums}, key)
     return Division.open(folder, key)

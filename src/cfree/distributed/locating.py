@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import cfree._core as _core
+from cfree.collision.pose_checker import clamped
 from cfree.distributed.nesting import NONE, Crossing, Place
 from cfree.distributed.tasks import GLUED, Work, opened
 from cfree.exact.half_angle import chart_of, tau_in_chart
@@ -226,6 +227,7 @@ def cells_of(
 def _tiles_on(pose: InChart, present: Ints, boxes: NDArray[np.float64], scale: float) -> list[int]:
     """Tiles that the line towards -x may meet, the one that reaches farthest to the right last."""
     X, Y, W, *_ = pose[0]
-    x, y, box = X / W / scale, Y / W / scale, boxes[present]
+    x, y = (clamped(Fraction(c, W)) / scale for c in (X, Y))
+    box = boxes[present]
     met = present[(box[:, 0] <= x) & (box[:, 1] <= y) & (box[:, 3] >= y)]
     return [int(tile) for tile in met[np.lexsort((-met, boxes[met, 2]))]]

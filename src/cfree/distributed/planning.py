@@ -6,7 +6,7 @@ with them that come near it. So obstacles are added along the paths that are fou
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from cfree.exact.pose import Pose
 from cfree.paths.path import Path
 from cfree.planning.plan import plan
 from cfree.planning.separation import Separated
+from cfree.scene.digest import Whole
 from cfree.scene.scene import Scene
 
 Ints = NDArray[np.int64]
@@ -47,6 +48,11 @@ class Surroundings:
     def scene(self) -> Scene:
         """The scene with what is known."""
         return self.work.store.scene(sorted(self.numbers))
+
+    @property
+    def whole(self) -> Whole:
+        """The whole scene, and the numbers of these obstacles in it."""
+        return Whole(self.work.store.facts["scene"], tuple(sorted(self.numbers)))
 
     def around(self, points: Floats, reach: float, spans: bool = False) -> Ints:
         """Obstacles whose boxes are within reach of points, by their edges, or by all that they cover."""
@@ -78,9 +84,9 @@ def plan_among(known: Surroundings, start: Pose, goal: Pose, **wishes: Any) -> P
         while True:
             answer = plan(known.scene, start, goal, **wishes | wish)
             if isinstance(answer, Separated):
-                return answer
+                return replace(answer, whole=known.whole)
             assert isinstance(answer, Path)
             if not known.add_around(answer, margin):
                 break
             margin *= WIDER
-    return answer
+    return replace(answer, whole=known.whole)

@@ -7,12 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.collision.pose_checker import PoseChecker
+from cfree.collision.pose_checker import PoseChecker, clamped
 from cfree.distributed.planning import Surroundings, plan_among
 from cfree.distributed.tasks import Work, opened
-from cfree.exact.pose import Pose, Poses
+from cfree.exact.pose import Floats, Pose
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
+
+Rows = Floats | list[Pose]
+"""Poses x, y and theta in double precision, or exact ones."""
 
 
 def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str, Any]) -> Path | Separated:
@@ -20,18 +23,31 @@ def plan_task(folder: str, stamp: str, start: Pose, goal: Pose, wishes: dict[str
     return plan_among(Surroundings(opened(folder, stamp)), start, goal, **wishes)
 
 
-def free_task(folder: str, stamp: str, poses: Poses | list[Pose]) -> NDArray[np.bool_]:
+def free_task(folder: str, stamp: str, rows: Rows) -> NDArray[np.bool_]:
     """Which poses are free among the obstacles near them."""
     known = Surroundings(opened(folder, stamp))
-    xy = (poses if isinstance(poses, Poses) else Poses.from_poses(poses)).xy
+    xy = places(rows)
     for spans in (False, True):
         known.numbers |= set(known.around(xy, known.work.store.radius, spans=spans).tolist())
-    return np.asarray(PoseChecker(known.scene).is_free(poses), np.bool_)
+    return np.asarray(PoseChecker(known.scene).is_free(rows), np.bool_)
 
 
-def groups(work: Work, poses: Poses, most: int = 100_000) -> list[NDArray[np.int64]]:
+def places(rows: Rows) -> Floats:
+    """(n, 2) where poses are, rounded: to look around, never to decide."""
+    if isinstance(rows, list):
+        found = [[clamped(pose.x), clamped(pose.y)] for pose in rows]
+        return np.array(found, np.float64).reshape(-1, 2)
+    return rows[:, :2]
+
+
+def taken(rows: Rows, numbers: NDArray[np.int64]) -> Rows:
+    """Some of the poses."""
+    return [rows[k] for k in numbers] if isinstance(rows, list) else rows[numbers]
+
+
+def groups(work: Work, rows: Rows, most: int = 100_000) -> list[NDArray[np.int64]]:
     """Poses by the first tile that they are in, so that those of one task need few tiles."""
-    boxes, xy = work.division.boxes, poses.xy
+    boxes, xy = work.division.boxes, places(rows)
     tile = np.full(len(xy), len(boxes))
     for k in range(len(boxes) - 1, -1, -1):
         x0, y0, x1, y1 = boxes[k]

@@ -1,10 +1,13 @@
-"""Files of a folder that others may be writing to: whole or not there, and known to be as they were written."""
+"""Files of a folder that others may be writing to: whole or not there, and known to be as they were written.
+
+Every file has a SHA-256: JSON and shards in themselves, all others in the JSON or the shard written after them.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +19,17 @@ from cfree.formats.atomic import replacing
 from cfree.formats.header import FAULTS, signed
 
 Shard = dict[str, NDArray[Any]]
-VERSION = 1
+VERSION = 2
+REMEDY = "compute the boundary into this folder again, which mends it: cfree boundary SCENE --folder FOLDER"
+
+
+def damaged(path: Path, what: object = "damaged") -> FormatError:
+    """The error that says how a file of a folder is mended."""
+    return FormatError(f"{path}: {what}; {REMEDY}", path=str(path))
+
+
+def _refused(path: Path, error: Exception) -> FormatError:
+    return damaged(path, (error.strerror or "cannot be read") if isinstance(error, OSError) else "damaged")
 
 
 def write_shard(path: Path, arrays: Mapping[str, NDArray[Any]], key: str) -> None:
@@ -32,45 +45,87 @@ def read_shard(path: Path, key: str | None = None) -> Shard:
     Raises
     ------
     FormatError
-        If it is not there, damaged, or computed from something else.
+        If it is not there, damaged, or computed from something else; it says how that is mended.
     """
     try:
-        with np.load(path, allow_pickle=False) as archive:
+        with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}
         header = json.loads(arrays.pop("header").tobytes())
         if header["version"] != VERSION:
-            raise FormatError(f"{path}: version {header['version']}; this cfree reads {VERSION}", path=str(path))
+            raise damaged(path, f"version {header['version']}, and this cfree reads {VERSION}")
         if key is not None and header["key"] != key:
-            raise FormatError(f"{path}: computed from something else", path=str(path))
+            raise damaged(path, "computed from something else")
         if signed(header, arrays) != header:
-            raise FormatError(f"{path}: damaged", path=str(path))
+            raise damaged(path)
     except FormatError:
         raise
     except (OSError, *FAULTS) as error:
-        raise FormatError(f"{path}: {error or 'damaged'}", path=str(path)) from error
+        raise _refused(path, error) from error
     return arrays
 
 
-def write_json(path: Path, value: object) -> None:
+def write_json(path: Path, value: Mapping[str, Any]) -> None:
+    """Write an object with its SHA-256, `_sum_of`."""
     with replacing(path) as unfinished:
-        unfinished.write_text(json.dumps(value, indent=1) + "\n", encoding="utf-8")
+        text = json.dumps({**value, "sha256": _sum_of(value)}, indent=1)
+        unfinished.write_text(text + "\n", encoding="utf-8")
 
 
 def read_json(path: Path) -> dict[str, Any]:
-    """An object in a JSON file.
+    """The object that `write_json` has written.
 
     Raises
     ------
     FormatError
-        If there is none.
+        If it is not there, or damaged; it says how that is mended.
     """
     try:
-        value = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise FormatError(f"{path}: {error}", path=str(path)) from error
-    if not isinstance(value, dict):
-        raise FormatError(f"{path}: expected an object", path=str(path))
+        value = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError) as error:
+        raise _refused(path, error) from error
+    if not isinstance(value, dict) or value.pop("sha256", None) != _sum_of(value):
+        raise damaged(path)
     return value
+
+
+def _sum_of(value: Mapping[str, Any]) -> str:
+    return hashlib.sha256(json.dumps(value).encode()).hexdigest()
+
+
+def changed(path: Path) -> tuple[int, int]:
+    """The size of a file, and when it was changed."""
+    try:
+        found = path.stat()
+    except OSError as error:
+        raise _refused(path, error) from error
+    return found.st_size, found.st_mtime_ns
+
+
+def file_sums(paths: Iterable[Path]) -> dict[str, str]:
+    """The SHA-256 of files, by their names."""
+    sums = {}
+    for path in paths:
+        with path.open("rb") as file:
+            sums[path.name] = hashlib.file_digest(file, "sha256").hexdigest()
+    return sums
+
+
+def check_sums(folder: Path, sums: Mapping[str, str]) -> None:
+    """See that files are as they were.
+
+    Raises
+    ------
+    FormatError
+        If one is not there, or another; it says how that is mended.
+    """
+    for name, digest in sums.items():
+        path = folder / name
+        try:
+            (found,) = file_sums([path]).values()
+        except OSError as error:
+            raise _refused(path, error) from error
+        if found != digest:
+            raise damaged(path)
 
 
 def key_of(*parts: object) -> str:

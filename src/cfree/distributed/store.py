@@ -18,11 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 import cfree._core as _core
-from cfree.distributed.shard import read_json, write_json
+from cfree.distributed.shard import check_sums, file_sums, read_json, write_json
 from cfree.errors import InvalidPolygonError
 from cfree.formats.scene_file import load_scene, save_scene
 from cfree.polygons.polygon import Polygon, polygon_of
 from cfree.scene.core_shapes import core_shapes
+from cfree.scene.digest import SceneDigest
 from cfree.scene.features import SceneFeatures
 from cfree.scene.scene import Scene, with_obstacles
 
@@ -37,6 +38,7 @@ COLUMNS: dict[str, tuple[type, int]] = {
     "xy": (np.float64, 2),  # of vertices, rounded
     "next": (np.int64, 1),  # the vertex after each, in its ring
 }
+STORED = ("scene.json", "polygons.jsonl", *(f"{name}.bin" for name in COLUMNS))
 
 
 @dataclass
@@ -59,8 +61,21 @@ class SceneStore:
 
     @cached_property
     def facts(self) -> dict[str, Any]:
-        """Numbers of obstacles and vertices, the common denominator, the box of all vertices times that."""
+        """Numbers of obstacles and vertices, the common denominator, the box of all vertices times that; and hashes.
+
+        ``scene`` is that of the whole scene, ``files`` are those of the other files.
+        """
         return read_json(self.folder / "facts.json")
+
+    def check(self) -> None:
+        """See that all files are as they were written.
+
+        Raises
+        ------
+        FormatError
+            If one is not; it says how that is mended.
+        """
+        check_sums(self.folder, self.facts["files"])
 
     def __len__(self) -> int:
         return int(self.facts["obstacles"])
@@ -119,7 +134,7 @@ class SceneStore:
         return float(np.hypot(*self.rest.robot.xy.T).max()) * (1 + 1e-9)
 
 
-def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> SceneStore:
+def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path, key: str = "") -> SceneStore:
     """Write a scene to a folder, one obstacle after the other.
 
     Parameters
@@ -129,8 +144,11 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> Scen
     obstacles : iterable of Polygon
     folder : Path
         Made if it is not there.
+    key : str
+        Of what the scene is read from.
     """
     folder.mkdir(parents=True, exist_ok=True)
+    digest = SceneDigest(head)
     whole = _core.WholeScene(1, None, list(NO_ROUNDING))
     counts = {"obstacles": 0, "vertices": 0}
     files = {name: (folder / f"{name}.bin").open("wb") for name in COLUMNS}
@@ -139,6 +157,7 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> Scen
             for block in _blocks(chain(head.obstacles, obstacles)):
                 for polygon in block:
                     whole.add(polygon.core)
+                    digest.add(polygon)
                 texts = [_line(polygon) for polygon in block]
                 begins = lines.tell() + _sums(map(len, texts))
                 lines.writelines(texts)
@@ -151,7 +170,8 @@ def store_scene(head: Scene, obstacles: Iterable[Polygon], folder: Path) -> Scen
         for file in files.values():
             file.close()
     save_scene(with_obstacles(head, []), folder / "scene.json")
-    write_json(folder / "facts.json", counts | {"scale": whole.scale, "box": whole.box})
+    facts = {"key": key, **counts, "scale": whole.scale, "box": whole.box, "scene": digest.sha256}
+    write_json(folder / "facts.json", facts | {"files": file_sums(folder / name for name in STORED)})
     return SceneStore(folder)
 
 

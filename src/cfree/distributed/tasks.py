@@ -5,6 +5,7 @@ A task writes one file and can be done again at any time: what is there, sound, 
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from fractions import Fraction
 from functools import lru_cache
@@ -15,15 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 import cfree._core as _core
-from cfree.distributed.division import Division, Features
+from cfree.distributed.division import FILES, Division, Features
 from cfree.distributed.exact_sums import exact_sums
 from cfree.distributed.glue import glue_tile
 from cfree.distributed.joining import JoinedSurfaces
 from cfree.distributed.nesting import Answer, Question, TileLines, answered
 from cfree.distributed.part import Part
 from cfree.distributed.rows import Rows, gathered
-from cfree.distributed.shard import Shard, key_of, read_json, read_shard, write_shard
-from cfree.distributed.store import SceneStore, rounding
+from cfree.distributed.shard import Shard, changed, key_of, read_json, read_shard, write_shard
+from cfree.distributed.store import STORED, SceneStore, rounding
 from cfree.distributed.tiles import BoxIndex
 from cfree.distributed.trim import digest, trim_tile
 from cfree.errors import FormatError
@@ -44,6 +45,7 @@ class Work:
         self.folder = folder
         self.plan = read_json(folder / "plan.json")
         self.store = SceneStore(folder / "scene", self.plan["rounded"])
+        self.store.check()
         self.division = Division.open(folder / "tiles", self.plan["key"])
 
     @property
@@ -94,8 +96,10 @@ class Work:
 
 
 def stamp_of(folder: Path) -> str:
-    """What is known of all obstacles, as a text."""
-    return (folder / "plan.json").read_text(encoding="utf-8")
+    """Another text once more is known of all obstacles, or a file that every task needs has changed."""
+    facts = [folder / "scene" / "facts.json", folder / "tiles" / "division.npz"]
+    files = [*facts, *(folder / "scene" / name for name in STORED), *(folder / "tiles" / name for name in FILES)]
+    return json.dumps([read_json(folder / "plan.json"), *map(changed, files)])
 
 
 @lru_cache(maxsize=2)

@@ -6,12 +6,15 @@ import random
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
-from cfree.distributed.tasks import TRIMMED, Work, opened
+from cfree.collector import collection_paused
+from cfree.distributed.shard import read_shard
+from cfree.distributed.tasks import GLUED, TRIMMED, Work, opened
 from cfree.distributed.trim import MODULUS, digest
 from cfree.errors import FormatError
 from cfree.forbidden.boundary import boundary_of
-from cfree.verify.driver import CLOSED, refuted, trapezoid_checks, trapezoid_findings
+from cfree.verify.driver import BLOCK, CLOSED, refuted, trapezoid_checks, trapezoid_findings
 from cfree.verify.matching import matched
 from cfree.verify.result import PROVED, SKIPPED, Check, Finding, Verification
 from cfree.verify.trapezoids import Reader, Side
@@ -44,14 +47,17 @@ def verify_task(folder: str, stamp: str, tile: int, sample: int | None, seed: in
     work, name = opened(folder, stamp), f"tile {tile}"
     try:
         shard = work.shard(TRIMMED, tile)
+        for stage in (work.surfaces, GLUED):
+            work.shard(stage, tile)
     except FormatError as error:
         return TileCheck(0, 0, 0, (Finding(SHARDS, name, str(error)),))
     count = len(shard["kind"])
     chosen = set(range(count))
     if sample is not None and sample < count:
         chosen = set(random.Random(f"{seed} {tile}").sample(range(count), sample))
-    found = _findings(work, tile, chosen, len(chosen) == count) if chosen else iter(())
-    wrong = tuple(Finding(finding.kind, f"{name}, {finding.where}", finding.text) for finding in found)
+    with collection_paused():
+        found = _findings(work, tile, chosen, len(chosen) == count) if chosen else iter(())
+        wrong = tuple(Finding(finding.kind, f"{name}, {finding.where}", finding.text) for finding in found)
     return TileCheck(count, len(chosen), digest(shard), wrong)
 
 
@@ -63,20 +69,32 @@ def _findings(work: Work, tile: int, chosen: set[int], is_all: bool) -> Iterator
     contacts = given.contact_kind, given.contact_robot, given.contact_obstacle
     reader = Reader(scene, contacts, given.trapezoids, given.isolated)
     loops: dict[int, list[Side | None]] = {}
+    own = []
     for k, (where, row) in enumerate(zip(rows.tile.tolist(), rows.row.tolist(), strict=True)):
         if where != tile:
             loops[k] = reader.trapezoid(k).sides()
         elif row in chosen:
-            yield from trapezoid_findings(reader, k, loops)
+            own.append(k)
+    for begin in range(0, len(own), BLOCK):
+        yield from trapezoid_findings(reader, own[begin : begin + BLOCK], loops)
     if is_all:
         for owners, number in sorted(matched(reader, loops).unmatched.items()):
-            if own := [int(rows.row[k]) for k in owners if rows.tile[k] == tile]:
-                yield Finding(CLOSED, f"rows {own}", f"{counted(number, 'edge')} of their sides without a partner")
+            if mine := [int(rows.row[k]) for k in owners if rows.tile[k] == tile]:
+                yield Finding(CLOSED, f"rows {mine}", f"{counted(number, 'edge')} of their sides without a partner")
 
 
-def summary(checks: Sequence[TileCheck], expected: str, begin: float) -> Verification:
-    """All tiles together; the digest of the whole is the one expected."""
-    findings = [finding for check in checks for finding in check.findings]
+def cells_findings(folder: Path, key: str) -> list[Finding]:
+    """The damage to the file of closed surfaces and cells, if there is any."""
+    try:
+        read_shard(folder / "cells.npz", key)
+    except FormatError as error:
+        return [Finding(SHARDS, "cells", str(error))]
+    return []
+
+
+def summary(checks: Sequence[TileCheck], wrong: Sequence[Finding], expected: str, begin: float) -> Verification:
+    """All tiles together, beside what is wrong with other files; the digest of the whole is the one expected."""
+    findings = [*wrong, *(finding for check in checks for finding in check.findings)]
     total = f"{sum(check.digest for check in checks) % MODULUS:064x}"
     if total != expected:
         findings.append(Finding(SHARDS, "the manifest", f"digest {expected}, but of the shards it is {total}"))
@@ -84,6 +102,6 @@ def summary(checks: Sequence[TileCheck], expected: str, begin: float) -> Verific
     closed = Check(CLOSED, SKIPPED, "needs every trapezoid")
     if looked_at == count:
         closed = Check(CLOSED, PROVED, "all sides have partners")
-    shards = f"{counted(len(checks), 'shard')} as written; their digest is that of the manifest"
+    shards = f"those of {counted(len(checks), 'tile')} are as they were written; their digest is that of the manifest"
     lines = (Check(SHARDS, PROVED, shards), *trapezoid_checks(looked_at, count), closed)
     return Verification(refuted(lines, findings), tuple(findings), (), time.perf_counter() - begin)

@@ -11,12 +11,14 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from functools import cached_property, lru_cache, total_ordering
 from itertools import pairwise
+from math import floor, inf, log2, nextafter
 from typing import Any
 
 from flint import fmpq, fmpq_poly, fmpz_poly
 
 Coefficients = tuple[int, ...]  # constant term first
 Exact = Any  # int, Fraction or Number
+SHORT = 2.0**-40
 LEAST = Fraction(-2)  # roots are counted from here; charts are [-1, 1]
 
 
@@ -34,6 +36,7 @@ class Root:
     def __init__(self, poly: Coefficients, index: int, lo: Fraction, hi: Fraction) -> None:
         self.poly, self.lo, self.hi = poly, lo, hi
         self.key = poly, index
+        self._hash = hash(self.key)
 
     def __reduce__(self) -> tuple[Any, ...]:  # the libraries' numbers do not pickle
         return Root, (*self.key, self.lo, self.hi)
@@ -55,7 +58,7 @@ class Root:
         return isinstance(other, Root) and self.key == other.key
 
     def __hash__(self) -> int:
-        return hash(self.key)
+        return self._hash
 
     def __lt__(self, other: Root) -> bool:
         if self.key == other.key:
@@ -91,19 +94,20 @@ class Number:
     (True, True, True)
     """
 
-    __slots__ = ("poly", "root")
+    __slots__ = ("_bounds", "_hash", "poly", "root")
 
     def __init__(self, root: Root, poly: fmpq_poly) -> None:
         self.root, self.poly = root, poly
-
-    def _key(self) -> tuple[list[int], int]:
-        return [int(c) for c in self.poly.numer().coeffs()], int(self.poly.denom())
+        self._bounds: tuple[float, float] | None = None
+        self._hash: int | None = None
 
     def __repr__(self) -> str:
-        return str(self._key())
+        return str(self.poly)
 
     def __hash__(self) -> int:
-        return hash(repr(self))
+        if self._hash is None:
+            self._hash = hash(repr(self))
+        return self._hash
 
     def __add__(self, other: Number | Fraction | int) -> Number:
         return Number(self.root, self.poly + _poly(other))
@@ -135,6 +139,9 @@ class Number:
         return bool(self.poly == _poly(other))
 
     def __lt__(self, other: Number | Fraction | int) -> bool:
+        (lo, hi), (a, b) = _bounds_of(self), _bounds_of(other)
+        if hi < a or lo > b:
+            return hi < a
         difference = Number(self.root, self.poly - _poly(other))
         value, error, _ = difference._enclosed()
         while abs(value) <= error and difference.poly:
@@ -152,7 +159,7 @@ class Number:
 
     def _enclosed(self) -> tuple[int, int, int]:
         """Its value at the lower end of the root's interval, and by how much it may differ; in what unit."""
-        coefficients, denominator = self._key()
+        coefficients, denominator = [int(c) for c in self.poly.numer().coeffs()], int(self.poly.denom())
         root = self.root
         value, power = homogeneous(coefficients, root.lo)
         width = root.hi - root.lo
@@ -162,9 +169,23 @@ class Number:
 
 
 def _poly(other: Any) -> Any:
-    if isinstance(other, Number):
+    if type(other) is Number:
         return other.poly
-    return fmpq(other.numerator, other.denominator) if isinstance(other, Fraction) else other
+    return fmpq(other.numerator, other.denominator) if type(other) is Fraction else other
+
+
+def _bounds_of(x: Exact) -> tuple[float, float]:
+    """Doubles below and above a number; those of a `Number` are kept."""
+    try:
+        if type(x) is not Number:
+            value = x.numerator / x.denominator
+            return nextafter(value, -inf), nextafter(value, inf)
+        if x._bounds is None:
+            middle, by, unit = x._enclosed()
+            x._bounds = nextafter((middle - by) / unit, -inf), nextafter((middle + by) / unit, inf)
+        return x._bounds
+    except OverflowError:
+        return -inf, inf
 
 
 def ratio(x: Exact, y: Exact) -> Exact:
@@ -256,9 +277,15 @@ def _isolated(poly: Coefficients, lo: Fraction, hi: Fraction) -> Iterable[Root]:
 
 def between(lo: Fraction, hi: Fraction) -> Fraction:
     """A dyadic number of few digits in the middle third of an open interval."""
+    first, last = float(lo), float(hi)
+    if last - first > SHORT * max(1.0, abs(first), abs(last)):  # rounding moves the ends by much less
+        power = 1 << max(0, 2 - floor(log2(last - first)))
+        return Fraction(round((first + last) / 2 * power), power)
     third = (hi - lo) / 3
     lo, hi = lo + third, hi - third
-    power = 1
+    power = 1 << max(
+        0, (third.denominator // third.numerator).bit_length() - 4
+    )  # with fewer digits there is hardly one
     while (n := lo.numerator * power // lo.denominator + 1) * hi.denominator >= hi.numerator * power:
         power *= 2
     return Fraction(n, power)

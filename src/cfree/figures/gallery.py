@@ -12,8 +12,7 @@ from typing import Literal
 
 from matplotlib.figure import Figure
 
-from cfree.arguments import checked
-from cfree.errors import UnsupportedError
+from cfree.arguments import checked, one_of
 from cfree.figures.style import FORMATS, styled, write
 from cfree.plot.depth_sort import Painting
 from cfree.plot.rendered import require
@@ -200,9 +199,9 @@ def draw_all(
     Raises
     ------
     ValueError
-        If there is no such figure.
+        If there is no such figure or format.
     UnsupportedError
-        If there is no such format, or PyVista is asked for and is not installed.
+        If PyVista is asked for and is not installed.
     NotADirectoryError
         If `directory` is a file.
 
@@ -220,8 +219,7 @@ def draw_all(
     )
     entries = [_entry(number) for number in dict.fromkeys(chosen)]
     for suffix in suffixes:
-        if suffix not in FORMATS:
-            raise UnsupportedError(f"format {suffix!r}: figures are written as {', '.join(FORMATS)}")
+        one_of("formats", suffix, FORMATS)
     if renderer is not None:
         require(renderer)
     if folder.exists() and not folder.is_dir():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from os import PathLike
 from pathlib import Path as FilePath
+from typing import Literal
 
 from cfree.arguments import checked
 from cfree.forbidden.boundary import Boundary
@@ -14,6 +15,7 @@ from cfree.scene.scene import Scene
 
 __all__ = ["film_path", "film_separation", "save_film"]
 
+Storyboard = Literal["paper", "path", "separation", "turntable"]
 MOST = 60.0  # seconds of motion
 SIZE, SIZES = (1280, 720), {".gif": (640, 360)}  # of answers' films, if not said otherwise
 SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # of a film, if not said otherwise
@@ -39,7 +41,7 @@ def save_film(
     seconds: float | None = None,
     fps: int = 25,
     size: tuple[int, int] = SIZE,
-    storyboard: str = "paper",
+    storyboard: Storyboard = "paper",
     progress: Callable[[float], object] | None = None,
 ) -> None:
     """Write a film of one scene, or of several one after the other.
@@ -57,7 +59,7 @@ def save_film(
         Frames a second.
     size : (int, int)
         Width and height in pixels; even, as video codecs want them.
-    storyboard : str
+    storyboard : "paper", "path", "separation" or "turntable"
         "paper"; "path" for a motion from start to goal alone; "separation" for the surface that parts these, and how
         the robot tries to pass; "turntable" for the boundary, which turns once around.
     progress : callable, optional
@@ -87,7 +89,7 @@ def save_film(
 
     check_film_path(path)
     seconds = length_of(storyboard, path) if seconds is None else seconds
-    check_options(len(boundaries), seconds, fps, size, storyboard)
+    check_options(len(boundaries), seconds, fps, size)
     write(pictures(boundaries, seconds, fps, size, storyboard, progress), path, fps)
 
 
@@ -215,5 +217,5 @@ def film_separation(
     suffix = check_film_path(file)
     size = size or SIZES.get(suffix, SIZE)
     seconds = length_of("separation", file) if seconds is None else seconds
-    check_options(1, seconds, fps, size, "separation")
+    check_options(1, seconds, fps, size)
     write(reel([apart(boundary, answer, round(seconds * fps), size, fps)], fps, progress), file, fps)

@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
-NAMES = (*STORYBOARDS, "separation", "turntable")
 FADE = 0.4  # seconds from one scene to the next, or over a cut
 TURN = 1.6  # seconds over which the camera turns from one shot to the next
 SWAY = math.radians(7), 11.0  # the camera is never quite at rest: how far, in how many seconds
@@ -35,18 +34,16 @@ LATER = ("pillar", "path")  # what a second scene shows: the rest has been seen
 KEPT = ("slices", "helix", "path", "apart")  # shots whose line stays
 
 
-def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int], name: str) -> None:
+def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int]) -> None:
     """Raise a ValueError that says what is wrong with an option, if anything is.
 
     Examples
     --------
-    >>> check_options(1, 10.0, 25, (1281, 720), "paper")
+    >>> check_options(1, 10.0, 25, (1281, 720))
     Traceback (most recent call last):
         ...
     ValueError: size 1281x720; give even numbers from 160x90 to 7680x4320
     """
-    if name not in NAMES:
-        raise ValueError(f"storyboard {name!r}; choose one of {', '.join(NAMES)}")
     if not scenes:
         raise ValueError("no scene; give at least one")
     check_frames(fps, size)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from os import PathLike
 from pathlib import Path as FilePath
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 
 PARTS_OF_RADIUS, PARTS_OF_LENGTH = 20, 100  # steps from pose to pose, unless given: of the robot, of the path
-FORMS = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files with paths
+Form = Literal["json", "csv", "ros", "geojson"]
+FORMS: dict[str, Form] = {".json": "json", ".csv": "csv", ".yaml": "ros", ".geojson": "geojson"}  # of files with paths
 ALSO = {"ros": (".yml",), "geojson": (".json",)}  # suffixes that fit a form that is asked for
 ANY = ("", ".txt")  # and those that fit every form
 
@@ -94,7 +95,7 @@ def save_path(
     turn: float = math.radians(5),
     speed: float | None = None,
     scene: Scene | None = None,
-    form: str | None = None,
+    form: Form | None = None,
 ) -> None:
     """Write a path to a file, whole or not at all.
 
@@ -118,7 +119,7 @@ def save_path(
     Raises
     ------
     UnsupportedError
-        If the file's name ends otherwise or says another form, or there is no such form.
+        If the file's name ends otherwise or says another form.
     ValueError
         If the scene is missing.
     """
@@ -128,7 +129,7 @@ def save_path(
 
 
 def text_of(
-    path: Path, file: object, *, step: float | None, turn: float, speed: float | None, scene: Scene | None, form: str
+    path: Path, file: object, *, step: float | None, turn: float, speed: float | None, scene: Scene | None, form: Form
 ) -> str:
     """What `save_path` writes."""
     from cfree.formats.path_text import path_text
@@ -203,13 +204,13 @@ def save_separation(proof: Separated | AllSeparated, file: str | PathLike[str]) 
         unfinished.write_text(text, encoding="utf-8", newline="\n")
 
 
-def form_of(file: str | PathLike[str], form: str | None) -> str:
+def form_of(file: str | PathLike[str], form: Form | None) -> Form:
     """The form to write a path in: the one asked for, or else the one that the file's name says.
 
     Raises
     ------
     UnsupportedError
-        If there is no such form, or the file's name says another.
+        If the file's name says another form, or none.
 
     Examples
     --------

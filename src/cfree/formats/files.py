@@ -12,7 +12,7 @@ from cfree.collector import collection_paused
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.mesh import Mesh
 from cfree.forbidden.slice import Slice
-from cfree.formats.answer_file import save_path, save_separation
+from cfree.formats.answer_file import Form, save_path, save_separation
 from cfree.formats.archive import is_archive
 from cfree.formats.boundary_file import load_archive, save_boundary, save_space
 from cfree.formats.findings import Findings, read_text
@@ -37,7 +37,7 @@ def save(
     turn: float = math.radians(5),
     speed: float | None = None,
     scene: Scene | None = None,
-    form: str | None = None,
+    form: Form | None = None,
 ) -> None:
     """Write a value to a file, all of it or nothing.
 
@@ -64,7 +64,7 @@ def save(
     UnsupportedError
         If the file's name ends otherwise.
     ValueError
-        If a scene is missing, or something of these is given for a value that is no path.
+        If a scene is missing, or something of these is given for a value that is no path, or `form` is another word.
     OSError
         If the file cannot be written.
 

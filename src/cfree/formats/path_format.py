@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, PrivateAttr, model_validator
@@ -22,7 +23,7 @@ from cfree.formats.json_types import Coordinate, Point, Strict
 from cfree.formats.scene_format import Bounds, Configuration, Goal, PolygonModel, Text, Version
 from cfree.formats.scene_values import Fault, list_of
 from cfree.paths.path import Path
-from cfree.scene.digest import Stamp
+from cfree.scene.digest import Stamp, Whole
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 
@@ -172,6 +173,23 @@ class StampModel(Strict):
     robot: Bounds
 
 
+class WholeModel(Strict):
+    """The scene of which the scene of an answer has some obstacles."""
+
+    sha256: Annotated[str, AfterValidator(_digest)]
+    obstacles: list[Annotated[int, Field(strict=True, ge=0, lt=2**31)]]
+
+    @model_validator(mode="after")
+    def _is_in_order(self) -> Self:
+        if any(a >= b for a, b in pairwise(self.obstacles)):
+            raise Fault('"obstacles" are not in increasing order; correct them')
+        return self
+
+    @property
+    def made(self) -> Whole:
+        return Whole(self.sha256, tuple(self.obstacles))
+
+
 class PolygonsModel(Strict):
     """Polygons for the round shapes of a scene, and all that is with them."""
 
@@ -194,6 +212,7 @@ class AnswerModel(Strict):
     frame: Text = "world"
     answer: str
     scene: StampModel | None = None
+    whole: WholeModel | None = None
     polygons: PolygonsModel | None = None
     _of_polygons: Scene | None = PrivateAttr(None)
     start: Configuration
@@ -217,6 +236,10 @@ class AnswerModel(Strict):
         """Start and goal, exact where they are given so."""
         ends: Any = self.exact or self
         return ends.start, ends.goal
+
+    @property
+    def part_of(self) -> Whole | None:
+        return None if self.whole is None else self.whole.made
 
     @property
     def stamp(self) -> Stamp | None:
@@ -245,4 +268,4 @@ class PathModel(AnswerModel):
         kept = self.clearance or Fraction(0), tuple(self.disc)
         asked = self.moved.made if self.moved else None
         given = self.units, self.frame, self._of_polygons, self.stamp
-        return Path(self.ends[0], motions, *given, *kept, moved=asked)
+        return Path(self.ends[0], motions, *given, *kept, moved=asked, whole=self.part_of)

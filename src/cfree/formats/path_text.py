@@ -56,6 +56,7 @@ def answer_head(kind: str, answer: Path | Separated, stamp: Stamp, decimals: Wri
         "frame": answer.frame,
         "answer": kind,
         "scene": {"sha256": stamp.sha256, "robot": _exactly(stamp.robot)},
+        **({"whole": asdict(answer.whole)} if answer.whole else {}),
         **({"polygons": _polygons(answer.scene)} if answer.scene and has_polygons(answer) else {}),
         "start": _numbers(decimals, ("start",), 3),
         "goal": _numbers(decimals, ("goal",), 3),

@@ -14,7 +14,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal
 
-from cfree.arguments import checked
+from cfree.arguments import checked, one_of
 from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
 from cfree.exact.half_angle import Angle
@@ -104,8 +104,7 @@ def load_shapes(
     if tolerance is not None and not 0 < tolerance < math.inf:
         raise ValueError(f"tolerance: {tolerance} is no length; give one above 0")
     for name, role in (roles or {}).items():
-        if role not in (*ROLES, IGNORE):
-            raise ValueError(f"roles: {name}: {role!r}; give one of {', '.join((*ROLES, IGNORE))}")
+        one_of(f"roles: {name}", role, (*ROLES, IGNORE))
     with collection_paused():
         found = read_file(path, Reading(tolerance, unknown, dict(roles or {})))
         return shapes_in(found, os.fspath(path)) if isinstance(found, Scene) else found

@@ -144,6 +144,7 @@ class SeparationModel(AnswerModel):
             scene=self._of_polygons,
             stamp=self.stamp,
             moved=self.moved.made if self.moved else None,
+            whole=self.part_of,
         )
 
 

@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 from cfree.arguments import checked
 from cfree.errors import UnsupportedError
@@ -19,6 +19,7 @@ from cfree.formats.source import Source
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import AnyShape, Scene, shapes_in
 
+Role = Literal["robot", "obstacle", "workspace", "part"]
 ROLES = ("robot", "obstacle", "workspace")
 PART, IGNORE = "part", "ignore"
 _MARK = re.compile(r"(robot|obstacle|workspace)(?![a-z])", re.IGNORECASE)
@@ -66,8 +67,8 @@ class Shapes:
         return found
 
     @checked
-    def of(self, role: str) -> list[Shape]:
-        """Those of one role."""
+    def of(self, role: Role) -> list[Shape]:
+        """Those of one role: "robot", "obstacle", "workspace" or "part"."""
         return [shape for shape in self.shapes if shape.role == role]
 
     @checked

@@ -20,7 +20,7 @@ from cfree.collision.motion import Motion, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.exact.number import ExactPoint, Number, to_fraction
 from cfree.exact.pose import Pose, PoseLike, Poses, to_pose
-from cfree.scene.digest import Stamp
+from cfree.scene.digest import Stamp, Whole
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Scene
 from cfree.value import Answer, Shown
@@ -62,6 +62,8 @@ class Path(Shown, Answer):
         With round shapes, if it is a path among these; `scene` has polygons around them.
     moved : Moved, optional
         Start and goal as they were asked for, if they were moved to free poses.
+    whole : Whole, optional
+        The scene of which `scene` has only some obstacles, if a folder was asked.
 
     Examples
     --------
@@ -83,6 +85,7 @@ class Path(Shown, Answer):
     disc: tuple[ExactPoint, ...] = ()
     curved: Scene | None = field(default=None, compare=False)
     moved: Moved | None = None
+    whole: Whole | None = field(default=None, compare=False)
 
     def __init__(
         self,
@@ -96,8 +99,10 @@ class Path(Shown, Answer):
         disc: tuple[ExactPoint, ...] = (),
         curved: Scene | None = None,
         moved: Moved | None = None,
+        whole: Whole | None = None,
     ) -> None:
-        values = (to_pose(start, "start"), tuple(motions), units, frame, scene, stamp, clearance, disc, curved, moved)
+        given = (units, frame, scene, stamp, clearance, disc, curved, moved, whole)
+        values = (to_pose(start, "start"), tuple(motions), *given)
         for item, value in zip(fields(self), values, strict=True):
             object.__setattr__(self, item.name, value)
 

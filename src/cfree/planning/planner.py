@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
-from typing import Any, get_args
+from typing import Any
 
 import cfree._core as _core
 from cfree.arguments import checked
@@ -117,7 +117,7 @@ class Planner(Value):
         """See `cfree.plan`."""
         start = to_pose(start, "start")
         goal = to_pose(goal, "goal")
-        distance = _wish(clearance, improve, objective)
+        distance = _wish(clearance, improve)
         _see_to_places({"start": start, "goal": goal})
         if distance is not None:
             from cfree.planning.clearance import plan_at_distance
@@ -140,7 +140,7 @@ class Planner(Value):
         """See `cfree.plan`, for several goals, or places."""
         found = to_goals(goals)
         found = (found,) if isinstance(found, Pose) else found
-        distance, start = _wish(clearance, improve, objective), to_pose(start, "start")
+        distance, start = _wish(clearance, improve), to_pose(start, "start")
         places = {f"goal {k}": goal if isinstance(goal, Pose) else Pose(*goal) for k, goal in enumerate(found)}
         _see_to_places({"start": start} | places)
         if distance is not None:
@@ -259,10 +259,8 @@ class Planner(Value):
         return Improver(self.scene, self.checker, searcher, self.preferences, self.stop)
 
 
-def _wish(clearance: Number | None, improve: float | None, objective: str) -> Fraction | None:
-    """The clearance; what is wrong with any of the three is said."""
-    if objective not in get_args(Objective):
-        raise ValueError(f'objective {objective!r}; give "balanced", "short" or "clear"')
+def _wish(clearance: Number | None, improve: float | None) -> Fraction | None:
+    """The clearance; what is wrong with either is said."""
     if improve is not None and not 0 <= improve < math.inf:
         raise ValueError(f"improve {improve}: give seconds, 0 or more")
     if clearance is not None and to_fraction(clearance) <= 0:

@@ -27,7 +27,7 @@ from cfree.free.space import FORBIDDEN, FreeSpace
 from cfree.planning.caller import Caller
 from cfree.planning.core_ways import numbers_of
 from cfree.polygons.polygon import Polygon, polygon_of
-from cfree.scene.digest import Stamp
+from cfree.scene.digest import Stamp, Whole
 from cfree.scene.features import SceneFeatures, unpacked
 from cfree.scene.goals import Moved
 from cfree.scene.scene import Bounds, Scene
@@ -152,6 +152,8 @@ class Separated(Shown, Answer):
         With round shapes, if it is a proof for these; `scene` has polygons inside of them.
     moved : Moved, optional
         Start and goal as they were asked for, if they were moved to free poses.
+    whole : Whole, optional
+        The scene of which `scene` has only some obstacles, if a folder was asked.
     """
 
     start: Pose
@@ -168,6 +170,7 @@ class Separated(Shown, Answer):
     cores: tuple[Polygon, ...] = field(default=(), repr=False)
     curved: Scene | None = field(default=None, compare=False, repr=False)
     moved: Moved | None = field(default=None, repr=False)
+    whole: Whole | None = field(default=None, compare=False, repr=False)
 
     def __bool__(self) -> NoReturn:
         raise TypeError(f"{type(self).__name__}: {NO_TRUTH_VALUE}")

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import chain
@@ -50,6 +50,22 @@ class Stamp:
         return max(x0, x1) + max(y0, y1)
 
 
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """The scene of which the scene of an answer has some obstacles, and all else.
+
+    Attributes
+    ----------
+    sha256 : str
+        As of `Stamp`.
+    obstacles : tuple of int
+        The numbers of these obstacles in it, in increasing order.
+    """
+
+    sha256: str
+    obstacles: tuple[int, ...]
+
+
 def stamp_of(scene: Scene) -> Stamp:
     """The stamp of answers for a scene.
 
@@ -60,9 +76,11 @@ def stamp_of(scene: Scene) -> Stamp:
     >>> stamp.sha256[:8], *map(str, stamp.robot)
     ('240feabd', '0', '0', '1/3', '1')
     """
-    text = "".join(f"{line}\n" for line in _lines(scene))
+    digest = SceneDigest(scene)
+    for shape in scene.obstacles:
+        digest.add(shape)
     x, y = zip(*chain.from_iterable(map(_corners, scene.robot)), strict=True)
-    return Stamp(hashlib.sha256(text.encode("ascii")).hexdigest(), (min(x), min(y), max(x), max(y)))
+    return Stamp(digest.sha256, (min(x), min(y), max(x), max(y)))
 
 
 def _corners(shape: AnyShape) -> Sequence[ExactPoint]:
@@ -88,16 +106,40 @@ def stamp_for(file: object, scene: Scene | None, stamp: Stamp | None) -> Stamp:
     return stamp
 
 
-def _lines(scene: Scene) -> Iterator[str]:
-    yield "cfree scene 1"
-    for shape in scene.robot:
-        yield from _shape("robot", shape)
-    for shape in scene.obstacles:
-        yield from _shape("obstacle", shape)
-    if scene.workspace is not None:
-        yield from _shape("workspace", scene.workspace)
-    if scene.bounds is not None:
-        yield f"bounds {' '.join(map(str, scene.bounds))}"
+class SceneDigest:
+    """The hash of a scene to which obstacles are added one after the other; those of `scene` do not count.
+
+    Examples
+    --------
+    >>> from cfree.scene.scene import Scene
+    >>> triangle = [(0, 0), (1, 0), (0, 1)]
+    >>> digest, whole = SceneDigest(Scene(triangle)), Scene(triangle, [triangle])
+    >>> digest.add(whole.obstacles[0])
+    >>> digest.sha256 == stamp_of(whole).sha256
+    True
+    """
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene, self._hash = scene, hashlib.sha256(b"cfree scene 1\n")
+        for shape in scene.robot:
+            self._hash.update(_text(_shape("robot", shape)))
+
+    def add(self, obstacle: AnyShape) -> None:
+        self._hash.update(_text(_shape("obstacle", obstacle)))
+
+    @property
+    def sha256(self) -> str:
+        """Of what has been added so far."""
+        found, scene = self._hash.copy(), self._scene
+        if scene.workspace is not None:
+            found.update(_text(_shape("workspace", scene.workspace)))
+        if scene.bounds is not None:
+            found.update(_text([f"bounds {' '.join(map(str, scene.bounds))}"]))
+        return found.hexdigest()
+
+
+def _text(lines: Iterable[str]) -> bytes:
+    return "".join(f"{line}\n" for line in lines).encode("ascii")
 
 
 def _shape(word: str, shape: AnyShape) -> Iterator[str]:

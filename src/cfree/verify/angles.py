@@ -13,13 +13,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
-from math import gcd
 from typing import Any
 
 import numpy as np
 
 from cfree.exact.algebraic import between, roots
-from cfree.verify.polygons import Corner, primitive
+from cfree.verify.polygons import Corner, primitive, shortest
 from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Turn, Vector, cross, dot, minus, polynomial
 from cfree.verify.trapezoids import Reader
 from cfree.verify.world import World
@@ -114,20 +113,14 @@ def opposite(edges: list[Corner], others: list[Corner], rng: random.Random) -> S
     """An edge, the start of one that runs the other way, and two vertices of the others."""
     directed: dict[Vector, list[Corner]] = defaultdict(list)
     for edge in edges:
-        directed[direction(edge)].append(edge)
+        directed[shortest(minus(edge[2], edge[1]))].append(edge)
     facing = [
         (p, q, other)
         for _, p, q in some(rng, edges)
-        for _, other, _ in some(rng, directed.get(direction(((0, 0), q, p)), []))
+        for _, other, _ in some(rng, directed.get(shortest(minus(p, q)), []))
     ]
     vertices = some(rng, [point for _, point, _ in others])
     return some(rng, list(product(some(rng, facing), some(rng, list(product(vertices, repeat=2))))))
-
-
-def direction(corner: Corner) -> Vector:
-    u, v = minus(corner[2], corner[1])
-    divisor = gcd(u, v)
-    return u // divisor, v // divisor
 
 
 def some(rng: random.Random, items: Sequence[Any]) -> Sequence[Any]:

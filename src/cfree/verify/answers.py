@@ -15,7 +15,7 @@ from cfree.formats.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
-from cfree.scene.digest import Stamp, stamp_of
+from cfree.scene.digest import Stamp, Whole, stamp_of
 from cfree.scene.goals import Moved, text_of, text_of_move
 from cfree.scene.scene import Scene, round_count, shapes_of
 from cfree.verify.curves import mismatches
@@ -34,6 +34,7 @@ from cfree.verify.motions import (
 from cfree.verify.orientations import left_out
 from cfree.verify.result import PROVED, REFUTED, SKIPPED, Check, Finding, Verification
 from cfree.verify.separation import CLOSED, CONTACTS, INSIDE, SIDES, separation_findings
+from cfree.verify.whole import part_of, renumbered, whole_of
 from cfree.verify.world import World
 from cfree.words import counted
 
@@ -94,7 +95,8 @@ def answer(
     read = read_answer(answer) if isinstance(answer, (str, os.PathLike)) else None
     given = read.answer if read else answer
     assert not isinstance(given, (str, os.PathLike))
-    if read and (finding := other_scene(scene, given)):
+    whole = whole_of(scene, given)
+    if read and whole is None and (finding := other_scene(scene, given)):
         check = Check(SCENE, REFUTED, "nothing else was checked")
         return Verification((check,), (finding,), (), _since(begin))
 
@@ -104,7 +106,14 @@ def answer(
 
     if isinstance(given, AllSeparated):
         return _all_of(scene, given, report, begin)
-    findings = _other_poses(scene, given)
+    findings, part = _other_poses(scene, given), scene
+    if whole is not None:
+        found = part_of(scene, given, whole)
+        if found is None:
+            finding = Finding(SCENE, "whole", "its obstacles are not those that the answer is about; plan anew")
+            return Verification((Check(SCENE, REFUTED, "nothing else was checked"),), (finding,), (), _since(begin))
+        part = found
+        given = renumbered(given, whole.obstacles) if isinstance(given, Path) else given
     if scene.curved:
         if given.scene is None:
             finding = Finding(ROUND, "polygons", "the answer has none for the round shapes of the scene")
@@ -124,10 +133,10 @@ def answer(
         findings += [Finding(name, name, NO_ROOM[name]) for name, there in larger.items() if there is None]
         findings += path_findings(given, world, report, {name: there for name, there in larger.items() if there})
     else:
-        findings += separation_findings(given, world, report)
+        findings += separation_findings(given, world if whole is None else World(part), report)
     report(1.0)
     extents = {
-        **_of_scene(given if read else None),
+        **_of_scene(given if read else None, whole, len(scene.obstacles)),
         ASKED: "start and goal, where the scene has them",
         **_of_moved(given),
         **(_of_curves(scene, given) if scene.curved else {}),
@@ -269,8 +278,10 @@ def _box(stamp: Stamp) -> str:
     return f"[{', '.join(map(str, stamp.robot))}]"
 
 
-def _of_scene(given: Path | Separated | None) -> dict[str, str]:
-    """If a file says which one it is for."""
+def _of_scene(given: Path | Separated | None, whole: Whole | None, count: int) -> dict[str, str]:
+    """If a file says which one it is for, or an answer that it is about some of the obstacles."""
+    if whole is not None:
+        return {SCENE: f"the answer is about {len(whole.obstacles):,} of its {count:,} obstacles, and true among all"}
     return {SCENE: "the one that the answer is for"} if given is not None and given.stamp else {}
 
 

@@ -9,13 +9,15 @@ import os
 import random
 import time
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from cfree.arguments import checked
+from cfree.collector import collection_paused
 from cfree.errors import UnsupportedError
+from cfree.exact.algebraic import Exact
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import CURVE
 from cfree.formats.boundary_file import read_boundary
@@ -23,15 +25,16 @@ from cfree.geometry.normals import gauss_map
 from cfree.scene.scene import Scene
 from cfree.verify.angles import orientation
 from cfree.verify.euler import euler_from_slices
+from cfree.verify.heights import covered
 from cfree.verify.isolated import IsolatedPart
 from cfree.verify.matching import Matching, matched
 from cfree.verify.missing import compared
 from cfree.verify.result import MEASURED, PROVED, REFUTED, SAMPLED, SKIPPED, Check, Finding, Verification
-from cfree.verify.surfaces import Fault
+from cfree.verify.surfaces import Fault, Surface, Turn
 from cfree.verify.trapezoids import Reader, Side
 from cfree.words import counted
 
-BLOCK = 100  # trapezoids between two reports
+BLOCK = 500  # trapezoids between two reports
 
 # names of the checks
 PIECES, ANGLES, DOMAINS, FREE = "convex pieces", "names and angles", "domains", "not forbidden"
@@ -93,9 +96,18 @@ def boundary(
     >>> result.verified, result.findings, result.euler
     (True, (), (0,))
     """
-    begin = time.perf_counter()
     if slices < 0 or (sample is not None and sample < 0):
         raise ValueError(f"slices {slices}, sample {sample}; give counts")
+    with collection_paused():
+        return _verified(boundary, scene, slices, sample, seed, deep, progress or (lambda done: None))
+
+
+def _verified(
+    boundary: Boundary | str | os.PathLike[str], scene: Scene | None, slices: int, sample: int | None, seed: int,
+    deep: bool, report: Callable[[float], object],
+) -> Verification:  # fmt: skip
+    """Check with options that are in order; see `boundary`."""
+    begin = time.perf_counter()
     given = read_boundary(boundary) if isinstance(boundary, (str, os.PathLike)) else boundary
     if (finding := _unfit(given, scene)) is not None:
         return Verification((), (finding,), (), time.perf_counter() - begin)
@@ -103,17 +115,11 @@ def boundary(
     reader = Reader(given.scene, contacts, given.trapezoids, given.isolated)
     count, parts = len(given.trapezoids), len(given.isolated)
     chosen = range(count) if sample is None else sorted(random.Random(seed).sample(range(count), min(sample, count)))
-
-    def report(done: float) -> None:
-        if progress is not None:
-            progress(done)
-
     findings = [Finding(PIECES, name, "its convex pieces do not tile it") for name in reader.world.untiled]
     loops: dict[int, list[Side | None]] = {}
-    for done, k in enumerate(chosen):
-        findings += trapezoid_findings(reader, k, loops)
-        if done % BLOCK == 0:
-            report(done / (2 * len(chosen)))
+    for done in range(0, len(chosen), BLOCK):
+        report(done / (2 * len(chosen)))
+        findings += trapezoid_findings(reader, chosen[done : done + BLOCK], loops)
     for k in range(parts):
         findings += isolated_findings(reader, k)
     places = 0
@@ -145,7 +151,7 @@ def boundary(
 
 
 def _counted_again(
-    given: Boundary, reader: Reader, matching: Matching, report: Callable[[float], None]
+    given: Boundary, reader: Reader, matching: Matching, report: Callable[[float], object]
 ) -> tuple[tuple[Check, ...], list[Finding]]:
     """Euler numbers by slices, of all surfaces together, and by the Gauss map, of each."""
     findings = []
@@ -190,20 +196,28 @@ def differences(scene: Scene, other: Scene) -> str:
     return ", ".join(name for name in names if getattr(scene, name) != getattr(other, name))
 
 
-def trapezoid_findings(reader: Reader, k: int, loops: dict[int, list[Side | None]]) -> list[Finding]:
-    """All about a trapezoid but how its sides match: they go into `loops`."""
-    kind = ANGLES
-    try:
-        trapezoid = reader.trapezoid(k)
-        turn = trapezoid.turn()
-        kind = DOMAINS
-        trapezoid.check(turn)
-        loops[k] = trapezoid.sides()
-        kind = FREE
-        trapezoid.sample(reader.world, turn)
-    except (Fault, IndexError) as fault:
-        return [Finding(kind, _place(reader, [k]), _text(fault))]
-    return []
+def trapezoid_findings(
+    reader: Reader, numbers: Sequence[int], loops: dict[int, list[Side | None]]
+) -> Iterator[Finding]:
+    """All about some trapezoids but how their sides match: they go into `loops`."""
+    sound, inside = list[int](), list[tuple[Surface, Turn, Exact, Exact]]()
+    for k in numbers:
+        kind = ANGLES
+        try:
+            trapezoid = reader.trapezoid(k)
+            turn = trapezoid.turn()
+            kind = DOMAINS
+            lower, upper = trapezoid.check(turn)
+            loops[k] = trapezoid.sides()
+        except (Fault, IndexError) as fault:
+            yield Finding(kind, _place(reader, [k]), _text(fault))
+        else:
+            sound.append(k)
+            inside.append((trapezoid.surface, turn, lower, upper))
+    for item in covered(reader.world, inside):
+        _, turn, lower, upper = inside[item]
+        text = f"forbidden at tau = {turn.tau}, somewhere from t = {lower} to {upper}"
+        yield Finding(FREE, _place(reader, [sound[item]]), text)
 
 
 def isolated_findings(reader: Reader, k: int) -> list[Finding]:

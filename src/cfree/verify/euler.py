@@ -32,7 +32,7 @@ NEAR, BITS = 1e-6, 60  # of points to a line, in doubles, for points of size 1; 
 ENDS = [Turn.of(chart, Fraction(-1)) for chart in (0, 1)]  # -90 and 90 degrees
 
 
-def euler_from_slices(reader: Reader, report: Callable[[float], None] = lambda share: None) -> tuple[int | None, int]:
+def euler_from_slices(reader: Reader, report: Callable[[float], object] = lambda share: None) -> tuple[int | None, int]:
     """Euler characteristic of all closed surfaces together, and at how many angles slices were computed.
 
     Notes

@@ -58,6 +58,13 @@ def matched(reader: Reader, loops: dict[int, list[Side | None]]) -> Matching:
     partner: dict[int, int] = {}
     count = 0
     for sheets in on.values():
+        if len(sheets) == 2:  # mostly they are the same, seen from both sides
+            (_, *one), (_, *other) = (_side(loops, sheet) for sheet in sheets)
+            if one == other[::-1]:
+                edges[sheets[0]], edges[sheets[1]] = [count], [count + 1]
+                partner[count], partner[count + 1] = count + 1, count
+                count += 2
+                continue
         ends = sorted({end for k, number in sheets for end in _side(loops, (k, number))[1:]})
         rank = {end: r for r, end in enumerate(ends)}
         along: list[list[tuple[Sheet, bool, int]]] = [[] for _ in ends[1:]]
@@ -146,7 +153,7 @@ def _slope(reader: Reader, sheet: Sheet, position: Exact) -> tuple[int, Exact]:
     surface = reader.surface(patch)
     turn = Turn(int(t.chart[k]), reader.angle(t, k, end, patch))
     line = turn.line(surface)
-    x, y = line.point(ratio(position - line.start[line.axis], line.along[line.axis]))
+    x, y = line.point(ratio(position * turn.w - line.start[line.axis], line.along[line.axis]))
     (a, b), (bx, by) = turn(surface.a), turn.fixed(surface.b)
     # w^2 h', for J u x v = -u . v and u x J v = u . v
     h = dot(turn(surface.g), (x - bx + a, y - by + b)) + dot(line.along, (a, b))

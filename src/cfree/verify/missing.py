@@ -13,8 +13,8 @@ from fractions import Fraction
 from itertools import pairwise
 
 from cfree.exact.algebraic import Number
+from cfree.verify.heights import Interval, left_over
 from cfree.verify.isolated import pieces
-from cfree.verify.section import Interval, Section
 from cfree.verify.surfaces import LineKey, Turn, Vector, point_at, position_of
 from cfree.verify.trapezoids import Reader
 from cfree.verify.world import World
@@ -78,15 +78,13 @@ def compared(reader: Reader, turn: Turn) -> tuple[int, Wrong]:
 
 def free_contacts(world: World, turn: Turn) -> Places:
     """What open pillars leave of all contacts, their ends included."""
-    section = Section(world, turn)
 
     def left() -> Iterator[tuple[LineKey, Interval]]:
-        for surface in world.contacts():
-            if all(turn.value(limit) <= 0 for limit in surface.limits):
-                line = turn.line(surface)
-                for interval in section.on_contact(surface):
-                    lo, hi = sorted(map(line.position, interval))
-                    yield line.key, (lo, hi)
+        for surface, intervals in left_over(world, turn):
+            line = turn.line(surface)
+            for interval in intervals:
+                lo, hi = sorted(map(line.position, interval))
+                yield line.key, (lo, hi)
 
     return Places(left())
 

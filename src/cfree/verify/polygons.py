@@ -69,6 +69,12 @@ def primitive(u: Vector) -> Vector:
     return u[0] // k, u[1] // k
 
 
+def shortest(u: Vector) -> Vector:
+    """The shortest integer vector in a direction."""
+    k = gcd(*u)
+    return u[0] // k, u[1] // k
+
+
 # --- looking around, in doubles ---
 
 Boxes = NDArray[np.float64]  # (n, 4): xmin, ymin, xmax, ymax

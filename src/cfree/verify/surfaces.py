@@ -18,12 +18,13 @@ from typing import Any
 
 from flint import fmpz_poly
 
-from cfree.exact.algebraic import Exact, Root, at, ratio
+from cfree.exact.algebraic import Exact, Root, at, homogeneous, ratio
 
 Vector = tuple[Exact, Exact]
 LineKey = tuple[Exact | None, Exact]  # slope, None if upright, and where the line meets an axis
 Form = tuple[int, int, int]
 ZERO = (0, 0)
+WEIGHT = fmpz_poly([1, 0, 1])  # 1 + tau^2
 
 
 class Fault(Exception):
@@ -73,10 +74,7 @@ class Turn:
 
     @cached_property
     def key(self) -> tuple[Any, ...]:
-        """Equal for equal angles: the charts share their ends."""
-        if self.tau in (1, -1):
-            return ("end", self.chart == (self.tau < 0))
-        return self.chart, *self.root.key
+        return angle_key(self.chart, self.root)
 
     def in_charts(self) -> list[tuple[int, Root]]:
         """The angle in its chart, or in both."""
@@ -108,6 +106,13 @@ class Turn:
     def line(self, surface: Surface) -> Line:
         """From w S(0, theta) along w U."""
         return Line(minus(self.fixed(surface.b), self(surface.a)), minus(self.fixed(surface.q), self(surface.g)))
+
+
+def angle_key(chart: int, root: Root) -> tuple[Any, ...]:
+    """Equal for equal angles: the charts share their ends."""
+    if root.value in (1, -1):
+        return ("end", chart == (root.value < 0))
+    return chart, *root.key
 
 
 class Line:
@@ -164,6 +169,8 @@ def cut(surface: Surface, other: Surface) -> tuple[Form, Form]:
 def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
     """Numerator and denominator of t where a vertex pair's helix lies on the surface."""
     alpha, beta = minus(a, surface.a), minus(b, surface.b)
+    if (alpha, beta) in ((ZERO, ZERO), (surface.g, surface.q)):  # one of its ends
+        return (int((alpha, beta) != (ZERO, ZERO)), 0, 0), (1, 0, 0)
     n, d = dot(beta, surface.q) + dot(alpha, surface.g), dot(surface.q, surface.q) + dot(surface.g, surface.g)
     on_it = all(
         d * x == n * u for at, along in ((beta, surface.q), (alpha, surface.g)) for x, u in zip(at, along, strict=True)
@@ -173,26 +180,61 @@ def helix(surface: Surface, a: Vector, b: Vector) -> tuple[Form, Form]:
     return (n, 0, 0), (d, 0, 0)
 
 
+class Moving:
+    """A surface's line as tau changes in a chart: S(0) and U as polynomials, times 1 + tau^2, and so U x S(0)."""
+
+    __slots__ = ("across", "along", "chart", "limits", "start", "surface")
+
+    def __init__(self, surface: Surface, chart: int) -> None:
+        self.surface, self.chart = surface, chart
+        (ax, ay), (gx, gy), (bx, by), (qx, qy) = surface.a, surface.g, surface.b, surface.q
+        self.start = polynomial((bx, -ax, ay), chart), polynomial((by, -ay, -ax), chart)
+        self.along = polynomial((qx, -gx, gy), chart), polynomial((qy, -gy, -gx), chart)
+        self.across = polynomial(surface.form(surface.b, surface.a), chart)
+        self.limits = [polynomial(limit, chart) for limit in surface.limits]
+
+    def key(self, tau: Exact) -> LineKey:
+        """The line at an angle; equal for equal lines. The places (x, y) on it have U x (x, y) = U x S(0)."""
+        u, v = (at(poly, tau) for poly in self.along)
+        if u == 0:
+            return None, ratio(-at(self.across, tau), v)
+        inverse = ratio(1, u)
+        return v * inverse, at(self.across, tau) * inverse
+
+
 class Curve:
     """t = n / d on a surface in a chart, in lowest terms; `key` is made of its reference points (x : y : z)."""
 
-    __slots__ = ("d", "key", "n")
+    __slots__ = ("_coefficients", "d", "key", "n", "point")
 
-    def __init__(self, surface: Surface, chart: int, t: tuple[Form, Form]) -> None:
-        n, d = (polynomial(form, chart) for form in t)
-        common = n.gcd(d)
-        self.n, self.d = n // common, d // common
-        (ax, ay), (gx, gy), (bx, by), (qx, qy) = surface.a, surface.g, surface.b, surface.q
-        x0, x1 = polynomial((bx, -ax, ay), chart), polynomial((qx, -gx, gy), chart)
-        y0, y1 = polynomial((by, -ay, -ax), chart), polynomial((qy, -gy, -gx), chart)
-        point = [x0 * self.d + x1 * self.n, y0 * self.d + y1 * self.n, fmpz_poly([1, 0, 1]) * self.d]
-        common = point[0].gcd(point[1]).gcd(point[2])
-        if (point[2] // common).leading_coefficient() < 0:
+    def __init__(self, moving: Moving, t: tuple[Form, Form]) -> None:
+        n, d = (polynomial(form, moving.chart) for form in t)
+        if not (common := n.gcd(d)).is_one():
+            n, d = n // common, d // common
+        self.n, self.d = n, d
+        self._coefficients = [int(c) for c in n.coeffs()], [int(c) for c in d.coeffs()]
+        x, y = (start * d + along * n for start, along in zip(moving.start, moving.along, strict=True))
+        z = WEIGHT * d
+        common = z.gcd(x).gcd(y)
+        if z.leading_coefficient() < 0:
             common = -common
-        self.key = chart, *(tuple(map(int, (p // common).coeffs())) for p in point)
+        self.point = (x, y, z) if common.is_one() else (x // common, y // common, z // common)
+        self.key = moving.chart, *map(str, self.point)
+
+    def place(self, axis: int, tau: Exact) -> Exact:
+        """The coordinate x or y of its reference point at an angle."""
+        z = at(self.point[2], tau)
+        if z == 0:
+            raise Fault("a curve leaves the surface's line to infinity")
+        return ratio(at(self.point[axis], tau), z)
 
     def at(self, tau: Exact) -> Exact:
         """t at an angle."""
+        if isinstance(tau, Fraction):
+            (n, below), (d, beside) = (homogeneous(poly, tau) for poly in self._coefficients)
+            if d == 0:
+                raise Fault("a curve leaves the surface's line to infinity")
+            return Fraction(n * beside, d * below)
         d = at(self.d, tau)
         if d == 0:
             raise Fault("a curve leaves the surface's line to infinity")

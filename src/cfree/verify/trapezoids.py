@@ -16,9 +16,8 @@ import numpy as np
 from flint import fmpz_poly
 from numpy.typing import NDArray
 
-from cfree.exact.algebraic import Exact, Root, between, part, roots
-from cfree.verify.section import Section
-from cfree.verify.surfaces import Curve, Fault, LineKey, Surface, Turn, Vector, polynomial
+from cfree.exact.algebraic import Coefficients, Exact, Root, between, factors, part, ratio, roots
+from cfree.verify.surfaces import Curve, Fault, LineKey, Moving, Surface, Turn, Vector, angle_key, polynomial
 from cfree.verify.world import Feature, World, name_of
 from cfree.words import counted
 
@@ -27,6 +26,10 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 Contacts = tuple[NDArray[np.uint8], NDArray[np.int32], NDArray[np.int32]]  # kind, robot and obstacle feature by patch
+NAMES = ("first", "second", "lo", "hi", "place")
+ENDS = {end: [f"{end}_{name}" for name in NAMES] for end in ("from", "to")}
+MOST = 1 << 17  # places on curves that are kept
+FIRST, LAST = Root.of(Fraction(-1)), Root.of(Fraction(1))  # of a chart
 Side = tuple[bytes, Exact, Exact]  # a curve, or a line at one angle; angles, or positions, where a side begins and ends
 
 
@@ -54,48 +57,60 @@ class Reader:
     ) -> None:
         self.world, self.contacts, self.table, self.isolated = World(scene, auxiliary), contacts, table, isolated
         self.surface = lru_cache(maxsize=64)(self._surface)
+        self.moving = lru_cache(maxsize=64)(self._moving)
         self.curve = lru_cache(maxsize=4096)(self._curve)
+        self.roots = lru_cache(maxsize=1 << 16)(_roots_between)
+        self._places: dict[tuple[Any, ...], Exact] = {}
 
     def _surface(self, patch: int) -> Surface:
         kind, robot, obstacle = (int(column[patch]) for column in self.contacts)
         return self.world.contact((kind, robot, obstacle))
 
+    def _moving(self, patch: int, chart: int) -> Moving:
+        return Moving(self.surface(patch), chart)
+
     def _curve(self, patch: int, chart: int, code: int) -> Curve:
-        surface = self.surface(patch)
-        return Curve(surface, chart, self.world.curve(surface, name_of(code)))
+        return Curve(self.moving(patch, chart), self.world.curve(self.surface(patch), name_of(code)))
+
+    def place(self, curve: Curve, axis: int, angle: Root) -> Exact:
+        """See `Curve.place`: trapezoids around the end of a curve ask for the same."""
+        key = curve.key, axis, angle
+        if (found := self._places.get(key)) is None:
+            if len(self._places) > MOST:
+                self._places.clear()
+            found = self._places[key] = curve.place(axis, angle.value)
+        return found
 
     def trapezoid(self, k: int) -> Trapezoid:
         """Trapezoid k, its names resolved and its angles checked. Raises Fault."""
         t = self.table
         patch, chart = int(t.patch[k]), int(t.chart[k])
-        surface = self.surface(patch)
         start, stop = (self.angle(t, k, end, patch) for end in ("from", "to"))
         if start >= stop:
             raise Fault("it does not end after it begins")
         lower, upper = (self.curve(patch, chart, int(code)) for code in (t.lower[k], t.upper[k]))
-        return Trapezoid(surface, chart, lower, upper, start, stop)
+        return Trapezoid(self, self.moving(patch, chart), lower, upper, start, stop)
 
     def angle(self, columns: Trapezoids, k: int, end: str, patch: int) -> Root:
         """A critical angle as the root that its names, on the surface of a patch, and its interval define."""
-        names = ("first", "second", "lo", "hi", "place")
-        first, second, low, high, place = (getattr(columns, f"{end}_{name}")[k].item() for name in names)
+        first, second, low, high, place = (getattr(columns, name)[k].item() for name in ENDS[end])
         chart, surface = int(columns.chart[k]), self.surface(patch)
-        lo, hi = Fraction(low), Fraction(high)
         if not first:
-            if lo != hi or abs(lo) != 1 or second or place:
+            if low != high or abs(low) != 1 or second or place:
                 raise Fault(f"its {end} angle has no name and is no end of a chart")
-            return Root.of(lo)
-        if not -2 < lo <= hi < 2:
+            return FIRST if low < 0 else LAST
+        if not -2 < low <= high < 2:
             raise Fault(f"its {end} angle is beyond the chart")
-        found = [root for root, _ in roots(self.defining(first, second, surface, chart), lo, hi)]
+        found = self.roots(self.defining(first, second, surface, chart), low, high)
         if place > len(found) or (len(found) != 1) == (place == 0):
             raise Fault(f"its {end} angle: {counted(len(found), 'root')} in the interval, place {place}")
-        root: Root = found[max(place, 1) - 1]
-        if not Root.of(Fraction(-1)) <= root <= Root.of(Fraction(1)):
+        root: Root
+        root, is_inside = found[max(place, 1) - 1]
+        if not is_inside:
             raise Fault(f"its {end} angle is beyond the chart")
         return root
 
-    def defining(self, first: int, second: int, surface: Surface, chart: int) -> fmpz_poly:
+    def defining(self, first: int, second: int, surface: Surface, chart: int) -> Coefficients:
         """The polynomial that names define on a surface: one pair's condition, or that two curves meet."""
         if second:
             curves = (self.world.curve(surface, name_of(code)) for code in (first, second))
@@ -105,12 +120,13 @@ class Reader:
             found = polynomial(self.world.angle(surface, name_of(first)), chart)
         if found.degree() < 0:
             raise Fault("an angle is named by what holds at every angle")
-        return found
+        return tuple(map(int, found.coeffs()))
 
     def pieces(self, turn: Turn) -> Iterator[Piece]:
         """Trapezoids, ends included, at an angle. What is faulty is left out, and reported elsewhere."""
         t = self.table
         for chart, here in turn.in_charts():
+            there = turn if chart == turn.chart else Turn(chart, here)
             reaches = (t.from_lo <= float(here.hi)) & (float(here.lo) <= t.to_hi)
             for k in np.flatnonzero((t.chart == chart) & reaches).tolist():
                 try:
@@ -119,12 +135,16 @@ class Reader:
                     if order[0] < 0 or order[1] > 0:
                         continue
                     line = turn.line(self.surface(patch))
-                    curves = (self.curve(patch, chart, int(code)) for code in (t.lower[k], t.upper[k]))
-                    lo, hi = (line.position(curve.at(here.value)) for curve in curves)
+                    lo, hi = (line.position(self._at(patch, there, int(c))) for c in (t.lower[k], t.upper[k]))
                 except (Fault, IndexError):
                     continue
                 facing = line.ascends if order == [1, -1] else None
                 yield Piece(line.key, min(lo, hi), max(lo, hi), ("trapezoid", k), facing)
+
+    def _at(self, patch: int, turn: Turn, code: int) -> Exact:
+        """t of a curve at an angle: the quotient of its two forms, unless the denominator vanishes there."""
+        n, d = map(turn.value, self.world.curve(self.surface(patch), name_of(code)))
+        return ratio(n, d) if d != 0 else self.curve(patch, turn.chart, code).at(turn.tau)
 
     def _order(self, here: Root, k: int, end: str) -> int:
         """Is an angle before, at or after one end of a trapezoid?"""
@@ -138,12 +158,15 @@ class Reader:
 
 
 class Trapezoid:
-    """A trapezoid whose names are understood; `check` and `sample` raise Fault."""
+    """A trapezoid whose names are understood; `check` raises Fault."""
 
-    def __init__(self, surface: Surface, chart: int, lower: Curve, upper: Curve, start: Root, stop: Root) -> None:
-        self.surface, self.chart, self.lower, self.upper = surface, chart, lower, upper
-        self.start, self.stop = start, stop
+    def __init__(self, reader: Reader, moving: Moving, lower: Curve, upper: Curve, start: Root, stop: Root) -> None:
+        self._place = reader.place
+        self.surface, self.chart, self._moving = moving.surface, moving.chart, moving
+        self.lower, self.upper, self.start, self.stop = lower, upper, start, stop
         self._gap = upper.n * lower.d - lower.n * upper.d  # of one sign where the order is the same
+        first, last = float(start.lo), float(stop.hi)
+        self._interval = (first + last) / 2, (last - first) / 2 + 2.0**-50  # its middle, and half of a longer one
 
     def turn(self) -> Turn:
         """A rational angle strictly between start and stop where the curves, which may touch, do not."""
@@ -151,37 +174,81 @@ class Trapezoid:
             raise Fault("its two curves are one")
         part(self.start, self.stop)
         tau = between(self.start.hi, self.stop.lo)
-        while self.lower.at(tau) == self.upper.at(tau):
+        while (values := (self.lower.at(tau), self.upper.at(tau))) and values[0] == values[1]:
             tau = between(self.start.hi, tau)
+        self._values = values
         return Turn.of(self.chart, tau)
 
-    def check(self, turn: Turn) -> None:
-        """From start to stop: in the contact's range, 0 <= lower <= upper <= 1. Proved, with the order at one angle."""
+    def check(self, turn: Turn) -> tuple[Exact, Exact]:
+        """Prove that from start to stop the contact is in its range, and 0 <= lower <= upper <= 1.
+
+        Returns
+        -------
+        lower, upper
+            At the angle that `turn` has found, at which their order is looked at.
+        """
         p, q = self.lower, self.upper
-        if not 0 <= p.at(turn.tau) < q.at(turn.tau) <= 1:
+        lower, upper = self._values
+        if not 0 <= lower < upper <= 1:
             raise Fault(f"0 <= lower < upper <= 1 fails at tau = {turn.tau}")
         if any(turn.value(limit) >= 0 for limit in self.surface.limits):
             raise Fault(f"outside its patch's range at tau = {turn.tau}")
-        if any(self._changes(polynomial(limit, self.chart)) for limit in self.surface.limits):
+        if any(map(self._changes, self._moving.limits)):
             raise Fault("it reaches beyond its patch's range")
-        if any(has_root(curve.d, self.start, self.stop) for curve in (p, q)):
+        if any(self._vanishes(curve.d) for curve in (p, q)):
             raise Fault("a curve leaves the surface's line to infinity")
         for order in (p.n, q.d - q.n, self._gap):
             if self._changes(order):
                 raise Fault("its curves cross each other, or t = 0 or t = 1")
+        return lower, upper
 
     def _changes(self, poly: fmpz_poly) -> bool:
         """Does a polynomial's sign change between start and stop?"""
-        if poly.degree() < 1:
+        given = [int(c) for c in poly.coeffs()]
+        if len(given) < 2 or self._keeps_sign(given):
             return False
-        found = roots(poly, self.start.lo, self.stop.hi)
-        return any(times % 2 and self.start < root < self.stop for root, times in found)
+        odd = (factor for factor, times in factors(tuple(given)) if times % 2)
+        return any(self._has_root_inside(factor) for factor in odd)
 
-    def sample(self, world: World, turn: Turn) -> None:
-        """Nothing covers any of it at an angle. Proved there, and only there."""
-        lower, upper = self.lower.at(turn.tau), self.upper.at(turn.tau)
-        if not any(lo <= lower and upper <= hi for lo, hi in Section(world, turn).on_contact(self.surface)):
-            raise Fault(f"forbidden at tau = {turn.tau}, somewhere from t = {lower} to {upper}")
+    def _vanishes(self, poly: fmpz_poly) -> bool:
+        """True if a polynomial has a root from start to stop, ends included."""
+        given = [int(c) for c in poly.coeffs()]
+        return len(given) > 1 and not self._keeps_sign(given) and has_root(poly, self.start, self.stop)
+
+    def _has_root_inside(self, factor: Coefficients) -> bool:
+        """True if an irreducible polynomial has a root strictly between start and stop."""
+        if self._keeps_sign(factor):
+            return False
+        if len(factor) == 3:
+            for root in (self.start, self.stop):
+                if root.poly == factor:  # the other root is the sum of both without this one
+                    other = -factor[1] / factor[2] - float(root.lo)
+                    off = float(root.hi - root.lo) + 2.0**-40 * (1 + abs(other))
+                    if abs(other - self._interval[0]) > self._interval[1] + off:
+                        return False
+        found = roots(fmpz_poly(list(factor)), self.start.lo, self.stop.hi)
+        return any(self.start < root < self.stop for root, _ in found)
+
+    def _keeps_sign(self, given: Sequence[int]) -> bool:
+        """True if it is certain in doubles that a polynomial has no root from start to stop.
+
+        Notes
+        -----
+        Its value in the middle is greater than all else of its Taylor polynomial there at the ends. Coefficients are
+        divided by the greatest: for a degree of at most 8, and |tau| < 2, no number is greater than 2^17, and 100
+        operations are off by less than 2^-29.
+        """
+        if len(given) > 9:
+            return False
+        most = max(map(abs, given))
+        c, (middle, radius) = [k / most for k in given], self._interval
+        for k in range(len(c) - 1):
+            for j in range(len(c) - 2, k - 1, -1):
+                c[j] += middle * c[j + 1]
+        rest = 0.0
+        for coefficient in reversed(c[1:]):
+            rest = (rest + abs(coefficient)) * radius
+        return abs(c[0]) > rest + 2.0**-28
 
     def sides(self) -> list[Side | None]:
         """Counter-clockwise in (t, theta): at start, upper, at stop, lower; None for a side of no length."""
@@ -193,12 +260,17 @@ class Trapezoid:
         ]
 
     def _upright(self, angle: Root, first: Curve, last: Curve) -> Side | None:
-        turn = Turn(self.chart, angle)
-        begin, end = first.at(turn.tau), last.at(turn.tau)
+        key = self._moving.key(angle.value)
+        begin, end = (self._place(curve, int(key[0] is None), angle) for curve in (first, last))
         if begin == end:
             return None
-        line = turn.line(self.surface)
-        return digest(turn.key, line.key), line.position(begin), line.position(end)
+        return digest(angle_key(self.chart, angle), key), begin, end
+
+
+def _roots_between(poly: Coefficients, low: float, high: float) -> tuple[tuple[Root, bool], ...]:
+    """Roots of a polynomial, and whether they are in the chart."""
+    found = roots(fmpz_poly(list(poly)), Fraction(low), Fraction(high))
+    return tuple((root, FIRST <= root <= LAST) for root, _ in found)
 
 
 def has_root(poly: fmpz_poly, start: Root, stop: Root) -> bool:

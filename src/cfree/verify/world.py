@@ -6,15 +6,18 @@ number in the file means; whether two features make a contact is decided here, f
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cfree.forbidden.columns import Ints
 from cfree.polygons.polygon import Polygon
 from cfree.scene.features import ShapeFeatures, scene_features, unpacked
+from cfree.verify.heights import Contacts, Pillars, columns, rough_rotation
 from cfree.verify.polygons import (
     Corner,
     Ring,
@@ -24,13 +27,15 @@ from cfree.verify.polygons import (
     is_convex,
     rectangle,
     rings_of,
+    shortest,
     tile,
 )
-from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Vector, cross, cut, dot, helix, minus
+from cfree.verify.surfaces import ZERO, Fault, Form, Surface, Turn, Vector, cross, cut, dot, helix, minus
 
 if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
+Directed = tuple[list[Vector], NDArray[np.int64], NDArray[np.int64]]
 Name = tuple[int, int, int]  # kind, robot feature, obstacle feature
 Feature = tuple[str, str, int]  # of "robot" or "obstacles", "vertex" or "edge", number
 
@@ -103,6 +108,11 @@ class World:
             self.untiled.append(name)
         pieces += found
 
+    @cached_property
+    def pillars(self) -> Pillars:
+        """All pairs of convex pieces, rounded and exact."""
+        return Pillars(self)
+
     # --- contacts ---
 
     def contacts(self) -> Iterator[Surface]:
@@ -112,7 +122,52 @@ class World:
             yield from (vertex_edge(c, corner[1], corner[2]) for c in convex)
             if is_convex(corner):
                 yield from (edge_vertex(a, b, corner) for _, a, b in self.robot_corners)
-        yield from (Surface(ZERO, ZERO, p, minus(q, p)) for _, p, q in self.bound_corners)
+        yield from self._bounding()
+
+    def contacts_at(self, turn: Turn) -> tuple[Contacts, Callable[[int], Surface]]:
+        """The contacts whose closed range holds an angle: rounded, and a function that makes the surface of one."""
+        (robot, at, before), (obstacles, there, behind) = self._directions
+        sign = sides(obstacles, robot, turn)
+        side = sign[there][:, at]  # (obstacle edges, robot edges)
+        convex_a, convex_b = (
+            np.array([is_convex(corner) for corner in corners], bool)
+            for corners in (self.robot_corners, self.obstacle_corners)
+        )
+        on_edge = (side <= 0) & (sign[there][:, before] >= 0) & convex_a
+        on_vertex = (side >= 0) & (sign[behind][:, at] <= 0) & convex_b[:, None]
+        bounds = list(self._bounding())
+        (ej, ei), (vj, vi) = np.nonzero(on_edge), np.nonzero(on_vertex)
+        i, j = np.concatenate([ei, vi]), np.concatenate([ej, vj])
+        is_edge = np.arange(len(i)) < len(ei)
+
+        def surface(k: int) -> Surface:
+            if k >= len(i):
+                return bounds[k - len(i)]
+            a, b = self.robot_corners[i[k]], self.obstacle_corners[j[k]]
+            return vertex_edge(a, b[1], b[2]) if is_edge[k] else edge_vertex(a[1], a[2], b)
+
+        def rounded(name: str, of: Sequence[NDArray[np.float64]], numbers: NDArray[np.int64], factor: Any) -> Any:
+            more = columns([getattr(bound, name) for bound in bounds], self.unit)
+            return [np.append(factor * column[numbers], m) for column, m in zip(of, more, strict=True)]
+
+        (a, g), (b, q) = self._rounded
+        found = rounded("a", a, i, 1), rounded("g", g, i, ~is_edge), rounded("b", b, j, 1), rounded("q", q, j, is_edge)
+        return found, surface
+
+    @cached_property
+    def _directions(self) -> tuple[Directed, Directed]:
+        return directed(self.robot_corners), directed(self.obstacle_corners)
+
+    @cached_property
+    def _rounded(self) -> Sequence[Sequence[tuple[NDArray[np.float64], NDArray[np.float64]]]]:
+        """Vertices, and the edges that start there: of the robot's corners, then of the obstacles'."""
+        return [
+            [columns([p for _, p, _ in them], self.unit), columns([minus(q, p) for _, p, q in them], self.unit)]
+            for them in (self.robot_corners, self.obstacle_corners)
+        ]
+
+    def _bounding(self) -> Iterator[Surface]:
+        return (Surface(ZERO, ZERO, p, minus(q, p)) for _, p, q in self.bound_corners)
 
     def contact(self, name: Name) -> Surface:
         """The contact surface that a patch of the file is part of."""
@@ -170,6 +225,39 @@ class World:
         if any(c.denominator > 1 for point in scaled for c in point):
             raise Fault(f"auxiliary {kind} {k} of the {of} has another denominator than the scene")
         return [(int(x), int(y)) for x, y in scaled]
+
+
+def directed(corners: Sequence[Corner]) -> Directed:
+    """Directions of edges, each once; and the numbers of the directions that start, and end, at each corner."""
+    numbers: dict[Vector, int] = {}
+    edges = [[minus(q, p), minus(p, before)] for before, p, q in corners]
+    found = [[numbers.setdefault(shortest(u), len(numbers)) for u in both] for both in edges]
+    starts, ends = np.array(found, np.int64).reshape(-1, 2).T
+    return list(numbers), starts, ends
+
+
+def sides(fixed: Sequence[Vector], turned: Sequence[Vector], turn: Turn) -> NDArray[np.int64]:
+    """The sign of f x R e for every f and e.
+
+    Notes
+    -----
+    It is that of cos (f x e) + sin (f . e). Both vectors are divided by their greater coordinates, so no product is
+    greater than 1; the seven operations and the roundings of cos, sin and quotients are off by less than 2^-46.
+    """
+    f, e = (np.array([_scaled(u) for u in them], np.float64).reshape(-1, 2) for them in (fixed, turned))
+    c, s = rough_rotation(turn)
+    (fx, fy), (ex, ey) = f.T[:, :, None], e.T[:, None]
+    rough: NDArray[np.float64] = c * (fx * ey - fy * ex) + s * (fx * ex + fy * ey)
+    sign: NDArray[np.int64] = np.sign(rough).astype(np.int64)
+    for i, j in np.argwhere(abs(rough) < 2.0**-44).tolist():
+        exact = turn.value((0, cross(fixed[i], turned[j]), dot(fixed[i], turned[j])))
+        sign[i, j] = (exact > 0) - (exact < 0)
+    return sign
+
+
+def _scaled(u: Vector) -> tuple[float, float]:
+    most = max(abs(u[0]), abs(u[1]))
+    return u[0] / most, u[1] / most
 
 
 def vertex_edge(corner: Corner, b: Vector, end: Vector) -> Surface:

@@ -1,0 +1,48 @@
+"""Answers of folders: they are about some obstacles of a scene, and are checked in the scene with all of them.
+
+What parts two poses among some of the obstacles parts them among all, so a separation is checked among its own. A path
+is checked among all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from cfree.collision.slide import Slide, Touch
+from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated
+from cfree.planning.separation import Separated
+from cfree.scene.digest import Whole, stamp_of
+from cfree.scene.scene import Scene
+
+
+def whole_of(scene: Scene, given: Path | Separated | AllSeparated) -> Whole | None:
+    """The answer's record of the whole scene, if this scene is that one."""
+    whole = None if isinstance(given, AllSeparated) else given.whole
+    return whole if whole is not None and whole.sha256 == stamp_of(scene).sha256 else None
+
+
+def part_of(scene: Scene, given: Path | Separated, whole: Whole) -> Scene | None:
+    """The scene with the obstacles that an answer is about; None if that is not the scene that it says."""
+    if whole.obstacles and not whole.obstacles[-1] < len(scene.obstacles):
+        return None
+    obstacles = [scene.obstacles[k] for k in whole.obstacles]
+    found = Scene(scene.robot, obstacles, bounds=scene.bounds, workspace=scene.workspace)
+    return None if given.stamp is not None and given.stamp.sha256 != stamp_of(found).sha256 else found
+
+
+def renumbered(path: Path, numbers: Sequence[int]) -> Path:
+    """The path, whose slides name obstacles by other numbers: of obstacle k the number is numbers[k]."""
+    motions = tuple(
+        Slide((_touch(m.contacts[0], numbers), _touch(m.contacts[1], numbers)), m.x, m.y, m.d, m.tau)
+        if isinstance(m, Slide)
+        else m
+        for m in path.motions
+    )
+    return replace(path, motions=motions)
+
+
+def _touch(touch: Touch, numbers: Sequence[int]) -> Touch:
+    polygon, vertex = touch.obstacle
+    return touch if polygon < 0 else replace(touch, obstacle=(numbers[polygon], vertex))
