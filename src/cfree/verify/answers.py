@@ -96,7 +96,7 @@ def answer(
     given = read.answer if read else answer
     assert not isinstance(given, (str, os.PathLike))
     whole = whole_of(scene, given)
-    if read and whole is None and (finding := other_scene(scene, given)):
+    if read and (finding := other_scene(scene, given)):
         check = Check(SCENE, REFUTED, "nothing else was checked")
         return Verification((check,), (finding,), (), _since(begin))
 
@@ -265,8 +265,8 @@ def _needless(given: Path | Separated, world: World) -> list[Finding]:
 
 
 def other_scene(scene: Scene, given: Path | Separated | AllSeparated) -> Finding | None:
-    """A finding if an answer says that it is for another scene than this one."""
-    if (its := given.stamp) is None or its == (stamp := stamp_of(scene)):
+    """A finding if an answer is for another scene than this one, and not for a part of it."""
+    if whole_of(scene, given) is not None or (its := given.stamp) is None or its == (stamp := stamp_of(scene)):
         return None
     if its.sha256 == stamp.sha256:
         return Finding(SCENE, "scene.robot", f"it is {_box(its)}, and {_box(stamp)} around the robot; correct it")
