@@ -18,7 +18,12 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: demo test ctest sanitize fuzz fuzz-answers fuzz-files lint bench docs viewer dev stub clean
+.PHONY: help build demo test check ctest sanitize fuzz fuzz-answers fuzz-files fuzz-round lint bench docs viewer dev stub clean
+
+help:  ## this list
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
+
+build: $(TESTED)  ## cfree and all that its tests need, into .venv
 
 demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot get out, both verified, into demo/
 	mkdir -p demo
@@ -28,7 +33,10 @@ demo: $(INSTALLED)  ## a path into a car park, a proof that another robot cannot
 	$(BIN)/cfree verify $(SWIM) demo/swim.json
 	$(BIN)/cfree boundary $(PARKING) -o demo/parking.npz --mesh demo/parking.glb
 
-test: $(INSTALLED)  ## every test
+test: $(TESTED)  ## the quick tests, in a few minutes
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow"
+
+check: $(INSTALLED)  ## every test, those of the core under sanitizers, types and style
 	$(MAKE) -j 2 --output-sync $(TESTED) ctest lint
 	$(BIN)/python -m pytest -n 2 --dist worksteal  # files of tests stay together as long as there are enough
 
@@ -57,7 +65,10 @@ fuzz-answers: $(TESTED)  ## questions whose answers are known, and hard ones, as
 fuzz-files: $(TESTED)  ## files of boundaries with flipped bits
 	$(BIN)/python tests/support/fuzz_files.py --seconds $(or $(SECONDS),600) --seed $(or $(SEED),0)
 
-lint: $(TESTED)
+fuzz-round: $(TESTED)  ## thin and flat round shapes against exact points of their rims
+	$(BIN)/python tests/support/fuzz_thin.py --count $(or $(COUNT),100000) --seed $(or $(SEED),0)
+
+lint: $(TESTED)  ## style and types
 	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy
 	$(BIN)/mypy tools/check_answer.py
@@ -85,7 +96,7 @@ dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++
 stub: $(TESTED)  ## after a change of the binding
 	$(BIN)/python -m nanobind.stubgen -q -m cfree._core -o src/cfree/_core.pyi
 
-clean:
+clean:  ## away with .venv, build and demo
 	rm -rf .venv build demo
 
 .venv/bin/python:
