@@ -64,7 +64,7 @@ def answer(
     scene : Scene
         If it has a start and a goal, these have to be the answer's.
     answer : Path, Separated, AllSeparated or path
-        A file written by `Path.save` or `Separated.save`, or one in memory: then nobody asks for which scene it was.
+        A file written by `cfree.save`, or an answer in memory (its scene is then not compared).
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 

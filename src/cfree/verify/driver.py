@@ -59,7 +59,7 @@ def boundary(
     Parameters
     ----------
     boundary : Boundary or path
-        A file written by `Boundary.save`, or one in memory.
+        A file written by `cfree.save`, or a boundary in memory.
     scene : Scene, optional
         Has to be the scene in the file; if it is not, that is the only finding.
     slices : int
