@@ -1,7 +1,7 @@
 # Everything lives in .venv; needs python3 (3.11 or newer), g++ and make. Rebuilt only when its sources change.
 PYTHON ?= python3
 BIN := .venv/bin
-SANITIZED := $(addprefix tests/,polygons scene forbidden collision/test_motion.py collision/test_slide.py collision/test_pose_checker.py formats/test_boundary_file.py contact/test_surface.py free planning/test_plan.py)
+SANITIZED := $(addprefix tests/,polygons scene forbidden collision/test_motion.py collision/test_slide.py collision/test_pose_checker.py formats/boundaries/test_boundary_file.py contact/test_surface.py free planning/test_plan.py)
 CPP := $(wildcard cpp/*/*.?pp cpp/src/*/*.?pp cpp/include/cfree/*/*.hpp)
 INSTALLED := .venv/installed
 TESTED := .venv/tested

@@ -54,6 +54,17 @@ def test_imports_lead_down(name: str) -> None:
         assert other == CORE or ORDER.index(package(other)) <= ORDER.index(package(name)), other
 
 
+def test_imports_within_formats_lead_down() -> None:
+    """`formats/__init__.py` lists the order of the parts of the package."""
+    text = MODULES["cfree.formats"].read_text()
+    order = re.findall(r"^\d\. `(\w+)(?:/|\.py)`", text, re.MULTILINE)
+    files = {name: name.split(".")[2] for name in MODULES if name.startswith("cfree.formats.")}
+    assert sorted(order) == sorted(set(files.values()))
+    for name, part in files.items():
+        for other in imported(MODULES[name].read_text()):
+            assert other not in files or order.index(files[other]) <= order.index(part), f"{name} imports {other}"
+
+
 @pytest.mark.slow
 def test_no_files_import_each_other_in_a_circle() -> None:
     graph = {name: {other for other in imported(path.read_text()) if other != name} for name, path in MODULES.items()}

@@ -43,9 +43,9 @@ if TYPE_CHECKING:
     from cfree.forbidden.cell_complex import CellComplex as CellComplex
     from cfree.forbidden.mesh import Mesh as Mesh
     from cfree.forbidden.slice import Slice as Slice
+    from cfree.formats.drawings.footprints import footprint as footprint
     from cfree.formats.files import load as load
     from cfree.formats.files import save as save
-    from cfree.formats.footprints import footprint as footprint
     from cfree.formats.scene_file import load_polygons as load_polygons
     from cfree.formats.scene_file import load_scene as load_scene
     from cfree.formats.scene_file import load_shapes as load_shapes
@@ -108,7 +108,7 @@ _HOMES = {
     "analysis.fits": "Fit fits",
     "analysis.margins": "Interval NearestMiss max_margin max_scale nearest_miss",
     "formats.files": "load save",
-    "formats.footprints": "footprint",
+    "formats.drawings.footprints": "footprint",
     "formats.scene_file": "load_polygons load_scene load_shapes",
     "formats.shapes": "Shapes",
     "viewer.browser": "view",

@@ -18,7 +18,7 @@ from PIL import Image
 
 import cfree
 from cfree.cli.app import app
-from cfree.formats.boundary_file import signed
+from cfree.formats.boundaries.boundary_file import signed
 from examples import POLYGONS
 
 SCENES = Path("examples/scenes")

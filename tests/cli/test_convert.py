@@ -12,7 +12,7 @@ import cfree
 import drawings
 from cfree.cli.app import app
 from cfree.forbidden.columns import COLUMNS
-from cfree.formats import extras
+from cfree.formats.text import extras
 
 
 def run(*arguments: object) -> Any:

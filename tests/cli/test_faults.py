@@ -17,7 +17,7 @@ from click.testing import CliRunner
 
 import cfree
 from cfree.cli.app import app
-from cfree.formats.atomic import replacing
+from cfree.formats.text.atomic import replacing
 
 FIG9 = "examples/scenes/paper_fig9.json"
 TRIANGLE = '{"outer": [[0, 0], [1, 0], [0, 1]]}'
@@ -156,8 +156,8 @@ def test_outputs_are_checked_before_anything_is_computed(
 def test_a_killed_run_leaves_nothing(tmp_path: Path) -> None:
     for number in (signal.SIGTERM, signal.SIGKILL):
         program = (
-            "import time, cfree.formats.atomic\n"
-            f"with cfree.formats.atomic.replacing({str(tmp_path / 'b.png')!r}) as unfinished:\n"
+            "import time, cfree.formats.text.atomic\n"
+            f"with cfree.formats.text.atomic.replacing({str(tmp_path / 'b.png')!r}) as unfinished:\n"
             "    unfinished.write_bytes(b'half')\n"
             "    print('half', flush=True)\n"
             "    time.sleep(60)\n"

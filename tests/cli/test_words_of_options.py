@@ -12,7 +12,7 @@ import cfree
 from cfree.cli.app import app
 from cfree.cli.options import Word
 from cfree.film import Storyboard
-from cfree.formats.answer_file import Form
+from cfree.formats.answers.answer_file import Form
 from cfree.paths.path import Objective
 from cfree.plot.rendered import Renderer
 

@@ -26,7 +26,7 @@ from cfree import FormatError, MotionChecker, Path, Pose, PoseChecker, Rotation,
 from cfree.cli.report import answer_facts
 from cfree.collision import Touch
 from cfree.errors import InvalidPoseError, UnsupportedError
-from cfree.formats.answer_file import load_answer as load
+from cfree.formats.answers.answer_file import load_answer as load
 from cfree.paths.clearance import narrowest
 from cfree.planning.core_ways import numbers_of, slide_of
 from cfree.scene.features import SceneFeatures

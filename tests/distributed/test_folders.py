@@ -18,7 +18,7 @@ from cfree.cli.app import app
 from cfree.distributed import Sharded, boundary, reading
 from cfree.distributed.tasks import Work
 from cfree.errors import FormatError
-from cfree.formats.geojson import geojson_shapes
+from cfree.formats.drawings.geojson import geojson_shapes
 from stones import ROBOT, SCENE, stones
 
 

@@ -22,7 +22,7 @@ from hypothesis import strategies as st
 import strategies
 from cfree import Boundary, IncompleteError, Polygon, Pose, Scene, _core, boundary, load_scene, save
 from cfree.contact import is_forbidden
-from cfree.formats.boundary_file import load_boundary
+from cfree.formats.boundaries.boundary_file import load_boundary
 from cfree.scene.features import scene_features
 from compared import edge, length, mistakes, scene_of, slit_length, vertex
 from shapes import (

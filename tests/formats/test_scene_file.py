@@ -17,10 +17,10 @@ import cfree
 from cfree import save
 from cfree.errors import FormatError, UnsupportedError
 from cfree.exact.pose import Pose
-from cfree.formats.answer_file import load_answer
-from cfree.formats.findings import InvalidFileError
-from cfree.formats.json_positions import places
+from cfree.formats.answers.answer_file import load_answer
 from cfree.formats.scene_file import load_scene, number_text, save_scene, scene_text
+from cfree.formats.text.findings import InvalidFileError
+from cfree.formats.text.json_positions import places
 from cfree.polygons.polygon import Polygon
 from cfree.scene.scene import Scene
 from examples import EXAMPLES, POLYGONS
@@ -116,7 +116,7 @@ def test_goals_may_be_places_and_several(tmp_path: Path) -> None:
         ('"goals": [[1, 2, "x"]]', '1:65 goals[0][2]: expected radians, "90deg" or {"tau": "p/q"}, got "x"'),
         ('"goals": [null]', "1:58 goals[0]: expected [x, y, theta], or [x, y] for any theta, got null"),
         ('"goals": 5', "1:57 goals: expected a list, got 5"),
-        ('"goals": [[1, 2]], "goal": [1, 2]', '1:57 goals: there is a "goal", too; give one of them'),
+        ('"goals": [[1, 2]], "goal": [1, 2]', '1:57 goals: there is also a "goal"; give one of them'),
     ],
 )
 def test_faults_of_goals_have_their_places(tmp_path: Path, goals: str, fault: str) -> None:
@@ -394,7 +394,7 @@ def test_an_answer_given_as_a_scene_is_one_line_that_says_so(tmp_path: Path) -> 
 
 def test_a_scene_given_as_an_answer_is_one_line_that_says_so() -> None:
     with pytest.raises(
-        FormatError, match=r"^[^\n]*flat.json: a scene, no answer; give what cfree plan -o has written$"
+        FormatError, match=r"^[^\n]*flat.json: a scene, no answer; give a file that cfree plan -o wrote$"
     ):
         load_answer(ROOT / "examples/scenes/flat.json")
 
@@ -414,11 +414,11 @@ def test_an_image_given_as_a_scene_names_the_yaml_beside_it(tmp_path: Path) -> N
                 reader(image)
         other = tmp_path / f"of_{image.stem}.yml"
         other.write_text(f"resolution: 1\nimage: maps/{name}\n")
-        with pytest.raises(FormatError, match=f"{name}: an image; give what says how to read it, {other}$"):
+        with pytest.raises(FormatError, match=f"{name}: an image; give the file that describes it, {other}$"):
             load_scene(image)
         beside = image.with_suffix(".yaml")
         beside.write_text(f"image: {name}")
-        with pytest.raises(FormatError, match=f"{name}: an image; give what says how to read it, {beside}$"):
+        with pytest.raises(FormatError, match=f"{name}: an image; give the file that describes it, {beside}$"):
             load_scene(image)
 
 
@@ -480,7 +480,7 @@ def test_faults_of_rings_alone_have_their_places(tmp_path: Path, keys: str, faul
 
 
 def test_the_schema_is_that_of_the_models() -> None:
-    from cfree.formats.scene_format import SceneModel
+    from cfree.formats.scenes.scene_format import SceneModel
 
     written = json.loads((ROOT / "docs" / "scene.schema.json").read_text())
     meant = SceneModel.model_json_schema()

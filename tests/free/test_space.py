@@ -25,7 +25,7 @@ from cfree import (
     save,
 )
 from cfree.exact.half_angle import tau_in_chart
-from cfree.formats.boundary_file import CELL_COLUMNS, load_boundary, load_space, save_boundary
+from cfree.formats.boundaries.boundary_file import CELL_COLUMNS, load_boundary, load_space, save_boundary
 from compared import plain_of, scene_of
 from examples import POLYGONS
 from flood import flood

@@ -22,7 +22,7 @@ from cfree.collision.motion import Rotation, Translation
 from cfree.collision.motion_checker import MotionChecker
 from cfree.errors import FormatError, UnsupportedError
 from cfree.exact.pose import Pose, Poses
-from cfree.formats.answer_file import load_answer
+from cfree.formats.answers.answer_file import load_answer
 from cfree.paths.clearance import narrowest
 from cfree.paths.path import Path
 from cfree.polygons.polygon import Polygon

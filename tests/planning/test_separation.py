@@ -27,7 +27,7 @@ from cfree import (
     separation,
 )
 from cfree.cli.app import app
-from cfree.formats.answer_file import load_answer
+from cfree.formats.answers.answer_file import load_answer
 from cfree.planning.separation import Insets
 from cfree.polygons.polygon import Polygon
 from compared import scene_of
@@ -217,7 +217,7 @@ def test_proofs_hold_however_polygons_are_cut_into_pieces(tmp_path: Path, monkey
             'answer: expected "path", "separated" or "all separated", got "no"',
         ),
         ('"of": "closed"', '"of": "open"', 'of: expected "closed" or "interior", got "open"'),
-        ('"of": "closed"', '"of": "interior"', '"smaller_robot" belongs to what is "of": "closed"'),
+        ('"of": "closed"', '"of": "interior"', '"smaller_robot" belongs to "of": "closed" only'),
         ('"kind": "vertex-edge"', '"kind": "vertex"', r'surface\[\d+\].contact.kind: expected "vertex-edge" or'),
         ('"robot": [0, ', '"robot": [-3, ', r"surface\[0\].contact.robot: expected \[polygon, vertex\], .* got \[-3, "),
         ('"chart": 0', '"chart": 2', r"surface\[\d+\].chart: expected 0 or 1, got 2"),

@@ -34,7 +34,7 @@ from cfree import (
 from cfree.collision import Touch
 from cfree.collision.motion import Motion
 from cfree.errors import InvalidPoseError
-from cfree.formats.answer_file import load_answer
+from cfree.formats.answers.answer_file import load_answer
 from cfree.scene.dilation import grown
 from cfree.scene.scene import with_robot
 

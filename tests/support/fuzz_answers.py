@@ -26,7 +26,7 @@ import fuzz
 import second_opinion
 from cfree import Path, Scene, Separated, load_scene, plan, save
 from cfree.errors import InvalidPolygonError, InvalidPoseError, UnsupportedError
-from cfree.formats.answer_file import load_answer
+from cfree.formats.answers.answer_file import load_answer
 from cfree.formats.scene_file import scene_text
 from laws import broken, laws
 from questions import FAMILIES, Question, question

@@ -29,7 +29,7 @@ import fuzz
 from answers import corridor, tee, text_of
 from cfree import FreeSpace, Pose, Scene, boundary, free_space, load_scene, plan, save
 from cfree.errors import CfreeError
-from cfree.formats.boundary_file import load_boundary, load_space, signed
+from cfree.formats.boundaries.boundary_file import load_boundary, load_space, signed
 from cfree.formats.scene_file import scene_text
 from cfree.geometry.area import trapezoid_areas
 from compared import scene_of

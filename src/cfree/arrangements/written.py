@@ -23,7 +23,7 @@ from typing import Any
 
 from cfree.arguments import checked
 from cfree.arrangements.arranged import EDGE_KINDS, VERTEX_KINDS, Arrangement
-from cfree.formats.atomic import checked_suffix, replacing
+from cfree.formats.text.atomic import checked_suffix, replacing
 
 
 @checked

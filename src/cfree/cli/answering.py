@@ -18,7 +18,7 @@ from cfree.scene.naming import all_placed
 if TYPE_CHECKING:
     from cfree.analysis.blockers import Blocker
     from cfree.exact.pose import Pose
-    from cfree.formats.answer_file import Form
+    from cfree.formats.answers.answer_file import Form
     from cfree.paths.path import Path as Motions
     from cfree.paths.preferences import Unwanted
     from cfree.planning.goals import AllSeparated
@@ -54,7 +54,7 @@ class Sampling:
             If there are no poses for them.
         """
         from cfree.cli.values import read_length, read_turn
-        from cfree.formats.answer_file import form_of
+        from cfree.formats.answers.answer_file import form_of
 
         form = "json" if output is None or (str(output) == "-" and form is None) else form_of(output, form)
         given = {name: text for name, text in (("--step", step), ("--turn", turn), ("--speed", speed)) if text}
@@ -149,8 +149,8 @@ class Answering:
 
     def write(self, output: Path, poses: Sampling) -> None:
         """A path in any form, a proof as JSON; to a file or to standard output."""
-        from cfree.formats.answer_file import text_of, text_of_proof
-        from cfree.formats.atomic import replacing
+        from cfree.formats.answers.answer_file import text_of, text_of_proof
+        from cfree.formats.text.atomic import replacing
         from cfree.paths.path import Path as Motions
 
         if isinstance(self.answer, Motions):

@@ -29,13 +29,13 @@ from cfree.cli.values import (
     read_seconds,
     read_size,
 )
-from cfree.formats.archive import is_archive
+from cfree.formats.text.archive import is_archive
 from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.film import Storyboard
     from cfree.forbidden.boundary import Boundary
-    from cfree.formats.answer_file import Form
+    from cfree.formats.answers.answer_file import Form
     from cfree.paths.path import Objective
     from cfree.plot.rendered import Renderer
     from cfree.verify.result import Verification
@@ -118,7 +118,7 @@ def boundary(
         most = None if max_memory is None else read_size(max_memory)
         result = computed(read_source(scene), threads, max_seconds, most)
         if output:
-            from cfree.formats.boundary_file import save_boundary
+            from cfree.formats.boundaries.boundary_file import save_boundary
 
             with bar("writing"):
                 save_boundary(result, output)
@@ -159,7 +159,7 @@ def _refuse_limits(*names: str) -> None:
 def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, picture: Path | None) -> None:
     """A mesh and a figure of it, if they are asked for."""
     if mesh:
-        from cfree.formats.mesh_file import save_mesh
+        from cfree.formats.boundaries.mesh_file import save_mesh
         from cfree.scene.scene import robot_radius
 
         with bar("mesh"):
@@ -332,7 +332,7 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
         result = computed(read_source(scene), threads)
         found = result.slice(angle)
         if output:
-            from cfree.formats.slice_geojson import save_slice
+            from cfree.formats.boundaries.slice_geojson import save_slice
 
             save_slice(found, output)
         if picture:
@@ -384,7 +384,7 @@ def film(
     with one_line_faults():
         from cfree.cli.films import film_answer, film_scenes
         from cfree.cli.report import print_rows
-        from cfree.formats.answer_file import is_answer
+        from cfree.formats.answers.answer_file import is_answer
 
         for scene in scenes:
             written = check_outputs(scene, {"film": output})

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from cfree.cli.options import refuse
 from cfree.cli.terminal import status
-from cfree.formats.archive import is_archive
+from cfree.formats.text.archive import is_archive
 
 if TYPE_CHECKING:
     from cfree.cli.folders import FolderPlanner
@@ -29,7 +29,7 @@ def read_source(source: Path) -> Scene | Boundary:
     from cfree.formats.scene_file import load_scene
 
     if is_archive(source):
-        from cfree.formats.boundary_file import load_boundary
+        from cfree.formats.boundaries.boundary_file import load_boundary
 
         return load_boundary(source)
     with bar("reading"):
@@ -85,7 +85,7 @@ def planner_of(
 
         found: Planner | FolderPlanner = FolderPlanner(source, preferences)
     elif is_archive(source):
-        from cfree.formats.boundary_file import load_boundary
+        from cfree.formats.boundaries.boundary_file import load_boundary
         from cfree.free.space import free_space
 
         with bar("cells"):
@@ -112,7 +112,7 @@ def bar(name: str) -> Iterator[Callable[[float], object]]:
 
 def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
     """The files to write; what cannot be written is refused before a long computation rather than after it."""
-    from cfree.formats.atomic import check_place
+    from cfree.formats.text.atomic import check_place
 
     files = {name: path for name, path in wanted.items() if path is not None}
     for name, path in files.items():
@@ -128,13 +128,13 @@ def _check_name(content: str, path: Path) -> None:
     check: Callable[[Path], object]
     match content:
         case "boundary":
-            from cfree.formats.boundary_file import check_boundary_path as check
+            from cfree.formats.boundaries.boundary_file import check_boundary_path as check
         case "film":
             from cfree.film.encode import check_film_path as check
         case "geojson":
-            from cfree.formats.slice_geojson import check_slice_path as check
+            from cfree.formats.boundaries.slice_geojson import check_slice_path as check
         case "mesh":
-            from cfree.formats.mesh_file import check_mesh_path as check
+            from cfree.formats.boundaries.mesh_file import check_mesh_path as check
         case "page":
             from cfree.viewer.browser import check_page_path as check
         case "part" | "scene":

@@ -153,7 +153,7 @@ def _straight(
     scene: Scene, outer: float | None, inner: float | None, tolerance: float | None, target: Path
 ) -> tuple[Scene, list[str]]:
     """With polygons for round shapes, if they are asked for, or the file can have no others."""
-    from cfree.formats.source import CURVE_SHARE
+    from cfree.formats.drawings.source import CURVE_SHARE
     from cfree.scene.scene import largest_of, round_count, shapes_of
 
     if outer is not None and inner is not None:
@@ -179,7 +179,7 @@ def _is_without_curves(target: Path) -> bool:
 
 def _robot(text: str, tolerance: float | None) -> Any:
     """The polygons of a footprint, or of a file: those of the role robot, if there are any."""
-    from cfree.formats.footprints import footprint
+    from cfree.formats.drawings.footprints import footprint
     from cfree.formats.scene_file import load_shapes
 
     if _is_footprint(text):

@@ -10,10 +10,10 @@ from pathlib import Path
 from cfree.collector import collection_paused
 from cfree.distributed.shard import key_of
 from cfree.errors import FormatError, InvalidPolygonError
-from cfree.formats.findings import Findings
-from cfree.formats.geojson import geojson_shapes
-from cfree.formats.json_text import read_json
+from cfree.formats.drawings.geojson import geojson_shapes
 from cfree.formats.scene_file import load_polygons, load_scene
+from cfree.formats.text.findings import Findings
+from cfree.formats.text.json_text import read_json
 from cfree.polygons.polygon import Polygon
 from cfree.scene.digest import stamp_of
 from cfree.scene.scene import Scene

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import FormatError
-from cfree.formats.atomic import replacing
-from cfree.formats.header import FAULTS, signed
+from cfree.formats.boundaries.header import FAULTS, signed
+from cfree.formats.text.atomic import replacing
 
 Shard = dict[str, NDArray[Any]]
 VERSION = 2

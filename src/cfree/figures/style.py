@@ -9,7 +9,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from cfree.formats.atomic import replacing
+from cfree.formats.text.atomic import replacing
 from cfree.palette import LETTERS
 
 FORMATS = ("svg", "pdf", "png")

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.errors import UnsupportedError
-from cfree.formats.atomic import checked_suffix, replacing
+from cfree.formats.text.atomic import checked_suffix, replacing
 
 Image = NDArray[np.uint8]
 

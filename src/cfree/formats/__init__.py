@@ -1,1 +1,14 @@
-"""Every value in files of its own kind: one file a format, their faults collected, and where in the text they are."""
+"""Read and write every value in files of its own kind; report all faults of a file with their places.
+
+Each part imports only from those before it:
+
+1. `text/`: a file's text, the places in it, its faults; files replaced as a whole.
+2. `shapes.py`: what a file of shapes holds, before it is a scene.
+3. `scenes/`: the JSON scene.
+4. `drawings/`: drawings, maps and other files of shapes, one file a format.
+5. `readers.py`: the reader for each file.
+6. `scene_file.py`: `load_scene`, `load_shapes` and `save_scene`.
+7. `boundaries/`: boundaries, their tables, meshes and slices.
+8. `answers/`: paths and separations.
+9. `files.py`: `save` and `load`.
+"""

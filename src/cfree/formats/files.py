@@ -1,4 +1,4 @@
-"""Every value in a file of its own kind: `save` by the type of the value, `load` by what is in the file."""
+"""`save` writes every value in a file of its kind; `load` reads them by their content."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ from cfree.collector import collection_paused
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.mesh import Mesh
 from cfree.forbidden.slice import Slice
-from cfree.formats.answer_file import Form, save_path, save_separation
-from cfree.formats.archive import is_archive
-from cfree.formats.boundary_file import load_archive, save_boundary, save_space
-from cfree.formats.findings import Findings, read_text
-from cfree.formats.json_text import read_literals, with_numbers
-from cfree.formats.mesh_file import save_mesh
+from cfree.formats.answers.answer_file import Form, save_path, save_separation
+from cfree.formats.boundaries.boundary_file import load_archive, save_boundary, save_space
+from cfree.formats.boundaries.mesh_file import save_mesh
+from cfree.formats.boundaries.slice_geojson import save_slice
 from cfree.formats.readers import is_drawing, is_wkt, read_json_file, read_wkt, refuse_other_kinds
 from cfree.formats.scene_file import load_scene, save_scene
-from cfree.formats.slice_geojson import save_slice
+from cfree.formats.text.archive import is_archive
+from cfree.formats.text.findings import Findings, read_text
+from cfree.formats.text.json_text import read_literals, with_numbers
 from cfree.free.space import FreeSpace
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
@@ -45,26 +45,27 @@ def save(
     ----------
     value : Scene, Boundary, FreeSpace, Path, Separated, AllSeparated, Mesh or Slice
     path : path
-        ``.json`` for scenes, paths and separations, for scenes also ``.geojson``, ``.svg`` or ``.dxf``, ``.npz`` for
-        boundaries and free spaces, for boundaries also ``.parquet``, a table of trapezoids, ``.glb``, ``.ply``,
-        ``.obj`` or ``.stl`` for meshes, ``.geojson`` for slices. Poses of paths also as ``.csv``, ``.yaml`` (a ROS
+        The suffix gives the format. Scenes: ``.json``, ``.geojson``, ``.svg`` or ``.dxf``. Boundaries: ``.npz``, or
+        ``.parquet`` for a table of trapezoids. Free spaces: ``.npz``. Meshes: ``.glb``, ``.ply``, ``.obj`` or
+        ``.stl``. Slices: ``.geojson``. Separations: ``.json``. Paths: ``.json``; for poses ``.csv``, ``.yaml`` (a ROS
         nav_msgs/Path) or ``.geojson`` with the robot's outlines.
     step, turn : float
-        Of paths, as in `Path.sample`. Unless given, a step is a twentieth of the robot's radius, or a
-        hundredth of the length of a path that knows no robot.
+        Sampling steps of paths, see `Path.sample`. The default step is a twentieth of the robot's radius, or a
+        hundredth of the path length if the path has no robot.
     speed : float, optional
-        Of paths: lengths a second that no point of the robot is faster than; poses have times then, in seconds.
+        Maximum speed of any point of the robot along a path, in lengths a second. It adds times to the poses, in
+        seconds.
     scene : Scene, optional
-        Of paths that were read from a file: needed for ``.geojson``, and for ``.json`` if the file did not say it.
+        The scene of a path that was read from a file: needed for ``.geojson``, and for ``.json`` if that file had none.
     form : "json", "csv", "ros" or "geojson", optional
-        Of paths, for names that do not say it: ``.txt``, or no suffix.
+        The form of a path for file names with the suffix ``.txt`` or none.
 
     Raises
     ------
     UnsupportedError
-        If the file's name ends otherwise.
+        If the suffix is another.
     ValueError
-        If a scene is missing, or something of these is given for a value that is no path, or `form` is another word.
+        If a scene is missing, an option of paths is given for another value, or `form` is another word.
     OSError
         If the file cannot be written.
 
@@ -79,8 +80,8 @@ def save(
     """
     if isinstance(value, Path):
         return save_path(value, path, step=step, turn=turn, speed=speed, scene=scene, form=form)
-    given = {"step": step, "speed": speed, "scene": scene, "form": form}
-    if wrong := next((name for name, option in given.items() if option is not None), None):
+    options = {"step": step, "speed": speed, "scene": scene, "form": form}
+    if wrong := next((name for name, option in options.items() if option is not None), None):
         raise ValueError(f"{wrong}: a {type(value).__name__} is no path; leave it out")
     match value:
         case Scene():
@@ -99,12 +100,12 @@ def save(
 
 @checked
 def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Separated | AllSeparated:
-    """Read a scene, a boundary, a free space, a path or a separation: what is in the file decides.
+    """Read a scene, a boundary, a free space, a path or a separation; the file's content gives its kind.
 
     Raises
     ------
     FormatError
-        If the file cannot be read: place, value and remedy of every fault, ``file:line:column`` first.
+        If the file cannot be read, with place, value and remedy of every fault, ``file:line:column`` first.
     """
     with collection_paused():
         if is_archive(path):
@@ -115,8 +116,8 @@ def load(path: str | PathLike[str]) -> Scene | Boundary | FreeSpace | Path | Sep
         findings = Findings(fspath(path), read_text(FilePath(path)))
         data = None if is_wkt(findings) else read_literals(findings)
         if isinstance(data, Mapping) and "answer" in data:
-            from cfree.formats.answer_format import answer_from_json
+            from cfree.formats.answers.answer_format import answer_from_json
 
             return answer_from_json(findings, with_numbers(data)).answer
-        found = read_wkt(findings) if data is None else read_json_file(findings, data)
-        return found if isinstance(found, Scene) else found.scene()
+        content = read_wkt(findings) if data is None else read_json_file(findings, data)
+        return content if isinstance(content, Scene) else content.scene()

@@ -1,4 +1,4 @@
-"""Which reader reads which file: by the suffix of its name, and JSON and text by what is in it."""
+"""Choose the reader of a file by its suffix; for JSON and text, by its content."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from cfree.formats.archive import is_archive
-from cfree.formats.findings import Findings, InvalidFileError, read_text, whole
-from cfree.formats.json_text import read_literals, with_numbers
-from cfree.formats.scene_values import scene_from_plain
-from cfree.formats.shapes import Shapes, shapes_of
-from cfree.formats.source import Reading, Source
+from cfree.formats.drawings.source import Reading, Source, shapes_of
+from cfree.formats.scenes.scene_values import scene_from_plain
+from cfree.formats.shapes import Shapes
+from cfree.formats.text.archive import is_archive
+from cfree.formats.text.findings import Findings, InvalidFileError, read_text, whole
+from cfree.formats.text.json_text import read_literals, with_numbers
 from cfree.scene.scene import Scene
 
 DRAWINGS = {
@@ -27,51 +27,51 @@ DRAWINGS = {
     ".yml": "ros.read_yaml",
     ".urdf": "urdf.read_urdf",
 }
-"""Suffixes of files that only their own readers open."""
+"""Readers in `drawings/` of files with these suffixes."""
 IMAGES = {".pgm", ".ppm", ".pbm", ".png", ".bmp", ".gif", ".jpg", ".jpeg", ".tif", ".tiff", ".webp"}
-"""Suffixes of images, which maps name."""
+"""Suffixes of images that maps refer to."""
 YAML = (".yaml", ".yml")
 MOST_BESIDE, MOST_HEAD = 50, 1 << 14
-"""Files beside an image that are looked at, and characters of each."""
+"""Maximum number of files searched beside an image, and of characters read from each."""
 
 
 def is_drawing(path: str | PathLike[str]) -> bool:
-    """Has it a reader of its own?"""
+    """True if the suffix has a reader of its own."""
     return Path(path).suffix.lower() in DRAWINGS
 
 
 def read_file(path: str | PathLike[str], reading: Reading | None = None) -> Shapes | Scene:
-    """What is in a file: a scene if it says all of one."""
+    """Read a file: a scene if it is complete, else shapes."""
     file = os.fspath(path)
     refuse_other_kinds(file)
     if is_drawing(file):
         module, name = DRAWINGS[Path(file).suffix.lower()].split(".")
-        found: Shapes = getattr(import_module(f"cfree.formats.{module}"), name)(Source(file, reading=reading))
-        return found
+        shapes: Shapes = getattr(import_module(f"cfree.formats.drawings.{module}"), name)(Source(file, reading=reading))
+        return shapes
     findings = Findings(file, read_text(Path(file)))
     return read_wkt(findings) if is_wkt(findings) else read_json_file(findings, read_literals(findings), reading)
 
 
 def refuse_other_kinds(file: str) -> None:
-    """See that a file is no boundary, and no image of a map.
+    """Refuse boundaries, and images of maps.
 
     Raises
     ------
     InvalidFileError
-        If it is one: what it is, and what to give instead.
+        If the file is one of these, with its kind and the remedy.
     """
     path = Path(file)
     if is_archive(file):
         fault = "a boundary or free space, no scene; give the scene that it was computed for"
     elif path.suffix.lower() in IMAGES and path.is_file():
-        fault = f"an image; give what says how to read it, {_yaml_of(path)}"
+        fault = f"an image; give the file that describes it, {_yaml_of(path)}"
     else:
         return
     raise InvalidFileError(file, [whole(fault)])
 
 
 def _yaml_of(image: Path) -> str:
-    """The file beside an image of its name, or that names it; or words for it."""
+    """Return the file beside an image that has its name or refers to it, or a description of such a file."""
     beside = [file for suffix in YAML for file in sorted(image.parent.glob(f"*{suffix}"))[:MOST_BESIDE]]
     for file in sorted(beside, key=lambda file: file.stem != image.stem):
         with suppress(OSError):
@@ -83,15 +83,15 @@ def _yaml_of(image: Path) -> str:
 
 
 def is_wkt(findings: Findings) -> bool:
-    """By the name of the file, or by what is in it."""
+    """True if a file is WKT by its suffix or its content."""
     if Path(findings.file).suffix.lower() == ".wkt":
         return True
     return findings.text.lstrip()[:1] not in "{[" and bool(re.search("POLYGON", findings.text, re.IGNORECASE))
 
 
 def read_wkt(findings: Findings) -> Shapes:
-    """The shapes that WKT holds."""
-    from cfree.formats.wkt import wkt_shapes
+    """Read the shapes of WKT."""
+    from cfree.formats.drawings.wkt import wkt_shapes
 
     source = Source(findings.file)
     source.findings = findings
@@ -99,25 +99,25 @@ def read_wkt(findings: Findings) -> Shapes:
 
 
 def read_json_file(findings: Findings, data: object, reading: Reading | None = None) -> Shapes | Scene:
-    """The scene, the GeoJSON, or the nesting instance that JSON with literals is."""
+    """Read a scene, GeoJSON, or a nesting instance from JSON with literals."""
     source = Source(findings.file, reading=reading)
     source.findings = findings
     if isinstance(data, Mapping) and "answer" in data and "robot" not in data:
         fault = "an answer of cfree plan, no scene; give the scene that it is for"
         raise InvalidFileError(findings.file, [whole(fault)])
     if isinstance(data, Mapping) and "type" in data:
-        from cfree.formats.geojson import geojson_shapes
+        from cfree.formats.drawings.geojson import geojson_shapes
 
         settings: dict[str, Any] = {}
         shapes = geojson_shapes(findings, with_numbers(data), settings)
         return shapes_of(source, "GeoJSON", shapes, settings, 'give its feature the property "role": "robot"')
     if isinstance(data, Mapping) and data.keys() & {"items", "Items"}:
-        from cfree.formats.nesting import read_nesting
+        from cfree.formats.drawings.nesting import read_nesting
 
-        found: Shapes = read_nesting(source, with_numbers(data))
-        return found
+        instance: Shapes = read_nesting(source, with_numbers(data))
+        return instance
     if not findings and (scene := scene_from_plain(data)):
         return scene
-    from cfree.formats.scene_format import scene_from_models
+    from cfree.formats.scenes.scene_format import scene_from_models
 
     return scene_from_models(findings, with_numbers(data))

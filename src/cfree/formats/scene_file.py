@@ -1,6 +1,6 @@
-"""Scenes and polygons read from files, scenes written to files; `docs/scene-format.md` describes them.
+"""Read scenes and polygons from files, write scenes to files; `docs/scene-format.md` describes them.
 
-Numbers are the decimals they are written as. A file with faults raises one error that names all of them.
+Numbers are exactly the decimals in the file. A file with faults raises one error that names all of them.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from cfree.collector import collection_paused
 from cfree.curves.curved import Curved
 from cfree.exact.half_angle import Angle
 from cfree.exact.pose import Pose
-from cfree.formats.atomic import checked_suffix, replacing
-from cfree.formats.findings import Findings
-from cfree.formats.json_text import read_literals
-from cfree.formats.number_text import number_text
+from cfree.formats.drawings.source import Reading
 from cfree.formats.readers import read_file, read_json_file
 from cfree.formats.shapes import IGNORE, ROLES, Shape, Shapes
-from cfree.formats.source import Reading
+from cfree.formats.text.atomic import checked_suffix, replacing
+from cfree.formats.text.findings import Findings
+from cfree.formats.text.json_text import read_literals
+from cfree.formats.text.number_text import number_text
 from cfree.polygons.polygon import Polygon
 from cfree.scene.goals import Goal
 from cfree.scene.scene import AnyShape, Scene, default_name
@@ -42,7 +42,7 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     Parameters
     ----------
     path : path
-        JSON is what is in it; all else is what its name says.
+        JSON files are recognised by their content, all others by their suffix.
 
     Returns
     -------
@@ -51,7 +51,7 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     Raises
     ------
     FormatError
-        If the file cannot be read: place, value and remedy of every fault, ``file:line:column`` first.
+        If the file cannot be read, with place, value and remedy of every fault, ``file:line:column`` first.
 
     Examples
     --------
@@ -62,8 +62,8 @@ def load_scene(path: str | PathLike[str]) -> Scene:
     Fraction(-3, 1)
     """
     with collection_paused():
-        found = read_file(path)
-        return found if isinstance(found, Scene) else found.scene()
+        content = read_file(path)
+        return content if isinstance(content, Scene) else content.scene()
 
 
 @checked
@@ -74,7 +74,7 @@ def load_shapes(
     unknown: Literal["obstacle", "free"] = "obstacle",
     roles: Mapping[str, str] | None = None,
 ) -> Shapes:
-    """Read what is in a file of any kind, before it is a scene: `docs/formats.md` describes them.
+    """Read the shapes of a file of any kind, before they are a scene; `docs/formats.md` describes the kinds.
 
     Parameters
     ----------
@@ -82,18 +82,18 @@ def load_shapes(
         A scene, GeoJSON, WKT, SVG, DXF, the YAML of a ROS map or of nav2 parameters, URDF, or nesting JSON.
     tolerance : float, optional
         Curves become polygons with this error at most, in the scene's unit: around robot and obstacles, inside the
-        workspace. A thousandth of the drawing's size if left out.
+        workspace. The default is a thousandth of the drawing's size.
     unknown : "obstacle" or "free"
-        What the unknown cells of a map are.
+        The meaning of unknown cells of a map.
     roles : mapping of str to str, optional
-        Of layers, groups or names: "robot", "obstacle", "workspace", or "ignore".
+        Roles of layers, groups or names: "robot", "obstacle", "workspace", or "ignore".
 
     Raises
     ------
     FormatError
         If the file cannot be read.
     ImportError
-        With the command that installs what reads it, if that is missing.
+        If the reader's package is missing, with the command that installs it.
 
     Examples
     --------
@@ -106,32 +106,32 @@ def load_shapes(
     for name, role in (roles or {}).items():
         one_of(f"roles: {name}", role, (*ROLES, IGNORE))
     with collection_paused():
-        found = read_file(path, Reading(tolerance, unknown, dict(roles or {})))
-        return shapes_in(found, os.fspath(path)) if isinstance(found, Scene) else found
+        content = read_file(path, Reading(tolerance, unknown, dict(roles or {})))
+        return shapes_in(content, os.fspath(path)) if isinstance(content, Scene) else content
 
 
 def scene_from_text(name: str, text: str) -> Scene:
-    """Scene from the JSON text that `scene_text` makes; `name` stands for the file in errors."""
+    """Read a scene from the JSON text that `scene_text` makes; `name` stands for the file in errors."""
     findings = Findings(name, text)
-    found = read_json_file(findings, read_literals(findings))
-    assert isinstance(found, Scene)
-    return found
+    scene = read_json_file(findings, read_literals(findings))
+    assert isinstance(scene, Scene)
+    return scene
 
 
 @checked
 def load_polygons(path: str | PathLike[str]) -> tuple[Polygon, ...]:
-    """Read the polygons of a file of any kind, whatever their roles, in the order of the file.
+    """Read the polygons of a file of any kind, with any role, in the order of the file.
 
     Raises
     ------
     FormatError
-        As `load_scene` does.
+        If the file cannot be read, see `load_scene`.
     """
     return load_shapes(path).polygons
 
 
 def shapes_in(scene: Scene, file: str) -> Shapes:
-    """The shapes of a scene and all else that it has."""
+    """Return the shapes and the settings of a scene."""
     named = zip(scene.obstacles, scene.obstacle_names, strict=True)
     shapes = [
         *(Shape("robot", None, part) for part in scene.robot),
@@ -145,22 +145,22 @@ def shapes_in(scene: Scene, file: str) -> Shapes:
 
 
 def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
-    """Write a scene as JSON, which `load_scene` makes an equal one of, or as GeoJSON, SVG or DXF by the file's name.
+    """Write a scene as JSON, which gives an equal scene when read, or by the suffix as GeoJSON, SVG or DXF.
 
     Returns
     -------
     tuple of str
-        What is not in the file as it was in the scene, in words.
+        The differences of the file from the scene, in words.
 
     Raises
     ------
     UnsupportedError
-        If the file's name says another format.
+        If the suffix is of another format.
     """
     check_scene_path(path)
     target = Path(path)
     if target.suffix.lower() in EXPORTS:
-        from cfree.formats.scene_texts import write_scene
+        from cfree.formats.drawings.scene_texts import write_scene
 
         return write_scene(scene, target)
     with replacing(target) as unfinished:
@@ -169,7 +169,7 @@ def save_scene(scene: Scene, path: str | PathLike[str]) -> tuple[str, ...]:
 
 
 def check_scene_path(path: str | PathLike[str]) -> None:
-    """Raise an error if no scene is written to a file of this name; a pipe or a device gets JSON.
+    """Raise an error if no scene can be written to a file of this name; a pipe or a device gets JSON.
 
     Examples
     --------
@@ -183,7 +183,7 @@ def check_scene_path(path: str | PathLike[str]) -> None:
 
 
 def scene_text(scene: Scene) -> str:
-    """JSON text of a scene, one shape a line.
+    """Return the JSON text of a scene, one shape a line.
 
     Examples
     --------
@@ -227,7 +227,7 @@ def scene_text(scene: Scene) -> str:
 
 def _shape(polygon: AnyShape, name: str = "") -> str:
     if isinstance(polygon, Curved):
-        from cfree.formats.curve_text import curved_text
+        from cfree.formats.scenes.curve_text import curved_text
 
         return curved_text(polygon, number_text, _angle_text, f'"name": {_json(name)}' if name else "")
     rings = []
@@ -244,14 +244,14 @@ def _list(shapes: Sequence[str]) -> str:
 
 
 def _goal_text(goal: Goal) -> str:
-    """A pose, or a place."""
+    """Return the JSON of a pose or a place."""
     if not isinstance(goal, Pose):
         return f"[{', '.join(map(number_text, goal))}]"
     return f"[{number_text(goal.x)}, {number_text(goal.y)}, {_angle_text(goal)}]"
 
 
 def _angle_text(pose: Pose) -> str:
-    """Theta so that reading it gives this pose: in round degrees, else in the radians given, else as tau."""
+    """Return a text of theta that gives this pose when read: round degrees, else its radians, else tau."""
     if pose.tau == 0:
         return "0"
     in_degrees = f"{math.degrees(pose.theta):g}deg"

@@ -24,7 +24,7 @@ from cfree.forbidden.isolated import isolated_at, isolated_lines
 from cfree.forbidden.kinds import COLOURS, KINDS, PatchKind
 from cfree.forbidden.record import BoundaryRecord
 from cfree.forbidden.slice import Slice
-from cfree.formats.atomic import checked_suffix, replacing
+from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.palette import FAINT, FORBIDDEN, GREY, INK, MARK, ROBOT, WALL
 from cfree.plot.labels import BODY, GHOST, MAY, Labels
 from cfree.plot.strips import THIN, strips

@@ -34,7 +34,7 @@ from cfree.arguments import checked
 from cfree.contact.surface import Surface
 from cfree.exact.half_angle import chart_intervals, seen_in_chart
 from cfree.exact.number import ExactPoint, Number, to_fraction
-from cfree.formats.atomic import replacing
+from cfree.formats.text.atomic import replacing
 from cfree.rational.model import RationalSurface
 
 Floats = NDArray[np.float64]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from cfree.arguments import checked
 from cfree.exact.number import ExactPoint
 from cfree.exact.pose import Pose
-from cfree.formats.answer_file import read_answer
+from cfree.formats.answers.answer_file import read_answer
 from cfree.paths.path import Path
 from cfree.planning.goals import AllSeparated
 from cfree.planning.separation import Separated
@@ -40,7 +40,7 @@ from cfree.words import counted
 
 if TYPE_CHECKING:
     from cfree.exact.pose import Pose
-    from cfree.formats.answer_format import Read
+    from cfree.formats.answers.answer_format import Read
 
 SCENE, ASKED, PIECES, TURNS, ROUND = "scene", "poses asked for", "convex pieces", "orientations", "round shapes"
 MOVED = "moved"

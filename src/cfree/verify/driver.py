@@ -20,7 +20,7 @@ from cfree.errors import UnsupportedError
 from cfree.exact.algebraic import Exact
 from cfree.forbidden.boundary import Boundary
 from cfree.forbidden.columns import CURVE
-from cfree.formats.boundary_file import read_boundary
+from cfree.formats.boundaries.boundary_file import read_boundary
 from cfree.geometry.normals import gauss_map
 from cfree.scene.scene import Scene
 from cfree.verify.angles import orientation

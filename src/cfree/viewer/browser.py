@@ -8,7 +8,7 @@ import webbrowser
 from pathlib import Path as FilePath
 
 from cfree.arguments import checked
-from cfree.formats.atomic import checked_suffix, replacing
+from cfree.formats.text.atomic import checked_suffix, replacing
 from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene

@@ -1,0 +1,1 @@
+"""Answers in files: paths and separations, as JSON text and as pydantic models."""

@@ -1,0 +1,69 @@
+"""Write separations as JSON text, exactly; `docs/answer-format.md` describes it, `separation_format.py` reads it."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from cfree.forbidden.columns import COLUMNS
+from cfree.formats.answers.effect import Effect
+from cfree.formats.answers.path_text import answer_head, polygon_record
+from cfree.formats.text.json_text import json_line
+from cfree.paths.path import Path
+from cfree.planning.goals import AllSeparated
+from cfree.planning.separation import Pieces, Separated
+from cfree.scene.digest import Stamp
+from cfree.scene.features import unpacked
+
+KINDS = {1: "vertex-edge", 2: "edge-vertex"}
+ENDS = ("from", "to")
+
+
+def separation_text(proof: Separated, stamp: Stamp) -> str:
+    """Return the JSON of a separation; reading it gives an equal one."""
+    decimals = Effect(Path(proof.start, ()), proof.goal, stamp).decimals()
+    head: dict[str, Any] = {
+        **answer_head("separated", proof, stamp, decimals),
+        "of": proof.of,
+        "obstacles": proof.obstacles,
+    }
+    if proof.robot:
+        head["smaller_robot"] = [polygon_record(part) for part in proof.robot]
+    if proof.bounds:
+        head["larger_bounds"] = [*map(str, proof.bounds)]
+    if proof.clearance:
+        head |= {"clearance": str(proof.clearance), "cores": [polygon_record(part) for part in proof.cores]}
+    if proof.pieces.auxiliary:
+        head["auxiliary"] = [
+            {"of": a.of, "kind": a.kind, "number": a.number, "points": [[str(x), str(y)] for x, y in a.points]}
+            for a in proof.pieces.auxiliary
+        ]
+    lines = ",\n".join(f"  {json.dumps(record)}" for record in _records(proof.pieces))
+    members = [*(f'"{key}": {json_line(value)}' for key, value in head.items()), f'"surface": [\n{lines}\n]']
+    return "{" + ",\n ".join(members) + "}\n"
+
+
+def all_separated_text(answer: AllSeparated, stamp: Stamp) -> str:
+    """Return the JSON of separations from all goals; reading it gives an equal answer."""
+    head = {"version": 1, "answer": "all separated", "of": answer.of}
+    members = [f'"{key}": {json.dumps(value)}' for key, value in head.items()]
+    if answer.places:
+        members.append(f'"places": {json.dumps([[str(x), str(y)] for x, y in answer.places])}')
+    proofs = ",\n".join(separation_text(proof, stamp).rstrip() for proof in answer.proofs)
+    return "{" + ",\n ".join([*members, f'"proofs": [\n{proofs}\n]']) + "}\n"
+
+
+def _records(pieces: Pieces) -> list[dict[str, Any]]:
+    t, records = pieces.table, []
+    rows = zip(pieces.kind.tolist(), pieces.robot.tolist(), pieces.obstacle.tolist(), strict=True)
+    columns = zip(*(getattr(t, name).tolist() for name in COLUMNS), strict=True)
+    for (kind, robot, obstacle), values in zip(rows, columns, strict=True):
+        row = dict(zip(COLUMNS, values, strict=True))
+        record: dict[str, Any] = {"contact": {"kind": KINDS[kind], "robot": robot, "obstacle": obstacle}}
+        record["chart"] = row["chart"]
+        for end in ENDS:
+            codes = [row[f"{end}_first"], row[f"{end}_second"]]
+            angle = {"names": [unpacked(c) for c in codes if c], "tau": [row[f"{end}_lo"], row[f"{end}_hi"]]}
+            record[end] = angle | ({"place": row[f"{end}_place"]} if row[f"{end}_place"] else {})
+        records.append(record | {side: unpacked(row[side]) for side in ("lower", "upper")})
+    return records

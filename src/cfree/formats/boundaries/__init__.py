@@ -1,0 +1,1 @@
+"""Boundaries, their tables, meshes and slices in files."""

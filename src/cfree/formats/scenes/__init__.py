@@ -1,0 +1,1 @@
+"""The JSON scene: its values, its models, its round shapes."""

@@ -1,0 +1,82 @@
+"""Scenes are read in two ways, at once and by models that find every fault: both mean the same."""
+
+import json
+import random
+from copy import deepcopy
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cfree.errors import FormatError
+from cfree.formats.scenes.scene_format import scene_from_models
+from cfree.formats.scenes.scene_values import scene_from_plain
+from cfree.formats.text.findings import Findings
+from cfree.formats.text.json_text import read_literals, with_numbers
+from cfree.scene.scene import Scene
+from examples import POLYGONS
+
+ROOT = Path(__file__).parents[3]
+RICH = {
+    "version": 1,
+    "name": "K\u00fcche",
+    "note": "",
+    "units": "m",
+    "source": {"licence": "MIT"},
+    "robot": [{"outer": [[0, 0], [1, 0], ["0", 1.5]], "holes": [[[0.1, 0.1], [0.2, 0.1], [0.1, "1/5"]]]}],
+    "obstacles": [
+        {"name": None, "outer": [[3, 0], [4, 0], [3, 1e0]]},
+        {"name": "a", "outer": [[5, 0], [6, 0], [5, 1]]},
+        [[7, 0], ["8", 0], [7, "1/3"]],
+    ],
+    "workspace": {"outer": [[-9, -9], [9, -9], [9, 9], [-9, 9]], "holes": []},
+    "bounds": [-8, "-8", 8.5, 8],
+    "start": [0, 0.5, "90deg"],
+    "goal": [0, "1/3", {"tau": 0.5}],
+    "check": {"free": True, "list": [1, 2.5, None]},
+}
+ODD: tuple[Any, ...] = (
+    None, True, 0, 1, -1.5, 1e400, 2, "", "1", "x", "1/0", "90deg", "\ud800", [], {}, [0, 0], [0, 0, 0], [0, 0, 1, 1],
+    [1, 1, 0, 0], {"tau": None}, {"tau": "inf"}, {"a": "\ud800"}, "n" * 1001, {"outer": [[0, 0], [1, 0]]}, [[]],
+)  # fmt: skip
+
+
+def both(text: str) -> tuple[Scene | None, Scene | None]:
+    """What the quick reader says, and what the models say."""
+    findings = Findings("scene.json", text)
+    data = read_literals(findings)
+    quick = None if findings else scene_from_plain(data)
+    try:
+        return quick, scene_from_models(findings, with_numbers(read_literals(Findings("scene.json", text))))
+    except FormatError:
+        return quick, None
+
+
+@pytest.mark.parametrize("text", [*(file.read_text() for file in POLYGONS), json.dumps(RICH)])
+def test_a_scene_without_faults_is_read_at_once(text: str) -> None:
+    quick, checked = both(text)
+    assert quick is not None and quick == checked
+    assert repr(quick.check) == repr(checked.check)
+
+
+@pytest.mark.slow
+def test_whatever_is_changed_both_say_the_same() -> None:
+    rng, kept = random.Random(3), 0
+    for _ in range(600):
+        data = deepcopy(RICH)
+        part: Any = data
+        while isinstance(part, (dict, list)) and part:
+            around, step = part, rng.choice([*part] if isinstance(part, dict) else range(len(part)))
+            part = part[step]
+            if rng.random() < 0.3:
+                break
+        if rng.random() < 0.2:
+            del around[step]
+        elif rng.random() < 0.1 and isinstance(around, dict):
+            around["other"] = 1
+        else:
+            around[step] = rng.choice(ODD)
+        quick, checked = both(json.dumps(data))
+        assert quick == checked, json.dumps(data)
+        kept += quick is not None
+    assert 40 < kept < 560
