@@ -165,11 +165,11 @@ def test_the_picture_shows_what_is_in_the_way(run: Run, tmp_path: Path) -> None:
     ends = {"start": [0, 0, 0], "goal": [9, 0, 0], "bounds": [-9, -9, 12, 9]}
     scene.write_text(json.dumps({"robot": shape, "obstacles": walls[:1]} | ends))
     result = run("plan", scene, "--what-if", "--picture", picture)
-    assert result.exit_code == 1 and "there is a way without obstacle 0 (gate), 1 x 18 at (4.5, 0)" in result.stdout
+    assert result.exit_code == 1 and "there is a path without obstacle 0 (gate), 1 x 18 at (4.5, 0)" in result.stdout
     assert "<!-- without obstacle 0 (gate), 1 x 18 at (4.5, 0) -->" in picture.read_text()
     scene.write_text(json.dumps({"robot": shape, "obstacles": walls} | ends))
     result = run("plan", scene, "--what-if", "--picture", picture)
-    assert "no single obstacle" in result.stdout and "parted by" in picture.read_text()
+    assert "no single obstacle" in result.stdout and "separated by" in picture.read_text()
 
 
 @pytest.mark.parametrize(
@@ -279,7 +279,7 @@ def test_clearances_and_several_goals(run: Run, tmp_path: Path) -> None:
     for options, code, said in (
         (["--clearance", "1/2"], 0, "each motion proved free and to keep 0.5"),
         (["--clearance", "0.51"], 1, "no path that keeps 0.51, proved"),
-        (["--clearance", "0.51", "--what-if"], 1, "there is a way without one of these: obstacle 0, "),
+        (["--clearance", "0.51", "--what-if"], 1, "there is a path without one of these: obstacle 0, "),
         (["--goal", "0,-5"], 0, "goal reached"),
         (["--goal", "3,5", "--goal", "0,-5,0"], 0, "goal reached"),
     ):
@@ -325,8 +325,8 @@ def test_poses_with_times_and_standard_output(run: Run, tmp_path: Path) -> None:
     (tmp_path / "exact.json").write_text(run("plan", file, "-o", "-").stdout)
     assert run("verify", file, tmp_path / "exact.json").exit_code == 0
     for options, said in (
-        (["-o", "-", "--json"], "-o -: --json prints there, too; leave one of them out"),
-        (["--step", "1"], "--step: of sampled poses; give -o with .csv, .yaml or .geojson, or --format"),
+        (["-o", "-", "--json"], "-o -: --json prints to standard output as well; leave one of them out"),
+        (["--step", "1"], "--step: only for sampled poses; give -o with .csv, .yaml or .geojson, or --format"),
         (["-o", "w.csv", "--speed", "0"], "--speed: '0'; give a speed above 0"),
         (["-o", "w.csv", "--step", "0"], "--step: '0'; give a length above 0"),
         (["-o", "w.csv", "--turn", "-5deg"], "--turn: -5deg; give an angle above 0"),
@@ -343,7 +343,7 @@ def test_improving_says_what_there_was_before(run: Run) -> None:
     before, gained = facts["before it was improved"], facts["gained"]
     assert facts["length"] <= before["length"] and gained["length"] == before["length"] - facts["length"]
     said = run("plan", flat, "--improve", "100ms").stdout
-    assert "before it was improved" in said and "least clearance" in said and "less way" in said
+    assert "before it was improved" in said and "least clearance" in said and "shorter" in said
     assert "before it was improved" not in run("plan", flat, "--improve", "0").stdout
 
 

@@ -305,7 +305,7 @@ def test_the_film_of_a_plan_is_as_long_as_is_said(
         path.touch()
 
     monkeypatch.setattr("cfree.film.encode.write", write)
-    for stage in ("cfree.film.way.PathStage", "cfree.film.frame.Stage"):
+    for stage in ("cfree.film.path_film.PathStage", "cfree.film.frame.Stage"):
         monkeypatch.setattr(f"{stage}.draw", lambda *_: np.zeros((2, 2, 3)))
     for scene in ("hall.json", "closed.json"):
         assert run("plan", folder / scene, "--improve", "0", "--film", folder / f"a.{suffix}").exit_code < 2

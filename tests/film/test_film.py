@@ -25,12 +25,12 @@ from cfree.collision.pose_checker import is_free
 from cfree.contact.definitions import contact_features, is_forbidden
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose, Poses
+from cfree.film.camera import Camera
+from cfree.film.contact_motions import Moment, Ring, columns, outward, over_column, roll, surface_of
 from cfree.film.encode import write
-from cfree.film.eye import Eye
 from cfree.film.frame import Stage, caption
 from cfree.film.free_motions import FreeMotions
-from cfree.film.moves import Moment, Ring, columns, outward, over_column, roll, surface_of
-from cfree.film.reel import LATER, check_options, shots_of, views
+from cfree.film.montage import LATER, check_options, shots_of, views
 from cfree.film.storyboard import STORYBOARDS, Shot, storyboard
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.forbidden.kinds import PatchKind
@@ -359,8 +359,8 @@ def test_frames_show_the_robot_in_its_pose_and_the_configuration_space_at_its_or
         area = sum(float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2 for x, y in ((r - r[0]).T for r in rings))
         assert area == pytest.approx(cut.area, rel=1e-6)
         # the point of the configuration space, as the camera sees it at that height
-        eye = Eye(stage.space.window, *stage.space.panel, view.azimuth)
-        assert stage.space.point.get_xydata()[0] == pytest.approx(eye(np.array([[x, y, degrees]]))[0][0])
+        camera = Camera(stage.space.window, *stage.space.panel, view.azimuth)
+        assert stage.space.point.get_xydata()[0] == pytest.approx(camera(np.array([[x, y, degrees]]))[0][0])
         assert stage.space.tag.get_text() == f"θ = {degrees:.0f}°"
         touched = result.patch_kind[result.slice(pose.theta).patches] != PatchKind.BOUND
         assert len(stage.space.section.get_segments()) == touched.sum()

@@ -15,7 +15,7 @@ import cfree
 from cfree.collision.motion import Rotation, Translation, rotations
 from cfree.errors import UnsupportedError
 from cfree.exact.pose import Pose
-from cfree.film.way import REST, SECONDS, PathStage, path_frames
+from cfree.film.path_film import REST, SECONDS, PathStage, path_frames
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.formats.scene_file import load_scene
 from cfree.palette import ROBOT

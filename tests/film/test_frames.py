@@ -16,12 +16,12 @@ import cfree
 from cfree.collision.pose_checker import is_free
 from cfree.exact.pose import Poses
 from cfree.film.box import Box
-from cfree.film.eye import Eye
+from cfree.film.camera import Camera
 from cfree.film.frame import Stage
-from cfree.film.reel import answer_of, apart, shots_of, views
+from cfree.film.montage import answer_of, separation_film, shots_of, views
+from cfree.film.path_film import PathStage
 from cfree.film.space import STAYS, _within
 from cfree.film.turntable import ALL_AROUND, Turntable
-from cfree.film.way import PathStage
 from cfree.forbidden.boundary import Boundary, boundary
 from cfree.formats.scene_file import load_scene
 from cfree.paths.path import Path
@@ -56,7 +56,7 @@ def some_frames(stage: Stage, shots: list, count: int = 6) -> Iterator[None]:  #
 @pytest.mark.slow
 def test_no_text_of_a_film_touches_another(five: Boundary, hall: Boundary) -> None:
     (shots,) = shots_of([five], 60, "paper")
-    films = [(Stage(five, SMALL, 4), shots), apart(hall, answer_of(hall), 12, SMALL, 4)]
+    films = [(Stage(five, SMALL, 4), shots), separation_film(hall, answer_of(hall), 12, SMALL, 4)]
     for stage, chosen in films:
         for _ in some_frames(stage, chosen):
             assert list(touching(stage.figure)) == []
@@ -158,7 +158,7 @@ def test_swept_patches_stay_visible_above_the_plane(five: Boundary) -> None:
 
 def test_a_film_of_a_separation_closes_its_surface_while_the_robot_tries(hall: Boundary) -> None:
     answer = answer_of(hall)
-    stage, shots = apart(hall, answer, 60, (160, 90), 4)
+    stage, shots = separation_film(hall, answer, 60, (160, 90), 4)
     assert len(shots) == 3 and sum(len(shot.moments) for shot in shots) == 60
     heights = [(view.shown[:, 1] - view.shown[:, 0]).clip(0).sum() for view, _ in views(stage, shots, 4)]
     first, second = (sum(len(shot.moments) for shot in shots[:k]) for k in (1, 2))
@@ -176,8 +176,8 @@ def test_a_path_and_what_fits_exactly_are_no_separations_to_film(five: Boundary,
     with pytest.raises(ValueError, match="there is a path from start to goal"):
         answer_of(five)
     fits: Any = SimpleNamespace(pieces=())
-    with pytest.raises(ValueError, match="parted by no surface"):
-        apart(hall, fits, 12, SMALL, 4)
+    with pytest.raises(ValueError, match="no surface separates"):
+        separation_film(hall, fits, 12, SMALL, 4)
 
 
 # turntables
@@ -190,9 +190,9 @@ def test_the_axes_stay_at_the_near_edges_all_around() -> None:
     corners = np.array([(x, y, 0.0) for x in (0.0, 4.0) for y in (0.0, 2.0)])
     for azimuth in np.radians(np.arange(-175, 180, 10)).tolist():
         box = Box(ax, window, ("x", "y"), math.floor(azimuth / (math.pi / 2) + 1) % 4)
-        eye = Eye(window, 100, 100, azimuth, ALL_AROUND)
-        flat, depth = eye(corners)
-        edges, _ = eye(box._edges)
+        camera = Camera(window, 100, 100, azimuth, ALL_AROUND)
+        flat, depth = camera(corners)
+        edges, _ = camera(box._edges)
         assert edges[2, :, 0].max() < flat[:, 0].min() + 5  # theta rises at the left
         near = flat[depth.argmin()]
         assert np.hypot(*(edges[0, 1] - near)) < 1e-9 and np.hypot(*(edges[1, 0] - near)) < 1e-9

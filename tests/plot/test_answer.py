@@ -371,7 +371,7 @@ def test_a_separation_shows_its_barrier_and_its_surface() -> None:
     answer = cfree.plan(scene, Pose(3, 3), Pose(11, 3, "90deg"))
     figure = picture(answer, scene)
     assert figure.texts[0].get_text() == "no path from start to goal"
-    assert figure.texts[1].get_text().startswith("parted by obstacle 0, ")
+    assert figure.texts[1].get_text().startswith("separated by obstacle 0, ")
     plane, room = figure.axes
     barrier = artists(plane)["barrier"].get_path()
     assert (barrier.codes == barrier.MOVETO).sum() == 5
@@ -416,7 +416,7 @@ def test_separations_by_bounds_and_workspace_are_marked() -> None:
     figure = picture(answer, scene)
     assert to_rgb(artists(figure.axes[0])["workspace"].get_edgecolor()) == to_rgb(BARRIER)
     assert [text.get_text() for text in figure.texts] == [
-        "hall: no path from start to goal", "parted by the workspace; obstacle 0, 1 x 20 at (4.5, 0)",
+        "hall: no path from start to goal", "separated by the workspace; obstacle 0, 1 x 20 at (4.5, 0)",
     ]  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""What `cfree plan` does with an answer: written, drawn, filmed, put into words."""
+"""Answers of `cfree plan`: write, draw and film them, and put them into words."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass
 class Sampling:
-    """In which form a path is written, and with which poses.
+    """The form in which a path is written, and the spacing of its sampled poses.
 
     Attributes
     ----------
@@ -46,40 +46,40 @@ class Sampling:
     def of(
         cls, output: Path | None, form: Form | None, step: str | None, turn: str | None, speed: str | None
     ) -> Sampling:
-        """From the options of the command line.
+        """Read the options of the command line.
 
         Raises
         ------
         ValueError
-            If there are no poses for them.
+            If an option needs sampled poses, and the form has none.
         """
         from cfree.cli.values import read_length, read_turn
         from cfree.formats.answers.answer_file import form_of
 
         form = "json" if output is None or (str(output) == "-" and form is None) else form_of(output, form)
-        given = {name: text for name, text in (("--step", step), ("--turn", turn), ("--speed", speed)) if text}
-        if form == "json" and given:
-            wrong = ", ".join(given)
-            raise ValueError(f"{wrong}: of sampled poses; give -o with .csv, .yaml or .geojson, or --format")
+        options = {name: text for name, text in (("--step", step), ("--turn", turn), ("--speed", speed)) if text}
+        if form == "json" and options:
+            wrong = ", ".join(options)
+            raise ValueError(f"{wrong}: only for sampled poses; give -o with .csv, .yaml or .geojson, or --format")
         kinds = {"--step": "a length", "--speed": "a speed"}
         length, most = (
-            float(read_length(given[name], name, what)) if name in given else None for name, what in kinds.items()
+            float(read_length(options[name], name, what)) if name in options else None for name, what in kinds.items()
         )
         return cls(form, length, read_turn(turn) if turn else math.radians(5), most)
 
 
 @dataclass
 class Answering:
-    """A question about a scene, and its answer in all forms that are asked for.
+    """A planning query for a scene, and its answer in all forms wanted.
 
     Attributes
     ----------
     planner : Planner
     start : Pose
     goal : Pose or None
-        None if any of several will do.
+        None if there are several goals, any of which will do.
     files : dict
-        Names of the files to write; those that there is nothing to write into are taken out.
+        Names of the files to write; files without content are removed from it.
     answer : Path, Separated or AllSeparated
     """
 
@@ -88,7 +88,7 @@ class Answering:
     goal: Pose | None
     files: dict[str, str]
     answer: Motions | Separated | AllSeparated
-    first: Motions | Separated | AllSeparated | None = None  # before it was improved
+    first: Motions | Separated | AllSeparated | None = None  # the first path, before its improvement
 
     @classmethod
     def of(
@@ -100,16 +100,18 @@ class Answering:
         *,
         nearest_free: bool = False,
     ) -> Answering:
-        """The answer, with options of `Planner.plan`, unless a limit leaves the command without one."""
+        """Plan, with options of `Planner.plan`; end the command if a limit leaves no answer."""
         from cfree.cli.folders import FolderPlanner
         from cfree.collision.nearest_free import ForbiddenPoseError
         from cfree.errors import IncompleteError
         from cfree.exact.pose import Pose
         from cfree.scene.scene import required
 
-        given, goals = ends[0], ends[1] or planner.scene.goals
+        asked_start, goals = ends[0], ends[1] or planner.scene.goals
         is_one = not goals or (len(goals) == 1 and isinstance(goals[0], Pose))
-        start, goal = required(planner.scene, given, goals[0] if is_one and goals else None if is_one else Pose(0, 0))
+        start, goal = required(
+            planner.scene, asked_start, goals[0] if is_one and goals else None if is_one else Pose(0, 0)
+        )
         free = None
         if nearest_free:
             from cfree.planning.moved_ends import free_ends
@@ -131,7 +133,7 @@ class Answering:
         except IncompleteError as error:
             fail(str(error), INCOMPLETE)
         except ForbiddenPoseError as error:
-            is_folder = isinstance(planner, FolderPlanner)  # which moves nothing
+            is_folder = isinstance(planner, FolderPlanner)  # it moves no pose
             fail(str(error) if is_folder else f"{error}; or give --nearest-free", BAD_INPUT)
 
     @property
@@ -143,12 +145,12 @@ class Answering:
 
     @property
     def exit_code(self) -> int:
-        """0 for a path, 1 for a proof that there is none; 3 if one that touches may exist."""
-        of = getattr(self.answer, "of", None)
-        return {None: 0, "closed": REFUTED}.get(of, INCOMPLETE)
+        """0 for a path, 1 for a proof that there is none; 3 if a path that touches may exist."""
+        proved = getattr(self.answer, "of", None)
+        return {None: 0, "closed": REFUTED}.get(proved, INCOMPLETE)
 
     def write(self, output: Path, poses: Sampling) -> None:
-        """A path in any form, a proof as JSON; to a file or to standard output."""
+        """Write a path in any form, or a proof as JSON, to a file or to standard output."""
         from cfree.formats.answers.answer_file import text_of, text_of_proof
         from cfree.formats.text.atomic import replacing
         from cfree.paths.path import Path as Motions
@@ -171,7 +173,7 @@ class Answering:
 
     @cached_property
     def blockers(self) -> tuple[Blocker, ...]:
-        """Obstacles that, taken away, open a way from start to goal."""
+        """Single obstacles whose removal opens a path from start to goal."""
         from cfree.analysis.blockers import blockers
 
         clearance = getattr(self.answer, "clearance", None) or None
@@ -179,7 +181,7 @@ class Answering:
             return blockers(self.planner.scene, self.start, self.goal, clearance=clearance, progress=progress)
 
     def draw(self, picture: Path, *, what_if: bool) -> None:
-        """The picture, with the configuration space, of several proofs that of the first; or what opens a way."""
+        """Draw the answer with the configuration space (the first of several proofs), or the blockers for `what_if`."""
         from cfree.paths.path import Path as Motions
         from cfree.planning.separation import Separated
         from cfree.plot.answer import picture as drawn
@@ -199,7 +201,7 @@ class Answering:
             save_figure(figure, picture)
 
     def film(self, film: Path) -> None:
-        """The film of a path, or of a proof; of several proofs that of the first."""
+        """Film a path or a proof, the first of several proofs."""
         from cfree.film import film_path, film_separation
         from cfree.paths.path import Path as Motions
         from cfree.planning.separation import Separated
@@ -210,31 +212,36 @@ class Answering:
             return
         shown = self.answer if isinstance(self.answer, Separated) else self.answer.proofs[0]
         if not len(shown.pieces):
-            self._leave_out("film", film, "start and goal are parted by no surface, but by what fits exactly")
+            self._leave_out("film", film, "no surface separates start and goal, but exact fits do")
             return
         boundary = self.planner.free_space.boundary
         with bar("film") as progress:
             film_separation(shown, boundary, film, progress=progress)
 
     def rows(self, *, for_machines: bool, nearest_miss: bool, what_if: bool) -> dict[str, Any]:
-        """The answer in words and numbers."""
+        """Describe the answer in words and numbers."""
         from cfree.cli.report import answer_facts, answer_rows, moved_facts, moved_rows
 
         with bar("least clearance"):
-            said = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
+            described = (answer_facts if for_machines else answer_rows)(self.answer, self.planner.scene)
         moved = moved_facts(self.answer) if for_machines else moved_rows(self.answer)
-        rows: dict[str, Any] = {"answer": said["answer"], **moved, **said}
+        rows: dict[str, Any] = {"answer": described["answer"], **moved, **described}
         if self.path is not None and self.first is not None:
             facts = answer_facts(self.first, self.planner.scene)
             now = answer_facts(self.answer, self.planner.scene)
-            kept = ("length", "turning", "clearance")
-            rows["before it was improved"] = {name: facts[name] for name in kept} if for_machines else _before(facts)
+            compared = ("length", "turning", "clearance")
+            rows["before it was improved"] = (
+                {name: facts[name] for name in compared} if for_machines else _before(facts)
+            )
             rows["gained"] = _gained(facts, now) if for_machines else _in_words(_gained(facts, now))
         if self.path is not None and self.planner.preferences.matter:
             from cfree.paths.preferences import unwanted
 
-            found = unwanted(self.path, self.planner.scene, self.planner.preferences)
-            rows["rather not"] = [asdict(part) for part in found] if for_machines else self._unwanted(found)
+            parts = unwanted(self.path, self.planner.scene, self.planner.preferences)
+            if for_machines:
+                rows["rather not"] = [asdict(part) for part in parts]
+            else:
+                rows["penalised motions"] = self._unwanted(parts)
         if self.goal is None and self.path is not None:
             goal = self.path.goal
             x, y, theta = float(goal.x), float(goal.y), goal.theta
@@ -247,24 +254,24 @@ class Answering:
         return rows
 
     def _what_if(self, for_machines: bool) -> str | list[int]:
-        found = [blocker.obstacle for blocker in self.blockers]
+        obstacles = [blocker.obstacle for blocker in self.blockers]
         if for_machines:
-            return found
-        if not found:
-            return "no single obstacle, taken away, opens a way"
-        either = "one of these: " * (len(found) > 1)
-        return f"there is a way without {either}{all_placed(self.planner.scene, found)}"
+            return obstacles
+        if not obstacles:
+            return "no single obstacle, taken away, opens a path"
+        either = "one of these: " * (len(obstacles) > 1)
+        return f"there is a path without {either}{all_placed(self.planner.scene, obstacles)}"
 
-    def _unwanted(self, found: Sequence[Unwanted]) -> str:
+    def _unwanted(self, parts: Sequence[Unwanted]) -> str:
         units = self.planner.scene.units
-        return "; ".join(part.text(units) for part in found) or "nothing of it"
+        return "; ".join(part.text(units) for part in parts) or "none"
 
     def _nearest_miss(self) -> str:
         from cfree.analysis.margins import nearest_miss
 
         with bar("nearest miss") as progress:
-            found = nearest_miss(self.planner.scene, self.start, self.goal, progress=progress)
-        return str(found) if found is not None else "no smaller robot gets there either"
+            miss = nearest_miss(self.planner.scene, self.start, self.goal, progress=progress)
+        return str(miss) if miss is not None else "no smaller robot gets there either"
 
     def _leave_out(self, name: str, file: Path, why: str) -> None:
         self.files.pop(name, None)
@@ -272,7 +279,7 @@ class Answering:
 
 
 def _gained(before: dict[str, Any], now: dict[str, Any]) -> dict[str, float]:
-    """How much shorter, how much less turning, how much more clearance."""
+    """Gains of the improvement: less length, less rotation, more clearance."""
     gained = {name: before[name] - now[name] for name in ("length", "turning")}
     if before["clearance"] and now["clearance"]:
         gained["clearance"] = now["clearance"]["found"] - before["clearance"]["found"]
@@ -284,7 +291,7 @@ def _in_words(gained: dict[str, float]) -> str:
         value = scale * gained[name]
         return f"{abs(value):.4g} {more if value >= 0 else less}"
 
-    texts = [signed("length", "less way", "more way"), signed("turning", "degrees less", "degrees more", 180 / math.pi)]
+    texts = [signed("length", "shorter", "longer"), signed("turning", "degrees less", "degrees more", 180 / math.pi)]
     if "clearance" in gained:
         texts.append(signed("clearance", "more clearance", "less clearance"))
     return ", ".join(texts)
@@ -292,4 +299,4 @@ def _in_words(gained: dict[str, float]) -> str:
 
 def _before(facts: dict[str, Any]) -> str:
     least = f", least clearance {facts['clearance']['found']:.6g}" if facts["clearance"] else ""
-    return f"way {facts['length']:.6g}, turning {math.degrees(facts['turning']):.6g} degrees{least}"
+    return f"length {facts['length']:.6g}, total rotation {math.degrees(facts['turning']):.6g} degrees{least}"

@@ -1,4 +1,4 @@
-"""The command line: parse, call, print. Everything heavy is imported where it is used, so that help is quick."""
+"""The command line: parse, call, print. Heavy modules are imported in the commands, so that help is quick."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def main() -> None:
 )
 @click.version_option(package_name="cfree", message="cfree %(version)s", help="Print the version and exit.")
 def app() -> None:
-    """The exact configuration space of a planar robot that translates and rotates among polygons."""
+    """Compute the exact configuration space of a planar robot that translates and rotates among polygons."""
 
 
 app.add_command(check)
@@ -72,23 +72,23 @@ app.add_command(convert)
     )
 )
 @options.scene
-@file_option("--output", "-o", metavar="FILE", help="Write the boundary, all of it.")
+@file_option("--output", "-o", metavar="FILE", help="Write the boundary to a file.")
 @options.picture
 @file_option("--mesh", metavar="GLB", help="Write a mesh: .glb, .ply, .obj or .stl.")
 @click.option(
     "--error",
     type=float,
     metavar="E",
-    help="Greatest distance of the mesh to the boundary.",
+    help="Limit the distance of the mesh to the boundary, in scene units.",
     show_default="robot's radius / 100",
 )
 @options.threads
 @options.max_seconds
 @options.max_memory
-@file_option("--folder", metavar="DIR", help="Tile by tile, with the cells, into a folder, or go on there.")
-@click.option("--obstacles", multiple=True, type=FILE, metavar="FILE", help="With --folder: files of more obstacles.")
-@click.option("--tiles", type=click.IntRange(min=1), metavar="N", help="With --folder: how many tiles.",
-              show_default="one for 20,000 vertices")  # fmt: skip
+@file_option("--folder", metavar="DIR", help="Compute tile by tile, with cells, into a folder; or resume there.")
+@click.option("--obstacles", multiple=True, type=FILE, metavar="FILE", help="Add obstacles from a file; with --folder.")
+@click.option("--tiles", type=click.IntRange(min=1), metavar="N", help="Divide into N tiles; with --folder.",
+              show_default="one per 20,000 vertices")  # fmt: skip
 @options.workers
 @options.scheduler
 @options.verbose
@@ -101,15 +101,16 @@ def boundary(
 ) -> None:  # fmt: skip
     """Compute the boundary of the forbidden space.
 
-    Every contact patch, trimmed. SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads. If a limit
-    stops the work, what was done so far is written, marked as incomplete, and the exit code is 3. Into a folder it is
-    computed tile by tile, of any size and by any number of processes; ended at any moment, the same command goes on.
+    Trims every contact patch. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads. If a
+    limit stops the work, the part done so far is written, marked as incomplete, and the exit code is 3. With --folder
+    the boundary is computed tile by tile, of any size, by any number of processes; the same command resumes an
+    interrupted run.
     """
     with one_line_faults():
         if folder is not None:
             return _boundary_in_folder(scene, folder, as_json, obstacles, tiles, workers, scheduler)
-        of_tiles = "obstacles", "tiles", "workers", "scheduler"
-        options.refuse("of a boundary in tiles", *of_tiles, remedy="these need --folder")
+        tile_options = "obstacles", "tiles", "workers", "scheduler"
+        options.refuse("only for a boundary in tiles", *tile_options, remedy="these need --folder")
         if error is not None and not (mesh and 0 < error < math.inf):
             raise ValueError(f"--error: {error}; give a length above 0, with --mesh")
         written = check_outputs(scene, {"boundary": output, "mesh": mesh, "picture": picture})
@@ -123,9 +124,9 @@ def boundary(
             with bar("writing"):
                 save_boundary(result, output)
         if not result.complete:
-            kept = f"; what was done is in {output}" if output else ""
+            saved = f"; the part done is in {output}" if output else ""
             fail(
-                f"incomplete: {result.trimmed.sum():,} of {counted(result.stats.patches, 'patch')} trimmed{kept}",
+                f"incomplete: {result.trimmed.sum():,} of {counted(result.stats.patches, 'patch')} trimmed{saved}",
                 INCOMPLETE,
             )
         if mesh:
@@ -148,16 +149,16 @@ def _boundary_in_folder(
 
     others = "output", "picture", "mesh", "error", "threads", "max_seconds", "max_memory"
     options.refuse("not with --folder", *others)
-    found = folders.make(scene, obstacles, folder, tiles, workers, scheduler)
-    print_result(found.head.name or str(scene), scene, folders.facts(found, for_machines=as_json), {}, as_json)
+    result = folders.make(scene, obstacles, folder, tiles, workers, scheduler)
+    print_result(result.head.name or str(scene), scene, folders.facts(result, for_machines=as_json), {}, as_json)
 
 
 def _refuse_limits(*names: str) -> None:
-    options.refuse("of a computation, and this boundary is computed already", *names)
+    options.refuse("only for a computation, and this boundary is already computed", *names)
 
 
 def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, picture: Path | None) -> None:
-    """A mesh and a figure of it, if they are asked for."""
+    """Write a mesh and a figure of it, if wanted."""
     if mesh:
         from cfree.formats.boundaries.mesh_file import save_mesh
         from cfree.scene.scene import robot_radius
@@ -186,38 +187,48 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
 )
 @options.scene
 @click.option(
-    "--start", metavar="X,Y,THETA", help='As "1,1/2,30deg"; also "0.5rad", "tau:1/3".', show_default="the scene's"
+    "--start",
+    metavar="X,Y,THETA",
+    help='Start at "1,1/2,30deg"; theta also "0.5rad", "tau:1/3".',
+    show_default="the scene's",
 )
 @click.option(
     "--goal",
     metavar="X,Y[,THETA]",
     multiple=True,
-    help="The same; of X,Y any orientation will do. Of several --goal any one will.",
+    help="End there; X,Y allows any orientation. Repeat to allow any of several goals.",
     show_default="the scene's",
 )
-@file_option("--output", "-o", metavar="FILE", help="Write the answer: path or proof; - is standard output.")
+@file_option("--output", "-o", metavar="FILE", help="Write the answer, path or proof; - is standard output.")
 @click.option(
     "--format",
     "form",
     type=Word(["json", "csv", "ros", "geojson"]),
     metavar="FORM",
-    help="Of the file that -o writes: json, exact; or of a path sampled poses: csv, geojson, ros.",
+    help="Choose the form of -o: json, exact; or sampled poses of a path: csv, geojson, ros.",
     show_default="by the file's name, else json",
 )
 @click.option(
-    "--step", metavar="LENGTH", help="From one sampled pose to the next, at most.", show_default="robot's radius / 20"
+    "--step",
+    metavar="LENGTH",
+    help="Limit the distance between sampled poses, in scene units.",
+    show_default="robot's radius / 20",
 )
-@click.option("--turn", metavar="ANGLE", help="And the angle it turns, at most.", show_default="5deg")
-@click.option("--speed", metavar="SPEED", help="Of no point of the robot more: sampled poses have times.")
-@click.option("--clearance", metavar="LENGTH", help="A distance that the path keeps from obstacles and workspace.")
+@click.option("--turn", metavar="ANGLE", help="Limit the rotation between sampled poses.", show_default="5deg")
+@click.option(
+    "--speed",
+    metavar="SPEED",
+    help="Limit the speed of every point of the robot, in scene units a second; adds times to sampled poses.",
+)
+@click.option("--clearance", metavar="LENGTH", help="Keep this distance from obstacles and workspace, in scene units.")
 @click.option(
     "--nearest-free", is_flag=True, help="Move a start or goal that is not free to the nearest free pose found."
 )
 @click.option(
     "--improve",
     metavar="TIME",
-    help='How long to improve a path: "2s" or "500ms"; 0 for the first.',
-    show_default="briefly",
+    help='Improve the path for this time: "2s" or "500ms"; 0 gives the first path.',
+    show_default="a fixed number of attempts",
 )
 @click.option(
     "--objective",
@@ -225,25 +236,34 @@ def _draw_boundary(result: Boundary, mesh: Path | None, error: float | None, pic
     metavar="WORD",
     default="balanced",
     show_default=True,
-    help='"balanced", "short", or "clear": as far from obstacles as it gets.',
+    help='Prefer paths that are "balanced", "short", or "clear": as far from obstacles as possible.',
 )
 @click.option(
     "--prefer",
     metavar="FACTORS",
-    help='How much dearer than ahead, as "sideways=5,backward=2,turning=3"; the answer says where it is done.',
+    help='Set costs relative to driving ahead, as "sideways=5,backward=2,turning=3"; the answer lists such motions.',
 )
 @options.picture
-@file_option("--film", metavar="FILE", help="Of a path, or of a proof: .mp4 or .gif.")
+@file_option("--film", metavar="FILE", help="Write a film of the path or the proof: .mp4 or .gif.")
 @click.option(
-    "--nearest-miss", "miss", is_flag=True, help="Of a proof: by how much, and where. Takes a dozen times as long."
+    "--nearest-miss",
+    "miss",
+    is_flag=True,
+    help="If there is no path: find how much the robot must shrink, and where. About 12 times slower.",
 )
 @click.option(
     "--what-if",
     is_flag=True,
-    help="Of a proof: which single obstacles, taken away, open a way; the picture shows these.",
+    help="If there is no path: find single obstacles whose removal opens one; --picture shows them.",
 )
-@click.option("--tolerance", type=float, metavar="E", help="Of round shapes: the least error of polygons for them.")
-@file_option("--part", metavar="JSON", help="Of a folder: write the scene with the obstacles that were needed.")
+@click.option(
+    "--tolerance",
+    type=float,
+    metavar="E",
+    help="Limit the refinement of polygons for round shapes: their least error, in scene units.",
+    show_default="refined until decided",
+)
+@file_option("--part", metavar="JSON", help="Write the scene with the needed obstacles; if SCENE is a folder.")
 @options.max_seconds
 @options.as_json
 def plan(
@@ -254,54 +274,58 @@ def plan(
 ) -> None:  # fmt: skip
     """Find a path from start to goal, or prove that there is none.
 
-    Each motion is proved free. SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, a boundary
-    written by cfree boundary -o, or a folder written by cfree boundary --folder, of which only what is near the way is
-    read. Exit code 0: a path; 1: proved impossible; 2: bad input; 3: a limit, or proved but for paths that touch, or a
-    clearance that is too near to the largest, or round shapes that all but touch.
+    Each motion is proved free. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads; or a
+    boundary written by cfree boundary -o; or a folder written by cfree boundary --folder, of which only tiles near the
+    path are read. Exit code 0: a path; 1: proved impossible; 2: bad input; 3: undecided, by a limit, because only paths
+    that touch may exist, because the clearance is too near to the largest, or because round shapes almost touch.
     """
     with one_line_faults():
         from cfree.cli.answering import Answering, Sampling
 
         printed = str(output) == "-"
         if output is None:
-            options.refuse("of the file that -o writes", "form", remedy="give -o FILE, or -o - for standard output")
+            options.refuse(
+                "only for the file that -o writes", "form", remedy="give -o FILE, or -o - for standard output"
+            )
         if not scene.is_dir():
-            options.refuse("of a folder written by cfree boundary --folder", "part")
+            options.refuse("only for a folder written by cfree boundary --folder", "part")
         if printed and as_json:
-            raise ValueError("-o -: --json prints there, too; leave one of them out")
+            raise ValueError("-o -: --json prints to standard output as well; leave one of them out")
         written = check_outputs(
             scene, {"answer": None if printed else output, "picture": picture, "film": film, "part": part}
         )
         poses = Sampling.of(output, form, step, turn, speed)
         seconds = None if improve is None else read_seconds(improve)
         if seconds == 0 and objective != "clear":
-            options.refuse("of a path that is improved, and --improve 0 asks for the first", "objective")
+            options.refuse("only for a path that is improved, and --improve 0 gives the first", "objective")
         ends = read_pose(start, "--start"), read_goals(goal)
         room = None if clearance is None else read_length(clearance, "--clearance")
         how: dict[str, Any] = {"clearance": room, "improve": seconds, "objective": objective}
         planner: Any = planner_of(scene, max_seconds, read_preferences(prefer), tolerance)
         if (miss or what_if) and planner.scene.curved:
-            raise ValueError("--nearest-miss, --what-if: of polygons; give what cfree convert --inner writes")
+            raise ValueError(
+                "--nearest-miss, --what-if: only for polygons; convert round shapes by cfree convert --inner"
+            )
         if nearest_free and scene.is_dir():
             raise ValueError("--nearest-free: not in a folder; give the scene itself")
-        found = Answering.of(planner, ends, written, how, nearest_free=nearest_free)
+        answering = Answering.of(planner, ends, written, how, nearest_free=nearest_free)
         if output:
-            found.write(output, poses)
+            answering.write(output, poses)
         if picture:
-            found.draw(picture, what_if=what_if)
+            answering.draw(picture, what_if=what_if)
         if film:
-            found.film(film)
+            answering.film(film)
         if part:
             from cfree.formats.scene_file import save_scene
 
-            save_scene(found.planner.scene, part)
-        rows = found.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)
+            save_scene(answering.planner.scene, part)
+        rows = answering.rows(for_machines=as_json, nearest_miss=miss, what_if=what_if)
         if scene.is_dir():
-            rows["tiles read"] = planner.found.tiles_read
+            rows["tiles read"] = planner.sharded.tiles_read
         with redirect_stdout(sys.stderr) if printed else nullcontext():
-            print_result(found.planner.scene.name or str(scene), scene, rows, found.files, as_json)
-    if found.exit_code:
-        raise click.exceptions.Exit(found.exit_code)
+            print_result(answering.planner.scene.name or str(scene), scene, rows, answering.files, as_json)
+    if answering.exit_code:
+        raise click.exceptions.Exit(answering.exit_code)
 
 
 @app.command(
@@ -312,15 +336,18 @@ def plan(
     ),
 )
 @options.scene
-@click.option("--theta", metavar="ANGLE", help='"30deg", "0.5rad", or "tau:1/3".', required=True)
-@file_option("--output", "-o", metavar="GEOJSON", help="Write region and contact segments.")
+@click.option(
+    "--theta", metavar="ANGLE", help='Cut at this orientation: "30deg", "0.5rad" or "tau:1/3".', required=True
+)
+@file_option("--output", "-o", metavar="GEOJSON", help="Write the region and its contact segments.")
 @options.picture
 @options.threads
 @options.as_json
 def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, threads: int | None, as_json: bool) -> None:
     """Cut the forbidden space at one orientation of the robot.
 
-    SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, or a boundary written by cfree boundary -o.
+    SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads, or a boundary written by cfree
+    boundary -o.
     """
     with one_line_faults():
         angle = read_angle(theta, "--theta")
@@ -330,17 +357,17 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
         if is_archive(scene):
             _refuse_limits("threads")
         result = computed(read_source(scene), threads)
-        found = result.slice(angle)
+        section = result.slice(angle)
         if output:
             from cfree.formats.boundaries.slice_geojson import save_slice
 
-            save_slice(found, output)
+            save_slice(section, output)
         if picture:
             from cfree.plot.boundary import plot_slice, save_figure
 
             with bar("picture"):
-                save_figure(plot_slice(found).figure, picture)
-        print_result(f"slice of {result.scene.name or scene}", scene, describe_slice(found), written, as_json)
+                save_figure(plot_slice(section).figure, picture)
+        print_result(f"slice of {result.scene.name or scene}", scene, describe_slice(section), written, as_json)
 
 
 @app.command(
@@ -353,12 +380,12 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
     )
 )
 @click.argument("scenes", type=FILE, metavar="SCENE... [ANSWER]", nargs=-1, required=True)
-@file_option("--output", "-o", metavar="FILE", help="The film: .mp4 or .gif.", required=True)
+@file_option("--output", "-o", metavar="FILE", help="Write the film: .mp4 or .gif.", required=True)
 @click.option(
     "--storyboard",
     type=Word(["paper", "path", "separation", "turntable"]),
     metavar="NAME",
-    help='"paper": slices, a helix, patches, all of the boundary, a path; or "path", "separation", "turntable".',
+    help='Choose "paper" (slices, a helix, patches, the whole boundary, a path), "path", "separation" or "turntable".',
     default="paper",
     show_default=True,
 )
@@ -366,18 +393,23 @@ def cut(scene: Path, theta: str, output: Path | None, picture: Path | None, thre
     "--seconds",
     type=float,
     metavar="S",
-    help="Length of the film.",
+    help="Set the length of the film in seconds.",
     show_default="GIF 6; else 30, separation 12, turntable 8, an answer's path 6 to 22",
 )
-@click.option("--fps", type=int, metavar="N", help="Frames a second.", default=25, show_default=True)
-@click.option("--size", metavar="WxH", help="Pixels, even numbers.", show_default="1280x720; 640x360 for a GIF")
+@click.option("--fps", type=int, metavar="N", help="Set the frames a second.", default=25, show_default=True)
+@click.option(
+    "--size",
+    metavar="WxH",
+    help="Set width and height in pixels, even numbers.",
+    show_default="1280x720; 640x360 for a GIF",
+)
 def film(
     scenes: tuple[Path, ...], output: Path, storyboard: Storyboard, seconds: float | None, fps: int, size: str | None
 ) -> None:
     """Make a film of the robot and of its configuration.
 
-    The robot among the obstacles, and the point it is in the configuration space. Scenes are shown one after the
-    other; each is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads, or a boundary written by cfree
+    Shows the robot among the obstacles, and its point in the configuration space. Scenes follow one after the other;
+    each is JSON, GeoJSON, WKT, SVG, DXF or another format that cfree convert reads, or a boundary written by cfree
     boundary -o. All storyboards but the turntable need the start and the goal of each scene. After one scene ANSWER may
     follow, a path or a proof for it, written by cfree plan -o: then the film shows this answer.
     """
@@ -391,8 +423,8 @@ def film(
         pixels = read_pixels(size or ("640x360" if output.suffix.lower() == ".gif" else "1280x720"))
         if is_answer(scenes[-1]):
             if len(scenes) != 2:
-                raise ValueError(f"{scenes[-1]}: an answer; give it after one scene, the one that it is for")
-            options.refuse("not with an answer, which is filmed as it is", "storyboard")
+                raise ValueError(f"{scenes[-1]}: an answer; give it after one scene, its own")
+            options.refuse("not with an answer, which has a storyboard of its own", "storyboard")
             rows = film_answer(*scenes, output, seconds, fps, pixels)
         else:
             rows = film_scenes(scenes, output, storyboard, seconds, fps, pixels)
@@ -404,13 +436,14 @@ def film(
 )
 @options.scene
 @click.argument("answer", type=FILE, required=False)
-@file_option("--html", metavar="HTML", help="Write the page here, .html; it needs no other file and no server.")
-@click.option("--browser/--no-browser", help="Open it in the browser.", default=True, show_default=True)
+@file_option("--html", metavar="HTML", help="Write the page: .html; it needs no other file and no server.")
+@click.option("--browser/--no-browser", help="Open the page in the browser, or not.", default=True, show_default=True)
 def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> None:
     """Show a scene in the browser, to be dragged and turned.
 
-    Beside it its configuration space, exact like all answers. ANSWER is a path or a proof written by cfree plan -o for
-    this scene; that of another is refused. SCENE is JSON, GeoJSON, WKT, SVG, DXF or what else cfree convert reads.
+    Shows its configuration space beside it, exact like all answers. ANSWER is a path or a proof written by cfree plan
+    -o for this scene; an answer for another scene is refused. SCENE is JSON, GeoJSON, WKT, SVG, DXF or another format
+    that cfree convert reads.
     """
     with one_line_faults():
         from cfree.formats.scene_file import load_scene
@@ -421,11 +454,11 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
             if html and source:
                 check_outputs(source, {"page": html})
         with bar("reading"):
-            given = load_scene(scene)
-            found = answer_for(given, answer) if answer else None
-        if isinstance(found, AllSeparated):
+            loaded = load_scene(scene)
+            shown = answer_for(loaded, answer) if answer else None
+        if isinstance(shown, AllSeparated):
             raise ValueError(f"{answer}: proofs for several goals, and the page shows one; plan with one goal")
-        print(printable(str(show(given, found, html=html, browser=browser))))
+        print(printable(str(show(loaded, shown, html=html, browser=browser))))
 
 
 @app.command(
@@ -439,17 +472,17 @@ def view(scene: Path, answer: Path | None, html: Path | None, browser: bool) -> 
 @options.scene
 @click.argument("file", type=FILE, required=False)
 @click.option(
-    "--sample", type=click.IntRange(min=0), metavar="N", help="Of a boundary: check N trapezoids, no sides.",
+    "--sample", type=click.IntRange(min=0), metavar="N", help="Check N random trapezoids of a boundary, no sides.",
     show_default="all",
 )  # fmt: skip
 @click.option(
-    "--slices", type=click.IntRange(min=0), metavar="N", help="Of a boundary: orientations to redo.",
+    "--slices", type=click.IntRange(min=0), metavar="N", help="Recompute a boundary's slices at N random orientations.",
     default=12, show_default=True,
 )  # fmt: skip
-@click.option("--seed", type=int, metavar="N", help="Of the random choices.", default=0, show_default=True)
+@click.option("--seed", type=int, metavar="N", help="Seed the random choices.", default=0, show_default=True)
 @click.option(
     "--deep", is_flag=True,
-    help="Of a boundary: count Euler numbers by slices and by the degree of the Gauss map. For small scenes.",
+    help="Count a boundary's Euler numbers by slices and by the degree of the Gauss map; for small scenes.",
 )  # fmt: skip
 @options.workers
 @options.scheduler
@@ -460,10 +493,10 @@ def verify(
 ) -> None:  # fmt: skip
     """Check a boundary or an answer by independent exact code.
 
-    What is proved is told from what is sampled. FILE is a boundary written by cfree boundary -o, or an answer: a path
-    or a proof. SCENE may be a folder written by cfree boundary --folder: its shards are checked, each of them and then
-    its borders (--sample: of each tile), or a path in it. Exit code 0: verified; 1: refuted; 2: a file that cannot be
-    read.
+    The result distinguishes proved from sampled checks. FILE is a boundary written by cfree boundary -o, or an answer:
+    a path or a proof. SCENE may be a folder written by cfree boundary --folder: then each shard and its borders are
+    checked (--sample counts for each tile), or FILE, a path in it. Exit code 0: verified; 1: refuted; 2: a file that
+    cannot be read.
     """
     with one_line_faults():
         if deep and (file is None or scene.is_dir() or not is_archive(file)):
@@ -471,34 +504,34 @@ def verify(
         if scene.is_dir():
             from cfree.cli import folders
 
-            options.refuse("of a boundary in one file", "slices")
+            options.refuse("only for a boundary in one file", "slices")
             if file is not None:
-                of_shards = "sample", "seed", "workers", "scheduler"
-                options.refuse("of shards, and an answer has none", *of_shards)
+                shard_options = "sample", "seed", "workers", "scheduler"
+                options.refuse("only for shards, and an answer has none", *shard_options)
             elif sample is None:
-                options.refuse("of the choice that --sample makes", "seed", remedy="give that as well")
+                options.refuse("only for the random choices of --sample", "seed", remedy="give --sample as well")
             with folders.cluster(workers, scheduler) as client:
                 result = folders.verified(scene, file, sample, seed, client)
             return _print_verified(result, file or scene, as_json)
         if file is None:
             raise ValueError("FILE: there is none; give a boundary or an answer")
-        options.refuse("of shards in a folder", "workers", "scheduler")
+        options.refuse("only for shards in a folder", "workers", "scheduler")
         if not is_archive(file):
-            options.refuse("of a boundary", "sample", "slices", "seed")
+            options.refuse("only for a boundary", "sample", "slices", "seed")
         elif sample is None and slices == 0:
-            options.refuse("of random choices, and nothing is chosen", "seed")
+            options.refuse("only for random choices, and there are none", "seed")
         from cfree.formats.scene_file import load_scene
         from cfree.verify.answers import answer as verified_answer
         from cfree.verify.driver import boundary as verified_boundary
 
-        given = load_scene(scene)
+        loaded = load_scene(scene)
         with bar("verify") as progress:
             if is_archive(file):
                 result = verified_boundary(
-                    file, given, sample=sample, slices=slices, seed=seed, deep=deep, progress=progress
+                    file, loaded, sample=sample, slices=slices, seed=seed, deep=deep, progress=progress
                 )
             else:
-                result = verified_answer(given, file, progress=progress)
+                result = verified_answer(loaded, file, progress=progress)
         _print_verified(result, file, as_json)
 
 
@@ -514,22 +547,27 @@ def _print_verified(result: Verification, file: Path, as_json: bool) -> None:
 
 
 @app.command(epilog=examples("cfree figures -o pictures", "cfree figures -o pictures --only 7,9 --format svg"))
-@file_option("--output", "-o", metavar="DIR", help="Where to write, made if missing.", required=True)
-@click.option("--only", metavar="NUMBERS", help='Some of them: "7" or "7,9".', show_default="all")
+@file_option("--output", "-o", metavar="DIR", help="Write into this directory, made if missing.", required=True)
+@click.option("--only", metavar="NUMBERS", help='Draw some of the figures: "7" or "7,9".', show_default="all")
 @click.option(
-    "--format", "formats", metavar="FORMATS", help="Of svg, pdf and png.", default="svg,pdf,png", show_default=True
+    "--format",
+    "formats",
+    metavar="FORMATS",
+    help="Write some of svg, pdf and png.",
+    default="svg,pdf,png",
+    show_default=True,
 )
 @click.option(
     "--renderer",
     type=Word(["matplotlib", "pyvista"]),
-    help="Who draws surfaces: matplotlib as vectors, PyVista as pixels in true depth order.",
-    show_default="the best",
+    help="Draw surfaces by matplotlib, as vectors, or by PyVista, as pixels in true depth order.",
+    show_default="pyvista if installed",
 )
 @options.as_json
 def figures(output: Path, only: str | None, formats: str, renderer: Renderer | None, as_json: bool) -> None:
     """Draw the figures of the paper from computed data.
 
-    And ten more.
+    Draws figures 1 to 10 of the paper, and ten more.
     """
     with one_line_faults():
         from cfree.arguments import one_of
@@ -542,7 +580,7 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
         numbers = None if only is None else read_numbers(only)
         has_space = any(panel.in_space for e in FIGURES if numbers is None or e.number in numbers for panel in e.panels)
         if not has_space:
-            options.refuse("of figures with surfaces, and none of these has any", "renderer")
+            options.refuse("only for figures with surfaces, and none of these has any", "renderer")
         with bar("figures") as progress:
             files = draw_all(output, only=numbers, formats=formats.split(","), renderer=renderer, progress=progress)
         if as_json:
@@ -557,7 +595,7 @@ def figures(output: Path, only: str | None, formats: str, renderer: Renderer | N
 
 
 def print_result(title: str, source: Path, rows: dict[str, Any], files: dict[str, str], as_json: bool) -> None:
-    """What was found, and the files written: on a terminal, or for machines."""
+    """Print the result and the files written: as a table, or as JSON."""
     if as_json:
         print_json({"file": str(source), **rows, "files": files})
     else:

@@ -1,4 +1,4 @@
-"""Facts for people and machines: what is in a scene before anything is computed, and what is in a slice."""
+"""Facts about a scene, before any computation, and about a slice; for people and machines."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def describe(scene: Scene) -> dict[str, Any]:
-    """Facts about a scene, as JSON.
+    """Describe a scene by facts for JSON.
 
     Parameters
     ----------
@@ -33,10 +33,10 @@ def describe(scene: Scene) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``robot`` and ``obstacles`` hold counts; ``removed`` the points of the input that are no vertices;
-        ``patches`` the contact patches before trimming, by kind, and the sides of the bounds; ``start`` and ``goal``
-        whether they are free. With round shapes these are counts of polygons around them, and ``round`` is how many
-        there are.
+        ``robot`` and ``obstacles`` hold counts; ``removed`` holds the points of the input that are no vertices.
+        ``patches`` counts the contact patches before trimming, by kind, and the sides of the bounds. ``start`` and
+        ``goal`` hold poses and True for free ones. Round shapes are counted as polygons around them; ``round`` is
+        their number.
 
     Examples
     --------
@@ -78,7 +78,7 @@ def describe(scene: Scene) -> dict[str, Any]:
 
 
 def _describe_curved(scene: Scene) -> dict[str, Any]:
-    """The same of polygons around, those with which a plan begins; whether poses are free is known to a tolerance."""
+    """Describe the enclosing polygons that a plan begins with; free poses are decided to a tolerance."""
     around = Approximations(scene).scene(outward=True)
     facts = describe(around) | {key: getattr(scene, key) for key in ("note", "source")}
     facts["round"] = round_count(shapes_of(scene))
@@ -89,7 +89,7 @@ def _describe_curved(scene: Scene) -> dict[str, Any]:
 
 
 def describe_slice(cut: Slice) -> dict[str, int | float]:
-    """Facts about a slice: angle, contact segments, their lengths by kind, and an area.
+    """Describe a slice: angle, contact segments, their lengths by kind, and an area.
 
     Returns
     -------
@@ -113,7 +113,7 @@ def describe_slice(cut: Slice) -> dict[str, int | float]:
 
 
 def expected_patches(scene: Scene, features: SceneFeatures) -> dict[str, int]:
-    """Numbers of patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds."""
+    """Count patches before trimming: of contacts, convex vertices times edges, both ways; and of the bounds."""
     robot, obstacles = features.robot.core, features.obstacles.core
     body = robot.convex[robot.layer == BODY]
     met = obstacles.convex[(obstacles.layer == BODY) & (obstacles.emit > 0)]
@@ -138,7 +138,7 @@ def _counts(shapes: Sequence[Polygon]) -> dict[str, int]:
 
 
 def _goal_facts(scene: Scene, goal: Goal) -> dict[str, Any]:
-    """Of a pose, or of a place: is it free in any orientation?"""
+    """Describe a goal: a pose, or a place, which is free if some orientation is."""
     if isinstance(goal, Pose):
         return {**(_pose_facts(PoseChecker(scene), goal) or {})}
     x, y = map(float, goal)

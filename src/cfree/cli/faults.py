@@ -1,9 +1,9 @@
-"""How the command leaves where something is wrong: a message in one line, and its exit code.
+"""Faults of the command: a message in one line, and an exit code.
 
-0    done; of `plan`, a path; of `verify`, verified
+0    done; `plan`: a path; `verify`: verified
 1    `plan`: proved impossible; `verify`: refuted; never anything else
 2    bad input, also on the command line, and files that cannot be read or written
-3    a limit of time or memory; of `plan`, no path but perhaps one that touches
+3    a limit of time or memory; `plan`: no path, but perhaps one that touches
 4    a bug in cfree
 130  Ctrl-C; 141 a closed pipe (SIGPIPE); 143 SIGTERM
 """
@@ -32,7 +32,7 @@ REFUTED, BAD_INPUT, INCOMPLETE, BUG, INTERRUPTED = 1, 2, 3, 4, 130
 
 @contextmanager
 def own_exit_codes() -> Iterator[None]:
-    """Around all of the command: whatever happens, also outside of `one_line_faults`, it ends with a code above."""
+    """End the command with a code above in every case, also outside of `one_line_faults`."""
     if hasattr(signal, "SIGPIPE"):
         signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # Python ignores it
     for stream in (sys.stdout, sys.stderr):
@@ -48,7 +48,7 @@ def own_exit_codes() -> Iterator[None]:
 
 @contextmanager
 def one_line_faults() -> Iterator[None]:
-    """Say what is wrong with the input in one message, without a traceback, and leave with its exit code."""
+    """Print a fault of the input in one message, without a traceback, and exit with its code."""
     from cfree.errors import CfreeError, InvariantError
 
     try:
@@ -72,11 +72,11 @@ def one_line_faults() -> Iterator[None]:
         fail("out of memory", INCOMPLETE)
     except OSError as error:
         name = error.filename
-        if error.errno == errno.ENOSPC and name is None:  # other files have their names
+        if error.errno == errno.ENOSPC and name is None:  # errors of other files have a name
             name = "standard output"
             _discard_output()
         fail(f"{name}: {error.strerror}" if name and error.strerror else str(error), BAD_INPUT)
-    except Exception as error:  # no answer: not to be taken for one
+    except Exception as error:  # exit code 1 would look like an answer
         if isinstance(error, ImportError) and "pip install 'cfree[" in str(error):
             fail(str(error), BAD_INPUT)
         _say("".join(traceback.format_exception(error)))
@@ -85,7 +85,7 @@ def one_line_faults() -> Iterator[None]:
 
 @contextmanager
 def _interrupts() -> Iterator[None]:
-    """Ctrl-C, also where something else has come of it, as of a compiled module that was not imported to its end."""
+    """End the command on Ctrl-C, also if another error hides it, as when it stops the import of a compiled module."""
     try:
         yield
     except (KeyboardInterrupt, Exception) as error:
@@ -94,7 +94,7 @@ def _interrupts() -> Iterator[None]:
             links.append(link)
         if not any(isinstance(link, KeyboardInterrupt) for link in links):
             raise
-        exec("")  # else Python, interrupted in an exec of dataclasses, would end by the signal, whatever the code
+        exec("")  # else Python, interrupted in an exec of dataclasses, would end by the signal, not by the code
         fail("interrupted; no file was left half-written", INTERRUPTED)
 
 
@@ -109,17 +109,17 @@ def _contradicts_itself(scene: Scene) -> bool:
 
 
 def fail(message: str, code: int) -> NoReturn:
-    """Say it and leave."""
+    """Print the message and exit."""
     _say(f"error: {message}")
     sys.exit(code)
 
 
 def _say(text: str) -> None:
     if sys.stderr is not None:
-        with suppress(OSError, ValueError):  # nobody listens
+        with suppress(OSError, ValueError):  # standard error is closed
             print(printable(text), file=sys.stderr)
 
 
 def _discard_output() -> None:
-    """What could not be written is not tried again at the end."""
+    """Drop unwritten output, so that Python does not try to write it again at the end."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

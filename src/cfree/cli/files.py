@@ -1,4 +1,4 @@
-"""What commands read and where they write: scenes and boundaries in files, and a bar that says what takes long."""
+"""Input and output files of commands: scenes, boundaries and answers; and a progress bar."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def read_source(source: Path) -> Scene | Boundary:
-    """The boundary in a file, or the scene."""
+    """Read the boundary in a file, or the scene."""
     from cfree.formats.scene_file import load_scene
 
     if is_archive(source):
@@ -37,24 +37,24 @@ def read_source(source: Path) -> Scene | Boundary:
 
 
 def computed(
-    given: Scene | Boundary, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
+    source: Scene | Boundary, threads: int | None, max_seconds: float | None = None, max_memory: float | None = None
 ) -> Boundary:
-    """The boundary of a scene, unless it is one already."""
+    """Compute the boundary of a scene; return a boundary as it is."""
     from cfree.forbidden.boundary import Boundary, boundary
 
-    if isinstance(given, Boundary):
-        return given
+    if isinstance(source, Boundary):
+        return source
     with bar("boundary") as progress:
-        return boundary(given, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
+        return boundary(source, threads=threads, max_seconds=max_seconds, max_memory=max_memory, progress=progress)
 
 
 def answer_for(scene: Scene, file: Path) -> Motions | Separated | AllSeparated:
-    """The answer in a file, if it is one for this scene.
+    """Read an answer for this scene from a file.
 
     Raises
     ------
     ValueError
-        In the words of `cfree verify`, if it is for another.
+        If it is for another scene, in the words of `cfree verify`.
     """
     from cfree.formats.files import load
     from cfree.paths.path import Path as Motions
@@ -62,56 +62,56 @@ def answer_for(scene: Scene, file: Path) -> Motions | Separated | AllSeparated:
     from cfree.planning.separation import Separated
     from cfree.verify.answers import other_scene
 
-    found = load(file)
-    if not isinstance(found, Motions | Separated | AllSeparated):
-        raise ValueError(f"{file}: no path and no proof; give what cfree plan -o has written")
-    if finding := other_scene(scene, found):
+    answer = load(file)
+    if not isinstance(answer, Motions | Separated | AllSeparated):
+        raise ValueError(f"{file}: no path and no proof; give an answer written by cfree plan -o")
+    if finding := other_scene(scene, answer):
         raise ValueError(f"{file}: {finding}")
-    return found
+    return answer
 
 
 def planner_of(
     source: Path, max_seconds: float | None, preferences: Preferences, tolerance: float | None
 ) -> Planner | CurvedPlanner | FolderPlanner:
-    """For the scene in a file, with its free space if the file is a boundary; or for a folder."""
+    """Make a planner for the scene in a file, with its free space if the file is a boundary; or for a folder."""
     from cfree.formats.scene_file import load_scene
     from cfree.planning.curved import CurvedPlanner
     from cfree.planning.planner import Planner
 
     if source.is_dir() or is_archive(source):
-        refuse("of scenes, whose boundary is not yet computed", "max_seconds")
+        refuse("only for scenes, whose boundary is not yet computed", "max_seconds")
     if source.is_dir():
         from cfree.cli.folders import FolderPlanner
 
-        found: Planner | FolderPlanner = FolderPlanner(source, preferences)
+        planner: Planner | FolderPlanner = FolderPlanner(source, preferences)
     elif is_archive(source):
         from cfree.formats.boundaries.boundary_file import load_boundary
         from cfree.free.space import free_space
 
         with bar("cells"):
             space = free_space(load_boundary(source))
-        found = Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
+        planner = Planner(space.boundary.scene, space, preferences=preferences, phase=bar)
     else:
         with bar("reading"):
             scene = load_scene(source)
-        found = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
+        planner = Planner(scene, max_seconds=max_seconds, preferences=preferences, phase=bar)
         if scene.curved:
-            return CurvedPlanner(found, tolerance)
+            return CurvedPlanner(planner, tolerance)
     if tolerance is not None:
-        raise ValueError(f"--tolerance: {tolerance}, of scenes with round shapes; leave it out")
-    return found
+        raise ValueError(f"--tolerance: {tolerance}, only for scenes with round shapes; leave it out")
+    return planner
 
 
 @contextmanager
 def bar(name: str) -> Iterator[Callable[[float], object]]:
-    """Yield a function to call with the share that is done, which is shown beside what is being done."""
+    """Yield a function to call with the share that is done; it is shown beside the task's name."""
     with status() as say:
         say(f"{name} ...")
         yield lambda share: say(f"{name} {share:.0%}")
 
 
 def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str]:
-    """The files to write; what cannot be written is refused before a long computation rather than after it."""
+    """Return the files to write; refuse impossible ones before a long computation rather than after it."""
     from cfree.formats.text.atomic import check_place
 
     files = {name: path for name, path in wanted.items() if path is not None}
@@ -124,7 +124,7 @@ def check_outputs(source: Path, wanted: dict[str, Path | None]) -> dict[str, str
 
 
 def _check_name(content: str, path: Path) -> None:
-    """Raise an error if the name says something else than what will be in the file."""
+    """Raise an error if the name does not fit the content of the file."""
     check: Callable[[Path], object]
     match content:
         case "boundary":
@@ -141,6 +141,6 @@ def _check_name(content: str, path: Path) -> None:
             from cfree.formats.scene_file import check_scene_path as check
         case "picture":
             from cfree.plot.boundary import check_picture_path as check
-        case _:  # an answer's form may be given beside its name
+        case _:  # an answer's form may be an option instead
             return
     check(path)

@@ -1,4 +1,4 @@
-"""What `cfree film` shows: scenes by a storyboard, or the answer to one."""
+"""Films of `cfree film`: scenes by a storyboard, or an answer for one scene."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ def film_scenes(
     Raises
     ------
     ValueError
-        Before anything is computed, if an option has no sense, or a scene lacks what the storyboard needs.
+        Before any computation, if an option makes no sense, or a scene lacks start or goal that the storyboard needs.
     """
     from cfree.film import length_of, save_film
-    from cfree.film.reel import check_options
+    from cfree.film.montage import check_options
     from cfree.forbidden.boundary import Boundary
 
     seconds = length_of(storyboard, output) if seconds is None else seconds
     check_options(len(sources), seconds, fps, size)
-    given = [read_source(source) for source in sources]
+    inputs = [read_source(source) for source in sources]
     if storyboard != "turntable":
-        for source, found in zip(sources, given, strict=True):
-            _check_ends(source, found.scene if isinstance(found, Boundary) else found)
-    boundaries = [computed(found, None) for found in given]
+        for source, data in zip(sources, inputs, strict=True):
+            _check_ends(source, data.scene if isinstance(data, Boundary) else data)
+    boundaries = [computed(data, None) for data in inputs]
     with bar("film") as progress:
         save_film(boundaries, output, seconds=seconds, fps=fps, size=size, storyboard=storyboard, progress=progress)
     return {"frames": round(seconds * fps), "size": "x".join(map(str, size))}
@@ -62,28 +62,28 @@ def film_answer(
     Raises
     ------
     ValueError
-        Before anything is computed, if an option has no sense, or the answer is for another scene.
+        Before any computation, if an option makes no sense, or the answer is for another scene.
     """
     from cfree.film import film_path, film_separation, length_of
-    from cfree.film.reel import check_frames, check_options
-    from cfree.film.way import REST
+    from cfree.film.montage import check_frames, check_options
+    from cfree.film.path_film import REST
     from cfree.forbidden.boundary import Boundary
     from cfree.paths.path import Path as Motions
     from cfree.planning.separation import Separated
 
     check_frames(fps, size)
-    given = read_source(source)
-    scene = given.scene if isinstance(given, Boundary) else given
+    data = read_source(source)
+    scene = data.scene if isinstance(data, Boundary) else data
     answer = answer_for(scene, file)
-    if scene.curved:  # the answer has the polygons among which it was found
+    if scene.curved:  # the answer contains the polygons it was computed with
         if answer.scene is None:
             raise ValueError(f"{file}: no polygons for the round shapes of the scene; plan anew")
-        given = answer.scene
+        data = answer.scene
     if isinstance(answer, Motions):
         moving = None if seconds is None else round(seconds - sum(REST), 9)
         if moving is not None and moving <= 0:
             raise ValueError(f"--seconds: {seconds:g}; give more than {sum(REST):g}, for which the robot rests")
-        boundary = computed(given, None)
+        boundary = computed(data, None)
         with bar("film") as progress:
             film_path(
                 answer, boundary.scene, output, boundary=boundary, seconds=moving, fps=fps, size=size, progress=progress
@@ -92,7 +92,7 @@ def film_answer(
     shown = answer if isinstance(answer, Separated) else answer.proofs[0]
     seconds = length_of("separation", output) if seconds is None else seconds
     check_options(1, seconds, fps, size)
-    boundary = computed(given, None)
+    boundary = computed(data, None)
     with bar("film") as progress:
         film_separation(shown, boundary, output, seconds=seconds, fps=fps, size=size, progress=progress)
     return {"answer": "a proof", "frames": round(seconds * fps), "size": "x".join(map(str, size))}

@@ -1,4 +1,4 @@
-"""Boundaries in folders, for commands: made, asked and checked, here or on a cluster."""
+"""Boundaries in folders, for commands: make, query and check them, here or on a cluster."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ SECOND, MINUTE, HOUR = 1, 60, 3600
 def make(
     source: Path, obstacles: Sequence[Path], folder: Path, tiles: int | None, workers: int | None, scheduler: str | None
 ) -> Sharded:
-    """The boundary of a scene in a folder, with so many tiles."""
+    """Compute the boundary of a scene in a folder, in this number of tiles."""
     from cfree.distributed.building import boundary
 
     with cluster(workers, scheduler) as client, stages() as progress:
@@ -45,24 +45,24 @@ def verified(folder: Path, answer: Path | None, sample: int | None, seed: int, c
     from cfree.verify.answers import answer as verified_answer
     from cfree.verify.result import REFUTED, Check, Finding, Verification
 
-    found = Sharded(folder)
+    sharded = Sharded(folder)
     if answer is None:
         with stages() as progress:
-            return found.verify(sample=sample, seed=seed, client=client, progress=progress)
+            return sharded.verify(sample=sample, seed=seed, client=client, progress=progress)
     given = load(answer)
     if not isinstance(given, Motions | Separated):
         raise ValueError(f"{answer}: no path and no proof; give an answer of the folder")
-    if given.whole is not None and given.whole.sha256 != found.scene_sha256:
+    if given.whole is not None and given.whole.sha256 != sharded.scene_sha256:
         text = f"the answer is for the one of sha256 {given.whole.sha256[:12]}..., and this folder is of another"
         finding = Finding("scene", "another scene", f"{text}; give its own, or plan anew")
         return Verification((Check("scene", REFUTED, "nothing else was checked"),), (finding,), (), 0.0)
-    scene, asked = found.scene_for(given)
+    scene, asked = sharded.scene_for(given)
     return verified_answer(scene, asked)
 
 
 @contextmanager
 def cluster(workers: int | None, scheduler: str | None) -> Iterator[Any]:
-    """A client of so many workers here, or of a cluster that is there; nothing if neither is asked for."""
+    """Yield a client of local workers, or of a cluster at an address; None if neither is wanted."""
     if workers is None and scheduler is None:
         yield None
         return
@@ -87,20 +87,20 @@ def cluster(workers: int | None, scheduler: str | None) -> Iterator[Any]:
         with Client(local) as client:
             yield client
     finally:
-        with suppress(AssertionError):  # Dask's, where a worker is just being started again
+        with suppress(AssertionError):  # Dask's, if a worker is just being restarted
             local.close()
 
 
 @contextmanager
 def stages() -> Iterator[Callable[[str, int, int], None]]:
-    """Yield a function to call with the tiles that are done, which shows them, how fast, and the time that is left."""
+    """Yield a function to call with the number of finished tiles; it shows them, the speed, and the time left."""
     began: dict[str, float] = {}
 
-    def tell(say: Callable[[str], None], stage: str, done: int, of: int) -> None:
+    def tell(say: Callable[[str], None], stage: str, done: int, total: int) -> None:
         seconds = time.monotonic() - began.setdefault(stage, time.monotonic())
-        text = f"{stage} {done:,} of {counted(of, 'tile')}" if of else f"{stage} {counted(done, 'obstacle')}"
-        if 0 < done < of and seconds > SECOND:
-            text += f", {MINUTE * done / seconds:.3g} a minute, {_duration(seconds * (of - done) / done)} left"
+        text = f"{stage} {done:,} of {counted(total, 'tile')}" if total else f"{stage} {counted(done, 'obstacle')}"
+        if 0 < done < total and seconds > SECOND:
+            text += f", {MINUTE * done / seconds:.3g} a minute, {_duration(seconds * (total - done) / done)} left"
         say(text)
 
     with status() as say:
@@ -113,37 +113,37 @@ def _duration(seconds: float) -> str:
     return f"{seconds / MINUTE:.0f} min" if seconds < 2 * HOUR else f"{seconds / HOUR:.1f} h"
 
 
-def facts(found: Sharded, *, for_machines: bool) -> dict[str, Any]:
-    """What a boundary in a folder is, in words or numbers."""
-    counts = {name: getattr(found, name) for name in ("obstacles", "vertices", "tiles", "trapezoids")}
-    counts |= {"surfaces": len(found.surfaces), "cells": len(found.cells)}
+def facts(sharded: Sharded, *, for_machines: bool) -> dict[str, Any]:
+    """Describe a boundary in a folder, in words or numbers."""
+    counts = {name: getattr(sharded, name) for name in ("obstacles", "vertices", "tiles", "trapezoids")}
+    counts |= {"surfaces": len(sharded.surfaces), "cells": len(sharded.cells)}
     shown = counts if for_machines else {name: f"{count:,}" for name, count in counts.items()}
-    return {"folder": os.fspath(found.folder)} | shown | {"digest": found.digest}
+    return {"folder": os.fspath(sharded.folder)} | shown | {"digest": sharded.digest}
 
 
 class FolderPlanner:
-    """Answers from a folder, for what takes a `Planner`.
+    """A planner for a folder, with the interface of `Planner`.
 
     Attributes
     ----------
     scene : Scene
-        Before a question that without obstacles; then the one that the answer is about.
+        The scene without obstacles before a query; then the one of the answer.
     """
 
     def __init__(self, folder: Path, preferences: Preferences) -> None:
         from cfree.distributed.sharded import Sharded
 
-        self.found = Sharded(folder)
+        self.sharded = Sharded(folder)
         self.preferences = preferences
-        self.scene: Scene = self.found.head
+        self.scene: Scene = self.sharded.head
 
     def plan(
         self, start: Pose, goal: Pose, *, clearance: Any, improve: float | None, objective: Any
     ) -> Motions | Separated:
         if clearance is not None:
             raise ValueError("--clearance: not in a folder; give the scene itself")
-        answer = self.found.plan(start, goal, improve=improve, objective=objective, preferences=self.preferences)
-        assert answer.scene is not None  # it has just been found
+        answer = self.sharded.plan(start, goal, improve=improve, objective=objective, preferences=self.preferences)
+        assert answer.scene is not None  # the answer is new
         self.scene = answer.scene
         return answer
 

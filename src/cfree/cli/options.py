@@ -30,56 +30,60 @@ Decorator = Callable[[Callable[..., Any]], Callable[..., Any]]
 
 
 def file_option(*names: str, metavar: str, help: str, required: bool = False) -> Decorator:
-    """A file to write."""
+    """Make an option for a file to write."""
     return click.option(*names, type=FILE, metavar=metavar, help=help, required=required)
 
 
 scene = click.argument("scene", type=FILE)
 picture = file_option("--picture", metavar="PNG", help="Write a figure: .png, .svg, .pdf ...")
 threads = click.option(
-    "--threads", type=click.IntRange(min=1), metavar="N", help="Threads to use.", show_default="all cores"
+    "--threads", type=click.IntRange(min=1), metavar="N", help="Use N threads.", show_default="all cores"
 )
 max_seconds = click.option(
-    "--max-seconds", type=click.FloatRange(min=0), metavar="S", help="Stop trimming after S seconds, incomplete.",
-    show_default="no limit",
+    "--max-seconds", type=click.FloatRange(min=0), metavar="S",
+    help="Limit the time of trimming to S seconds; then stop, incomplete.", show_default="no limit",
 )  # fmt: skip
 max_memory = click.option(
-    "--max-memory", metavar="SIZE", help='Stop at "500MB" or "4GB" of memory, incomplete.', show_default="no limit"
+    "--max-memory",
+    metavar="SIZE",
+    help='Limit the memory to "500MB" or "4GB"; then stop, incomplete.',
+    show_default="no limit",
 )
-workers = click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Use so many processes, by Dask.")
-scheduler = click.option("--scheduler", metavar="ADDRESS", help="Use a Dask cluster that sees the folder.")
-verbose = click.option("--verbose", "-v", is_flag=True, help="Also show the counters of the work.")
+workers = click.option("--workers", type=click.IntRange(min=1), metavar="N", help="Use N processes, by Dask.",
+                       show_default="this process")  # fmt: skip
+scheduler = click.option("--scheduler", metavar="ADDRESS", help="Use a Dask cluster that can access the folder.")
+verbose = click.option("--verbose", "-v", is_flag=True, help="Show the counters of the work as well.")
 as_json = click.option("--json", "as_json", is_flag=True, help="Print JSON, for machines.")
 
 
 def refuse(why: str, *names: str, remedy: str = "") -> None:
-    """Refuse options that were given, and that would do nothing.
+    """Refuse options on the command line that would have no effect.
 
     Parameters
     ----------
     why : str
-        When they would do something.
+        The condition under which they have an effect.
     names : str
-        Of the command's parameters.
+        Names of the command's parameters.
     remedy : str
-        To leave them out, unless given.
+        The remedy; by default to leave them out.
 
     Raises
     ------
     ValueError
-        With the options that were given, if any was.
+        If any of the options is on the command line.
     """
     context = click.get_current_context()
-    given = [
+    refused = [
         parameter.opts[0]
         for parameter in context.command.params
         if parameter.name in names and context.get_parameter_source(parameter.name) is ParameterSource.COMMANDLINE
     ]
-    if given:
-        remedy = remedy or f"leave {'it' if len(given) == 1 else 'them'} out"
-        raise ValueError(f"{', '.join(given)}: {why}; {remedy}")
+    if refused:
+        remedy = remedy or f"leave {'it' if len(refused) == 1 else 'them'} out"
+        raise ValueError(f"{', '.join(refused)}: {why}; {remedy}")
 
 
 def examples(*lines: str) -> str:
-    """The end of a command's help: lines that are not wrapped."""
+    """Format the end of a command's help: example lines that are not wrapped."""
     return "\b\nExamples:\n" + "\n".join(f"  {line}" for line in lines)

@@ -1,4 +1,4 @@
-"""What the commands print on a terminal."""
+"""Reports of the commands, for a terminal or for machines."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ COUNTS = ("polygons", "vertices", "convex", "reflex", "holes", "pieces")
 
 
 def print_scene(facts: Mapping[str, Any]) -> None:
-    """The facts of `cfree.cli.describe.describe`."""
+    """Print the facts of `cfree.cli.describe.describe`."""
     counts = [
         [row, *(f"{facts[row][column]:,}" for column in COUNTS)]
         for row in ("robot", "obstacles", "workspace")
@@ -40,9 +40,9 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
     contacts = patches["v-e"] + patches["e-v"]
     bounds = f"; and {patches['bound']:,} sides of the bounds" if patches["bound"] else ""
     kinds = f"{patches['v-e']:,} v-e, {patches['e-v']:,} e-v"
-    yield f"patches    {contacts:,} of contacts, before trimming: {kinds}{bounds}"
+    yield f"patches    {contacts:,} contact patches before trimming: {kinds}{bounds}"
     if facts.get("round"):
-        yield f"round      {counted(facts['round'], 'shape')}; counted are polygons around them"
+        yield f"round      {counted(facts['round'], 'shape')}; counted as the polygons around them"
     if facts["bounds"]:
         x0, y0, x1, y1 = facts["bounds"]
         yield f"bounds     x from {x0:g} to {x1:g}, y from {y0:g} to {y1:g}"
@@ -68,12 +68,14 @@ def _lines(facts: Mapping[str, Any]) -> Iterator[str]:
 
 
 def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float | str]:
-    """Facts about a boundary in words, with the counters of the work that it took if `verbose`."""
+    """Describe a boundary in words, with the counters of the work if `verbose`."""
     stats, counts = boundary.stats, boundary.patch_counts
-    bounds = {"sides of the bounds": counts.bounds, "sides that are live": counts.live_bounds} if counts.bounds else {}
+    bounds = (
+        {"sides of the bounds": counts.bounds, "live sides of the bounds": counts.live_bounds} if counts.bounds else {}
+    )
     rows: dict[str, int | float | str] = {
         "contact patches": counts.contacts,
-        "of them live": counts.live_contacts,
+        "live contact patches": counts.live_contacts,
         **bounds,
         "trapezoids": stats.trapezoids,
         "isolated parts (exact fits)": len(boundary.isolated),
@@ -94,89 +96,89 @@ def boundary_rows(boundary: Boundary, *, verbose: bool) -> dict[str, int | float
 
 
 def boundary_facts(boundary: Boundary) -> dict[str, Any]:
-    """The same as they are, for machines."""
+    """Describe a boundary by numbers, for machines."""
     return asdict(boundary.stats) | {"isolated": len(boundary.isolated)}
 
 
 def answer_rows(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, int | float | str]:
-    """An answer in words and numbers."""
+    """Describe an answer in words and numbers."""
     from cfree.paths.clearance import clearance, rounded_down
     from cfree.paths.path import Path
     from cfree.planning.separation import Separated
 
     unit = f" {scene.units}" if scene.units else ""
     if not isinstance(answer, Path):
-        what = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
+        verdict = {"closed": "no path at all, proved", "interior": "no path of positive clearance, proved"}[answer.of]
         if answer.clearance:
-            what = f"no path that keeps {float(answer.clearance):g}{unit}, proved"
+            verdict = f"no path that keeps {float(answer.clearance):g}{unit}, proved"
         if not isinstance(answer, Separated):
             return {
-                "answer": f"to none of the goals: {what}",
+                "answer": f"to none of the goals: {verdict}",
                 "goals": f"{len(answer.goals):,}",
                 "proofs": f"{len(answer.proofs):,}",
-                "formed by": all_placed(scene, answer.obstacles),
+                "blocking obstacles": all_placed(scene, answer.obstacles),
             }
         return {
-            "answer": what,
-            "surface between them": f"{counted(len(answer.pieces), 'piece')} of contact surfaces",
-            "formed by": all_placed(scene, answer.obstacles),
+            "answer": verdict,
+            "separating surface": f"{counted(len(answer.pieces), 'piece')} of contact surfaces",
+            "blocking obstacles": all_placed(scene, answer.obstacles),
         }
-    kept = f" and to keep {float(answer.clearance):g}{unit}" if answer.clearance else ""
+    clear = f" and to keep {float(answer.clearance):g}{unit}" if answer.clearance else ""
     rows: dict[str, int | float | str] = {
-        "answer": f"a path, each motion proved free{kept}",
+        "answer": f"a path, each motion proved free{clear}",
         **{name: count for name, count in motion_counts(answer).items() if count or name != "slides"},
-        "way of the reference point": f"{answer.length:.6g}{unit}",
-        "turning": f"{math.degrees(answer.turning):.6g} degrees",
+        "path length": f"{answer.length:.6g}{unit}",
+        "total rotation": f"{math.degrees(answer.turning):.6g} degrees",
     }
     if least := clearance(answer, scene):
         name = placed(scene, least.obstacle[0])
         rows["least clearance"] = f"{least.found:.6g}{unit}, in motion {least.motion}, to {name}"
-        rows["proved, at least"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
+        rows["proved lower bound"] = f"{rounded_down(max(least.least, float(answer.clearance)), 6)}{unit}"
     return rows
 
 
 def answer_facts(answer: Path | Separated | AllSeparated, scene: Scene) -> dict[str, Any]:
-    """The same as numbers, for machines: lengths in the scene's unit, radians."""
+    """Describe an answer by numbers, for machines: lengths in the scene's unit, angles in radians."""
     from cfree.paths.clearance import clearance
     from cfree.paths.path import Path
     from cfree.planning.goals import AllSeparated
 
-    found: dict[str, Any]
+    numbers: dict[str, Any]
     if isinstance(answer, AllSeparated):
-        found = {"answer": "all separated", "of": answer.of, "goals": len(answer.goals), "proofs": len(answer.proofs)}
-        return found | {"obstacles": list(answer.obstacles)}
+        numbers = {"answer": "all separated", "of": answer.of, "goals": len(answer.goals), "proofs": len(answer.proofs)}
+        return numbers | {"obstacles": list(answer.obstacles)}
     if not isinstance(answer, Path):
         facts: dict[str, Any] = {"of": answer.of, "pieces": len(answer.pieces)}
         facts |= {"asked clearance": float(answer.clearance)} if answer.clearance else {}
         return {"answer": "separated"} | facts | {"obstacles": list(answer.obstacles)}
-    found = {"answer": "path", **motion_counts(answer)}
-    found |= {"length": answer.length, "turning": answer.turning, "clearance": None}
+    numbers = {"answer": "path", **motion_counts(answer)}
+    numbers |= {"length": answer.length, "turning": answer.turning, "clearance": None}
     if answer.clearance:
-        found["asked clearance"] = float(answer.clearance)
+        numbers["asked clearance"] = float(answer.clearance)
     if least := clearance(answer, scene):
         proved = max(least.least, float(answer.clearance))
         place = {"motion": least.motion, "obstacle": least.obstacle[0]}
-        found["clearance"] = {"found": least.found, "proved": proved, **place}
-    return found
+        numbers["clearance"] = {"found": least.found, "proved": proved, **place}
+    return numbers
 
 
 def moved_rows(answer: Path | Separated | AllSeparated) -> dict[str, str]:
-    """Moves of start and goals, in words."""
+    """Describe moves of start and goals, in words."""
     return {f"{name} moved": f"from {text_of(asked)} to {text_of(end)}" for name, asked, end in _moves(answer)}
 
 
 def moved_facts(answer: Path | Separated | AllSeparated) -> dict[str, Any]:
-    """Moves of start and goals as numbers: x, y and radians, without these of a place."""
-    found = {name: {"from": _row(asked), "to": _row(end)} for name, asked, end in _moves(answer)}
-    return {"moved": found} if found else {}
+    """Describe moves of start and goals by numbers: x, y and radians; a place has x and y alone."""
+    moves = {name: {"from": _row(asked), "to": _row(end)} for name, asked, end in _moves(answer)}
+    return {"moved": moves} if moves else {}
 
 
 def _moves(answer: Path | Separated | AllSeparated) -> list[tuple[str, Goal, Goal]]:
     from cfree.planning.goals import AllSeparated
 
     if isinstance(answer, AllSeparated):
-        begun, goals = answer.proofs[0].moved, answer.moved_goals
-        moves: list[tuple[str, Goal | None, Goal]] = [("start", begun.start if begun else None, answer.start)]
+        first, goals = answer.proofs[0].moved, answer.moved_goals
+        moves: list[tuple[str, Goal | None, Goal]] = [("start", first.start if first else None, answer.start)]
         moves += [("goal" if len(goals) == 1 else f"goal {k}", goals[end], end) for k, end in enumerate(goals)]
     else:
         moved, goal = answer.moved or Moved(), answer.goal
@@ -190,13 +192,13 @@ def _row(end: Goal) -> list[float]:
 
 
 def motion_counts(path: Path) -> dict[str, int]:
-    """How many of each kind."""
+    """Count the motions of each kind."""
     kinds = [motion.kind for motion in path.motions]
     return {f"{kind}s": kinds.count(kind) for kind in ("translation", "rotation", "slide")}
 
 
 def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping[str, str]) -> None:
-    """A title, names with values, and the files written."""
+    """Print a title, names with values, and the files written."""
     table = []
     for name, value in rows.items():
         text = f"{value:,}" if isinstance(value, int) else f"{value:,.6g}" if isinstance(value, float) else value
@@ -210,7 +212,7 @@ def print_rows(title: str, rows: Mapping[str, int | float | str], files: Mapping
 
 
 def print_verification(title: str, result: Verification) -> None:
-    """A row for each check, then what is wrong."""
+    """Print a row for each check, then the findings and the verdict."""
     from cfree.verify import result as verify
 
     checks = [[check.name, check.how, printable(check.extent)] for check in result.checks]

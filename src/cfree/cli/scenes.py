@@ -1,4 +1,4 @@
-"""Commands about scenes alone: what is in a file, and the same in a file of another kind."""
+"""Commands for scenes alone: check a file, and convert it to another format."""
 
 from __future__ import annotations
 
@@ -19,23 +19,24 @@ if TYPE_CHECKING:
     from cfree.formats.shapes import Shapes
     from cfree.scene.scene import Scene
 
-WITH_NAMES = "SVG", "DXF", "URDF", "nesting"  # kinds of files whose shapes have names that --role knows
-WITH_CURVES = "SVG", "DXF", "URDF", "nav2 parameters"  # kinds of files whose curves become polygons
+WITH_NAMES = "SVG", "DXF", "URDF", "nesting"  # formats whose shapes have names, for --role
+WITH_CURVES = "SVG", "DXF", "URDF", "nav2 parameters"  # formats whose curves become polygons
 
 
 def _reading(command: Any) -> Any:
-    """How to read drawings and maps."""
-    given: list[Decorator] = [
-        click.option("--tolerance", type=float, metavar="E", help="Error of the polygons that curves become.",
+    """Add the options for reading drawings and maps."""
+    options_of_reading: list[Decorator] = [
+        click.option("--tolerance", type=float, metavar="E",
+                     help="Limit the error of polygons for curves, in the drawing's units.",
                      show_default="drawing's size / 1000"),
         click.option("--unknown", type=Word(["obstacle", "free"]), default="obstacle", show_default=True,
-                     help="What unknown cells of a map are."),
+                     help="Treat unknown cells of a map as this."),
         click.option("--role", "roles", multiple=True, metavar="NAME=ROLE",
-                     help="Of a layer, group or name: robot, obstacle, workspace or ignore."),
+                     help="Give a layer, group or name a role: robot, obstacle, workspace or ignore."),
         click.option("--robot", metavar="ROBOT",
-                     help='Instead of the file\'s: a file, or a footprint "[[0.3, 0.2], ...]".'),
+                     help='Replace the robot by that of a file, or by a footprint "[[0.3, 0.2], ...]".'),
     ]  # fmt: skip
-    for option in reversed(given):
+    for option in reversed(options_of_reading):
         command = option(command)
     return command
 
@@ -53,16 +54,16 @@ def check(
 ) -> None:
     """Validate a scene and describe it.
 
-    Vertices, pieces, patches to expect; are start and goal free? SCENE is of any kind that cfree convert reads: what
-    was changed and dropped in reading is said.
+    Counts vertices, pieces and expected patches, and tests whether start and goal are free. SCENE is of any format that
+    cfree convert reads; changed and dropped parts of the file are listed.
     """
     with one_line_faults():
         from cfree.cli.describe import describe
 
-        shapes, given = _read(scene, tolerance, unknown, roles, robot)
+        shapes, loaded = _read(scene, tolerance, unknown, roles, robot)
         _refuse_unused(shapes, robot)
         with bar("counting"):
-            facts = {"file": str(scene)} | describe(given) | _facts(shapes)
+            facts = {"file": str(scene)} | describe(loaded) | _facts(shapes)
         if as_json:
             print_json(facts)
         else:
@@ -82,17 +83,21 @@ def check(
 @click.argument("source", type=FILE, metavar="IN")
 @click.argument("target", type=FILE, metavar="OUT")
 @_reading
-@click.option("--outer", type=float, metavar="E", help="Polygons around round shapes, within E.")
-@click.option("--inner", type=float, metavar="E", help="Polygons inside of round shapes, within E.")
+@click.option(
+    "--outer", type=float, metavar="E", help="Replace round shapes by polygons around them, within E scene units."
+)
+@click.option(
+    "--inner", type=float, metavar="E", help="Replace round shapes by polygons inside them, within E scene units."
+)
 @options.as_json
 def convert(
     source: Path, target: Path, tolerance: float | None, unknown: str, roles: tuple[str, ...], robot: str | None,
     outer: float | None, inner: float | None, as_json: bool,
 ) -> None:  # fmt: skip
-    """Read a scene of one kind and write it as another.
+    """Convert a scene from one format to another.
 
     IN is JSON, GeoJSON, WKT, SVG, DXF, a ROS map's YAML, nav2 parameters, URDF, or nesting JSON; OUT is .json,
-    .geojson, .svg or .dxf. What was changed and dropped is said.
+    .geojson, .svg or .dxf. Changed and dropped parts of the file are listed.
     """
     with one_line_faults():
         from cfree.cli.files import check_outputs
@@ -103,7 +108,7 @@ def convert(
         written = check_outputs(source, {"scene": target})
         shapes, scene = _read(source, tolerance, unknown, roles, robot)
         if not scene.curved:
-            options.refuse("of round shapes, and this scene has none", "outer", "inner")
+            options.refuse("only for round shapes, and this scene has none", "outer", "inner")
         by_name = outer is None and inner is None and _is_without_curves(target)
         _refuse_unused(shapes, robot, becoming_polygons=scene.curved and by_name)
         facts = _facts(shapes)
@@ -139,20 +144,20 @@ def _read(
 
 
 def _refuse_unused(shapes: Shapes, robot: str | None, *, becoming_polygons: bool = False) -> None:
-    """Refuse options about reading of which files of this kind know nothing."""
+    """Refuse options of reading that have no effect on files of this format."""
     if shapes.form != "ROS map":
-        options.refuse(f"of a ROS map, and this file is read as {shapes.form}", "unknown")
+        options.refuse(f"only for a ROS map, and this file is read as {shapes.form}", "unknown")
     if shapes.form not in WITH_NAMES:
-        options.refuse(f"of {', '.join(WITH_NAMES)}, and this file is read as {shapes.form}", "roles")
+        options.refuse(f"only for {', '.join(WITH_NAMES)}, and this file is read as {shapes.form}", "roles")
     has_other = robot is not None and not _is_footprint(robot)
     if shapes.form not in WITH_CURVES and not has_other and not becoming_polygons:
-        options.refuse(f"of {', '.join(WITH_CURVES)}, and this file is read as {shapes.form}", "tolerance")
+        options.refuse(f"only for {', '.join(WITH_CURVES)}, and this file is read as {shapes.form}", "tolerance")
 
 
 def _straight(
     scene: Scene, outer: float | None, inner: float | None, tolerance: float | None, target: Path
 ) -> tuple[Scene, list[str]]:
-    """With polygons for round shapes, if they are asked for, or the file can have no others."""
+    """Replace round shapes by polygons if wanted, or if the file format has no round shapes."""
     from cfree.formats.drawings.source import CURVE_SHARE
     from cfree.scene.scene import largest_of, round_count, shapes_of
 
@@ -178,7 +183,7 @@ def _is_without_curves(target: Path) -> bool:
 
 
 def _robot(text: str, tolerance: float | None) -> Any:
-    """The polygons of a footprint, or of a file: those of the role robot, if there are any."""
+    """Read the polygons of a footprint, or of a file: those of the role robot, if there are any."""
     from cfree.formats.drawings.footprints import footprint
     from cfree.formats.scene_file import load_shapes
 

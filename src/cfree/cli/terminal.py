@@ -1,4 +1,4 @@
-"""Text that a terminal shows, and does not obey: names and notes come from files that anybody may have written."""
+"""Text that a terminal shows and does not obey: names and notes come from untrusted files."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from typing import Any
 
 import click
 
-EVERY = 5.0  # seconds from one line about progress to the next, where there is no terminal
+EVERY = 5.0  # seconds between lines about progress, if there is no terminal
 OBEYED = {"Cc", "Cs", "Zl", "Zp"}  # Unicode's categories: controls, halves of characters, ends of lines
-NO_TERMINAL, LEAST_WIDTH = 120, 6  # columns where output goes to a file; of a wrapped text
+NO_TERMINAL, LEAST_WIDTH = 120, 6  # columns of output to a file; least columns of a wrapped text
 TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}  # change the direction of what follows
 
 
 def printable(text: str) -> str:
-    """Text with escapes for characters that would do something else than be seen; ends of lines stay.
+    """Escape characters of a text that a terminal would obey; ends of lines stay.
 
     Examples
     --------
@@ -34,9 +34,9 @@ def printable(text: str) -> str:
 
 @contextmanager
 def status() -> Iterator[Callable[[str], None]]:
-    """Yield a function to call with what is being done.
+    """Yield a function to call with the current task.
 
-    On a terminal one line shows it, and is empty at the end. Elsewhere standard error gets a line every few seconds.
+    A terminal shows it in one line, which is empty at the end. Otherwise standard error gets a line every few seconds.
     """
     if sys.stderr is None or not sys.stderr.isatty():
         with _lines() as say:
@@ -54,9 +54,9 @@ def status() -> Iterator[Callable[[str], None]]:
 
 @contextmanager
 def _lines() -> Iterator[Callable[[str], None]]:
-    """A line every few seconds since the command began, also where nothing is told for long: from a thread."""
+    """Print a line every few seconds since the command began, from a thread: also during long silent work."""
     context = click.get_current_context(silent=True)
-    told = {} if context is None else context.meta  # of the whole command: phases may be short
+    told = {} if context is None else context.meta  # shared by the whole command: phases may be short
     told.setdefault("told", time.monotonic())
     texts, over = [""], threading.Event()
 
@@ -79,7 +79,7 @@ def _lines() -> Iterator[Callable[[str], None]]:
 
 
 def columns(rows: Sequence[Sequence[str]], sides: str, width: int = 0) -> list[str]:
-    """Lines of a table; `sides` has "<" or ">" for each column. The last column is wrapped at the width, if given.
+    """Format lines of a table; `sides` has "<" or ">" for each column. A width, if given, wraps the last column.
 
     Examples
     --------
@@ -100,7 +100,7 @@ def columns(rows: Sequence[Sequence[str]], sides: str, width: int = 0) -> list[s
 
 
 def terminal_width() -> int:
-    """Columns of the terminal; where there is none, those of a wide one."""
+    """Return the columns of the terminal, or of a wide one if there is none."""
     return shutil.get_terminal_size((NO_TERMINAL, 24)).columns
 
 
@@ -110,12 +110,12 @@ def _cell(text: str, width: int, side: str) -> str:
 
 
 def _width(text: str) -> int:
-    """On a terminal, where letters of Chinese are two wide."""
+    """Return the width on a terminal, where Chinese letters are two wide."""
     return sum(2 if unicodedata.east_asian_width(c) in "FW" else 1 for c in text)
 
 
 def json_text(facts: dict[str, Any]) -> str:
-    """JSON in which such characters are escaped as well.
+    """Format JSON in which characters that a terminal would obey are escaped as well.
 
     Examples
     --------

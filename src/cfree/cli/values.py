@@ -1,4 +1,4 @@
-"""What the options of the command line mean, read from their texts."""
+"""Values of the options of the command line, read from their texts."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def read_angle(text: str, name: str) -> Angle:
     Raises
     ------
     ValueError
-        If it is none, or has no unit and is more than a whole turn in radians.
+        If the text is no angle, or has no unit and is more than a whole turn in radians.
     """
     from cfree.exact.half_angle import require_unit
     from cfree.exact.pose import Pose
@@ -45,7 +45,7 @@ def read_angle(text: str, name: str) -> Angle:
 
 
 def read_pose(text: str | None, name: str) -> Pose | None:
-    """A pose, from "1,1/2,30deg"."""
+    """Read a pose, such as "1,1/2,30deg"."""
     from cfree.exact.pose import Pose
 
     if text is None:
@@ -62,12 +62,12 @@ def read_pose(text: str | None, name: str) -> Pose | None:
 
 
 def read_goals(texts: Sequence[str]) -> list[Any]:
-    """Poses, and places from "1,1/2"."""
+    """Read poses, and places such as "1,1/2"."""
     return [text.split(",") if text.count(",") == 1 else read_pose(text, "--goal") for text in texts]
 
 
 def read_seconds(text: str) -> float:
-    """Seconds, from "2s", "500ms" or "2"."""
+    """Read seconds, from "2s", "500ms" or "2"."""
     number, factor = (text.removesuffix("ms"), 1e-3) if text.endswith("ms") else (text.removesuffix("s"), 1.0)
     try:
         seconds = float(number) * factor
@@ -79,7 +79,7 @@ def read_seconds(text: str) -> float:
 
 
 def read_length(text: str, name: str, what: str = "a length") -> Fraction:
-    """Read a length, or a speed, above 0, as it is written."""
+    """Read a length or a speed above 0, exactly."""
     from cfree.exact.number import to_fraction
 
     try:
@@ -92,7 +92,7 @@ def read_length(text: str, name: str, what: str = "a length") -> Fraction:
 
 
 def read_turn(text: str) -> float:
-    """Read the most that the robot turns between two poses: radians above 0, a whole turn if it is more."""
+    """Read the largest rotation between two poses: radians above 0, at most a whole turn."""
     from cfree.exact.half_angle import number_and_unit
     from cfree.exact.number import to_fraction
     from cfree.exact.pose import Pose
@@ -108,21 +108,21 @@ def read_turn(text: str) -> float:
 
 
 def read_preferences(text: str | None) -> Preferences:
-    """What a machine would rather not do, from "sideways=5,turning=2"."""
+    """Read the costs of motions, from "sideways=5,turning=2"."""
     from cfree.paths.preferences import Preferences
 
     names = Preferences.__dataclass_fields__
     try:
-        given = [part.partition("=") for part in (text.split(",") if text is not None else ())]
-        if wrong := next((name for name, _, _ in given if name.strip() not in names), None):
+        pairs = [part.partition("=") for part in (text.split(",") if text is not None else ())]
+        if wrong := next((name for name, _, _ in pairs if name.strip() not in names), None):
             raise ValueError(f"no {wrong.strip()!r}")
-        return Preferences(**{name.strip(): float(value) for name, _, value in given})
+        return Preferences(**{name.strip(): float(value) for name, _, value in pairs})
     except ValueError as error:
         raise ValueError(f'--prefer: {text!r}: {error}; give some of {", ".join(names)}, as in "sideways=5"') from None
 
 
 def read_size(text: str) -> float:
-    """Bytes, from "500MB", "1.5 GB", "2e9"."""
+    """Read bytes, from "500MB", "1.5 GB" or "2e9"."""
     units = {"KB": 1e3, "MB": 1e6, "GB": 1e9, "TB": 1e12}
     unit = text.strip().upper()[-2:]
     try:
@@ -135,7 +135,7 @@ def read_size(text: str) -> float:
 
 
 def read_pixels(text: str) -> tuple[int, int]:
-    """Width and height, from "1280x720"."""
+    """Read width and height, from "1280x720"."""
     try:
         width, height = map(int, text.lower().split("x"))
     except ValueError:

@@ -1,7 +1,7 @@
-"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and ten that go on from there.
+"""The paper's figures 1 to 10 drawn from computed data, in coordinates of our own, and ten more.
 
 Indices count from 1 in the figures, as in the paper. `draw_all` writes them, as ``cfree figures`` does. The other
-functions draw a part of one on axes that are given.
+functions draw a part of one on given axes.
 """
 
 from typing import TYPE_CHECKING

@@ -29,7 +29,7 @@ SURFACE = contact_surface(ROBOT, OBSTACLE, EdgeVertex(0, 0))
 POINT = (0.5, math.radians(40))
 AT = local_geometry(SURFACE.ruled, *POINT)
 REACH = 0.5
-"""Length of the directions drawn, on both sides of the point."""
+"""Length of the drawn directions, on both sides of the point."""
 NAMES = (r"$\xi = 0$", r"$\xi = \arctan\frac{2v}{F}$"), (r"$\xi_1$", r"$\xi_2$")
 
 
@@ -65,19 +65,19 @@ def directions(ax: Axes3D) -> Axes3D:
 
 
 def normal_section() -> Floats:
-    """Points in which the plane of the normal and the second principal direction cuts the surface, near the point."""
+    """Return the section of the surface, near the point, by the plane of normal and second principal direction."""
     p, across = SURFACE(*POINT), AT.tangent(AT.principal_directions[0])
     phi = POINT[1] + np.linspace(-0.6, 0.6, 241)
-    # a ruling is straight: it meets the plane once
+    # a ruling is a line: it meets the plane once
     start, along = SURFACE(0, phi), SURFACE(1, phi) - SURFACE(0, phi)
     t = ((p - start) @ across) / (along @ across)
     points: Floats = start + t[:, None] * along
-    kept: Floats = points[(np.abs(points - p).max(axis=1) < 1.1 * REACH) & (t > 0.12) & (t < 0.88)]
-    return kept
+    near: Floats = points[(np.abs(points - p).max(axis=1) < 1.1 * REACH) & (t > 0.12) & (t < 0.88)]
+    return near
 
 
 def _draw_normal_plane(ax: Any, section: Floats) -> None:
-    """The part of the plane above the surface."""
+    """Draw the part of the plane above the surface."""
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
     p, along = SURFACE(*POINT), AT.tangent(AT.principal_directions[1])
@@ -90,7 +90,7 @@ def _draw_normal_plane(ax: Any, section: Floats) -> None:
 def indicatrix(ax: Axes) -> Axes:
     """Figure 10: Dupin's indicatrix in the tangent plane, the vectors X with II(X, X) = 1 or -1.
 
-    In each direction its distance is 1 / sqrt(abs(normal curvature)).
+    Its distance in each direction is 1 / sqrt(abs(normal curvature)).
     """
     reach = 2.3 * float(AT.dupin_radius(AT.principal_directions).min())
     set_plane(ax, (-1.25 * reach, -1.25 * reach, 1.25 * reach, 1.25 * reach))
@@ -101,28 +101,28 @@ def indicatrix(ax: Axes) -> Axes:
             line(ax, -end, end, colour, width=1.8)
             label(ax, 1.13 * way * end, name if name != NAMES[0][1] else r"$\xi = \arctan\frac{2v}{F}$", colour=colour)
     for points, is_positive in conics(AT, reach):
-        at = min(
+        place = min(
             points[len(points) // 7], points[-(len(points) // 7)], key=lambda point: abs(point[1])
         )  # beside a ruling
         name = r"$\mathrm{II}(X, X) = 1$" if is_positive else r"$\mathrm{II}(X, X) = -1$"
-        label(ax, at, name, 26 * points[len(points) // 2] / np.hypot(*points[len(points) // 2]), PATH, 12)
+        label(ax, place, name, 26 * points[len(points) // 2] / np.hypot(*points[len(points) // 2]), PATH, 12)
         ax.plot(*points.T, color=PATH, linewidth=2.2, linestyle="-" if is_positive else (0, (4, 2)), zorder=5)
     dot(ax, (0, 0), size=6)
     return ax
 
 
-def conics(at: LocalGeometry, reach: float) -> list[tuple[Floats, bool]]:
-    """The four branches of the indicatrix within a radius, each with whether the normal curvature is positive there."""
-    first, second = at.asymptotic_directions.tolist()
-    found = []
+def conics(forms: LocalGeometry, reach: float) -> list[tuple[Floats, bool]]:
+    """Return the four branches of the indicatrix within a radius, each with True if its curvature is positive."""
+    first, second = forms.asymptotic_directions.tolist()
+    branches = []
     for low, high in ((first, second), (second, first + math.pi)):
         xi = np.linspace(low, high, 2001)[1:-1]
-        radius = at.dupin_radius(xi)
+        radius = forms.dupin_radius(xi)
         xi, radius = xi[radius < reach], radius[radius < reach]
         branch = radius[:, None] * np.column_stack((np.cos(xi), np.sin(xi)))
-        is_positive = bool(at.normal_curvature((low + high) / 2) > 0)
-        found += [(branch, is_positive), (-branch, is_positive)]
-    return found
+        is_positive = bool(forms.normal_curvature((low + high) / 2) > 0)
+        branches += [(branch, is_positive), (-branch, is_positive)]
+    return branches
 
 
 # figure 11
@@ -153,9 +153,9 @@ def gaussian_curvature(ax: Axes3D) -> Axes3D:
 def curvature_along(ax: Axes) -> Axes:
     """Figure 11: K and H along a ruling; K is least where the striction curve crosses it."""
     t, star = np.linspace(0, 1, 401), _star()
-    at = local_geometry(SURFACE.ruled, t, 0)
-    ax.plot(t, at.gaussian_curvature, color=INK, label="$K(t)$")
-    ax.plot(t, at.mean_curvature, color=INK, linestyle="--", label="$H(t)$")
+    forms = local_geometry(SURFACE.ruled, t, 0)
+    ax.plot(t, forms.gaussian_curvature, color=INK, label="$K(t)$")
+    ax.plot(t, forms.mean_curvature, color=INK, linestyle="--", label="$H(t)$")
     ax.axvline(star, color=GREY, linewidth=0.8, linestyle=":")
     ax.text(star, 1.02, "$t_*$", ha="center", va="bottom", transform=ax.get_xaxis_transform())
     ax.set(xlabel="$t$", xlim=(0, 1), ylim=(-1.05, 0.32), yticks=np.arange(-1, 0.3, 0.2))

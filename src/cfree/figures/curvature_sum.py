@@ -1,4 +1,4 @@
-"""Figure 14: where the curvature of a closed surface is, as the length of a radian grows, and what it adds up to."""
+"""Figure 14: the shares of a closed surface's curvature, as the length of a radian grows, and their sum."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ SCALES = np.geomspace(0.1, 10, 41)
 
 @checked
 def gauss_and_bonnet(ax: Axes) -> Axes:
-    """Figure 14: the boundary of figure 12, which is one surface."""
-    found = five_boundary()
+    """Figure 14: curvature of the boundary of figure 12, which is one surface."""
+    surface = five_boundary()
     sums = []
     for w in SCALES:
-        of = gauss_bonnet(found, angle_scale=float(w))
-        sums.append([of.faces.sum(), of.sides.sum(), of.vertices.sum()])
+        parts = gauss_bonnet(surface, angle_scale=float(w))
+        sums.append([parts.faces.sum(), parts.sides.sum(), parts.vertices.sum()])
     faces, edges, vertices = np.array(sums).T / math.tau
     ax.set(xscale="log", xlim=SCALES[[0, -1]], xlabel="length of a radian", ylabel=r"curvature / $2\pi$")
     for values, name, colour in (
@@ -31,7 +31,7 @@ def gauss_and_bonnet(ax: Axes) -> Axes:
         (edges, "along edges", HELIX),
     ):
         ax.plot(SCALES, values, color=colour, label=name, linewidth=1.8)
-    chi = int(found.complex.euler.sum())
+    chi = int(surface.complex.euler.sum())
     ax.plot(SCALES, faces + edges + vertices, color=INK, label=rf"all together: $\chi = {chi}$", linewidth=2.4)
     ax.set_xticks([0.1, 1, 10], ["0.1", "1", "10"])
     ax.minorticks_off()

@@ -1,4 +1,4 @@
-"""Figures 5 and 6: what keeps a v-v contact while the robot turns, and an e-e contact while it slides."""
+"""Figures 5 and 6: motions that keep a contact: v-v while the robot turns, e-e while it slides."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ GROUND = Polygon([(3.0, 0), (0.0, 0), (0.25, -0.9), (2.8, -0.9)])
 def vertex_vertex(ax: Axes) -> Axes:
     """Figure 5: a_i stays at b_j while the robot turns from phi_min to phi_max."""
     contact = VertexVertex(0, 0)
-    found, C = angle_range(ROBOT, CORNER, contact), contact_helix(ROBOT, CORNER, contact)
+    angles, C = angle_range(ROBOT, CORNER, contact), contact_helix(ROBOT, CORNER, contact)
     set_plane(ax, (-3.4, -2.75, 3.7, 2.2))
-    low, high = C(found.phi_min), C(found.phi_max)
+    low, high = C(angles.phi_min), C(angles.phi_max)
     first, last = placed(ROBOT.vertices, low), placed(ROBOT.vertices, high)
     b = CORNER.vertices
     shape(ax, b, palette.OBSTACLE)
     shape(ax, first, palette.ROBOT, alpha=0.5)
     shape(ax, last, palette.ROBOT, palette.GHOST, alpha=0.5)
-    along, width = math.atan2(*(b[-1] - b[0])[::-1]), found.phi_range
+    along, width = math.atan2(*(b[-1] - b[0])[::-1]), angles.phi_range
     rho, omega = float(ROBOT.interior_angles[0]), float(CORNER.interior_angles[0])
     arc(ax, b[0], 0.7, (along, along + width), palette.FRAME, tip=True, width=1.6)
     label(ax, on_arc(b[0], 1.0, along + 0.62 * width), r"$\phi_{\mathrm{range}}$", colour=palette.FRAME)

@@ -1,4 +1,4 @@
-"""Figure 20: a slice of the arrangement of all contact surfaces, by how many pairs overlap."""
+"""Figure 20: a slice of the arrangement of all contact surfaces, by the number of pairs that overlap."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ THETA = "40deg"
 
 @checked
 def depth_in_a_slice(ax: Axes) -> Axes:
-    """Figure 20: cells of the arrangement at one orientation, darker where more obstacles are overlapped."""
+    """Figure 20: cells of the arrangement at one orientation, darker where the robot overlaps more obstacles."""
     plot_depths(arrangement(THREE), THETA, ax)
     return ax
 

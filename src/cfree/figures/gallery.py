@@ -1,4 +1,4 @@
-"""All figures: what they are made of, and how they are drawn and written."""
+"""All figures: their parts, how to draw and how to write them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ Box = tuple[float, float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class Panel:
-    """A part of a figure: who draws it on axes, where these are, and whether they have three dimensions."""
+    """A part of a figure: the function that draws it, the place of its axes, True for axes with three dimensions."""
 
     drawn_by: str
     place: Box
@@ -31,7 +31,7 @@ class Panel:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A figure: its number, what it shows (the stem of its file), its caption, its size in inches, its parts."""
+    """A figure: its number, its name (the stem of its file), its caption, its size in inches, its parts."""
 
     number: int
     name: str
@@ -41,17 +41,17 @@ class Entry:
 
     @property
     def stem(self) -> str:
-        """Name of its files, without suffix."""
+        """Name of the figure's files, without suffix."""
         return f"{self.number:02}-{self.name}"
 
 
 def _plane(number: int, name: str, caption: str, height: float, drawn_by: str) -> Entry:
-    """A figure of the plane, 7.2 inches wide."""
+    """Make the entry of a figure of the plane, 7.2 inches wide."""
     return Entry(number, name, caption, (7.2, height), (Panel(drawn_by, (0, 0, 1, 1)),))
 
 
 def _space(number: int, name: str, caption: str, drawn_by: str) -> Entry:
-    """A figure of the configuration space."""
+    """Make the entry of a figure of the configuration space."""
     return Entry(number, name, caption, (6.2, 6.6), (Panel(drawn_by, (0.02, 0.09, 0.96, 0.91), True),))
 
 
@@ -151,7 +151,7 @@ FIGURES = (
 
 @checked
 def draw(number: int) -> Figure:
-    """One figure, to be shown or written within `styled`.
+    """Draw one figure, to be shown or written within `styled`.
 
     Examples
     --------
@@ -182,11 +182,11 @@ def draw_all(
     ----------
     directory : path
     only : numbers of figures, optional
-        All if not given.
+        The figures to write; default all.
     formats : of "svg", "pdf", "png"
     renderer : "matplotlib" or "pyvista", optional
-        Who draws surfaces in space: matplotlib as vectors from back to front, or PyVista (``pip install
-        'cfree[render]'``) as pixels in true depth order. PyVista where it is installed, if not given. All else is
+        The renderer of surfaces in space: matplotlib as vectors from back to front, or PyVista (``pip install
+        'cfree[render]'``) as pixels in true depth order. Default: PyVista if it is installed. Everything else is
         vectors, from the same camera.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
@@ -201,7 +201,7 @@ def draw_all(
     ValueError
         If there is no such figure or format.
     UnsupportedError
-        If PyVista is asked for and is not installed.
+        If the renderer is "pyvista" and PyVista is not installed.
     NotADirectoryError
         If `directory` is a file.
 

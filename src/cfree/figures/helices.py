@@ -1,4 +1,4 @@
-"""Figure 16, Remark 2: through every pose there are infinitely many helices, one for each point that may stay."""
+"""Figure 16, Remark 2: infinitely many helices through every pose, one for each point that may stay."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from cfree.polygons.polygon import Polygon
 ROBOT = Polygon([("1.1", "-0.7"), ("0.9", "0.8"), ("-0.9", "0.7"), ("-1.1", "-0.6")])
 POSE = Pose(1, "0.5", "150deg")
 FIXED = [("1.1", "-0.7"), ("0.9", "0.8"), ("-1.1", "-0.6"), ("0", "-1.5"), ("-1.8", "0.6")]
-"""Points of the robot, and two beside it, that stay where they are."""
+"""Centres of the turns: points of the robot, and two beside it."""
 COLOURS = (CATEGORIES[0], CATEGORIES[1], CATEGORIES[2], CATEGORIES[3], CATEGORIES[5])
 
 

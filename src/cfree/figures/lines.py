@@ -17,11 +17,11 @@ from cfree.palette import EDGE_VERTEX, FRAME, INK, VERTEX_EDGE, paler
 from cfree.plot.pieces import Pieces
 
 Family = Callable[[LocalGeometry], float]
-"""From forms at a point to a direction there."""
+"""A function from the forms at a point to a direction there."""
 
 PHI = angle_range(ROBOT, OBSTACLE, SURFACE.contact)
-STEP = 0.01  # of arc length
-LINES = 14  # of a family
+STEP = 0.01  # step of arc length
+LINES = 14  # lines of a family
 
 
 @checked
@@ -41,7 +41,7 @@ def asymptotic_lines(ax: Axes3D) -> Axes3D:
 
 
 def families(name: str) -> list[Family]:
-    """The two directions of a name that forms have."""
+    """Return the two directions that forms have under a name."""
     return [lambda at, k=k: float(getattr(at, name)[k]) for k in (0, 1)]  # type: ignore[misc]
 
 
@@ -58,36 +58,36 @@ def _draw(ax: Axes3D, chosen: Sequence[Family], colours: tuple[str, str]) -> Non
 
 
 def lines_along(family: Family) -> list[Floats]:
-    """Lines, rows t and phi, that follow a direction over the patch.
+    """Return lines, rows t and phi, that follow a direction over the patch.
 
-    Forms do not depend on phi: one line, moved along phi, gives all of a family. Where a family keeps its t it is
-    made of helices.
+    Forms do not depend on phi: one line, moved along phi, gives all of a family. A family of constant t consists of
+    helices.
     """
     one = np.concatenate((_trace(family, -1.0)[:0:-1], _trace(family, 1.0)))
     low, high = PHI.phi_min - one[:, 1].max(), PHI.phi_max - one[:, 1].min()
     lines = []
     for shift in np.linspace(low, high, LINES + 2)[1:-1]:
         moved = one + np.array([0.0, shift])
-        kept = moved[(moved[:, 1] >= PHI.phi_min) & (moved[:, 1] <= PHI.phi_max)]
-        if len(kept) > 3:
-            lines.append(kept)
+        inside = moved[(moved[:, 1] >= PHI.phi_min) & (moved[:, 1] <= PHI.phi_max)]
+        if len(inside) > 3:
+            lines.append(inside)
     return lines
 
 
 def _trace(family: Family, sign: float) -> Floats:
-    """Rows t and phi from the middle ruling on until the edge ends, or after the patch's height."""
+    """Trace rows t and phi from the middle ruling to the end of the edge, or over the patch's height."""
     rows = [np.array([0.5, 0.0])]
     while 0 <= rows[-1][0] <= 1 and abs(rows[-1][1]) < math.tau and len(rows) < 2000:
         middle = rows[-1] + 0.5 * STEP * sign * _rate(family, rows[-1][0])
         rows.append(rows[-1] + STEP * sign * _rate(family, middle[0]))
-    found = np.array(rows)
-    found[:, 0] = found[:, 0].clip(0, 1)
-    return found
+    trace = np.array(rows)
+    trace[:, 0] = trace[:, 0].clip(0, 1)
+    return trace
 
 
 def _rate(family: Family, t: float) -> Floats:
-    """How t and phi change along a unit of length in a direction: xi is measured from S_t in the tangent plane."""
-    at = local_geometry(SURFACE.ruled, min(max(t, 0.0), 1.0), 0.0)
-    xi, E, F, v = family(at), float(at.E), float(at.F), float(at.v)
+    """Return the rates of t and phi by length in a direction; xi is measured from S_t in the tangent plane."""
+    forms = local_geometry(SURFACE.ruled, min(max(t, 0.0), 1.0), 0.0)
+    xi, E, F, v = family(forms), float(forms.E), float(forms.F), float(forms.v)
     across = math.sin(xi) / v
     return np.array([math.cos(xi) / math.sqrt(E) - F * across / math.sqrt(E), math.sqrt(E) * across])

@@ -24,9 +24,9 @@ from cfree.polygons.polygon import Polygon
 CORNER = Polygon([(0, 0), (1, -1), (1, 1)])
 THROUGH = Polygon([("-0.7", 0), ("1.5", 0), ("0.3", "1.1")])
 BESIDE = Polygon([("-0.7", "-0.5"), ("1.5", "-0.5"), ("0.3", "0.6")])
-"""Two robots: the line of the first edge goes through the reference point, or passes it."""
+"""Two robots: the line of the first edge passes through the reference point, or beside it."""
 SCALE = 0.55
-MOST = 0.4  # of the mean curvature shown
+MOST = 0.4  # greatest mean curvature shown
 
 
 @checked
@@ -39,7 +39,7 @@ def helicoid(ax: Axes3D) -> Axes3D:
 
 @checked
 def generic(ax: Axes3D) -> Axes3D:
-    """Figure 15: it passes the reference point: H has one sign; the striction curve is a helix, not a line."""
+    """Figure 15: the line passes beside the reference point: H has one sign; its striction curve is a helix."""
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize
 
@@ -60,7 +60,7 @@ def edge_through(ax: Axes) -> Axes:
 
 @checked
 def edge_beside(ax: Axes) -> Axes:
-    """Figure 15: the robot whose edge does not."""
+    """Figure 15: the robot whose edge lies on a line beside the reference point."""
     return _robot(ax, BESIDE)
 
 

@@ -26,7 +26,7 @@ from cfree.scene.scene import Scene
 
 WINDOW = (-3.2, -2.8, 3.2, 3.0)
 SCALE = 1.1
-ROOM = 20  # typographic points across the middle half of a patch that gets a name
+ROOM = 20  # least typographic points across the middle half of a patch with a name
 BEHIND = (VIEW[0], -163.0)
 LEGEND = [
     (VERTEX_EDGE, "v-e patches"), (EDGE_VERTEX, "e-v patches"), ("-" + HELIX, "v-v helices"),
@@ -36,7 +36,7 @@ LEGEND = [
 
 @cache
 def pillar_boundary() -> Boundary:
-    """The boundary of figures 9 and 13."""
+    """Compute the boundary of figures 9 and 13."""
     return boundary(Scene(robot=TRIANGLE, obstacles=OTHER), threads=1)
 
 
@@ -50,7 +50,7 @@ def pillar(ax: Axes3D) -> Axes3D:
 
 @checked
 def pillar_from_behind(ax: Axes3D) -> Axes3D:
-    """Figure 9: the same, half a turn on."""
+    """Figure 9: the same patches, seen from half a turn further."""
     _named_patches(ax, BEHIND, 2)
     return ax
 
@@ -85,10 +85,10 @@ def _named_patches(ax: Any, view: tuple[float, float], step: float = 1) -> None:
 
 
 def _inside(contact: VertexEdge | EdgeVertex) -> Floats:
-    """The middle of a patch, and points around it: if all are seen, there is room for a name."""
+    """Return the middle of a patch, and points around it: if all are visible, there is room for a name."""
     S, Phi = contact_surface(TRIANGLE, OTHER, contact), angle_range(TRIANGLE, OTHER, contact)
     t, share = np.array([(0.5, 0.5), (0.25, 0.5), (0.75, 0.5), (0.5, 0.25), (0.5, 0.75)]).T
-    # of a patch that goes on beyond a full turn, the larger part
+    # the larger part of a patch that continues beyond a full turn
     low, high = Phi.phi_min % math.tau, Phi.phi_min % math.tau + Phi.phi_range
     low, high = max([(low, min(high, math.tau)), (math.tau, high)], key=lambda part: part[1] - part[0])
     points: Floats = S(t, low + share * (high - low))
@@ -101,7 +101,7 @@ def _inside(contact: VertexEdge | EdgeVertex) -> Floats:
 
 REGULAR = Polygon([(-1, -1), (1, -1), (1, 1), (-1, 1)])
 KITE = Polygon([("0", "-1.3"), ("1.1", "0.1"), ("0", "0.9"), ("-1.1", "0.1")])
-"""A square and a kite about the reference point; both turn among squares."""
+"""Two robots, a square and a kite about the reference point; both turn among squares."""
 
 
 WARM = (CATEGORIES[5], CATEGORIES[1], CATEGORIES[6])
@@ -160,7 +160,7 @@ def _classes(ax: Axes3D, robot: Polygon) -> Axes3D:
 
 
 def _patch(robot: Polygon, contact: VertexEdge | EdgeVertex, colour: str) -> list[Pieces]:
-    """A patch, cut where theta is a full turn."""
+    """Make the pieces of a patch, cut where theta is a full turn."""
     S, Phi = contact_surface(robot, REGULAR, contact), angle_range(robot, REGULAR, contact)
     low, t, parts = Phi.phi_min % math.tau, np.linspace(0, 1, 7), []
     high = low + Phi.phi_range
@@ -171,6 +171,6 @@ def _patch(robot: Polygon, contact: VertexEdge | EdgeVertex, colour: str) -> lis
     return parts
 
 
-def _section(found: Boundary) -> Pieces:
-    corners = level(found.slice(-1e-6).forbidden, 360.0)
+def _section(surface: Boundary) -> Pieces:
+    corners = level(surface.slice(-1e-6).forbidden, 360.0)
     return of_one_colour(corners, FORBIDDEN, SECTION, np.full(len(corners), -1))

@@ -18,14 +18,14 @@ Floats = NDArray[np.float64]
 
 
 def set_plane(ax: Axes, window: tuple[float, float, float, float]) -> None:
-    """Let axes show x0, y0, x1, y1, and nothing of themselves."""
+    """Make axes show x0, y0, x1, y1, without frame and numbers."""
     x0, y0, x1, y1 = window
     ax.set(xlim=(x0, x1), ylim=(y0, y1), aspect="equal")
     ax.set_axis_off()
 
 
 def shape(ax: Axes, points: ArrayLike, colour: str, inside: str = "", *, alpha: float = 0.35) -> None:
-    """A polygon, tinted inside with another colour if one is given."""
+    """Draw a polygon, tinted inside with another colour if one is given."""
     from matplotlib.patches import Polygon as Outline
 
     corners = np.asarray(points)
@@ -34,7 +34,7 @@ def shape(ax: Axes, points: ArrayLike, colour: str, inside: str = "", *, alpha: 
 
 
 def ghost(ax: Axes, points: ArrayLike) -> None:
-    """The robot in a pose between others: its outline, dashed."""
+    """Draw the robot in a pose between others: its outline, dashed."""
     from matplotlib.patches import Polygon as Outline
 
     look: Any = {"facecolor": GHOST, "edgecolor": ROBOT, "linewidth": 1.1, "linestyle": (0, (4, 3))}
@@ -42,26 +42,26 @@ def ghost(ax: Axes, points: ArrayLike) -> None:
 
 
 def line(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = INK, *, width: float = 1, dashes: bool = False) -> None:
-    """A segment, above shapes."""
+    """Draw a segment, above shapes."""
     (x0, y0), (x1, y1) = np.asarray(p), np.asarray(q)
     ax.plot([x0, x1], [y0, y1], color=colour, linewidth=width, linestyle=(0, (4, 3)) if dashes else "-", zorder=4)
 
 
 def arrow(ax: Axes, p: ArrayLike, q: ArrayLike, colour: str = INK, *, width: float = 1.4) -> None:
-    """An arrow from p to q."""
+    """Draw an arrow from p to q."""
     (x0, y0), (x1, y1) = np.asarray(p, float).tolist(), np.asarray(q, float).tolist()
     look = {"arrowstyle": "-|>,head_width=0.22,head_length=0.5", "color": colour, "linewidth": width}
     ax.annotate("", (x1, y1), (x0, y0), arrowprops={**look, "shrinkA": 0, "shrinkB": 0, "joinstyle": "miter"}, zorder=5)
 
 
 def dot(ax: Axes, p: ArrayLike, colour: str = INK, size: float = 4.5) -> None:
-    """A point with a white rim."""
+    """Draw a point with a white rim."""
     x, y = np.asarray(p)
     ax.plot(x, y, "o", color=colour, markersize=size, markeredgecolor="white", markeredgewidth=0.8, zorder=7)
 
 
 def label(ax: Axes, p: ArrayLike, text: str, way: ArrayLike = (0, 0), colour: str = INK, size: float = 13) -> None:
-    """Text at a point, moved by (dx, dy) typographic points, with a white halo."""
+    """Write text at a point, moved by (dx, dy) typographic points, with a white halo."""
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=2.5, foreground="white", alpha=0.85)]
@@ -74,7 +74,7 @@ def label(ax: Axes, p: ArrayLike, text: str, way: ArrayLike = (0, 0), colour: st
 
 
 def corner_labels(ax: Axes, points: ArrayLike, names: Sequence[str], distance: float = 11) -> None:
-    """Names outside the corners of a convex polygon; an empty name leaves its corner unnamed."""
+    """Write names outside the corners of a convex polygon; an empty name leaves its corner unnamed."""
     corners = np.asarray(points, float)
     for k, name in enumerate(names):
         if name:
@@ -84,14 +84,14 @@ def corner_labels(ax: Axes, points: ArrayLike, names: Sequence[str], distance: f
 
 
 def edge_label(ax: Axes, p: ArrayLike, q: ArrayLike, text: str, distance: float = 11, at: float = 0.5) -> None:
-    """Text beside the edge from p to q, on its right, that is outside."""
+    """Write text beside the edge from p to q, on its right, which is outside."""
     p, q = np.asarray(p, float), np.asarray(q, float)
     x, y = (q - p) / np.hypot(*(q - p))
     label(ax, (1 - at) * p + at * q, text, (distance * y, -distance * x))
 
 
 def frame(ax: Axes, q: ArrayLike, length: float, colour: str) -> None:
-    """The robot's local frame in the pose (x, y, theta)."""
+    """Draw the robot's local frame in the pose (x, y, theta)."""
     x, y, theta = np.asarray(q, float).tolist()
     for turn in (theta, theta + math.pi / 2):
         arrow(ax, (x, y), (x + length * math.cos(turn), y + length * math.sin(turn)), colour, width=1.6)
@@ -102,7 +102,7 @@ def arc(
     ax: Axes, centre: ArrayLike, radius: float, span: tuple[float, float], colour: str = INK, *,
     tip: bool = False, fill: bool = True, width: float = 1.2, dotted: bool = False,
 ) -> None:  # fmt: skip
-    """An arc of a circle over a span of angles in radians, its sector tinted, with an arrow at its end if asked for."""
+    """Draw an arc over a span of angles in radians, with a tinted sector, and an arrow at its end if wanted."""
     from matplotlib.patches import Wedge
 
     (x, y), (start, stop) = np.asarray(centre, float).tolist(), span
@@ -119,12 +119,12 @@ def arc(
 
 
 def on_arc(centre: ArrayLike, radius: float, angle: float) -> Floats:
-    """A point of a circle."""
+    """Return a point of a circle."""
     return np.asarray(centre, float) + radius * np.array([math.cos(angle), math.sin(angle)])
 
 
 def placed(vertices: ArrayLike, q: ArrayLike) -> Floats:
-    """Points of the robot in the pose (x, y, theta), eq. (3)."""
+    """Return points of the robot in the pose (x, y, theta), eq. (3)."""
     x, y, theta = np.asarray(q, float).tolist()
     c, s = math.cos(theta), math.sin(theta)
     moved: Floats = np.asarray(vertices, float) @ np.array([[c, s], [-s, c]]) + (x, y)

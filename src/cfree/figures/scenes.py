@@ -33,13 +33,13 @@ FIVE = Scene(
 """`examples/scenes/five_convex.json`, which is not installed, without its bounds."""
 AROUND = (-0.6, -0.8, 12.6, 9.6)
 TURNED = (33.0, -118.0)
-"""A camera that sees where the pillars of O_3 and O_4 meet."""
+"""A camera that faces the meeting of the pillars of O_3 and O_4."""
 SLICES = 37
 
 
 @cache
 def five_boundary() -> Boundary:
-    """The boundary of figures 12 and 14."""
+    """Compute the boundary of figures 12 and 14."""
     return boundary(FIVE, threads=1)
 
 
@@ -60,7 +60,7 @@ def five_obstacles(ax: Axes) -> Axes:
 
 @checked
 def five_pillars(ax: Axes3D) -> Axes3D:
-    """Figure 12: all of the boundary they make; where pillars meet, the patches are trimmed by each other."""
+    """Figure 12: the whole boundary of the five obstacles; patches trim each other where pillars meet."""
     set_space(ax, AROUND, angle_scale=1.3, view=TURNED, zoom=1.02)
     draw_frame(ax, 3)
     paint(ax, [pieces_of(five_boundary(), AROUND, line=1.6, detail=DETAIL)])
@@ -76,7 +76,7 @@ def slice_stack(ax: Axes3D) -> Axes3D:
     """Figure 13: slices at equal steps of theta."""
     set_space(ax, WINDOW, angle_scale=SCALE)
     draw_frame(ax)
-    # seen from above, no slice hides one above it
+    # the view is from above: no slice hides one above it
     for k, degrees in enumerate(np.linspace(0, 360, SLICES).tolist()):
         paint(ax, slice_pieces(pillar_boundary(), degrees), 1 + k, "matplotlib")
     legend(ax, [("-" + VERTEX_EDGE, "v-e contacts"), ("-" + EDGE_VERTEX, "e-v contacts")])
@@ -85,7 +85,7 @@ def slice_stack(ax: Axes3D) -> Axes3D:
 
 @checked
 def slice_source(ax: Axes3D) -> Axes3D:
-    """Figure 13: the surface that the slices are cut from."""
+    """Figure 13: the surface that contains the slices' rims."""
     set_space(ax, WINDOW, angle_scale=SCALE)
     draw_frame(ax)
     paint(ax, [pieces_of(pillar_boundary(), WINDOW, line=2.0, detail=DETAIL)])
@@ -93,13 +93,13 @@ def slice_source(ax: Axes3D) -> Axes3D:
     return ax
 
 
-def slice_pieces(found: Boundary, degrees: float) -> list[Pieces]:
-    """The forbidden region at one orientation, and its rim in the colours of its contacts."""
-    cut = found.slice(f"{degrees}deg")
+def slice_pieces(surface: Boundary, degrees: float) -> list[Pieces]:
+    """Return the forbidden region at one orientation, and its rim in the colours of its contacts."""
+    cut = surface.slice(f"{degrees}deg")
     inside = level(cut.forbidden, degrees)
     colours = {1: VERTEX_EDGE, 2: EDGE_VERTEX}
     rim = [
         of_line(np.column_stack((segment, (degrees, degrees))), colours[kind], 1.5)
-        for segment, kind in zip(cut.segments, found.patch_kind[cut.patches].tolist(), strict=True)
+        for segment, kind in zip(cut.segments, surface.patch_kind[cut.patches].tolist(), strict=True)
     ]
     return [of_one_colour(inside, FORBIDDEN, SURFACE, np.full(len(inside), -1)), *rim]

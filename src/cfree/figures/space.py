@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 
 DETAIL = Detail(4_000, (math.radians(3), math.radians(15)), 36)
-"""Of boundaries: fine enough to be smooth, and few enough faces to be vectors."""
+"""Detail of boundaries: fine enough to be smooth, with few enough faces for vectors."""
 TURNS = {0: "$0$", 90: r"$\pi/2$", 180: r"$\pi$", 270: r"$3\pi/2$", 360: r"$2\pi$"}
 DEGREES = np.array([1.0, 1.0, 180 / math.pi])
 
@@ -29,7 +29,7 @@ def set_space(
     ax: Any, window: Box, *, angle_scale: float, view: tuple[float, float] = VIEW,
     degrees: tuple[float, float] = (0, 360), zoom: float = 1.0,
 ) -> None:  # fmt: skip
-    """Let axes show a rectangle of the plane and a range of theta, a radian as long as `angle_scale`, with no frame."""
+    """Make axes show a rectangle of the plane and a range of theta, one radian as long as `angle_scale`; no frame."""
     x0, y0, x1, y1 = window
     ax.computed_zorder = False
     ax.set(xlim=(x0, x1), ylim=(y0, y1), zlim=degrees)
@@ -41,7 +41,7 @@ def set_space(
 
 
 def draw_frame(ax: Any, step: float = 1) -> None:
-    """Floor and two back walls with a faint grid; numbers along the near edges, of theta along the left one."""
+    """Draw floor and two back walls with a faint grid; numbers along the near edges, for theta along the left one."""
     from mpl_toolkits.mplot3d.art3d import Line3DCollection, Poly3DCollection
 
     azimuth = math.radians(ax.azim)
@@ -90,7 +90,7 @@ def _multiples(low: float, high: float, step: float) -> list[float]:
 
 
 def paint(ax: Any, parts: Iterable[Pieces], z: float = 1, renderer: Renderer | None = None) -> Painting:
-    """Put pieces on axes, those in front hiding those behind."""
+    """Put pieces on axes; those in front hide those behind."""
     painting = Painting(joined(list(parts)), ghost=0, renderer=renderer)
     painting.set(zorder=z, clip_on=False)
     ax.add_collection(painting, autolim=False)
@@ -98,7 +98,7 @@ def paint(ax: Any, parts: Iterable[Pieces], z: float = 1, renderer: Renderer | N
 
 
 def legend(ax: Any, names: Sequence[tuple[str, str]], *, below: float = 0.03, columns: int = 4) -> None:
-    """Colours and what they mean, below axes; lines are named by a colour that begins with a dash."""
+    """Add a legend of colours below axes; a colour that begins with a dash stands for a line."""
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
@@ -115,7 +115,7 @@ def legend(ax: Any, names: Sequence[tuple[str, str]], *, below: float = 0.03, co
 
 
 def note(ax: Any, point: ArrayLike, text: str, colour: str = INK, size: float = 13, **options: Any) -> None:
-    """Text at a point, theta in radians, with a white halo."""
+    """Write text at a point, theta in radians, with a white halo."""
     from matplotlib.patheffects import withStroke
 
     halo = [withStroke(linewidth=2.5, foreground="white", alpha=0.85)]
@@ -125,36 +125,36 @@ def note(ax: Any, point: ArrayLike, text: str, colour: str = INK, size: float = 
 
 
 def mark(ax: Any, point: ArrayLike, colour: str = INK, size: float = 7) -> None:
-    """A dot at a point, theta in radians, that nothing hides."""
+    """Draw a dot at a point, theta in radians, that nothing hides."""
     x, y, z = (np.asarray(point) * DEGREES).tolist()
     ax.plot([x], [y], [z], "o", color=colour, markersize=size, markeredgecolor="white", zorder=11, clip_on=False)
 
 
 def seen(ax: Any, painting: Painting, points: Floats) -> NDArray[np.bool_]:
-    """Which of the points (n, 3), theta in radians, nothing that is painted hides from the camera."""
+    """Return True for each of the points (n, 3), theta in radians, that no painted face hides from the camera."""
     ax.M = ax.get_proj()
     painting.do_3d_projection()
     return painting.shows(np.column_stack(proj3d.proj_transform(*(points * DEGREES).T, ax.M)))
 
 
 def sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
-    """A grid of points (m, n, 3), theta in radians; see `of_sheet`."""
+    """Make pieces of a grid of points (m, n, 3), theta in radians; see `of_sheet`."""
     return of_sheet(points * DEGREES, colour, angle_scale)
 
 
 def curve(points: Floats, colour: str, width: float) -> Pieces:
-    """A curve of points (k, 3), theta in radians."""
+    """Make pieces of a curve of points (k, 3), theta in radians."""
     return of_line(points * DEGREES, colour, width)
 
 
 def around(points: Floats, margin: float) -> Box:
-    """The rectangle of the plane around points (..., 3)."""
+    """Return the rectangle of the plane around points (..., 3)."""
     flat = points.reshape(-1, 3)[:, :2]
     (x0, y0), (x1, y1) = (flat.min(axis=0) - margin).tolist(), (flat.max(axis=0) + margin).tolist()
     return x0, y0, x1, y1
 
 
 def grid(S: Surface, t: Floats, phi: Floats) -> Floats:
-    """Points (angles, t, 3) of a surface."""
+    """Return points (angles, t, 3) of a surface."""
     points: Floats = S(t[None, :], phi[:, None])
     return points

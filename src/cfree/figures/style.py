@@ -1,4 +1,4 @@
-"""One look for all figures, and their files."""
+"""The common style of all figures, and their files."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ FORMATS = ("svg", "pdf", "png")
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Settings of matplotlib that hold while a figure is made and written."""
+    """Apply settings of matplotlib while a figure is made and written."""
     from matplotlib import rc_context
 
-    # fonts that can be searched, and the same bytes each time
+    # searchable fonts, and the same bytes each time
     settings: Any = {**LETTERS, "pdf.fonttype": 42, "svg.hashsalt": "cfree"}
     with rc_context(settings):
         yield

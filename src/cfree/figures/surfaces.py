@@ -1,4 +1,4 @@
-"""Figures 7 and 8: whole contact surfaces of both kinds, and in full colour the part that is contact."""
+"""Figures 7 and 8: whole contact surfaces of both kinds, their patches in full colour."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ def _surface(ax: Axes3D, contact: VertexEdge | EdgeVertex, colour: str) -> Axes3
 
 
 def surface_with_patch(S: Surface, Phi: AngleRange, colour: str, scale: float) -> Pieces:
-    """A surface over a full turn, paler where contacts are pseudo contacts."""
+    """Make pieces of a surface over a full turn, paler where contacts are pseudo contacts."""
     ends = np.mod([Phi.phi_min, Phi.phi_max], math.tau)
     t, phi = np.linspace(0, 1, 13), np.union1d(np.linspace(0, math.tau, 181), ends)
     inside = is_inside(Phi, (phi[1:] + phi[:-1]) / 2)
@@ -68,7 +68,7 @@ def surface_with_patch(S: Surface, Phi: AngleRange, colour: str, scale: float) -
 
 
 def is_inside(Phi: AngleRange, phi: Floats) -> Any:
-    """Which angles are in a range."""
+    """Return True for angles in a range."""
     return np.mod(phi - Phi.phi_min, math.tau) < Phi.phi_range
 
 

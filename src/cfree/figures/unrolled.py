@@ -1,4 +1,4 @@
-"""Figure 17: a v-e patch beside its development: it unrolls into the plane, lengths and angles unchanged."""
+"""Figure 17: a v-e patch beside its development: the patch unrolls into the plane, lengths and angles unchanged."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Films of a robot that moves among obstacles, and of the point it is in the configuration space."""
+"""Films of a robot that moves among obstacles, and of its point in the configuration space."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ __all__ = ["film_path", "film_separation", "save_film"]
 
 Storyboard = Literal["paper", "path", "separation", "turntable"]
 MOST = 60.0  # seconds of motion
-SIZE, SIZES = (1280, 720), {".gif": (640, 360)}  # of answers' films, if not said otherwise
-SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # of a film, if not said otherwise
-GIF_SECONDS = 6.0  # of any GIF, which is large and held in memory
+SIZE, SIZES = (1280, 720), {".gif": (640, 360)}  # default pixels of answers' films
+SECONDS, SECONDS_OF = 30.0, {"separation": 12.0, "turntable": 8.0}  # default lengths of films
+GIF_SECONDS = 6.0  # default length of any GIF: it is large and held in memory
 
 
 def length_of(storyboard: str, path: str | PathLike[str]) -> float:
-    """Seconds of a film in this file, if not said otherwise.
+    """Default length of a film in this file, in seconds.
 
     Examples
     --------
@@ -49,33 +49,33 @@ def save_film(
     Parameters
     ----------
     boundaries : sequence of Boundary
-        With the storyboard "paper" the first shows slices, a helix, a v-e and an e-v patch, the whole boundary and a
-        path; the others the last two of these.
+        The storyboard "paper" shows slices, a helix, a v-e and an e-v patch, the whole boundary and a path of the
+        first, and the last two of these of the others.
     path : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
     seconds : float, optional
-        Length of the film: 6 of a GIF if not given, else 30, 12 of a separation, 8 of a turntable.
+        Length of the film: by default 6 for a GIF, else 30, 12 for a separation, 8 for a turntable.
     fps : int
         Frames a second.
     size : (int, int)
-        Width and height in pixels; even, as video codecs want them.
+        Width and height in pixels; even, as video codecs require.
     storyboard : "paper", "path", "separation" or "turntable"
-        "paper"; "path" for a motion from start to goal alone; "separation" for the surface that parts these, and how
-        the robot tries to pass; "turntable" for the boundary, which turns once around.
+        "paper"; "path" for a motion from start to goal alone; "separation" for the separating surface and the robot's
+        attempts to pass it; "turntable" for the boundary, which turns once around.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
     Raises
     ------
     ValueError
-        If an option has no sense, or there is nothing to show of a scene: no contact, or nothing that parts its ends.
+        If an option makes no sense, or a scene has nothing to show: no contact, or no surface that separates its ends.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 
     Notes
     -----
-    Poses at contacts are exact and on the contact surface, those of free motions exact and on a path proved free. Time
-    is some tenths of a second a frame of 1280 x 720. A GIF is kept in memory until it is written.
+    Poses at contacts are exact and on the contact surface; those of free motions are exact and on a path proved free.
+    A frame of 1280 x 720 takes some tenths of a second. A GIF is kept in memory until it is written.
 
     Examples
     --------
@@ -85,7 +85,7 @@ def save_film(
     ...     save_film([pair], f"{folder}/pair.gif", seconds=1, fps=6, size=(320, 180))
     """
     from cfree.film.encode import check_film_path, write
-    from cfree.film.reel import check_options, pictures
+    from cfree.film.montage import check_options, pictures
 
     check_film_path(path)
     seconds = length_of(storyboard, path) if seconds is None else seconds
@@ -105,38 +105,38 @@ def film_path(
     size: tuple[int, int] | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> None:
-    """Write a film of the robot on its way, its clearance, and the configuration space if its boundary is given.
+    """Write a film of the robot along a path, its clearance, and the configuration space if its boundary is given.
 
     Parameters
     ----------
     path : Path
     scene : Scene
-        In which it is free.
+        The scene in which the path is free.
     file : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
     boundary : Boundary, optional
-        Of that scene.
+        The boundary of that scene.
     seconds : float, optional
-        Of motion, a minute at most. If not given, one for each of its own radii that the robot travels, 4 to 20; a GIF
-        is 6 seconds long in all. The robot rests for about a second before and after.
+        Duration of the motion, a minute at most. The default is one second for each of its own radii that the robot
+        travels, 4 to 20; a GIF is 6 seconds long in all. The robot rests for about a second before and after.
     fps : int
         Frames a second.
     size : (int, int), optional
-        Width and height in pixels, even; 1280 x 720, for a GIF 640 x 360, if not given.
+        Width and height in pixels, even; by default 1280 x 720, for a GIF 640 x 360.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
     Raises
     ------
     ValueError
-        If the path is not free, or an option has no sense.
+        If the path is not free, or an option makes no sense.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 
     Notes
     -----
-    The robot moves at even speed: that of its farthest moving point. Between frames nothing is shown, but the path is
-    proved free before the first is drawn. Distances are computed in doubles.
+    The speed of the robot's fastest point is constant. Poses between frames are not shown, but the path is proved free
+    before the first frame is drawn. Distances are computed in doubles.
 
     Examples
     --------
@@ -147,8 +147,8 @@ def film_path(
     ...     film_path(path, scene, f"{folder}/path.gif", seconds=1, fps=5, size=(320, 180))
     """
     from cfree.film.encode import check_film_path, write
-    from cfree.film.reel import check_frames
-    from cfree.film.way import REST, path_frames
+    from cfree.film.montage import check_frames
+    from cfree.film.path_film import REST, path_frames
     from cfree.plot.path import Track
 
     suffix = check_film_path(file)
@@ -172,35 +172,35 @@ def film_separation(
     size: tuple[int, int] | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> None:
-    """Write a film of a proof: the robot tries to get to its goal, and the surface closes that it cannot pass.
+    """Write a film of a proof: the robot tries to reach its goal, and the separating surface closes around it.
 
     Parameters
     ----------
     answer : Separated
     boundary : Boundary
-        Of the scene to which it is the answer.
+        The boundary of the scene that the answer is for.
     file : path
         ``.mp4`` (needs ``pip install cfree[video]``) or ``.gif``; a file there is replaced once the film is complete.
     seconds : float, optional
-        Length of the film: 12, of a GIF 6, if not given.
+        Length of the film: by default 12, for a GIF 6.
     fps : int
         Frames a second.
     size : (int, int), optional
-        Width and height in pixels, even; 1280 x 720, for a GIF 640 x 360, if not given.
+        Width and height in pixels, even; by default 1280 x 720, for a GIF 640 x 360.
     progress : callable, optional
         Called with the share that is done, from 0 to 1.
 
     Raises
     ------
     ValueError
-        If an option has no sense, or start and goal are parted by no surface, but by what fits exactly.
+        If an option makes no sense, or no surface separates start and goal, but exact fits do.
     UnsupportedError
         If the format is unknown, or PyAV is missing.
 
     Notes
     -----
-    The robot's motions are paths of the planner to the poses nearest to the goal and farthest from it, of some thousand
-    that can be reached.
+    The robot moves along paths of the planner. They lead to the poses nearest to the goal and farthest from it, chosen
+    from some thousand reachable poses.
 
     Examples
     --------
@@ -212,10 +212,10 @@ def film_separation(
     ...     film_separation(proof, cfree.boundary(scene), f"{folder}/proof.gif", seconds=1, fps=6, size=(320, 180))
     """
     from cfree.film.encode import check_film_path, write
-    from cfree.film.reel import apart, check_options, reel
+    from cfree.film.montage import check_options, separation_film, splice
 
     suffix = check_film_path(file)
     size = size or SIZES.get(suffix, SIZE)
     seconds = length_of("separation", file) if seconds is None else seconds
     check_options(1, seconds, fps, size)
-    write(reel([apart(boundary, answer, round(seconds * fps), size, fps)], fps, progress), file, fps)
+    write(splice([separation_film(boundary, answer, round(seconds * fps), size, fps)], fps, progress), file, fps)

@@ -1,4 +1,4 @@
-"""Frames into a file: MP4 with PyAV, GIF with Pillow; whole or not at all."""
+"""Write frames into a file: MP4 with PyAV, GIF with Pillow; whole or not at all."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ SUFFIXES = (".mp4", ".gif")
 
 
 def check_film_path(path: str | PathLike[str]) -> str:
-    """Suffix of a film that can be written here.
+    """Return the suffix of a film that can be written here.
 
     Raises
     ------
     UnsupportedError
-        If it is another format, or MP4 and PyAV is not installed.
+        If the format is another one, or it is MP4 and PyAV is not installed.
 
     Examples
     --------
@@ -58,7 +58,7 @@ def write(frames: Iterator[Image], path: str | PathLike[str], fps: int) -> None:
     Parameters
     ----------
     frames : iterator of (height, width, 3) uint8
-        At least one. Width and height even for MP4.
+        At least one frame. Width and height must be even for MP4.
     path : path
         ``.mp4`` or ``.gif``; a file there is replaced once the film is complete.
     fps : int
@@ -71,28 +71,28 @@ def write(frames: Iterator[Image], path: str | PathLike[str], fps: int) -> None:
 
 @contextmanager
 def _interrupted(frames: Iterator[Image]) -> Iterator[Iterator[Image]]:
-    """Frames that Ctrl-C ends also where it is lost: libraries that draw clear an exception now and then."""
-    heed = signal.getsignal(signal.SIGINT)
-    if threading.current_thread() is not threading.main_thread() or not callable(heed):
+    """Yield the frames, ended by Ctrl-C even if a drawing library clears the exception."""
+    handler = signal.getsignal(signal.SIGINT)
+    if threading.current_thread() is not threading.main_thread() or not callable(handler):
         yield frames
         return
-    asked = threading.Event()
+    interrupted = threading.Event()
 
-    def note(number: int, at: FrameType | None) -> None:
-        asked.set()
-        heed(number, at)
+    def note(number: int, frame: FrameType | None) -> None:
+        interrupted.set()
+        handler(number, frame)
 
-    def until_asked() -> Iterator[Image]:
+    def until_interrupted() -> Iterator[Image]:
         for frame in frames:
-            if asked.is_set():
+            if interrupted.is_set():
                 raise KeyboardInterrupt
             yield frame
 
     signal.signal(signal.SIGINT, note)
     try:
-        yield until_asked()
+        yield until_interrupted()
     finally:
-        signal.signal(signal.SIGINT, heed)
+        signal.signal(signal.SIGINT, handler)
 
 
 def _save_mp4(frames: Iterator[Image], path: Path, fps: int) -> None:
@@ -110,7 +110,7 @@ def _save_mp4(frames: Iterator[Image], path: Path, fps: int) -> None:
     finally:
         container.close()
         del container, stream
-        gc.collect()  # a codec left to the end of Python hangs or crashes there
+        gc.collect()  # a codec that lives until Python ends hangs or crashes there
 
 
 def _save_gif(frames: Iterator[Image], path: Path, fps: int) -> None:

@@ -1,4 +1,4 @@
-"""One frame: the workspace at the left, the configuration space at the right, and what is touched in words."""
+"""One frame: the workspace at the left, the configuration space at the right, and the contact in words."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.moves import Moment
+from cfree.film.contact_motions import Moment
 from cfree.film.plane import TOUCH, Plane, edge_number, obstacle_name, whole
 from cfree.film.space import Space
 from cfree.forbidden.patch import Contact
@@ -31,32 +31,32 @@ Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
 TRAIL = 4.0  # seconds until the line of a motion has faded
-DOTS, INCHES = 80, (4.5, 7.2)  # a frame has so many dots an inch if it is that high: letters are large enough to read
+DOTS, INCHES = 80, (4.5, 7.2)  # dots per inch, and limits of the height: letters stay large enough to read
 MONO = "DejaVu Sans Mono"
-SHORT = 4  # letters of a unit that stands at the axes
-ROOMY = 11.0  # inches: the legend is one row
+SHORT = 4  # letters at most of a unit that stands at the axes
+ROOMY = 11.0  # inches of width from which on the legend is one row
 
 
 @dataclass(frozen=True)
 class View:
-    """All that changes from frame to frame.
+    """The state of one frame: all that changes from frame to frame.
 
     Attributes
     ----------
     title, note : str
     recent : sequence of Moment
-        As many as trails are long, the present one last.
+        The moments of the trail, the present one last.
     azimuth : float, radians
     shown : (parts, 2) float64, degrees
-        Between which angles each part of the boundary is drawn.
+        The range of angles in which each part of the boundary is drawn.
     ghost : float
-        Opacity of what is above the plane.
+        Opacity of everything above the plane.
     lines : sequence of (colour, (n, 3) float64)
         Motions so far, theta in degrees, the present one last.
     goal : Pose or None
-        Where the robot goes, to be outlined.
+        The pose the robot moves to, drawn as an outline.
     stays : (parts,) bool
-        Parts that have been swept: these are seen above the plane, too.
+        True for parts that have been swept: these are visible above the plane as well.
     """
 
     title: str
@@ -71,7 +71,7 @@ class View:
 
 
 def new_frame(size: tuple[int, int]) -> tuple[Figure, float]:
-    """A figure of so many pixels, with a canvas, and its height in inches."""
+    """Return a figure of this size in pixels, with a canvas, and its height in inches."""
     width, height = size
     inches = float(np.clip(height / DOTS, *INCHES))
     figure = Figure(figsize=(inches * width / height, inches), dpi=height / inches, facecolor="white")
@@ -80,14 +80,14 @@ def new_frame(size: tuple[int, int]) -> tuple[Figure, float]:
 
 
 def image_of(figure: Figure) -> Image:
-    """The figure drawn, as (height, width, 3) bytes."""
+    """Draw the figure as (height, width, 3) bytes."""
     canvas: Any = figure.canvas
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3].copy()
 
 
 class Stage:
-    """Draws the frames of one scene.
+    """The film set of one scene: draws its frames.
 
     Parameters
     ----------
@@ -97,9 +97,9 @@ class Stage:
     fps : int
         Frames a second.
     surface : Boundary, optional
-        Of which patches are seen, if not of all.
+        The patches shown, by default all of the boundary.
     window : four floats, optional
-        x0, y0, x1, y1: what is seen, if not everything.
+        x0, y0, x1, y1: the rectangle shown, by default everything.
     """
 
     def __init__(
@@ -109,11 +109,11 @@ class Stage:
         self.boundary, trail = boundary, TRAIL * fps
         self.figure, height = new_frame(size)
         figure, width = self.figure, self.figure.get_figwidth()
-        seen = roomy(window or whole(boundary.scene, extent(boundary)))
+        view = roomy(window or whole(boundary.scene, extent(boundary)))
         window, names = window or extent(boundary), axis_names(boundary.scene)
         low, top = 1.25 / height, 1 - 0.95 / height
         place = 0.65 / width, low, 0.43 - 0.65 / width, top - low
-        self.plane = Plane(figure, place, boundary.scene, seen, names, trail)
+        self.plane = Plane(figure, place, boundary.scene, view, names, trail)
         place = 0.45, 0.72 / height, 0.54, 1 - 1.28 / height
         self.space = Space(figure, place, boundary, window, names, trail, surface)
         left = 0.2 / width
@@ -126,7 +126,7 @@ class Stage:
         legend(figure, 0.34 / height, 6 if width > ROOMY else 3, {"forbidden": FORBIDDEN, "free": FREE})
 
     def draw(self, view: View) -> Image:
-        """The frame as (height, width, 3) bytes."""
+        """Draw the frame as (height, width, 3) bytes."""
         pose, contact = view.recent[-1].pose, view.recent[-1].contact
         cut = self.boundary.slice(pose.theta)
         self.plane.draw(view.recent, cut, view.lines[-1], view.goal)
@@ -140,19 +140,19 @@ class Stage:
 
 
 def axis_names(scene: Scene) -> tuple[str, str]:
-    """Names of the axes x and y, with a unit that is an abbreviation."""
+    """Name the axes x and y, with the unit if it is an abbreviation."""
     units = scene.units if len(scene.units) <= SHORT else ""
     return with_unit("x", units), with_unit("y", units)
 
 
 def numbers(pose: Pose) -> str:
-    """A pose in figures of constant width."""
+    """Write a pose in figures of constant width."""
     x, y = (f"{value:#.4g}".rjust(8) for value in (float(pose.x), float(pose.y)))
     return f"x {x}  y {y}  θ {math.degrees(pose.theta):5.1f}°".replace("-", "−")
 
 
 def caption(contact: Contact | None) -> str:
-    """A contact in words; numbers count from 1, as in the figures.
+    """Describe a contact in words; numbers count from 1, as in the figures.
 
     Examples
     --------
@@ -171,7 +171,7 @@ def caption(contact: Contact | None) -> str:
 
 
 def legend(figure: Figure, y: float, columns: int, regions: dict[str, str]) -> None:
-    """What the colours mean: those of contacts, and some more."""
+    """Add a legend of the contacts' colours, and of the regions' colours given."""
     handles = [
         Patch(color=VERTEX_EDGE, label="v-e patch"),
         Patch(color=EDGE_VERTEX, label="e-v patch"),

@@ -1,4 +1,4 @@
-"""Free motions of a film: paths of the planner, and places to go to."""
+"""Free motions of a film: paths of the planner, and destinations."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-SLICES = 72  # among which the place for a full turn is looked for
-GRID = 16  # poses along each axis, among which the farthest is
+SLICES = 72  # slices searched for a place for a full turn
+GRID = 16  # candidate poses along each axis
 
 
 class FreeMotions:
-    """What the robot can do without touching anything on the way.
+    """Motions of the robot that touch nothing.
 
     Parameters
     ----------
     boundary : Boundary
     window : four floats
-        x0, y0, x1, y1 around the places it may go to.
+        x0, y0, x1, y1 around the destinations.
     """
 
     def __init__(self, boundary: Boundary, window: Window) -> None:
@@ -51,14 +51,14 @@ class FreeMotions:
         return Planner(self._scene, self._space)
 
     def path(self, start: Pose, goal: Pose) -> Path | None:
-        """A path; None if the two are in no common cell, as where all ways touch something."""
+        """Return a path, or None if start and goal are in no common cell, as when all paths touch something."""
         if self._space.common_cell(start, goal) is None:
             return None
-        found = self._planner.plan(start, goal)
-        return found if isinstance(found, Path) else None
+        answer = self._planner.plan(start, goal)
+        return answer if isinstance(answer, Path) else None
 
     def full_turn(self) -> Path | None:
-        """A full turn in place where there is most room for it, from theta = 0; None if it is not free."""
+        """Return a full turn in place from theta = 0, at the roomiest place; None if it is not free."""
         import shapely
 
         angles = np.linspace(0, math.tau, SLICES, endpoint=False).tolist()
@@ -71,50 +71,50 @@ class FreeMotions:
         return path if path.is_free(self._planner.checker) else None
 
     def resting_pose(self) -> Pose | None:
-        """A pose with much room in the largest cell; None if there is none."""
+        """Return a pose with much room in the largest cell; None if there is none."""
         if not len(self._boundary.trapezoids) or not len(self._space):
             return None
-        found = largest_disc(self._space.cells[int(np.argmax(self._space.volumes))])
-        return None if found is None else found[0]
+        disc = largest_disc(self._space.cells[int(np.argmax(self._space.volumes))])
+        return None if disc is None else disc[0]
 
     def farthest(self, pose: Pose) -> Pose | None:
-        """Of poses on a grid that can be reached, the farthest; None if none can."""
+        """Return the farthest reachable pose of a grid; None if no pose of it is reachable."""
         reached = self._reached(pose)
         return _pose(reached[self._distances(reached, pose).argmax()]) if len(reached) else None
 
     def tried(self, start: Pose, goal: Pose) -> list[Pose]:
-        """Of poses on a grid that can be reached, the nearest to a goal, that farthest from it, and one more."""
+        """Return three reachable poses of a grid: the nearest to a goal, the farthest from that, and one more."""
         reached = self._reached(start)
         if not len(reached):
             return []
         apart = self._distances(reached, goal)
         rows = [reached[apart.argmin()]]
-        for _ in range(2):  # each as far from all others as can be
+        for _ in range(2):  # each as far from all others as possible
             apart = np.min([self._distances(reached, _pose(row)) for row in rows], axis=0)
             rows.append(reached[apart.argmax()])
         return [_pose(row) for row in rows]
 
     def _reached(self, pose: Pose) -> Floats:
-        """Poses x, y, theta on a grid in the cell of a pose."""
+        """Return the poses x, y, theta of a grid that are in the cell of a pose."""
         x0, y0, x1, y1 = self._window
         axes = np.linspace(x0, x1, GRID), np.linspace(y0, y1, GRID), np.linspace(0, math.tau, GRID, endpoint=False)
         rows = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
         cells = self._space.locate(Poses(rows[:, :2], rows[:, 2]))
-        found: Floats = rows[cells == self._space.locate(pose)]
-        return found
+        reached: Floats = rows[cells == self._space.locate(pose)]
+        return reached
 
     def _distances(self, rows: Floats, pose: Pose) -> Floats:
         x, y, theta = rows.T
         turn = np.abs(np.mod(theta - pose.theta + math.pi, math.tau) - math.pi)
-        found: Floats = np.hypot(x - float(pose.x), y - float(pose.y)) + self._planner.angle_scale * turn
-        return found
+        distances: Floats = np.hypot(x - float(pose.x), y - float(pose.y)) + self._planner.angle_scale * turn
+        return distances
 
     def travel(self, path: Path) -> float:
-        """How far the robot travels."""
+        """Return the robot's travel along a path."""
         return Travel(path, self._scene).total
 
     def poses(self, path: Path, shares: Sequence[float]) -> list[Pose]:
-        """Exact poses of a path at shares of the robot's travel."""
+        """Return exact poses of a path at shares of the robot's travel."""
         if not path.motions:
             return [path.start] * len(shares)
         travel = Travel(path, self._scene)

@@ -1,4 +1,4 @@
-"""Names within shapes, as in the figures: A in the robot, O_1, O_2, ... in the obstacles; only where they fit."""
+"""Names within shapes, as in the figures: A in the robot, O_1, O_2, ... in the obstacles, if they fit."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 
-SIZE = 11.0  # of letters, in typographic points
-ROOM = 0.7  # of that, the radius that is needed within a shape
-MANY = 300  # obstacles have names at most
+SIZE = 11.0  # size of letters, in typographic points
+ROOM = 0.7  # radius needed within a shape, as a share of the size
+MANY = 300  # obstacles named at most
 
 
 class Names:
@@ -45,13 +45,13 @@ class Names:
             if radius > needed
         ]
         self._boxes = [text.get_window_extent() for text in self._obstacles]
-        dot = shapely.Point(0, 0).buffer(0.5 * needed)  # of the reference point, beside which the name is
+        dot = shapely.Point(0, 0).buffer(0.5 * needed)  # the reference point: the name is beside it
         discs = [_disc(part.to_shapely().difference(dot)) for part in scene.robot]
         self._centre, radius = max(discs, key=lambda disc: disc[1])
         self._robot = ax.text(0, 0, "$A$", zorder=5.5, **style) if radius > 0.8 * needed else None
 
     def draw(self, pose: Pose, others: Iterable[Any]) -> None:
-        """The robot's name where it is; hidden are all names that other texts are on."""
+        """Write the robot's name inside the robot, and hide all names that other texts cover."""
         taken = [text.get_window_extent() for text in others if text.get_visible()]
         if self._robot is not None:
             (place,) = pose.apply(np.array([self._centre])).tolist()
@@ -65,7 +65,7 @@ class Names:
 
 
 def _disc(shape: BaseGeometry) -> tuple[tuple[float, float], float]:
-    """Centre and radius of a largest disc within a shape, nearly."""
+    """Return centre and radius of a largest disc within a shape, approximately."""
     if shape.area <= 0:
         return (0.0, 0.0), 0.0
     line = shapely.maximum_inscribed_circle(shape, 0.02 * shape.area**0.5)

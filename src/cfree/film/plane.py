@@ -1,4 +1,4 @@
-"""The workspace in a frame: obstacles, the robot in its pose, what touches, where the reference point may not be."""
+"""The workspace in a frame: obstacles, the robot in its pose, the contact, the forbidden region of the slice."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.moves import Moment, shape_of
+from cfree.film.contact_motions import Moment, shape_of
 from cfree.film.names import Names
 from cfree.forbidden.patch import Contact, Place
 from cfree.palette import EDGE_VERTEX, FORBIDDEN, GREY, HELIX, INK, OBSTACLE, OBSTACLE_RIM, ROBOT, VERTEX_EDGE
@@ -29,16 +29,16 @@ if TYPE_CHECKING:
     from cfree.scene.scene import Scene
 
 Floats = NDArray[np.float64]
-Mark = tuple[Floats, str, Floats, Floats]  # points of a feature, its name, where to write it, and which way inwards is
+Mark = tuple[Floats, str, Floats, Floats]  # points of a feature, its name, the name's place, inward direction
 
 TOUCH = {"v-e": VERTEX_EDGE, "e-v": EDGE_VERTEX, "v-v": HELIX}
-NAMES = 0.055  # distance of a name from its feature, a part of the width
+NAMES = 0.055  # distance of a name from its feature, as a share of the width
 FAINTEST = 0.15  # opacity of an old trail
-TRIED = 6  # places for the name of a feature
+TRIED = 6  # places tried for the name of a feature
 
 
 def whole(scene: Scene, window: Window) -> Window:
-    """The rectangle around obstacles and positions of the reference point, with a margin."""
+    """Return the rectangle around obstacles and positions of the reference point, with a margin."""
     boxes = np.array([window, *(polygon.bounds for polygon in scene.obstacles)], dtype=np.float64)
     margin = 0.6 * robot_radius(scene)
     (x0, y0), (x1, y1) = boxes[:, :2].min(axis=0) - margin, boxes[:, 2:].max(axis=0) + margin
@@ -46,18 +46,18 @@ def whole(scene: Scene, window: Window) -> Window:
 
 
 class Plane:
-    """Axes of the workspace.
+    """The panel of the workspace.
 
     Parameters
     ----------
     figure : matplotlib figure
     place : four floats
-        Left, bottom, width, height: parts of the figure.
+        Left, bottom, width, height, as shares of the figure.
     scene : Scene
     window : four floats
-        x0, y0, x1, y1: what is seen.
+        x0, y0, x1, y1: the rectangle shown.
     names : (str, str)
-        Of the axes x and y.
+        Names of the axes x and y.
     trail : float
         Frames until the trail of the reference point has faded.
     """
@@ -103,7 +103,7 @@ class Plane:
         self.shapes = Names(ax, scene)
 
     def draw(self, recent: Sequence[Moment], cut: Slice, line: tuple[str, Floats], goal: Pose | None) -> None:
-        """Everything as it is in one frame; see `cfree.film.frame.View`."""
+        """Draw everything for one frame; see `cfree.film.frame.View`."""
         moment = recent[-1]
         pose = moment.pose
         rings = rings_of(self.scene.robot)
@@ -120,12 +120,12 @@ class Plane:
         self.shapes.draw(pose, self.names)
 
     def _fresh(self, count: int, faintest: float) -> list[float]:
-        """Opacities of the parts of a line through so many places, which fade with their age."""
+        """Return opacities of the parts of a line through `count` places: they fade with their age."""
         shares: list[float] = np.clip(1 - np.arange(count - 2, -1, -1) / self._age, faintest, 1).tolist()
         return shares
 
     def _draw_touched(self, recent: Sequence[Moment]) -> None:
-        """Where the robot has touched, of late."""
+        """Draw the recent contact points as a fading line."""
         contacts = [moment.contact for moment in recent]
         places = [self._touch(moment) for moment in recent]
         parts = [
@@ -137,7 +137,7 @@ class Plane:
         self.touched.set_color([colour for _, colour in parts])
 
     def _touch(self, moment: Moment) -> Floats | None:
-        """Where the robot touches: at its own vertex, or at the obstacle's."""
+        """Return the contact point: the robot's own vertex, or the obstacle's; None without contact."""
         if moment.contact is None:
             return None
         robot, obstacle = moment.contact.robot, moment.contact.obstacle
@@ -157,7 +157,7 @@ class Plane:
             edge.set_visible(len(points) == 2)
             edge.set(xdata=points[:, 0], ydata=points[:, 1], color=TOUCH[contact.kind])
             name.set(text=text, position=place.tolist(), color=TOUCH[contact.kind])
-            for k in range(1, TRIED):  # farther inside while it is on the other name
+            for k in range(1, TRIED):  # move it farther inside while it covers the other name
                 if name is self.names[0] or not name.get_window_extent().overlaps(self.names[0].get_window_extent()):
                     break
                 name.set_position((place + k * inwards).tolist())
@@ -165,7 +165,7 @@ class Plane:
                 self.vertex.set(xdata=points[:, 0], ydata=points[:, 1], markerfacecolor=TOUCH[contact.kind])
 
     def _marks(self, contact: Contact, pose: Pose) -> tuple[Mark, Mark]:
-        """The robot's feature and the obstacle's."""
+        """Return the marks of the robot's feature and of the obstacle's."""
         robot, obstacle = self.scene.robot[contact.robot.polygon], shape_of(self.scene, contact.obstacle)
         inwards = -1 if contact.obstacle.polygon == WORKSPACE else 1
         return (
@@ -174,7 +174,7 @@ class Plane:
         )
 
     def _mark(self, place: Place, vertices: Floats, offsets: Any, letters: str, inwards: float) -> Mark:
-        """A feature, with its name written this far inside its shape."""
+        """Return the mark of a feature, with its name at this distance inside its shape."""
         if place.end is not None:
             points = vertices[[place.index, place.end]]
             x, y = (points[1] - points[0]) / np.linalg.norm(points[1] - points[0])
@@ -190,11 +190,11 @@ class Plane:
 
 
 def edge_number(place: Place) -> int:
-    """The number, from 1, of the vertex at which an edge begins; edges of the workspace run against its rings."""
+    """Number, from 1, the vertex where an edge begins; edges of the workspace run against its rings."""
     assert place.end is not None
     return 1 + (place.end if place.polygon == WORKSPACE else place.index)
 
 
 def obstacle_name(place: Place) -> str:
-    """The name of an obstacle as in the figures, or the workspace."""
+    """Name an obstacle as in the figures, or the workspace."""
     return "the workspace" if place.polygon == WORKSPACE else f"$O_{{{place.polygon + 1}}}$"

@@ -1,7 +1,7 @@
-"""The configuration space in a frame: the patches seen so far, cut by the plane of the robot's orientation.
+"""The configuration space in a frame: the patches shown so far, cut by the plane of the robot's orientation.
 
-The plane shows the slice: where the reference point is free, where it is forbidden, and along what it touches. What is
-above it is more or less transparent, so that it never hides the robot's point.
+The plane shows the slice: free and forbidden positions of the reference point, and the contacts between them. Patches
+above it are more or less transparent, so that they never hide the robot's point.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
 from cfree.film.box import Box
-from cfree.film.eye import Eye
+from cfree.film.camera import Camera
 from cfree.forbidden.kinds import COLOURS, PatchKind
 from cfree.palette import FORBIDDEN, FRAME, FREE, INK, MARK, RIM
 from cfree.plot.depth_sort import paint
@@ -37,30 +37,30 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-TAIL = 500  # points of a motion's line
+TAIL = 500  # points at most of a motion's line
 LINE, GHOST = 1.8, 0.08  # width of curves; opacity of the forbidden side
-STAYS = 0.5  # opacity of what has been swept, above the plane
+STAYS = 0.5  # opacity of swept patches above the plane
 PALEST = 0.6  # share of white in the line of an old motion
 FACETS = Detail(12_000, (math.radians(2), math.radians(15)), 40)
 
 
 class Space:
-    """Axes of the configuration space.
+    """The panel of the configuration space.
 
     Parameters
     ----------
     figure : matplotlib figure
     place : four floats
-        Left, bottom, width, height: parts of the figure.
+        Left, bottom, width, height, as shares of the figure.
     boundary : Boundary
     window : four floats
         x0, y0, x1, y1 of the box.
     names : (str, str)
-        Of the axes x and y.
+        Names of the axes x and y.
     trail : float
         Frames until the line of a motion has faded.
     surface : Boundary, optional
-        Of which patches are seen, if not of all.
+        The patches shown, by default all of the boundary.
     """
 
     def __init__(
@@ -101,40 +101,40 @@ class Space:
         self, pose: Pose, cut: Slice, azimuth: float, shown: Floats, ghost: float,
         lines: Sequence[tuple[str, Floats]], stays: NDArray[np.bool_],
     ) -> None:  # fmt: skip
-        """Everything as it is in one frame; see `cfree.film.frame.View`."""
-        eye = Eye(self.window, *self.panel, azimuth)
+        """Draw everything for one frame; see `cfree.film.frame.View`."""
+        camera = Camera(self.window, *self.panel, azimuth)
         theta = math.degrees(pose.theta)
-        self.box.draw(eye)
-        self.floor.set_path(_lifted(eye, self.obstacles, 0.0))
-        self._draw_level(eye, theta, cut)
-        self._draw_pieces(eye, theta, shown, ghost, lines, stays)
+        self.box.draw(camera)
+        self.floor.set_path(_lifted(camera, self.obstacles, 0.0))
+        self._draw_level(camera, theta, cut)
+        self._draw_pieces(camera, theta, shown, ghost, lines, stays)
         _, y0, x1, y1 = self.window
         x, y = float(pose.x), float(pose.y)
-        (here,), _ = eye([(x, y, theta)])
+        (here,), _ = camera([(x, y, theta)])
         self.point.set_data([here[0]], [here[1]])
-        self.cross.set_segments(list(eye([[(x, y, theta), (x, y0, theta)], [(x, y, theta), (x1, y, theta)]])[0]))
-        (corner,), _ = eye([(x1, y1, theta)])
+        self.cross.set_segments(list(camera([[(x, y, theta), (x, y0, theta)], [(x, y, theta), (x1, y, theta)]])[0]))
+        (corner,), _ = camera([(x1, y1, theta)])
         self.tag.set_text(f"θ = {theta:.0f}°")
         width = self.tag.get_window_extent().width
         self.tag.set_position((float(min(corner[0] + 0.1 * width, self.panel[0] - width)), float(corner[1])))
 
-    def _draw_level(self, eye: Eye, theta: float, cut: Slice) -> None:
+    def _draw_level(self, camera: Camera, theta: float, cut: Slice) -> None:
         x0, y0, x1, y1 = self.window
         frame = np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1)], dtype=np.float64)
         solid = _clipped(cut, self.window)
-        self.solid.set_path(_lifted(eye, solid, theta))
-        self.free.set_path(_lifted(eye, [frame, *(ring[::-1] for ring in solid)], theta))
-        self.level.set_path(_lifted(eye, [frame], theta))
+        self.solid.set_path(_lifted(camera, solid, theta))
+        self.free.set_path(_lifted(camera, [frame, *(ring[::-1] for ring in solid)], theta))
+        self.level.set_path(_lifted(camera, [frame], theta))
         kinds = self.boundary.patch_kind[cut.patches]
         inside, segments = _within(cut.segments, self.window)
         chosen = inside & (kinds != PatchKind.BOUND)
         ends = np.concatenate((segments, np.full((len(kinds), 2, 1), theta)), axis=2)[chosen]
-        self.section.set_segments(list(eye(ends)[0]))
+        self.section.set_segments(list(camera(ends)[0]))
         self.section.set_color([COLOURS[PatchKind(kind)] for kind in kinds[chosen]])
         self.section.set_linewidth(2.0 * min(1.0, max(0.4, math.sqrt(150 / max(1, len(kinds))))))
 
     def _draw_pieces(
-        self, eye: Eye, theta: float, shown: Floats, ghost: float, lines: Sequence[tuple[str, Floats]],
+        self, camera: Camera, theta: float, shown: Floats, ghost: float, lines: Sequence[tuple[str, Floats]],
         stays: NDArray[np.bool_],
     ) -> None:  # fmt: skip
         low, high = shown[self.pieces.part].T
@@ -143,30 +143,30 @@ class Space:
         for onto, bottom, top, opacity in ((self.below, -1.0, theta, 1.0), (self.above, theta, 361.0, ghost)):
             patches = self.pieces.between(np.maximum(low, bottom), np.minimum(high, top))
             both = joined([patches, *(tube.between(bottom, top) for tube in tubes)])
-            flat, depth = eye(both.corners)
-            seen = np.where(np.append(stays, False)[both.part], max(opacity, STAYS), opacity)  # of -1: False
-            paint(onto, both, flat, depth.mean(axis=1), eye.span, ghost=GHOST, opacity=seen)
+            flat, depth = camera(both.corners)
+            opacities = np.where(np.append(stays, False)[both.part], max(opacity, STAYS), opacity)  # part -1: False
+            paint(onto, both, flat, depth.mean(axis=1), camera.span, ghost=GHOST, opacity=opacities)
 
 
 def _tube(colour: str, line: Floats, trail: float) -> list[Pieces]:
-    """A polyline with a dark rim, that fades within so many points; of 0 it has."""
+    """Return a polyline with a dark rim that fades within `trail` points; 0 means it has faded."""
     if len(line) < 2:
         return []
     chosen = np.unique(np.linspace(0, len(line) - 1, TAIL).astype(int))
-    kept, age = line[chosen], (len(line) - 1 - chosen) / trail if trail else np.ones(len(chosen))
-    cuts = np.flatnonzero(np.abs(np.diff(kept[:, 2])) >= 180) + 1  # where theta runs through 0
-    found = []
+    points, age = line[chosen], (len(line) - 1 - chosen) / trail if trail else np.ones(len(chosen))
+    cuts = np.flatnonzero(np.abs(np.diff(points[:, 2])) >= 180) + 1  # theta passes through 0 there
+    tubes = []
     for shade, width, sort in ((INK, 4.2, CURVE), (colour, 2.8, OVER)):
-        for part, old in zip(np.split(kept, cuts), np.split(age, cuts), strict=True):
+        for part, old in zip(np.split(points, cuts), np.split(age, cuts), strict=True):
             if len(part) > 1:
                 tube = of_line(part, shade, width, sort)
                 paler = PALEST * np.clip(old[1:, None], 0, 1)
-                found.append(replace(tube, rgb=tube.rgb + paler * (1 - tube.rgb)))
-    return found
+                tubes.append(replace(tube, rgb=tube.rgb + paler * (1 - tube.rgb)))
+    return tubes
 
 
 def _angles(pieces: Pieces) -> Floats:
-    """Between which angles in degrees each part is, (parts, 2)."""
+    """Return the range of angles of each part in degrees, (parts, 2)."""
     on_part = pieces.part >= 0
     part, z = pieces.part[on_part], pieces.corners[on_part, :, 2]
     angles = np.tile((np.inf, -np.inf), (int(part.max(initial=-1)) + 1, 1))
@@ -175,18 +175,18 @@ def _angles(pieces: Pieces) -> Floats:
     return angles
 
 
-def _lifted(eye: Eye, rings: Iterable[Floats], theta: float) -> Path:
-    """Rings of the plane at one theta, as the eye sees them."""
-    return path_of(eye(np.column_stack((ring, np.full(len(ring), theta))))[0] for ring in rings)
+def _lifted(camera: Camera, rings: Iterable[Floats], theta: float) -> Path:
+    """Project rings of the plane at one theta by the camera."""
+    return path_of(camera(np.column_stack((ring, np.full(len(ring), theta))))[0] for ring in rings)
 
 
 def _within(segments: Floats, window: Window) -> tuple[Mask, Floats]:
-    """Which segments (n, 2, 2) meet a window, and their parts in it."""
+    """Clip segments (n, 2, 2) to a window: a mask of those that meet it, and their parts in it."""
     start, step = segments[:, 0], segments[:, 1] - segments[:, 0]
     with np.errstate(divide="ignore", invalid="ignore"):
         bounds = [(np.array(corner) - start) / step for corner in (window[:2], window[2:])]
     low, high = np.fmin(*bounds), np.fmax(*bounds)
-    level = (start >= window[:2]) & (start <= window[2:])  # along an axis
+    level = (start >= window[:2]) & (start <= window[2:])  # segments along an axis
     low = np.where(step == 0, np.where(level, 0.0, 2.0), low).max(axis=1).clip(0, None)
     high = np.where(step == 0, 1.0, high).min(axis=1).clip(None, 1)
     ends = np.stack((start + low[:, None] * step, start + high[:, None] * step), axis=1)
@@ -194,5 +194,5 @@ def _within(segments: Floats, window: Window) -> tuple[Mask, Floats]:
 
 
 def _clipped(cut: Slice, window: Window) -> list[Floats]:
-    """Rings of the forbidden region within the window."""
+    """Return the rings of the forbidden region within the window."""
     return rings_of_geometry(shapely.intersection(cut.forbidden, shapely.box(*window)))

@@ -1,6 +1,6 @@
-"""What a film shows of a scene, shot by shot, and every pose in it.
+"""The storyboard of a scene: its shots, and every pose in them.
 
-The storyboard "paper" tells what the paper says of one robot and one obstacle, from the scene's own contacts:
+The storyboard "paper" illustrates the paper for one robot and one obstacle, by the scene's own contacts:
 
     slices    the robot slides around an obstacle without turning: twice, at two orientations
     helix     it turns about a vertex that stays on a vertex: a v-v helix (Lemma 1)
@@ -9,7 +9,7 @@ The storyboard "paper" tells what the paper says of one robot and one obstacle, 
     pillar    it goes around the obstacle, or turns where it can, while theta goes from 0 to 360 degrees: everything
     path      it moves from start to goal, touching nothing
 
-Within a shot the motion is continuous. From one to the next it goes freely; where no free way leads there is a cut.
+Within a shot the motion is continuous. A free path leads from one shot to the next; if there is none, there is a cut.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cfree.exact.pose import Pose
-from cfree.film.eye import AZIMUTHS
+from cfree.film.camera import AZIMUTHS
+from cfree.film.contact_motions import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
 from cfree.film.free_motions import FreeMotions
-from cfree.film.moves import Column, Moment, Ring, along_helix, columns, outward, over_column, roll
 from cfree.forbidden.kinds import KINDS, PatchKind
 from cfree.palette import HELIX, PATH, VIEW
 from cfree.paths.path import Path
@@ -44,14 +44,14 @@ STORYBOARDS = {
 SECONDS = {"slices": 8.0, "helix": 3.5, "v-e": 5.5, "e-v": 6.5, "pillar": 9.0, "path": 8.0}
 HOME = math.radians(VIEW[1])
 FULL_TURN = math.tau - 1e-6
-LOWER = math.radians(50)  # by how much the first slice is below the second
-LINK = 0.45  # share of a shot that a free way to its beginning may take
-TRIED = 30  # patches, best first, until one is found whose slice closes around an obstacle
+LOWER = math.radians(50)  # angle from the first slice up to the second
+LINK = 0.45  # share of a shot that a free path to its beginning may take
+TRIED = 30  # patches tried, best first, until the slice of one closes around an obstacle
 
 
 @dataclass(frozen=True)
 class Shot:
-    """Part of a film.
+    """One shot of a film.
 
     Attributes
     ----------
@@ -62,21 +62,21 @@ class Shot:
     moments : list of Moment
         One for each frame.
     cut : bool
-        The robot is not where the shot before it ended.
+        True if the robot does not begin at the end of the previous shot.
     link : int
-        How many moments at the beginning are a free way to where the shot begins.
+        Number of moments at the beginning that are a free path to the shot's first pose.
     swept : Column, optional
         The column that appears as the robot sweeps over it.
     level : (n,) float, degrees, optional
-        Everything below appears.
+        Everything below this angle appears.
     azimuth : float, radians
-        From where the shot is best seen.
+        Best azimuth of the camera.
     ghost : float
-        Opacity of what is above the plane of the current orientation.
+        Opacity of everything above the plane of the current orientation.
     colour : str
-        Of the motion's line in the configuration space.
+        Colour of the motion's line in the configuration space.
     goal : Pose, optional
-        Where the robot is to go.
+        The pose the robot moves to.
     """
 
     kind: str
@@ -94,15 +94,15 @@ class Shot:
 
 
 def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBOARDS["paper"]) -> list[Shot]:
-    """Shots of a scene.
+    """Return the shots of a scene.
 
     Parameters
     ----------
     boundary : Boundary
     frames : int
-        Moments in all.
+        Number of moments in all.
     kinds : tuple of str
-        Shots wanted; those the scene has nothing for are left out.
+        Shots wanted; those that the scene has no contacts for are left out.
 
     Examples
     --------
@@ -115,24 +115,24 @@ def storyboard(boundary: Boundary, frames: int, kinds: tuple[str, ...] = STORYBO
     (60, False)
     """
     director = _Director(boundary)
-    found = director.shots(frames, kinds)
-    if found and sum(len(shot.moments) for shot in found) < frames:
-        # the last shot came to nothing: its time goes to the others
-        found = director.shots(frames, tuple(shot.kind for shot in found))
-    return found
+    shots = director.shots(frames, kinds)
+    if shots and sum(len(shot.moments) for shot in shots) < frames:
+        # the last shot was not possible: its time goes to the others
+        shots = director.shots(frames, tuple(shot.kind for shot in shots))
+    return shots
 
 
 class _Director:
-    """Makes one shot after another, each from where the last one ended."""
+    """Director: makes one shot after another, each from the end of the last one."""
 
     def __init__(self, boundary: Boundary) -> None:
         self.boundary = boundary
         self.window = extent(boundary)
         self.radius = robot_radius(boundary.scene)
-        found = sorted(columns(boundary), key=self._worth, reverse=True)
-        corners = [c for c in found if c.side is not None and self._kind(c) == "v-e"]
+        ranked = sorted(columns(boundary), key=self._worth, reverse=True)
+        corners = [c for c in ranked if c.side is not None and self._kind(c) == "v-e"]
         self.corner = next((c for c in corners[:TRIED] if self._goes_round(c)), corners[0] if corners else None)
-        edges = [c for c in found if self._kind(c) == "e-v"]
+        edges = [c for c in ranked if self._kind(c) == "e-v"]
         self.edge = next((c for c in edges if self._shares_obstacle(c)), edges[0] if edges else None)
         self.here: Moment | None = None
         self.free = FreeMotions(boundary, self.window)
@@ -149,20 +149,20 @@ class _Director:
         }
         needed = {"helix": self.corner, "slices": self.corner, "v-e": self.corner, "e-v": self.edge}
         kinds = tuple(kind for kind in kinds if kind not in needed or needed[kind] is not None)
-        found: list[Shot] = []
+        shots: list[Shot] = []
         for k, kind in enumerate(kinds):
             share = SECONDS[kind] / sum(SECONDS[kind] for kind in kinds[k:])
-            count = max(1, round((frames - sum(len(shot.moments) for shot in found)) * share))
+            count = max(1, round((frames - sum(len(shot.moments) for shot in shots)) * share))
             shot = makers[kind](count)
             if shot is not None:
-                found.append(replace(shot, cut=shot.cut and bool(found)))
+                shots.append(replace(shot, cut=shot.cut and bool(shots)))
                 self.here = shot.moments[-1]
-        return found
+        return shots
 
     # shots
 
     def _slices(self, n: int) -> Shot | None:
-        """Around the obstacle at one orientation, then at that where the helix begins, and to it."""
+        """Go around the obstacle at one orientation, then at the helix's first one, and to the helix."""
         column = self.corner
         assert column is not None and column.side is not None
         (begin,) = along_helix(self.boundary, column, _inside(column)[:1])
@@ -178,7 +178,7 @@ class _Director:
         return Shot("slices", "Translation: a slice at constant orientation", _FORMULAS["slices"], moments)
 
     def _two_slices(self, last: Ring, goal: tuple[float, float], n: int) -> list[Moment] | None:
-        """Around at a lower orientation, turning in contact up to the last one, around there, and to the goal."""
+        """Go around at a lower orientation, turn in contact up to the last one, go around there, and to the goal."""
         angle = last.theta - LOWER
         if angle < 0:
             return None
@@ -218,7 +218,7 @@ class _Director:
         return self._sweep("e-v", "An edge slides over a vertex: an e-v patch", self.edge, n, 0)
 
     def _sweep(self, kind: str, title: str, column: Column, n: int, side: int) -> Shot:
-        """To and fro along the edge, downwards through the whole range: so the plane never covers what was swept."""
+        """Move to and fro along the edge, down through the whole range: so the plane never covers the swept part."""
         low, high = _inside(column)
 
         def moments(count: int) -> list[Moment]:
@@ -226,22 +226,22 @@ class _Director:
             angles = np.linspace(high, low, count)
             return over_column(self.boundary, column, 1 - share if side else share, angles)
 
-        found, link, cut = self._linked(moments, n)
-        shot = Shot(kind, title, _FORMULAS[kind], found)
+        linked, link, cut = self._linked(moments, n)
+        shot = Shot(kind, title, _FORMULAS[kind], linked)
         return replace(shot, swept=column, azimuth=self._azimuth(column), link=link, cut=cut)
 
     def _pillar(self, n: int) -> Shot | None:
-        """A full turn: around the obstacle, or in place, or the robot rests."""
+        """Make a full turn: around the obstacle, or in place; else the robot rests."""
         if len(self.boundary.scene.obstacles) == 1:
-            title, found = "All contacts: the boundary of the forbidden space", self._around(n) or self._in_place(n)
+            title, turn = "All contacts: the boundary of the forbidden space", self._around(n) or self._in_place(n)
         else:
-            title, found = "Several obstacles: all contacts, trimmed", self._in_place(n) or self._around(n)
-        if found is None:
+            title, turn = "Several obstacles: all contacts, trimmed", self._in_place(n) or self._around(n)
+        if turn is None:
             here = self.here or self._rest()
             if here is None:
                 return None
-            found = [here] * n, 0, False
-        moments, link, cut = found
+            turn = [here] * n, 0, False
+        moments, link, cut = turn
         level = np.append(np.zeros(link), np.degrees(eased(0, FULL_TURN, n - link)))
         shot = Shot("pillar", title, _FORMULAS["pillar"], moments)
         return replace(shot, level=level, ghost=0.08, link=link, cut=cut)
@@ -260,48 +260,48 @@ class _Director:
         return None if motion is None else self._linked(lambda count: _thinned(motion, count), n)
 
     def _in_place(self, n: int) -> tuple[list[Moment], int, bool] | None:
-        """Where there is most room for a full turn, if there is any."""
+        """Make a full turn at the roomiest place, if there is room for one."""
         turn = self.free.full_turn()
         return None if turn is None else self._linked(lambda count: self._along(turn, count, FULL_TURN / math.tau), n)
 
     def _path(self, n: int) -> Shot | None:
-        """From start to goal; if the scene has none, or no way to it, from here to the pose that is farthest."""
+        """Move from start to goal; without a goal, or a path to it, from here to the farthest pose."""
         scene = self.boundary.scene
         start = self.here or self._rest() if scene.start is None else Moment(scene.start)
         if start is None:
             return None
-        way = None if scene.goal is None else self.free.path(start.pose, scene.goal)
-        if way is None and (goal := self.free.farthest(start.pose)) is not None:
-            way = self.free.path(start.pose, goal)
-        if way is None:
+        path = None if scene.goal is None else self.free.path(start.pose, scene.goal)
+        if path is None and (goal := self.free.farthest(start.pose)) is not None:
+            path = self.free.path(start.pose, goal)
+        if path is None:
             return None
-        moments, link, cut = self._linked(lambda count: self._along(way, count), n)
+        moments, link, cut = self._linked(lambda count: self._along(path, count), n)
         shot = Shot("path", "A path through the free space", _FORMULAS["path"], moments)
         return replace(shot, ghost=0.08, link=link, cut=cut, goal=moments[-1].pose)
 
-    # what they need
+    # tools of the shots
 
     def _linked(self, moments: Callable[[int], list[Moment]], n: int) -> tuple[list[Moment], int, bool]:
-        """A motion, after a free way from where the robot is; how long that is; and is there a cut instead?"""
+        """Return a motion after a free path to its beginning, that path's length in moments, and True for a cut."""
         if self.here is None:
             return moments(n), 0, False
         (begin,) = moments(1)
-        way = self.free.path(self.here.pose, begin.pose)
-        if way is None:
+        path = self.free.path(self.here.pose, begin.pose)
+        if path is None:
             return moments(n), 0, True
-        length = self.free.travel(way)
+        length = self.free.travel(path)
         if length < 0.02 * self.radius:
             return moments(n), 0, False
         link = round(n * min(LINK, max(0.1, 0.4 * length / math.dist(self.window[:2], self.window[2:]))))
-        # both ends are shown already
-        return [*self._along(way, link + 2)[1:-1], *moments(n - link)], link, False
+        # other moments show both ends
+        return [*self._along(path, link + 2)[1:-1], *moments(n - link)], link, False
 
-    def _along(self, way: Path, n: int, end: float = 1.0) -> list[Moment]:
-        """Poses at even travel of the robot, slowly at both ends."""
-        return [Moment(pose) for pose in self.free.poses(way, eased(0, end, n))]
+    def _along(self, path: Path, n: int, end: float = 1.0) -> list[Moment]:
+        """Return poses at even travel of the robot, slower at both ends."""
+        return [Moment(pose) for pose in self.free.poses(path, eased(0, end, n))]
 
     def _rest(self) -> Moment | None:
-        """Where there is most room."""
+        """Return the roomiest pose; None if there is none."""
         pose = self.free.resting_pose()
         return None if pose is None else Moment(pose)
 
@@ -309,7 +309,7 @@ class _Director:
         return KINDS[PatchKind(self.boundary.patch_kind[column.patch])]
 
     def _worth(self, column: Column) -> float:
-        """Area, less if it is seen badly, or if there are no lower orientations to begin at."""
+        """Rate a column by its area, less if it faces away, or if there are no lower orientations to begin at."""
         low, high = column.angles[0], column.angles[-1]
         _, _, *edge = self.boundary.ruled[column.patch, [0, 1, 2, 3, 6, 7]].tolist()
         k = len(column.trapezoids) // 2
@@ -332,7 +332,7 @@ class _Director:
         return math.atan2(y, x)
 
     def _azimuth(self, column: Column) -> float:
-        """Half-way between the usual azimuth and that from which a column is seen from in front."""
+        """Return an azimuth between the usual one and the one in front of a column."""
         turn = math.remainder(self._facing(column) - HOME, math.tau)
         return float(np.clip(HOME + 0.7 * turn, AZIMUTHS[0] + 0.1, AZIMUTHS[1] - 0.1))
 
@@ -343,7 +343,7 @@ _FORMULAS = {
     "v-e": r"$S(t, \phi) = (b_j + t\,E_j^O - R^{\phi} a_i,\ \phi)$",
     "e-v": r"$S(t, \phi) = (b_j - R^{\phi}(a_i + t\,E_i^A),\ \phi)$",
     "pillar": "v-e and e-v patches meet in v-v helices and e-e lines",
-    "path": "what is above the current orientation is shown as glass",
+    "path": "everything above the current orientation is transparent",
 }
 
 
@@ -352,14 +352,14 @@ def _xy(pose: Pose) -> tuple[float, float]:
 
 
 def _inside(column: Column) -> tuple[float, float]:
-    """The angles of a column but for a little at both ends, where something else touches as well."""
+    """Return the range of a column without a little at both ends, where another contact begins."""
     low, high = column.angles[0], column.angles[-1]
     margin = min(2e-3, 0.01 * (high - low))
     return low + margin, high - margin
 
 
 def eased(start: float, stop: float, n: int) -> list[float]:
-    """From start to stop, slowly at both ends."""
+    """Return n values from start to stop, slower at both ends."""
     s = np.linspace(0, 1, n) if n > 1 else np.zeros(n)
     s = np.where(s < 0.1, s * s / 0.18, np.where(s > 0.9, 1 - (1 - s) ** 2 / 0.18, (s - 0.05) / 0.9))
     return (start + (stop - start) * s).tolist()  # type: ignore[no-any-return]

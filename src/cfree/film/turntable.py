@@ -1,4 +1,4 @@
-"""A boundary that turns once around: all of it, seen from all sides."""
+"""A boundary that turns once around: all of it, from all sides."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from matplotlib.collections import PolyCollection
 from numpy.typing import NDArray
 
 from cfree.film.box import Box
-from cfree.film.eye import Eye
+from cfree.film.camera import Camera
 from cfree.film.frame import axis_names, image_of, legend, new_frame
 from cfree.film.space import FACETS, GHOST, LINE
 from cfree.palette import FORBIDDEN, GREY, INK, VIEW
@@ -28,7 +28,7 @@ ALL_AROUND = -math.pi, math.pi
 
 
 class Turntable:
-    """Draws a boundary from any azimuth.
+    """Turntable: draws a boundary from any azimuth.
 
     Parameters
     ----------
@@ -58,19 +58,19 @@ class Turntable:
         legend(self.figure, 0.25 / height, 5, {"section at 360°": FORBIDDEN})
 
     def draw(self, azimuth: float) -> Image:
-        """The frame from an azimuth in radians, as (height, width, 3) bytes."""
-        eye = Eye(self.window, *self.panel, azimuth, ALL_AROUND)
+        """Draw the frame from an azimuth in radians, as (height, width, 3) bytes."""
+        camera = Camera(self.window, *self.panel, azimuth, ALL_AROUND)
         quadrant = math.floor(azimuth / (math.pi / 2) + 1) % 4
         for k, box in enumerate(self.boxes):
             box.show(k == quadrant)
-        self.boxes[quadrant].draw(eye)
-        flat, depth = eye(self.pieces.corners)
-        paint(self.painting, self.pieces, flat, depth.mean(axis=1), eye.span, ghost=GHOST)
+        self.boxes[quadrant].draw(camera)
+        flat, depth = camera(self.pieces.corners)
+        paint(self.painting, self.pieces, flat, depth.mean(axis=1), camera.span, ghost=GHOST)
         return image_of(self.figure)
 
 
 def turntable_frames(boundary: Boundary, frames: int, size: tuple[int, int]) -> Iterator[Image]:
-    """One turn, from the usual view back to it."""
+    """Yield the frames of one turn, from the usual view back to it."""
     table = Turntable(boundary, size)
     for k in range(frames):
         yield table.draw(math.radians(VIEW[1]) + math.tau * k / frames)

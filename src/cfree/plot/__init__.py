@@ -1,4 +1,4 @@
-"""Pictures: boundaries, paths, answers, and how they are drawn from back to front."""
+"""Pictures of boundaries, paths and answers, and the drawing of faces from back to front."""
 
 from typing import TYPE_CHECKING
 

@@ -1,4 +1,4 @@
-"""Answers in the configuration space, beside the workspace: paths, and walls between start and goal."""
+"""Pictures of answers in the configuration space, beside the workspace: paths and separating surfaces."""
 
 from __future__ import annotations
 
@@ -47,34 +47,34 @@ from cfree.words import MOST_NAMES, listed
 
 Floats = NDArray[np.float64]
 
-# pale, so that the path is seen
+# pale, so that the path stands out
 PALE = Colours(*(paler(colour, 0.6) for colour in (VERTEX_EDGE, EDGE_VERTEX, HELIX, EDGE_EDGE)))
-MARGIN, LEAST = 15.0, 90.0  # degrees above and below a path, and shown at least
-NEAR = 1.6  # robot's radii, or twice the least clearance: patches farther from a path are left out
-FADE = 0.5  # share of that from which on patches are fainter
-TINY = 0.03  # of the window: patches narrower or lower have no lines around them
-DASH = 8  # steps of the path
-WIDEST = 160  # characters of a headline; in a longer one obstacles have no places
+MARGIN, LEAST = 15.0, 90.0  # degrees shown above and below a path, and degrees shown at least
+NEAR = 1.6  # robot's radii; patches beyond this and twice the least clearance are left out
+FADE = 0.5  # share of that reach from which on patches are fainter
+TINY = 0.03  # share of the window: narrower or lower patches have no outlines
+DASH = 8  # steps of the path from dash to dash
+WIDEST = 160  # characters of a headline; a longer one leaves out the obstacles' places
 STEPS = 15, 30, 45, 90, 180, 360, 3600  # degrees from tick to tick
 
 
 @checked
 def plot_path_space(path: Path, boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
-    """A path in the configuration space, coloured by clearance, among the patches of the boundary near it.
+    """Draw a path in the configuration space, coloured by clearance, among the patches of the boundary near it.
 
     Parameters
     ----------
     path : Path
     boundary : Boundary
-        Of the scene in which it is free.
+        The boundary of the scene in which the path is free.
     ax : matplotlib axes with ``projection="3d"``, optional
 
     Returns
     -------
     matplotlib axes with three dimensions
-        Theta is unrolled: it begins at the start's and goes on beyond full turns. The path is dashed where patches hide
-        it. Patches are fainter with their distance from the path, and left out beyond 1.6 times the robot's radius, or
-        twice the least clearance; a radian is as long as the radius. On the floor are the obstacles, and the way of the
+        Theta is unrolled: it begins at the start's and continues beyond full turns. The path is dashed where patches
+        hide it. Patches fade with their distance from the path, and are left out beyond 1.6 times the robot's radius or
+        twice the least clearance; a radian is as long as the radius. The floor shows the obstacles and the trace of the
         reference point.
 
     Raises
@@ -107,18 +107,18 @@ def picture(
     *,
     preferences: Preferences | None = None,
 ) -> Figure:
-    """An answer in the workspace, and beside it in the configuration space; or a scene.
+    """Draw an answer in the workspace and, beside it, in the configuration space; or a scene.
 
     Parameters
     ----------
     answer : Path, Separated, AllSeparated or Scene
-        Several proofs are shown by their first. A scene is drawn as by `plot_workspace`, round shapes with many edges.
+        The first of several proofs is drawn. A scene is drawn as by `plot_workspace`, round shapes with many edges.
     scene : Scene, optional
-        To which it is the answer; its own unless given. An answer that was read from a file knows none.
+        The scene that the answer is for; its own unless given. An answer that was read from a file has none.
     boundary : Boundary, optional
-        Of that scene; without it a path is drawn in the workspace alone. A separation brings its own surface.
+        The boundary of that scene; if None, a path is drawn in the workspace alone. A separation has its own surface.
     preferences : Preferences, optional
-        Where a path does what these find dear is marked.
+        Motions penalised by these preferences are marked.
 
     Returns
     -------
@@ -142,7 +142,7 @@ def picture(
     >>> scene = Scene(robot=[(0, 0), (1, 0), (1, 1), (0, 1)], obstacles=[wall], workspace=hall)
     >>> figure = picture(plan(scene, Pose(1, 1), Pose(7, 1)), scene)
     >>> [text.get_text() for text in figure.texts]
-    ['no path from start to goal', 'parted by the workspace; obstacle 0, 1 x 5 at (4.5, 1.5)']
+    ['no path from start to goal', 'separated by the workspace; obstacle 0, 1 x 5 at (4.5, 1.5)']
     """
     if isinstance(answer, Scene):
         if scene is not None or boundary is not None:
@@ -168,7 +168,7 @@ def picture(
 
 
 def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
-    """Start, goal and the obstacles that part them; beside it the surface between them."""
+    """Draw start, goal and the blocking obstacles; beside them the separating surface."""
     window, shown = _window(answer, scene), looks(answer, scene)
     figure, ax = _new_picture(window, len(answer.pieces) > 0)
     draw_surroundings(ax, shown)
@@ -190,13 +190,13 @@ def _picture_of_separation(answer: Separated, scene: Scene) -> Figure:
     named = all_placed(scene, answer.obstacles)
     if len(named) > WIDEST:
         named = listed([numbered(scene, k) for k in answer.obstacles], ", ")
-    parted = f"parted by {plain(named)}" if named else "the one or the other touches, and fits exactly"
-    _head(figure, scene, f"no {without} from start to goal", parted)
+    blocking = f"separated by {plain(named)}" if named else "the one or the other touches, and fits exactly"
+    _head(figure, scene, f"no {without} from start to goal", blocking)
     return figure
 
 
 def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labels: Labels) -> None:
-    """The surface between start and goal, and what is seen of them beside it."""
+    """Draw the separating surface, and start and goal if they are within its rectangle."""
     surface = surface_of(answer, scene)
     box = around_surface(surface)
     space = _right(figure)
@@ -212,7 +212,7 @@ def _draw_surface(figure: Figure, ax: Any, answer: Separated, scene: Scene, labe
 
 
 def surface_of(answer: Separated, scene: Scene) -> Boundary:
-    """The surface of a separation, as a boundary of its trapezoids alone: to be drawn, it answers no questions."""
+    """Return the surface of a separation as a boundary of its trapezoids alone, for drawing only."""
     from cfree.forbidden.boundary import Boundary
     from cfree.forbidden.record import Stats
 
@@ -232,9 +232,9 @@ def surface_of(answer: Separated, scene: Scene) -> Boundary:
 
 
 def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.int32]:
-    """Numbers of features (n,) of polygons and vertices (n, 2)."""
+    """Return the numbers (n,) of the features that belong to polygons and vertices (n, 2)."""
     pairs = zip(shape.owner_polygon.tolist(), shape.owner_vertex.tolist(), strict=True)
-    number = {pair: k for k, pair in reversed(list(enumerate(pairs)))}  # the first counts
+    number = {pair: k for k, pair in reversed(list(enumerate(pairs)))}  # the first one counts
     return np.array([number[polygon, vertex] for polygon, vertex in owners.tolist()], dtype=np.int32)
 
 
@@ -242,7 +242,7 @@ def _features_of(shape: ShapeFeatures, owners: NDArray[np.int32]) -> NDArray[np.
 
 
 def _window(answer: Separated, scene: Scene) -> Window:
-    """Everything there is to see."""
+    """Return the rectangle around everything in the scene."""
     robots = np.concatenate([q.apply(part.vertices) for q in (answer.start, answer.goal) for part in scene.robot])
     boxes: list[Window] = [(*robots.min(axis=0).tolist(), *robots.max(axis=0).tolist())]
     boxes += [body.bounds for body in (*scene.obstacles, *([scene.workspace] if scene.workspace else []))]
@@ -253,7 +253,7 @@ def _window(answer: Separated, scene: Scene) -> Window:
 
 
 def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
-    """The obstacles of a separating surface, bounds and workspace among them."""
+    """Draw the blocking obstacles of a separating surface, and its bounds and workspace."""
     from matplotlib.patches import PathPatch, Rectangle
 
     shapes = path_of(rings_of([scene.obstacles[k] for k in numbers if k >= 0]))
@@ -267,7 +267,7 @@ def _draw_barrier(ax: Any, scene: Scene, numbers: tuple[int, ...]) -> None:
 
 
 def _frame(ax: Any, box: Window, labels: Labels) -> None:
-    """A frame around the part of the workspace that is shown in space, if not all of it is."""
+    """Draw a frame around the part of the workspace that the space panel shows, unless it shows all."""
     from matplotlib.patches import Rectangle
 
     x0, y0, x1, y1 = box
@@ -283,7 +283,7 @@ def _frame(ax: Any, box: Window, labels: Labels) -> None:
 
 
 def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
-    """A path among the patches near it, on axes."""
+    """Draw a path among the patches near it, on axes."""
     rows = track.rows * (1, 1, 180 / math.pi)
     degrees, radius = _range(rows[:, 2]), robot_radius(track.scene)
     reach = max(NEAR * radius, 2 * track.least.found if track.least else 0.0)
@@ -293,7 +293,7 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
     distance = np.where(patches.owner < 0, distance, np.maximum(distance, distance[patches.owner]))
     near, line = patches.chosen(distance < 1), _line(track, rows)
     fading = np.clip((1 - distance[distance < 1]) / (1 - FADE), 0, 1)
-    # on white half of it looks the same, and has no seams
+    # half of the colour on white looks the same, without seams
     white = np.where(fading > 0.5, 1 - fading, 0.0)[:, None]
     near = replace(near, rgb=near.rgb + white * (1 - near.rgb))
     opacity = np.concatenate((np.where(fading > 0.5, 1.0, fading), np.ones(len(line.corners))))
@@ -309,7 +309,7 @@ def _draw_track(ax: Any, track: Track, boundary: Boundary) -> None:
 def _draw_patches(
     ax: Any, boundary: Boundary, window: Window, degrees: Range, pieces: Pieces, opacity: Floats | float = 1.0
 ) -> None:
-    """Pieces above the obstacles; axes with ticks and names."""
+    """Draw pieces above the obstacles; give the axes ticks and names."""
     import shapely
     from matplotlib.ticker import FuncFormatter, MultipleLocator
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
@@ -317,7 +317,7 @@ def _draw_patches(
     (low, high), (x0, y0, x1, y1), units = degrees, window, boundary.scene.units
     side = max(x1 - x0, y1 - y0)
     painting = Painting(pieces, opacity=opacity)
-    painting.set(zorder=1, rasterized=True)  # thousands of faces are slow as vectors, and have seams
+    painting.set(zorder=1, rasterized=True)  # thousands of faces are slow as vectors, with seams
     ax.add_collection(painting, autolim=False)
     obstacles = shapely.union_all([obstacle.to_shapely() for obstacle in boundary.scene.obstacles])
     floor = level(shapely.intersection(obstacles, shapely.box(*window)), low)[:, :3]
@@ -352,7 +352,7 @@ def _legend(ax: Any, patches: dict[str, str], lines: list[tuple[str, Any, Any]])
 
 
 def around_surface(surface: Boundary) -> Window:
-    """A surface, and as much around it as to see the obstacles it belongs to."""
+    """Return a rectangle around a surface, large enough to show the obstacles it belongs to."""
     return _around(strips(surface, math.radians(5)).points.reshape(-1, 2), robot_radius(surface.scene))
 
 
@@ -362,25 +362,25 @@ def _around(points: Floats, margin: float) -> Window:
 
 
 def _mark(ax: Any, rows: Sequence[tuple[Floats, str]], line: Floats | None = None) -> None:
-    """Configurations x, y, degrees, and their names."""
+    """Mark configurations x, y, degrees by dots with names."""
     for row, _ in rows:
         ax.plot(*row[:, None], "o", color=INK, markersize=6, markeredgecolor="white", zorder=21)
     name_in_space(ax, rows, line)
 
 
 def _range(degrees: Floats) -> Range:
-    """A range around the angles of a path."""
+    """Return a range around the angles of a path."""
     low, high = float(degrees.min()) - MARGIN, float(degrees.max()) + MARGIN
     more = max(0.0, LEAST - (high - low)) / 2
     return low - more, high + more
 
 
 def _line(track: Track, rows: Floats) -> Pieces:
-    """The path, coloured by clearance, with a white rim; dashes that nothing hides."""
+    """Return the path, coloured by clearance, with a white rim, and dashes that nothing hides."""
     rgb = track.colour((track.distance[1:] + track.distance[:-1]) / 2)[:, :3]
     rim = of_line(rows, "white", 5.0)
     line, above = (replace(of_line(rows, INK, width, sort), rgb=rgb) for width, sort in ((3.0, OVER), (1.8, ON_TOP)))
-    line.corners[:-1, 1:3] = line.corners[1:, 1:3]  # parts overlap, so that no seams are seen
+    line.corners[:-1, 1:3] = line.corners[1:, 1:3]  # parts overlap to avoid seams
     return joined([rim, line, above.chosen(np.arange(len(rgb)) % DASH < DASH / 2)])
 
 
@@ -395,7 +395,7 @@ def _space(ax: Axes3D | None) -> Any:
 
 
 def _new_picture(window: Window, with_space: bool) -> tuple[Figure, Any]:
-    """A figure with a headline, and its axes of the workspace, alone or at the left."""
+    """Make a figure with room for a headline, and its axes of the workspace, alone or at the left."""
     shape = (window[3] - window[1]) / (window[2] - window[0])
     if with_space:
         height = float(np.clip(6.0 * shape, 4.2, 6.0)) + 1.6

@@ -1,4 +1,4 @@
-"""What is in the way: each obstacle that, taken away, opens a way, and the way that it opens."""
+"""Blocking obstacles: each single obstacle whose removal opens a path, and that path."""
 
 from __future__ import annotations
 
@@ -23,16 +23,16 @@ ACROSS = 3  # panels beside each other
 
 @checked
 def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Preferences | None = None) -> Figure:
-    """Each obstacle that, taken away, opens a way, hatched, and the way.
+    """Draw each single obstacle whose removal opens a path, hatched, and that path.
 
     Parameters
     ----------
     found : sequence of Blocker
-        At least one, of `cfree.blockers`.
+        At least one blocker, from `cfree.blockers`.
     scene : Scene
-        With all obstacles.
+        The scene with all obstacles.
     preferences : Preferences, optional
-        Where a path does what these find dear is marked.
+        Motions penalised by these preferences are marked.
 
     Returns
     -------
@@ -41,7 +41,7 @@ def plot_blockers(found: Sequence[Blocker], scene: Scene, *, preferences: Prefer
     Raises
     ------
     ValueError
-        If there is none.
+        If there is no blocker.
 
     Examples
     --------

@@ -32,13 +32,13 @@ from cfree.plot.workspace import Window, draw_robot, draw_surroundings, path_of,
 from cfree.scene.scene import Scene
 from cfree.words import counted
 
-CORNER = 0.9  # of an axis has numbers
-SLIMMEST = 0.4  # of a window's longer side, the other
+CORNER = 0.9  # share of an axis that has numbers
+SLIMMEST = 0.4  # least ratio of a window's shorter side to the longer one
 
 
 @checked
 def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
-    """Obstacles, bounds, workspace, and the robot at start and goal, its reference point marked.
+    """Draw obstacles, bounds, workspace, and the robot at start and goal, its reference point marked.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
 
     Notes
     -----
-    Without start and goal the robot is drawn where its file has it, with the reference point at the origin.
+    The robot of a scene without start and goal is drawn as in its file, with the reference point at the origin.
     """
     from cfree.exact.pose import Pose
 
@@ -78,9 +78,9 @@ def plot_workspace(scene: Scene, ax: Axes | None = None) -> Axes:
 
 @checked
 def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
-    """Where the reference point may not be at one orientation, and what it touches there, over the obstacles.
+    """Draw the forbidden region of the reference point at one orientation, with its contacts, over the obstacles.
 
-    The robot is drawn in that orientation where it has most room.
+    The robot is drawn in that orientation at the roomiest place.
 
     Parameters
     ----------
@@ -99,7 +99,7 @@ def plot_slice(cut: Slice, ax: Axes | None = None) -> Axes:
 
 
 def _draw_slice(cut: Slice, ax: Axes) -> None:
-    """The forbidden region among the obstacles, and the contacts around it."""
+    """Draw the forbidden region among the obstacles, and the contacts around it."""
     from matplotlib.collections import LineCollection
     from matplotlib.patches import PathPatch
 
@@ -127,7 +127,7 @@ def _draw_slice(cut: Slice, ax: Axes) -> None:
 
 
 def _draw_inside(ax: Axes, cut: Slice, window: Window) -> None:
-    """The robot where its reference point has most room, and what that means."""
+    """Draw the robot where its reference point has most room, with a label that explains the place."""
     import shapely
 
     scene = cut.boundary.scene
@@ -145,7 +145,7 @@ def _draw_inside(ax: Axes, cut: Slice, window: Window) -> None:
 
 @checked
 def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
-    """Contact patches in (x, y, theta), v-e orange, e-v blue; see `cfree.plot.depth_sort` for how they are drawn.
+    """Draw contact patches in (x, y, theta), v-e orange, e-v blue; `cfree.plot.depth_sort` orders the faces.
 
     Parameters
     ----------
@@ -187,9 +187,9 @@ def plot_boundary(boundary: Boundary, ax: Axes3D | None = None) -> Axes3D:
 
 @checked
 def plot_overview(boundary: Boundary) -> Figure:
-    """One figure of everything: the workspace, two slices, and the boundary.
+    """Draw everything in one figure: the workspace, two slices, and the boundary.
 
-    The slices are those of start and goal; at the start's and a quarter turn on if these are the same or missing.
+    The slices are those of start and goal; if these are equal or missing, the second is a quarter turn further.
     """
     scene = boundary.scene
     figure = new_figure((14, 7.4))
@@ -209,7 +209,7 @@ def plot_overview(boundary: Boundary) -> Figure:
 
 
 def extent(boundary: BoundaryRecord) -> Window:
-    """Rectangle around everything there is to see of a boundary: the bounds if given."""
+    """Return the rectangle around everything visible of a boundary: the bounds if there are any."""
     if boundary.scene.bounds is not None:
         x0, y0, x1, y1 = map(float, boundary.scene.bounds)
         return x0, y0, x1, y1
@@ -220,12 +220,12 @@ def extent(boundary: BoundaryRecord) -> Window:
 
 
 def save_figure(figure: Figure | SubFigure, path: str | PathLike[str]) -> None:
-    """Write a figure, whole or not at all; the suffix says in which format.
+    """Write a figure, whole or not at all; the suffix selects the format.
 
     Raises
     ------
     UnsupportedError
-        If matplotlib knows no such format.
+        If matplotlib cannot write that format.
     """
     suffix = check_picture_path(path)
     with replacing(path) as unfinished:
@@ -233,7 +233,7 @@ def save_figure(figure: Figure | SubFigure, path: str | PathLike[str]) -> None:
 
 
 def check_picture_path(path: str | PathLike[str]) -> str:
-    """Suffix of a file that `save_figure` can write.
+    """Return the suffix of a file that `save_figure` can write.
 
     Examples
     --------
@@ -249,7 +249,7 @@ def check_picture_path(path: str | PathLike[str]) -> str:
 
 
 def new_figure(size: tuple[float, float]) -> Figure:
-    """A figure of its own, with a canvas and no window."""
+    """Make a figure of its own, with a canvas and no window."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -259,7 +259,7 @@ def new_figure(size: tuple[float, float]) -> Figure:
 
 
 def new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3D:
-    """Axes with three dimensions and a faint grid."""
+    """Add axes with three dimensions and a faint grid."""
     import mpl_toolkits.mplot3d  # noqa: F401  registers the projection
     from matplotlib import rc_context
 
@@ -268,9 +268,9 @@ def new_space(figure: Figure, place: tuple[float, float, float, float]) -> Axes3
 
 
 def set_space(ax: Any, window: Window, units: str, *, height: float = 0.75, zoom: float = 1.08) -> None:
-    """Limits, proportions, ticks and names of axes of a rectangle of the plane and a full turn of theta.
+    """Set limits, proportions, ticks and names of axes for a rectangle of the plane and a full turn of theta.
 
-    The turn is as high as `height` times the longer side.
+    The turn is `height` times as high as the longer side.
     """
     x0, y0, x1, y1 = window
     side = max(x1 - x0, y1 - y0)
@@ -285,7 +285,7 @@ def set_space(ax: Any, window: Window, units: str, *, height: float = 0.75, zoom
 
 
 def set_ticks(axis: Any, count: int) -> None:
-    """Some numbers on an axis in space, clear of the corners, where two axes meet."""
+    """Put some numbers on an axis in space, clear of the corners, where two axes meet."""
     from matplotlib.ticker import MaxNLocator
 
     low, high = axis.get_view_interval()
@@ -295,12 +295,12 @@ def set_ticks(axis: Any, count: int) -> None:
 
 
 def new_axes(size: tuple[float, float], place: tuple[float, float, float, float] = (0.1, 0.15, 0.86, 0.77)) -> Axes:
-    """Axes of a figure of their own; inches, and parts of the figure."""
+    """Make axes in a figure of their own, its size in inches, the place in shares of the figure."""
     return new_figure(size).add_axes(place)
 
 
 def set_window(ax: Axes, window: Window, units: str) -> None:
-    """Limits with a margin, few enough numbers to have room, and the names of the axes."""
+    """Set limits with a margin, as many numbers as fit, and the names of the axes."""
     x0, y0, x1, y1 = window
     margin = 0.03 * max(x1 - x0, y1 - y0)
     ax.set(xlim=(x0 - margin, x1 + margin), ylim=(y0 - margin, y1 + margin), aspect="equal")
@@ -310,7 +310,7 @@ def set_window(ax: Axes, window: Window, units: str) -> None:
 
 
 def space_numbers(ax: Axes) -> None:
-    """As many numbers beside axes of a final size as have room."""
+    """Put as many numbers beside axes of a final size as fit."""
     from matplotlib.ticker import MaxNLocator
 
     ax.apply_aspect()
@@ -320,12 +320,12 @@ def space_numbers(ax: Axes) -> None:
 
 
 def with_unit(name: str, units: str) -> str:
-    """A name of an axis, with the unit in brackets."""
+    """Name an axis, with the unit in brackets."""
     return f"{name} ({plain(units)})" if units else name
 
 
 def plain(text: str) -> str:
-    """Text of a scene for a figure: as it is written, no formula, and what has no glyph escaped.
+    """Prepare text of a scene for a figure: literal, not a formula, with characters that have no glyph escaped.
 
     Examples
     --------
@@ -340,14 +340,14 @@ def _line_colour(kind: PatchKind) -> str:
 
 
 def _draw_fits(ax: Any, lines: list[NDArray[np.float64]]) -> None:
-    """Exact fits, above all else: those without length are dots."""
+    """Draw exact fits above all else: those without length are dots."""
     for points in lines:
         is_dot = bool(np.ptp(points, axis=0).max() < THIN)
         ax.plot(*points.T, "o" if is_dot else "-", color=MARK, markersize=5, linewidth=2.2, zorder=20)
 
 
 def legend_below(ax: Axes, **options: Any) -> None:
-    """A legend below the axis label, however high the axes are."""
+    """Add a legend below the axis label, for any height of the axes."""
     from matplotlib.transforms import ScaledTranslation
 
     figure: Any = ax.figure
@@ -356,7 +356,7 @@ def legend_below(ax: Axes, **options: Any) -> None:
 
 
 def around(boxes: Iterable[Window]) -> Window:
-    """The rectangle around rectangles."""
+    """Return the rectangle around rectangles."""
     corners = np.array(list(boxes))
     x0, y0 = corners[:, :2].min(axis=0).tolist()
     x1, y1 = corners[:, 2:].max(axis=0).tolist()
@@ -364,7 +364,7 @@ def around(boxes: Iterable[Window]) -> Window:
 
 
 def roomy(window: Window) -> Window:
-    """The same rectangle, or a higher or wider one around it that has room for words.
+    """Return the same rectangle, or a higher or wider one around it with room for words.
 
     Examples
     --------

@@ -1,12 +1,12 @@
-"""Faces and curves in three dimensions, those in front hiding those behind.
+"""Faces and curves in three dimensions: those in front hide those behind.
 
-The free side of a patch is shaded and opaque; the forbidden side is a ghost, so that one looks through the near walls
-into the free space, as into a doll's house, or is not drawn at all. At theta = 360 degrees the forbidden space is cut:
-the section is grey.
+The free side of a patch is shaded and opaque; the forbidden side is a ghost, or is not drawn at all. So the near walls
+show the free space behind them, as in a doll's house. The section of the forbidden space at theta = 360 degrees is
+grey.
 
-Faces are drawn by PyVista where it is installed (the extra ``render``), as pixels, each in its true depth; else by
-matplotlib, from back to front, sorted each time the view changes. Curves are lines above them, vectors in vector
-formats: those parts of them that no opaque face hides. All see what the camera of the axes sees.
+PyVista draws faces where it is installed (the extra ``render``): as pixels, each in its true depth. Otherwise
+matplotlib draws them from back to front, sorted each time the view changes. Curves are lines above the faces, vectors
+in vector formats: the parts of them that no opaque face hides. Both renderers use the camera of the axes.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from cfree.plot.pieces import CURVE, ON_TOP, OVER, SECTION, WALL, Floats, Pieces
 from cfree.plot.rendered import Renderer, best_renderer, image_of
 from cfree.plot.visible import polylines, seen_parts
 
-AHEAD = 0.012  # of the depth: curves lie on their faces, whose middles may be nearer
+AHEAD = 0.012  # share of the depth: curves lie on their faces, whose middles may be nearer
 FOG = 0.25
 GLASS, GHOST, DIMMEST, SOLID = 0.3, 0.06, 0.35, 0.9
-RIM = 0.6  # of faces, in typographic points: it hides seams
-HIDING = 0.5  # opacity of a face behind which curves are not seen
+RIM = 0.6  # width of the faces' rims, in typographic points: they hide seams
+HIDING = 0.5  # least opacity of a face that hides curves
 
 
 class Painting(PolyCollection):
@@ -39,9 +39,9 @@ class Painting(PolyCollection):
     ghost : float
         Opacity of the side of a face that is turned away.
     opacity : float or (n,) float64
-        Of all pieces, or of each.
+        Opacity of all pieces, or of each.
     renderer : "matplotlib" or "pyvista", optional
-        Who draws faces; the best there is, if not given.
+        The renderer of faces; by default the best installed one.
     """
 
     def __init__(
@@ -57,7 +57,7 @@ class Painting(PolyCollection):
         self._lines = LineCollection([], capstyle="round", joinstyle="round")
 
     def do_3d_projection(self) -> float:
-        """Project, choose what is seen; called before each drawing."""
+        """Project and choose the visible pieces; called before each drawing."""
         pieces, axes = self._pieces, cast(Any, self.axes)
         if not len(pieces.corners):
             return 0.0
@@ -74,14 +74,14 @@ class Painting(PolyCollection):
         return span[0]
 
     def _choose_lines(self, ends: Floats, sort: NDArray[np.int64], look: _Look, curves: NDArray[np.int64]) -> None:
-        """The parts of curves that are seen, joined: by their sort, and what was given later is above."""
+        """Choose and join the visible parts of curves, in the order of their sort, later ones above."""
         rows = np.column_stack((sort, look.rgb[curves], look.alpha[curves], look.pieces.width[curves]))
-        looks, first, of = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+        looks, first, look_of_curve = np.unique(rows, axis=0, return_index=True, return_inverse=True)
         above = np.argsort(np.lexsort((first, looks[:, 0])))
         parts, seen = seen_parts(ends, self._faces[self._rgba[:, 3] >= HIDING])
         count = len(parts) // max(1, len(ends))
         seen |= np.repeat(sort == ON_TOP, count)
-        lines, number = polylines(parts, seen, np.repeat(of.reshape(-1), count))
+        lines, number = polylines(parts, seen, np.repeat(look_of_curve.reshape(-1), count))
         order = np.argsort(above[number], kind="stable") if lines else np.empty(0, np.int64)
         shown = looks[np.array(number, dtype=np.int64)[order]]
         self._lines.set_segments([lines[k] for k in order.tolist()])
@@ -89,12 +89,12 @@ class Painting(PolyCollection):
         self._lines.set_linewidth(shown[:, 5].tolist())
 
     def shows(self, points: Floats) -> NDArray[np.bool_]:
-        """Which of the points (n, 3), projected as the faces were last, no face hides."""
+        """Return True for each of the points (n, 3) that no face hides, by the last projection of the faces."""
         _, seen = seen_parts(np.stack((points, points), axis=1), self._faces)
         return seen.reshape(len(points), -1)[:, 0]
 
     def draw(self, renderer: Any) -> None:
-        """Faces by the renderer that is chosen, curves above them."""
+        """Draw faces by the chosen renderer, and curves above them."""
         if not self.get_visible():
             return
         self._draw_faces(renderer)
@@ -118,7 +118,7 @@ class Painting(PolyCollection):
             super().draw(renderer)
 
     def _draw_image(self, renderer: Any) -> None:
-        """What is within the figure, as fine as the renderer's pixels."""
+        """Draw the faces within the figure, as fine as the renderer's pixels."""
         axes: Any = self.axes
         finer = renderer.get_image_magnification()
         faces = self._faces.copy()
@@ -147,22 +147,22 @@ def paint(
     onto : PolyCollection
     pieces : Pieces
     flat : (n, 4, 2) float64
-        Their corners as the eye sees them.
+        Their corners, projected by the camera.
     depth : (n,) float64
-        How far their middles are.
+        Depths of their middles.
     span : (float, float)
-        Nearest and farthest depth of all there may be.
+        Nearest and farthest depth possible.
     ghost : float
         Opacity of the side of a face that is turned away.
     opacity : float or (n,) float64
-        Of all, or of each; curves that are always seen are not fainter than `DIMMEST`.
+        Opacity of all, or of each; curves that are always visible are not fainter than `DIMMEST`.
     """
     look = _Look(pieces, flat, depth, span, ghost, opacity)
     look.put(onto, flat, look.order)
 
 
 class _Look:
-    """Colours and opacities of pieces from where the eye is, and their order from back to front."""
+    """Colours and opacities of pieces as the camera sees them, and their order from back to front."""
 
     def __init__(
         self, pieces: Pieces, flat: Floats, depth: Floats, span: tuple[float, float], ghost: float,
@@ -195,10 +195,10 @@ class _Look:
         """Put pieces into a collection, in an order."""
         is_curve, alpha = self.is_curve, self.alpha
         fill, rim = (np.column_stack((self.rgb, part)) for part in (np.where(is_curve, 0, alpha), alpha))
-        rim[(alpha < SOLID) & ~is_curve, 3] = 0  # where faces are seen through, their rims would be twice as dark
+        rim[(alpha < SOLID) & ~is_curve, 3] = 0  # rims of transparent faces would be twice as dark
         onto.set_verts(flat[order], closed=True)  # type: ignore[arg-type]
         onto.set_facecolor(fill[order])  # type: ignore[arg-type]
         onto.set_edgecolor(rim[order])  # type: ignore[arg-type]
-        # one for all where there are faces alone: matplotlib is slow with many
+        # one width for all if there are only faces: matplotlib is slow with many
         width = np.where(is_curve, self.pieces.width, RIM)[order]
         onto.set_linewidth(width.tolist() if is_curve[order].any() else RIM)

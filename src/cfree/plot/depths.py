@@ -24,7 +24,7 @@ from cfree.scene.scene import robot_radius
 
 @checked
 def plot_depths(whole: Arrangement, theta: Angle, ax: Axes | None = None) -> Axes:
-    """How many pairs overlap where, at one orientation.
+    """Draw the number of pairs that overlap at each position, at one orientation.
 
     Parameters
     ----------
@@ -58,14 +58,14 @@ def plot_depths(whole: Arrangement, theta: Angle, ax: Axes | None = None) -> Axe
 
 @checked
 def plot_faces(whole: Arrangement, ax: Axes3D | None = None, *, depth: int | None = None) -> Axes3D:
-    """Faces in (x, y, theta), coloured by their depth; of one depth alone if that is given.
+    """Draw faces in (x, y, theta), coloured by their depth; those of one depth alone if it is given.
 
     Parameters
     ----------
     whole : Arrangement
     ax : matplotlib axes with ``projection="3d"``, optional
     depth : int, optional
-        Those of depth 0 are the boundary of the free space.
+        The faces of depth 0 are the boundary of the free space.
 
     Returns
     -------
@@ -92,7 +92,7 @@ def plot_faces(whole: Arrangement, ax: Axes3D | None = None, *, depth: int | Non
 
 
 def depth_colours(whole: Arrangement) -> NDArray[np.float64]:
-    """(d, 3) a colour for each depth: that of what is free, and then darker for deeper."""
+    """Return a colour (d, 3) for each depth: the colour of the free space, then darker for deeper."""
     from matplotlib import colormaps
     from matplotlib.colors import to_rgb
 
@@ -103,7 +103,7 @@ def depth_colours(whole: Arrangement) -> NDArray[np.float64]:
 
 
 def _pieces(whole: Arrangement) -> tuple[Pieces, NDArray[np.int64]]:
-    """What there is to draw, and the depth of each of it."""
+    """Return the pieces to draw, and the depth of each."""
     rows = strips(whole.sheets, step_for(whole.sheets, FINE.rows, FINE.steps))
     points = rows.points.reshape(-1, 2)
     widest = float(np.hypot(*np.ptp(points, axis=0))) / FINE.cells if len(points) else 1.0

@@ -39,7 +39,7 @@ def plot_development(
     Raises
     ------
     ValueError
-        If the contact has no patch, or is e-v: those patches cannot be unrolled.
+        If the contact has no patch, or is e-v: e-v patches cannot be unrolled.
 
     Notes
     -----
@@ -56,8 +56,8 @@ def plot_development(
 
     phi = Phi.phi_min + Phi.phi_range * np.linspace(0, 1, POINTS)
     helices = unrolled(np.linspace(0, 1, HELICES)[:, None], phi)
-    at = Phi.phi_min + Phi.phi_range * np.linspace(0, 1, RULINGS)
-    rulings = unrolled(np.array([0.0, 1.0]), at[:, None])
+    angles = Phi.phi_min + Phi.phi_range * np.linspace(0, 1, RULINGS)
+    rulings = unrolled(np.array([0.0, 1.0]), angles[:, None])
 
     ax = ax or Figure(figsize=(8, 5), facecolor="white", layout="constrained").add_subplot()
     rim = np.concatenate([helices[0], helices[-1, ::-1]])

@@ -1,4 +1,4 @@
-"""Pictures of contact surfaces that meet: two with their curve, three with the poses that are on all of them."""
+"""Pictures of contact surfaces that meet: two with their curve, three with the poses on all of them."""
 
 from __future__ import annotations
 
@@ -26,14 +26,14 @@ from cfree.rational.model import RationalSurface
 
 Floats = NDArray[np.float64]
 
-ROWS, CELLS, POINTS = 121, 13, 721  # of a surface over a full turn, across it, of a curve
+ROWS, CELLS, POINTS = 121, 13, 721  # samples of a surface over a full turn, across it, and of a curve
 SEEN_THROUGH = 0.75
 NAMES = {PatchKind.VERTEX_EDGE: "v-e", PatchKind.EDGE_VERTEX: "e-v"}
 
 
 @checked
 def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) -> Axes3D:
-    """Draw the surfaces of an intersection, or of three contacts, and what they have in common, theta upwards.
+    """Draw the surfaces of an intersection, or of three contacts, and their common points, theta upwards.
 
     Parameters
     ----------
@@ -46,9 +46,9 @@ def plot_intersection(found: Intersection | Triple, ax: Axes3D | None = None) ->
 
     Notes
     -----
-    v-e surfaces are orange, e-v surfaces blue; of a `RationalSurface` its patch is drawn. Curves are black where they
-    are on both surfaces, and thin where edges count as lines. Poses on three are dots, hollow if an edge or patch ends
-    before.
+    v-e surfaces are orange, e-v surfaces blue; a `RationalSurface` is drawn as its patch. Curves are black where they
+    are on both surfaces, and thin where edges count as lines. Poses on three surfaces are dots, hollow if an edge or
+    patch ends before.
     """
     if ax is None:
         ax = new_space(new_figure((7, 7.5)), (0.02, 0.09, 0.9, 0.9))
@@ -79,7 +79,7 @@ def _kind(surface: Any) -> PatchKind:
 
 
 def _sheet(surface: Any) -> Floats:
-    """Points (rows, CELLS, 3) of a surface, or of its patch, theta in degrees, with a row at a full turn."""
+    """Sample points (rows, CELLS, 3) of a surface, or of its patch, theta in degrees, with a row at a full turn."""
     low, high = 0.0, math.tau
     if isinstance(surface, RationalSurface):
         if surface.Phi is None:
@@ -94,7 +94,7 @@ def _sheet(surface: Any) -> Floats:
 
 
 def _draw_sheets(space: Any, found: Intersection | Triple, sheets: list[Floats]) -> list[Any]:
-    """All of them, those in front hiding those behind by half; what their colours mean."""
+    """Draw all surfaces, each half transparent; return legend handles of their colours."""
     from matplotlib.patches import Patch
 
     kinds = [_kind(surface) for surface, sheet in zip(found.surfaces, sheets, strict=True) if len(sheet)]
@@ -109,13 +109,13 @@ def _draw_sheets(space: Any, found: Intersection | Triple, sheets: list[Floats])
 
 
 def _turned(faces: Floats, degrees: Floats) -> Floats:
-    """What is beyond a full turn, a turn lower."""
+    """Return faces beyond a full turn, lowered by a turn."""
     lower: Floats = faces - np.stack((*np.zeros((2, len(faces))), 360.0 * (degrees > 360)), axis=-1)[:, None]
     return lower
 
 
 def _draw_pair(space: Any, pair: Intersection, window: tuple[Floats, Floats]) -> None:
-    """The curve, thin within the window, thick where it is on both surfaces; lines that are shared."""
+    """Draw the curve, thin within the window, thick where it is on both surfaces; and shared lines."""
     drawn = {line.get_label() for line in space.lines}
 
     def draw(points: Floats, name: str, **look: Any) -> None:

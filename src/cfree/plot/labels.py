@@ -1,8 +1,8 @@
-"""Labels of places in pictures: where they touch no other label, and if there is room nothing that is drawn.
+"""Labels of places in pictures: they touch no other label and, if there is room, nothing else that is drawn.
 
-Tried are places around an anchor, from near to far; what a label would cover costs, and so does the way to it. Labels
-in the plane stay within the axes: so they never touch the numbers and names beside these. What is far from its anchor
-has a leader.
+Places around an anchor are tried from near to far. Each costs by the shapes that the label would cover, and by its
+distance. Labels in the plane stay within the axes: so they never touch the numbers and names beside these. A label far
+from its anchor has a leader.
 """
 
 from __future__ import annotations
@@ -33,24 +33,24 @@ Floats = NDArray[np.float64]
 ALL_AROUND = tuple(math.radians(15 * k) for k in (18, 0, 12, 6, *range(24)))  # below, right, left, above, and the rest
 ACROSS = tuple(math.radians(90 * k) for k in range(4))
 GAPS = tuple(5 * 1.35**k for k in range(14))  # typographic points from an anchor to its label
-SEEN = 16.0  # points from an anchor from which on a label has a leader
-SMALL, CLEAR = 12.0, 4.0  # points: a shape below the first is pointed at, by a ring so far around it
-PAD = 2.0  # points around a label that are its own
+LEADER = 16.0  # points from an anchor from which on a label has a leader
+SMALL, CLEAR = 12.0, 4.0  # points: smaller shapes are pointed at; distance of the ring around them
+PAD = 2.0  # points kept clear around a label
 LABEL, WALL, BODY, LINE, GHOST = 1000.0, 40.0, 25.0, 8.0, 5.0
-"""What it costs to cover: other labels and leaders, obstacles, robots at rest, lines, ghosts."""
+"""Costs of covering other labels and leaders, obstacles, robots at rest, lines, ghosts."""
 FARTHEST = 40.0  # points from the numbers of an axis to its name
-EDGE = 0.3  # share of that if it is only touched
-CLOSER = 24  # places that are looked at closely
-FAR = 0.08  # what a point of distance costs
-CORNERS = 6  # of a robot, any of which its name may be beside
+EDGE = 0.3  # share of the cost if a shape is only touched
+CLOSER = 24  # cheapest places, which are examined closely
+FAR = 0.08  # cost of a point of distance
+CORNERS = 6  # corners of a robot that its name may be beside, about
 FRAME, MAY = "reference point stays inside", "the reference point may be"
 
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where a label is written, in pixels: its anchor, its middle, and half its size.
+    """The place of a label, in pixels: its anchor, its middle, and half its size.
 
-    Does it cover an obstacle or a robot at rest? Is it free of other labels, and within the frame?
+    `covers` is true if it covers an obstacle or a robot at rest, `free` if it touches no label and is within the frame.
     """
 
     anchor: Floats
@@ -66,36 +66,36 @@ class Place:
 
 @dataclass
 class Room:
-    """Where there is room for labels, in pixels.
+    """The room for labels, in pixels.
 
     Attributes
     ----------
     frame : four floats
-        Left, bottom, right, top.
+        Left, bottom, right, top of the axes.
     point : float
         Pixels of a typographic point.
-    kept : list of (tree of geometries, float)
-        What is to be kept clear, and what it costs not to.
+    shapes : list of (tree of geometries, float)
+        Shapes to keep clear, and the costs of covering them.
     """
 
     frame: Window
     point: float
-    kept: list[tuple[shapely.STRtree, float]] = field(default_factory=list)
+    shapes: list[tuple[shapely.STRtree, float]] = field(default_factory=list)
 
     def keep(self, shapes: Iterable[BaseGeometry], cost: float) -> None:
-        """Keep clear of shapes; those that are not valid count as the rectangles around them."""
-        found = np.array([*shapes], dtype=np.object_)
-        found = np.where(shapely.is_valid(found), found, shapely.envelope(found))
-        if len(found):
-            self.kept.append((shapely.STRtree(found), cost))
+        """Keep clear of shapes; invalid ones count as the rectangles around them."""
+        valid = np.array([*shapes], dtype=np.object_)
+        valid = np.where(shapely.is_valid(valid), valid, shapely.envelope(valid))
+        if len(valid):
+            self.shapes.append((shapely.STRtree(valid), cost))
 
-    def best(self, anchors: Floats, half: Floats, ways: Iterable[float], gaps: Iterable[float]) -> Place:
-        """The place that costs least for a label of half this size, near any one of some anchors."""
+    def best(self, anchors: Floats, half: Floats, directions: Iterable[float], gaps: Iterable[float]) -> Place:
+        """Return the cheapest place for a label of half this size, near any one of some anchors."""
         x0, y0, x1, y1 = self.frame
         half = half + PAD * self.point
         seen = (anchors >= (x0, y0)).all(axis=1) & (anchors <= (x1, y1)).all(axis=1)
         anchors = anchors[seen] if seen.any() else np.clip(anchors, (x0, y0), (x1, y1))
-        angles, gap = np.array([*ways]), np.array([*gaps])
+        angles, gap = np.array([*directions]), np.array([*gaps])
         u = np.column_stack((np.cos(angles), np.sin(angles)))
         reach = gap[:, None, None] * self.point + np.abs(u * half).sum(axis=1)[None, :, None]
         centres = (anchors[:, None, None] + reach * u).reshape(-1, 2)
@@ -105,14 +105,14 @@ class Room:
         cost += np.where(outside > 0, 10 * LABEL + outside, 0)
         boxes, leaders = _boxes(centres, half), shapely.linestrings(np.stack((anchors, centres), axis=1))
         covers = np.zeros(len(boxes), dtype=bool)
-        for tree, price in self.kept:
+        for tree, price in self.shapes:
             hit = np.unique(tree.query(boxes, predicate="intersects")[0])
             cost[hit] += EDGE * price
             covers[hit] |= price in (WALL, BODY)
             if price == LABEL:
                 cost[np.unique(tree.query(leaders, predicate="intersects")[0])] += LABEL / 2
-        near = np.argsort(cost, kind="stable")[:CLOSER]  # how much they cover is only computed for these
-        for tree, price in self.kept:
+        near = np.argsort(cost, kind="stable")[:CLOSER]  # covered areas are computed for these only
+        for tree, price in self.shapes:
             if price in (LABEL, LINE):
                 continue
             box, shape = tree.query(boxes[near], predicate="intersects")
@@ -130,7 +130,7 @@ class Labels:
     ----------
     ax : matplotlib axes
     scene : Scene
-        Whose obstacles are kept clear, and what is outside of its workspace.
+        Its obstacles and the outside of its workspace are kept clear.
     """
 
     def __init__(self, ax: Axes, scene: Scene) -> None:
@@ -154,26 +154,26 @@ class Labels:
         self.avoid((shapely.Polygon(ring) for pose in poses for ring in _placed(scene, pose)), cost)
 
     def put(
-        self, text: str, anchors: ArrayLike, *, ways: Iterable[float] = ALL_AROUND, leader: bool = True,
+        self, text: str, anchors: ArrayLike, *, directions: Iterable[float] = ALL_AROUND, leader: bool = True,
         needed: bool = True, ring: float = 0.0, **style: Any,
     ) -> None:  # fmt: skip
-        """Write a label where it costs least, in two lines if there is no room for one.
+        """Write a label at the cheapest place, in two lines if there is no room for one.
 
         Parameters
         ----------
         text : str
         anchors : (n, 2) array_like
-            Of the plane; any one will do. Those outside the axes do not count, if there are others.
-        ways : iterable of float, radians
-            Directions to go from an anchor.
+            Points of the plane, any of which will do. Those outside the axes count only if there are no others.
+        directions : iterable of float, radians
+            Directions from an anchor to its label.
         leader : bool
-            May the label be far from its anchor, with a line to it?
+            True if the label may be far from its anchor, with a line to it.
         needed : bool
-            If not, it is left out where there is no room.
+            False to leave the label out if there is no room.
         ring : float
             Radius of the mark around the anchor, in points; a label of a mark always has a leader.
         **style
-            Of the text.
+            Style of the text.
         """
         from matplotlib.patheffects import withStroke
 
@@ -186,7 +186,7 @@ class Labels:
         gaps = [gap + ring for gap in (GAPS if leader else GAPS[:1])]
         for form in (text, fill(text, 2 + len(text) // 2)):
             note.set_text(form)
-            place = self._room.best(pixels, _half(note), tuple(ways), gaps)
+            place = self._room.best(pixels, _half(note), tuple(directions), gaps)
             if place.free:
                 break
         if not (place.free or needed):
@@ -197,7 +197,7 @@ class Labels:
         if place.covers:
             note.set_bbox({"boxstyle": "round,pad=0.15", "facecolor": "white", "edgecolor": "none", "alpha": 0.9})
         taken = place.box
-        if leader and (ring or shapely.distance(taken, shapely.Point(place.anchor)) > SEEN * self._room.point):
+        if leader and (ring or shapely.distance(taken, shapely.Point(place.anchor)) > LEADER * self._room.point):
             self._lead(place, note.get_color(), ring)
             taken = shapely.union(taken, shapely.LineString([place.anchor, place.centre]))
         self._room.keep([taken], LABEL)
@@ -219,7 +219,7 @@ class Labels:
         self.put(text, middle, ring=radius, color=colour, fontsize=9)
 
     def name_bounds(self, scene: Scene) -> None:
-        """Say along the frame of the bounds, where it is seen, what it is."""
+        """Name the frame of the bounds, along a visible part of it."""
         if scene.bounds is None:
             return
         x0, y0, x1, y1 = map(float, scene.bounds)
@@ -230,10 +230,10 @@ class Labels:
         anchors = np.concatenate([np.column_stack(edge) for edge in along])
         (left, right), (bottom, top) = self._ax.get_xlim(), self._ax.get_ylim()
         if ((anchors >= (left, bottom)) & (anchors <= (right, top))).all(axis=1).any():
-            self.put(FRAME, anchors, ways=ACROSS, leader=False, needed=False, color=GREY, fontsize=9)
+            self.put(FRAME, anchors, directions=ACROSS, leader=False, needed=False, color=GREY, fontsize=9)
 
     def _lead(self, place: Place, colour: Any, ring: float) -> None:
-        """A line from an anchor to its label, seen on any ground."""
+        """Draw a line from an anchor to its label, visible on any ground."""
         from matplotlib.patheffects import Normal, withStroke
 
         way = place.centre - place.anchor
@@ -245,14 +245,14 @@ class Labels:
 
 
 def name_in_space(ax: Axes3D, names: Iterable[tuple[Floats, str]], line: Floats | None = None) -> None:
-    """Names of points in space, beside them: clear of all that is written, and if there is room of a line (n, 3)."""
+    """Write names beside points in space, clear of all texts and, if there is room, of a line (n, 3)."""
     from matplotlib.patheffects import withStroke
     from matplotlib.transforms import ScaledTranslation
     from mpl_toolkits.mplot3d import proj3d
 
     figure, axes = ax.figure, ax
     seen = [artist for artist in axes.collections if artist.get_visible()]
-    for artist in seen:  # to lay out what is written needs no faces
+    for artist in seen:  # the layout of texts needs no faces
         artist.set_visible(False)
     written = _written(axes)
     own = axes.xaxis, axes.yaxis, axes.zaxis
@@ -282,33 +282,33 @@ def name_in_space(ax: Axes3D, names: Iterable[tuple[Floats, str]], line: Floats 
 
 
 def _written(ax: Axes3D) -> list[tuple[Any, BaseGeometry]]:
-    """All texts of axes but those with a halo, and their boxes in pixels, as they are when they are drawn.
+    """Return all texts of axes but those with a halo, and their boxes in pixels, by drawing the axes.
 
-    Axes with three dimensions place theirs only then.
+    Axes with three dimensions place their texts only then.
     """
     from matplotlib.backends.backend_agg import RendererAgg
 
-    found: list[tuple[Any, BaseGeometry]] = []
+    texts: list[tuple[Any, BaseGeometry]] = []
 
     class Noting(RendererAgg):
         def draw_text(self, *arguments: Any, mtext: Any = None, **options: Any) -> None:
             if mtext is not None:
-                found.append((mtext, _box(mtext)))
+                texts.append((mtext, _box(mtext)))
 
     figure: Any = ax.figure
     width, height = figure.bbox.size
     ax.draw(Noting(width, height, figure.dpi))  # type: ignore[no-untyped-call]
-    return found
+    return texts
 
 
 def _touches(text: Any, written: list[tuple[Any, BaseGeometry]]) -> bool:
-    """Does one text touch another one?"""
+    """True if the text touches another one."""
     (own,) = (box for other, box in written if other is text)
     return any(own.intersects(box) for other, box in written if other is not text)
 
 
 def _box(text: Any) -> BaseGeometry:
-    """The box of a text in pixels, slanting as it does."""
+    """Return the box of a text in pixels, with the text's slant."""
     from shapely.affinity import rotate
 
     around, angle = text.get_window_extent(), text.get_rotation()
@@ -320,13 +320,13 @@ def _box(text: Any) -> BaseGeometry:
 
 
 def _half(text: Any) -> Floats:
-    """Half the size of a text, in pixels."""
+    """Return half the size of a text, in pixels."""
     box = text.get_window_extent()
     return np.array([box.width, box.height]) / 2
 
 
 def _placed(scene: Scene, pose: Pose) -> list[Floats]:
-    """Rings of the robot in a pose."""
+    """Return rings of the robot in a pose."""
     return [pose.apply(ring) for ring in rings_of(scene.robot)]
 
 

@@ -1,4 +1,4 @@
-"""Scenes as they look: round shapes by so many edges that they are round to the eye."""
+"""Scenes for pictures: round shapes with so many edges that they look round."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene, largest_of
 
-EDGES = 4000  # parts of the largest shape's size that nobody sees
+EDGES = 4000  # one part of so many of the largest shape's size is invisible
 
 
 def of_polygons(answer: Path | Separated, scene: Scene) -> Scene:
-    """The scene of polygons that an answer is about.
+    """Return the scene of polygons that an answer is about.
 
     Raises
     ------
     UnsupportedError
-        If the scene has round shapes, and the answer does not bring polygons for them.
+        If the scene has round shapes, and the answer has no polygons for them.
     """
     if not scene.curved:
         return scene
@@ -26,15 +26,15 @@ def of_polygons(answer: Path | Separated, scene: Scene) -> Scene:
 
 
 def looks(answer: Path | Separated, scene: Scene) -> Scene:
-    """The same scene with the round shapes that the answer is for, if it is for such."""
+    """Return the same scene with its round shapes, if the answer is for round shapes."""
     if answer.curved is None:
         return scene
-    found = smooth(answer.curved, outward=isinstance(answer, Path))
-    return found if len(found.obstacles) == len(scene.obstacles) else scene
+    round_scene = smooth(answer.curved, outward=isinstance(answer, Path))
+    return round_scene if len(round_scene.obstacles) == len(scene.obstacles) else scene
 
 
 def smooth(scene: Scene, *, outward: bool = True) -> Scene:
-    """Polygons that look round."""
+    """Replace round shapes by polygons that look round."""
     if not scene.curved:
         return scene
     error = largest_of(scene) / EDGES

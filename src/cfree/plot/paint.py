@@ -1,4 +1,4 @@
-"""Meshes coloured by what is true of each triangle: curvatures, contact types, cells."""
+"""Meshes coloured by properties of each triangle: curvatures, contact types, cells."""
 
 from __future__ import annotations
 
@@ -18,16 +18,17 @@ from cfree.palette import CATEGORIES, DIVERGING, SEQUENTIAL
 
 @checked
 def painted(mesh: Mesh, space: FreeSpace, by: Literal["K", "H", "contact", "cell"]) -> Mesh:
-    """The same mesh with other colours, for `cfree.save` as ``.glb``, ``.ply`` or ``.obj``.
+    """Return the same mesh with other colours, for `cfree.save` as ``.glb``, ``.ply`` or ``.obj``.
 
     Parameters
     ----------
     mesh : Mesh
-        Of ``space.surfaces``.
+        A mesh of ``space.surfaces``.
     space : FreeSpace
     by : "K", "H", "contact" or "cell"
-        The Gaussian curvature, from dark blue where it is least to yellow where it is 0; the mean curvature, from blue
-        below 0 over grey to red above; the contact type; or the cell that the surface bounds, eight colours in turn.
+        Coloured property: the Gaussian curvature, from dark blue where it is least to yellow where it is 0; the mean
+        curvature, from blue below 0 over grey to red above; the contact type; or the cell that the surface bounds,
+        eight colours in turn.
 
     Returns
     -------
@@ -58,17 +59,17 @@ def painted(mesh: Mesh, space: FreeSpace, by: Literal["K", "H", "contact", "cell
         return replace(mesh, paint=None)
     if by == "cell":
         return replace(mesh, paint=_categories()[space.cell_of[space.component[mesh.trapezoid]] % len(CATEGORIES)])
-    at = _middles(mesh, space.surfaces)
+    middles = _middles(mesh, space.surfaces)
     if by == "K":
-        K = at.gaussian_curvature
+        K = middles.gaussian_curvature
         return replace(mesh, paint=_mapped(SEQUENTIAL, 1 - K / min(float(K.min(initial=0.0)), -1e-300)))
-    H = at.mean_curvature
+    H = middles.mean_curvature
     most = max(float(np.abs(H).max(initial=0.0)), 1e-300)
     return replace(mesh, paint=_mapped(DIVERGING, (1 + H / most) / 2))
 
 
 def _middles(mesh: Mesh, boundary: Boundary) -> LocalGeometry:
-    """The surfaces at the middles of the triangles."""
+    """Return the local geometry of the surfaces at the middles of the triangles."""
     rows, middle = boundary.ruled[mesh.patch], mesh.vertices[mesh.triangles].mean(axis=1)
     phi = middle[:, 2] / mesh.angle_scale
     p, q, a, g = (rows[:, k : k + 2] for k in (0, 2, 4, 6))
@@ -84,7 +85,7 @@ def _turned(vectors: Floats, phi: Floats) -> Floats:
 
 
 def _mapped(name: str, values: NDArray[np.generic]) -> NDArray[np.uint8]:
-    """Colours of values from 0 to 1."""
+    """Map values from 0 to 1 to colours."""
     import matplotlib
 
     colours: NDArray[np.uint8] = matplotlib.colormaps[name](values, bytes=True)

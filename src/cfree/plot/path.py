@@ -1,4 +1,4 @@
-"""A path in the workspace: ghosts of the robot, coloured by clearance, and the place of least clearance."""
+"""Pictures of a path in the workspace: ghosts of the robot, coloured by clearance, and the least clearance."""
 
 from __future__ import annotations
 
@@ -32,30 +32,30 @@ Floats = NDArray[np.float64]
 
 TRACE = 600
 RING = 5.5  # typographic points: radius of the mark where the clearance is least
-NEAR = 2.0  # obstacles within so many times the least clearance limit it
+NEAR = 2.0  # obstacles within this multiple of the least clearance limit it
 
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """A path as it is drawn.
+    """A path, sampled for drawing.
 
     Attributes
     ----------
     steps : (TRACE,) float64
         Travel of the robot, at even steps.
     rows : (TRACE, 3) float64
-        x, y and theta, unrolled, after so much travel.
+        x, y and theta, unrolled, after that travel.
     distance : (TRACE,) float64
-        Distances from what is nearest there, or NaN if there is nothing.
+        Distances to the nearest obstacle or workspace there, or NaN without any.
     least : Clearance, optional
     closest : (2, 2) float64
-        The two points of robot and obstacle between which the least clearance is, if there is one.
+        The two points of robot and obstacle at the least clearance, if there is one.
     window : four floats
-        x0, y0, x1, y1: what there is to see of the workspace near the path.
+        x0, y0, x1, y1: the part of the workspace near the path.
     most : float
-        Where the scale of colours ends.
+        End of the scale of colours.
     colours : ScalarMappable
-        From distances to colours.
+        Map of distances to colours.
     """
 
     path: Path
@@ -85,13 +85,13 @@ class Track:
             distance, _, _ = distances.nearest(edges)
             closest = _closest(path, distances, least)
         farthest = float(np.nanmax(distance, initial=0.0))
-        # beyond the robot's own size, clearances need not be told apart
+        # clearances beyond the robot's own size need no different colours
         most = min(farthest, 2 * distances.radius) if farthest > SAME * distances.radius else distances.radius
         colours = ScalarMappable(Normalize(0.0, most), colormaps[SEQUENTIAL])
         return cls(path, scene, travel, steps, rows, distance, least, closest, _window(scene, edges), most, colours)
 
     def colour(self, distance: Floats) -> Floats:
-        """(n, 4) colours of distances; one colour if there is nothing to be near to."""
+        """Return colours (n, 4) of distances; one colour if there is no obstacle."""
         from matplotlib.colors import to_rgba
 
         if self.least is None:
@@ -100,28 +100,29 @@ class Track:
 
     @property
     def ghosts(self) -> NDArray[np.int64]:
-        """Rows between start and goal at which the robot is drawn."""
+        """Return the rows between start and goal at which the robot is drawn."""
         return ghosts(self.rows, self.scene)
 
 
 @checked
 def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: Preferences | None = None) -> Axes:
-    """A path in the workspace, coloured by clearance.
+    """Draw a path in the workspace, coloured by clearance.
 
     Parameters
     ----------
     path : Path
     scene : Scene
-        In which it is free.
+        The scene in which the path is free.
     ax : matplotlib axes, optional
     preferences : Preferences, optional
-        Where the path does what these find dear is marked.
+        Motions penalised by these preferences are marked.
 
     Returns
     -------
     matplotlib axes
-        Start and goal, ghosts of the robot at even steps of its farthest point, the way of the reference point, and the
-        place of least clearance with the obstacles that limit it there: those within twice that distance.
+        They show start and goal, ghosts of the robot at even steps of its farthest point, and the reference point's
+        trace. The place of least clearance is marked, with the obstacles that limit it: those within twice that
+        distance.
 
     Raises
     ------
@@ -130,8 +131,8 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
 
     Notes
     -----
-    The clearance in the title is the least found, and a proved bound of it: see `Path.clearance`. Colours are distances
-    at 600 poses, in doubles.
+    The title has the least clearance found, and a proved lower bound: see `Path.clearance`. Colours are distances at
+    600 poses, in doubles.
 
     Examples
     --------
@@ -154,7 +155,7 @@ def plot_path(path: Path, scene: Scene, ax: Axes | None = None, *, preferences: 
 
 
 def draw_track(ax: Any, track: Track, preferences: Preferences) -> Labels:
-    """Draw the path among the obstacles; returns the labels on the axes, to which more may be added."""
+    """Draw the path among the obstacles; return the labels on the axes, for adding more."""
     import shapely
     from matplotlib.collections import LineCollection, PathCollection
 
@@ -162,9 +163,9 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> Labels:
     scene, path = track.scene, track.path
     draw_surroundings(ax, scene)
     rings = rings_of(scene.robot)
-    at = track.ghosts
-    colours = track.colour(track.distance[at])
-    shapes = [path_of(pose.apply(ring) for ring in rings) for pose in poses_of(track.rows[at])]
+    ghost_rows = track.ghosts
+    colours = track.colour(track.distance[ghost_rows])
+    shapes = [path_of(pose.apply(ring) for ring in rings) for pose in poses_of(track.rows[ghost_rows])]
     fill, rim = colours.copy(), colours.copy()
     fill[:, 3], rim[:, 3] = 0.22, 0.9
     ax.add_collection(
@@ -184,7 +185,7 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> Labels:
     if track.least is not None:
         _draw_scale(ax, track)
     labels = Labels(ax, scene)
-    labels.avoid_robot(scene, poses_of(track.rows[at]), GHOST)
+    labels.avoid_robot(scene, poses_of(track.rows[ghost_rows]), GHOST)
     labels.avoid([shapely.LineString(xy)], LINE)
     labels.avoid_robot(scene, rests.values(), BODY)
     if track.least is not None:
@@ -198,7 +199,7 @@ def draw_track(ax: Any, track: Track, preferences: Preferences) -> Labels:
 
 
 def _draw_unwanted(ax: Any, path: Path, part: Unwanted, labels: Labels) -> None:
-    """Motions that do what is dear, and which; or the spot that is turned on."""
+    """Draw penalised motions with their kind, or the spot of a turn in place."""
     shares = np.linspace(0, 1, 20)
     ends = zip(path.poses[part.first : part.last + 1], path.motions[part.first : part.last + 1], strict=True)
     xy = np.concatenate([motion.sample(pose, shares).xy for pose, motion in ends])
@@ -209,7 +210,7 @@ def _draw_unwanted(ax: Any, path: Path, part: Unwanted, labels: Labels) -> None:
 
 
 def _draw_scale(ax: Any, track: Track) -> None:
-    """What the colours mean, beside axes, and where the least clearance is among them."""
+    """Draw the colour scale of clearances beside axes, with the least clearance marked on it."""
     from mpl_toolkits.axes_grid1 import make_axes_locatable
 
     beside = make_axes_locatable(ax).append_axes("right", size="2.5%", pad=0.12)
@@ -221,7 +222,7 @@ def _draw_scale(ax: Any, track: Track) -> None:
 
 
 def statement(track: Track) -> str:
-    """The path in one line."""
+    """Describe the path in one line."""
     path, units = track.path, track.scene.units
     count = len(path.motions)
     parts = [counted(count, "motion"), f"length {quantity(path.length, units)}"]
@@ -232,7 +233,7 @@ def statement(track: Track) -> str:
 
 
 def quantity(value: float, units: str) -> str:
-    """A length with its unit, if that is an abbreviation.
+    """Write a length with its unit, if that is an abbreviation.
 
     Examples
     --------
@@ -244,7 +245,7 @@ def quantity(value: float, units: str) -> str:
 
 
 def _draw_least(ax: Any, track: Track, labels: Labels) -> None:
-    """The robot where it is closest to something, what that is, and how far."""
+    """Draw the robot at its least clearance, the obstacles that limit it, and the distance."""
     from matplotlib.patches import PathPatch
 
     scene, least = track.scene, track.least
@@ -264,7 +265,7 @@ def _draw_least(ax: Any, track: Track, labels: Labels) -> None:
 
 
 def _window(scene: Scene, placed: Floats) -> Window:
-    """What is near the robot's way of all there is to see."""
+    """Return the part of the scene's rectangle that is near the path."""
     swept = placed.reshape(-1, 2)
     near = np.concatenate((swept.min(axis=0), swept.max(axis=0)))
     x0, y0, x1, y1 = near.tolist()
@@ -281,7 +282,7 @@ def _window(scene: Scene, placed: Floats) -> Window:
 
 
 def _limiting(scene: Scene, pose: Pose, reach: float) -> list[Polygon]:
-    """Obstacles, and the workspace, within reach of the robot in a pose."""
+    """Return the obstacles, and the workspace, within reach of the robot in a pose."""
     import shapely
 
     bodies = [*scene.obstacles, *([scene.workspace] if scene.workspace else [])]
@@ -297,11 +298,11 @@ def _pose_of_least(path: Path, least: Clearance) -> Pose:
 
 
 def _closest(path: Path, distances: EdgeDistances, least: Clearance) -> Floats:
-    """Points of robot and obstacle, (2, 2), between which the least clearance is."""
+    """Return the points of robot and obstacle, (2, 2), at the least clearance."""
     edge = _pose_of_least(path, least).apply(distances.robot[distances.robot_names.index(least.robot)])
     return distances.between(edge, distances.names.index(least.obstacle))
 
 
 def poses_of(rows: Floats) -> Poses:
-    """Poses of rows x, y, theta."""
+    """Convert rows x, y, theta to poses."""
     return Poses(rows[:, :2], rows[:, 2])

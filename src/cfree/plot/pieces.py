@@ -1,4 +1,4 @@
-"""What there is to draw of a boundary in three dimensions: faces and curves, as quadrilaterals."""
+"""Pieces of a boundary to draw in three dimensions: faces and curves, as quadrilaterals."""
 
 from __future__ import annotations
 
@@ -26,22 +26,22 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-CROWDED = 100_000  # curves of more trapezoids would hide the patches
+CROWDED = 100_000  # trapezoids; curves of more would hide the patches
 SURFACE, WALL, SECTION, CURVE, ON_TOP, OVER = 0, 1, 2, 3, 4, 5
 
 
 @dataclass(frozen=True)
 class Detail:
-    """How fine a boundary is divided.
+    """The fineness of a boundary's division.
 
     Attributes
     ----------
     rows : int
-        Steps in theta are as small as this many rows allow,
+        Number of rows that steps in theta aim at.
     steps : (float, float)
-        within these limits, in radians.
+        Limits of a step, in radians.
     cells : int
-        A face is at most this part of the window wide, so that its middle stands for its depth.
+        A face is at most one part of this many of the window wide, so that its middle represents its depth.
     """
 
     rows: int
@@ -54,7 +54,7 @@ FINE = Detail(25_000, (math.radians(1.5), math.radians(15)), 100)
 
 @dataclass(frozen=True)
 class Colours:
-    """Colours of patches and curves: the palette's unless others are given."""
+    """Colours of patches and curves: by default the palette's."""
 
     vertex_edge: str = COLOURS[PatchKind.VERTEX_EDGE]
     edge_vertex: str = COLOURS[PatchKind.EDGE_VERTEX]
@@ -71,13 +71,13 @@ class Pieces:
     corners : (n, 4, 3) float64, theta in degrees
     rgb : (n, 3) float64
     sort : (n,) int
-        SURFACE, WALL, SECTION, CURVE; ON_TOP: a curve that nothing hides; OVER: one that is drawn over other curves.
+        SURFACE, WALL, SECTION, CURVE; ON_TOP: a curve that nothing hides; OVER: a curve drawn over other curves.
     owner : (n,) int
-        The face whose border a curve is, or -1 if it is always seen; itself for a face.
+        The face that a curve borders, or -1 if it is always visible; a face's own number.
     width : (n,) float64
-        Of curves, in typographic points.
+        Width of curves, in typographic points.
     part : (n,) int
-        Part of the boundary in the sense of `cfree.plot.strips.Strips`, or -1.
+        Part of the boundary as in `cfree.plot.strips.Strips`, or -1.
     """
 
     corners: Floats
@@ -88,17 +88,17 @@ class Pieces:
     part: Ints
 
     def chosen(self, mask: Mask) -> Pieces:
-        """Some of the pieces, without the curves on faces that are not among them."""
+        """Return the pieces of a mask, without the curves on faces that are not among them."""
         if not len(mask):
             return self
-        kept = mask & (mask[self.owner] | (self.owner < 0))
-        number = np.cumsum(kept) - 1
+        remaining = mask & (mask[self.owner] | (self.owner < 0))
+        number = np.cumsum(remaining) - 1
         owner = np.where(self.owner < 0, -1, number[self.owner])
-        columns = {column.name: getattr(self, column.name)[kept] for column in fields(self)}
-        return Pieces(**columns | {"owner": owner[kept]})
+        columns = {column.name: getattr(self, column.name)[remaining] for column in fields(self)}
+        return Pieces(**columns | {"owner": owner[remaining]})
 
     def between(self, low: Floats | float, high: Floats | float) -> Pieces:
-        """What is between angles in degrees, the same for all or one pair a piece; corners move along rising sides."""
+        """Cut off pieces at angles in degrees, one pair for all or one for each; corners move along rising sides."""
         low, high = (np.broadcast_to(angle, len(self.corners))[:, None] for angle in (low, high))
         is_curve = (self.sort >= CURVE)[:, None, None]
         other = np.where(is_curve, self.corners[:, [1, 0, 3, 2]], self.corners[:, [3, 2, 1, 0]])
@@ -114,7 +114,7 @@ class Pieces:
 def pieces_of(
     boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3, detail: Detail = FINE
 ) -> Pieces:
-    """Everything there is to draw of a boundary: patches, helices and e-e segments, and the section at a full turn."""
+    """Return all pieces of a boundary: patches, helices and e-e segments, and the section at a full turn."""
     patches = patches_of(boundary, window, colours, line, detail)
     return joined([patches, _section(boundary, window, len(patches.corners))])
 
@@ -123,10 +123,10 @@ def patches_of(
     boundary: Boundary, window: Window, colours: Colours | None = None, line: float = 1.3, detail: Detail = FINE,
     tiny: float = 0.0,
 ) -> Pieces:  # fmt: skip
-    """Patches, helices and e-e segments of a boundary.
+    """Return patches, helices and e-e segments of a boundary.
 
-    Curves are `line` points wide, or less where there are so many that they would hide the patches. Patches that are
-    narrower than the share `tiny` of the window, or lower than that of a turn, have none.
+    Curves are `line` points wide, or less if there are so many that they would hide the patches. Patches narrower than
+    the share `tiny` of the window, or lower than that share of a turn, have no curves.
     """
     colours = colours or Colours()
     rows = strips(boundary, step_for(boundary, detail.rows, detail.steps))
@@ -148,14 +148,14 @@ def patches_of(
 
 
 def of_line(points: Floats, colour: str, width: float, sort: int = CURVE) -> Pieces:
-    """A polyline, (k, 3) with theta in degrees, that is seen from all sides."""
+    """Make pieces of a polyline (k, 3), theta in degrees, visible from all sides."""
     start, stop = points[:-1], points[1:]
     corners = np.stack((start, stop, stop, start), axis=1)
     return of_one_colour(corners, colour, sort, np.full(len(corners), -1), width)
 
 
 def of_sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces:
-    """Both sides of a grid of points (m, n, 3), theta in degrees, in one colour or one for each face (m - 1, n - 1, 3).
+    """Make both sides of a grid (m, n, 3), theta in degrees, in one colour or one for each face (m - 1, n - 1, 3).
 
     Each side is a face of its own, lit from its own side, so that the one turned away need not be drawn.
     """
@@ -168,7 +168,7 @@ def of_sheet(points: Floats, colour: str | Floats, angle_scale: float) -> Pieces
 
 
 def faces_of(rows: Strips, widest: float) -> tuple[Floats, Ints, Ints]:
-    """Corners of all faces, the strip that each is a part of, and the first face of each strip."""
+    """Return the corners of all faces, the strip of each, and the first face of each strip."""
     ends = _with_degrees(rows.points, rows.theta)
     here, after = ends[rows.joined], ends[rows.joined + 1]
     width = np.hypot(*(here[:, 1] - here[:, 0])[:, :2].T), np.hypot(*(after[:, 1] - after[:, 0])[:, :2].T)
@@ -185,20 +185,20 @@ def faces_of(rows: Strips, widest: float) -> tuple[Floats, Ints, Ints]:
 
 
 def _split(curves: Pieces, widest: float) -> Pieces:
-    """Curves in parts as short as faces are wide: a part's middle must stand for its depth, too."""
+    """Split curves into parts as short as faces are wide, so that each part's middle represents its depth."""
     start, stop = curves.corners[:, 0], curves.corners[:, 1]
     count = np.maximum(1, np.ceil(np.hypot(*(stop - start)[:, :2].T) / widest)).astype(np.int64)
-    of = np.repeat(np.arange(len(count)), count)
-    s = ((np.arange(len(of)) - (np.cumsum(count) - count)[of]) / count[of])[:, None]
-    e = s + 1 / count[of][:, None]
-    here, after = ((1 - k) * start[of] + k * stop[of] for k in (s, e))
+    curve = np.repeat(np.arange(len(count)), count)
+    s = ((np.arange(len(curve)) - (np.cumsum(count) - count)[curve]) / count[curve])[:, None]
+    e = s + 1 / count[curve][:, None]
+    here, after = ((1 - k) * start[curve] + k * stop[curve] for k in (s, e))
     corners = np.stack((here, after, after, here), axis=1)
-    columns = {column.name: getattr(curves, column.name)[of] for column in fields(curves)}
+    columns = {column.name: getattr(curves, column.name)[curve] for column in fields(curves)}
     return Pieces(**columns | {"corners": corners})
 
 
 def _section(boundary: Boundary, window: Window, first: int) -> Pieces:
-    """The forbidden region at theta = 360 degrees."""
+    """Return the forbidden region at theta = 360 degrees."""
     import shapely
 
     region = shapely.intersection(boundary.slice(-1e-6).forbidden, shapely.box(*window))
@@ -207,7 +207,7 @@ def _section(boundary: Boundary, window: Window, first: int) -> Pieces:
 
 
 def level(region: BaseGeometry, degrees: float) -> Floats:
-    """Triangles of a region of the plane at one height, (n, 4, 3), the last corner twice."""
+    """Triangulate a region of the plane at one height, (n, 4, 3), the last corner twice."""
     import shapely
 
     triangles = shapely.constrained_delaunay_triangles(region)
@@ -223,7 +223,7 @@ def level(region: BaseGeometry, degrees: float) -> Floats:
 
 
 def _lined(boundary: Boundary, rows: Strips, width: float, degrees: float) -> Mask:
-    """Strips of patches that are as wide and as high at least, in the mean."""
+    """Return a mask of strips whose patches have at least this width and height, in the mean."""
     patch = boundary.trapezoids.patch[rows.trapezoid[rows.joined]]
     below, above = (np.degrees(rows.theta[rows.joined + k]) for k in (0, 1))
     ends = rows.points[rows.joined]
@@ -232,49 +232,50 @@ def _lined(boundary: Boundary, rows: Strips, width: float, degrees: float) -> Ma
     np.minimum.at(low, patch, below)
     np.maximum.at(high, patch, above)
     height, area = (high - low)[patch], np.bincount(patch, across * (above - below), len(low))[patch]
-    found: Mask = (height >= degrees) & (area >= width * height)
-    return found
+    lined: Mask = (height >= degrees) & (area >= width * height)
+    return lined
 
 
 def _curves(boundary: Boundary, rows: Strips, first: Ints, colours: Colours, lined: Mask) -> list[Pieces]:
-    """Sides of trapezoids: v-v helices, e-e lines at the patches' own ends, and where the bounds cut the patches.
+    """Return the sides of trapezoids: v-v helices, e-e lines at the patches' own ends, and cuts by the bounds.
 
-    Only of those strips that are lined.
+    Only lined strips have them.
     """
-    ends, of = _with_degrees(rows.points, rows.theta), rows.trapezoid[rows.joined]
+    ends, trapezoid = _with_degrees(rows.points, rows.theta), rows.trapezoid[rows.joined]
     table = boundary.trapezoids
     kind = boundary.patch_kind[table.patch]
-    found = []
+    curves = []
 
     def add(strip: Ints, start: Floats, stop: Floats, colour: str, owner: Ints) -> None:
         strip, owner = strip[lined[strip]], owner[lined[strip]]
         corners = np.stack((start[strip], stop[strip], stop[strip], start[strip]), axis=1)
         part = rows.part[rows.joined[strip]]
-        found.append(replace(of_one_colour(corners, colour, CURVE, owner), part=part))
+        curves.append(replace(of_one_colour(corners, colour, CURVE, owner), part=part))
 
     for side, curve in enumerate((table.lower_kind, table.upper_kind)):
-        here, after, on_bounds = ends[rows.joined, side], ends[rows.joined + 1, side], kind[of] == PatchKind.BOUND
+        here, after = ends[rows.joined, side], ends[rows.joined + 1, side]
+        on_bounds = kind[trapezoid] == PatchKind.BOUND
         helix, cut = (
-            ((curve[of] == Kind.VERTEX_VERTEX) & ~on_bounds).nonzero()[0],
-            ((curve[of] != Kind.VERTEX_VERTEX) & on_bounds).nonzero()[0],
+            ((curve[trapezoid] == Kind.VERTEX_VERTEX) & ~on_bounds).nonzero()[0],
+            ((curve[trapezoid] != Kind.VERTEX_VERTEX) & on_bounds).nonzero()[0],
         )
         add(helix, here, after, colours.helix, first[helix])
         add(cut, here, after, GREY, np.full(len(cut), -1))
     phi_min, phi_max = boundary.phi_min, boundary.phi_min + boundary.phi_range
     for row, angle, phi in ((rows.joined, table.theta_from, phi_min), (rows.joined + 1, table.theta_to, phi_max)):
         own_end = (kind != PatchKind.BOUND) & _same_angle(angle, phi[table.patch])
-        (strip,) = np.nonzero(own_end[of] & _same_angle(angle[of], rows.theta[row]))
+        (strip,) = np.nonzero(own_end[trapezoid] & _same_angle(angle[trapezoid], rows.theta[row]))
         add(strip, ends[row, 0], ends[row, 1], colours.edge_edge, first[strip])
-    return found
+    return curves
 
 
 def _same_angle(first: Floats, second: Floats) -> NDArray[np.bool_]:
-    """Equal up to rounding and whole turns; for the eye only."""
+    """Return True for angles equal up to rounding and whole turns; for pictures only."""
     return np.abs(np.mod(first - second + math.pi, math.tau) - math.pi) < 1e-9
 
 
 def of_one_colour(corners: Floats, colour: str, sort: int, owner: Ints, width: float = 0.0) -> Pieces:
-    """Pieces of one colour, not shaded."""
+    """Make pieces of one colour, not shaded."""
     n = len(corners)
     rgb, width_of, nowhere = np.tile(to_rgb(colour), (n, 1)), np.full(n, width), np.full(n, -1)
     return Pieces(corners, rgb, np.full(n, sort), owner, width_of, nowhere)
@@ -286,7 +287,7 @@ def _with_degrees(points: Floats, theta: Floats) -> Floats:
 
 
 def shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
-    """Colours as the light leaves them: darker away from it, a little lighter towards it."""
+    """Shade colours by the light: darker away from it, a little lighter towards it."""
     scaled = corners * (1.0, 1.0, math.radians(angle_scale))
     normal = np.cross(scaled[:, 2] - scaled[:, 0], scaled[:, 3] - scaled[:, 1])
     length = np.linalg.norm(normal, axis=1)
@@ -297,6 +298,6 @@ def shaded(rgb: Floats, corners: Floats, angle_scale: float) -> Floats:
 
 
 def joined(parts: list[Pieces]) -> Pieces:
-    """Pieces as one; owners are counted in the whole already."""
+    """Join pieces whose owners are already numbered in the whole."""
     names = [column.name for column in fields(Pieces)]
     return Pieces(**{name: np.concatenate([getattr(part, name) for part in parts]) for name in names})

@@ -1,7 +1,7 @@
 """One contact surface in both models, side by side: section 5's trade-off in a figure.
 
-The grid is the same in both: helices, and rulings every 10 degrees. In the geometrical model it is even, and every
-angle is there. In the rational model all is exact, but equal angles take ever more room; the half turn is at infinity.
+Both have the same grid: helices, and rulings every 10 degrees. The geometrical model has it even, with every angle. The
+rational model is exact throughout, but equal angles take ever more room; the half turn is at infinity.
 """
 
 from __future__ import annotations
@@ -32,23 +32,23 @@ STEP, HELICES, SIDE = 10, 8, 6  # degrees between rulings, strips between helice
 
 @checked
 def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVertex) -> Figure:
-    """A contact surface in the geometrical and in the rational model; its patch in colour, the rest grey.
+    """Draw a contact surface in the geometrical and in the rational model; its patch in colour, the rest grey.
 
     Parameters
     ----------
     robot, obstacle : Polygon
     contact : VertexEdge or EdgeVertex
-        One that has a patch.
+        A contact that has a patch.
 
     Returns
     -------
     matplotlib figure
-        The rational model is cut off at tau = -4 and 4, that is about 152 degrees.
+        The rational model is cut off at tau = -4 and 4, which is about 152 degrees.
 
     Raises
     ------
     ValueError
-        At a reflex vertex, which has no patch.
+        If the vertex is reflex: it has no patch.
     """
     import mpl_toolkits.mplot3d  # noqa: F401  registers the projection
     from matplotlib import rc_context
@@ -84,7 +84,7 @@ def plot_models(robot: Polygon, obstacle: Polygon, contact: VertexEdge | EdgeVer
 
 
 def cells(S: Surface, Phi: RationalRange, limit: float) -> tuple[Floats, NDArray[np.bool_]]:
-    """Outlines (n, 2 SIDE, 3) of cells between helices and rulings, theta in [-pi, pi], and which are of the patch."""
+    """Return outlines (n, 2 SIDE, 3) of cells between helices and rulings, theta in [-pi, pi], and the patch's mask."""
     ends = [math.degrees(Phi.start.theta), math.degrees(Phi.end.theta)]
     even = range(-180, 181, STEP)
     degrees = np.unique([angle for angle in (*even, *ends, -limit, limit) if abs(angle) <= limit])
@@ -99,7 +99,7 @@ def cells(S: Surface, Phi: RationalRange, limit: float) -> tuple[Floats, NDArray
 
 
 def _draw(space: Any, outlines: Floats, colours: NDArray[np.str_], height: float) -> None:
-    """Cells in their shade, sorted by depth; the axis of the angle from -height to height."""
+    """Draw cells in their shade, sorted by depth; the axis of the angle goes from -height to height."""
     from matplotlib.ticker import MaxNLocator
     from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 

@@ -1,4 +1,4 @@
-"""Faces drawn by PyVista, off the screen: true depth order, pixel by pixel."""
+"""Render faces by PyVista, off the screen: true depth order, pixel by pixel."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from cfree.errors import UnsupportedError
 Renderer = Literal["matplotlib", "pyvista"]
 Floats = NDArray[np.float64]
 
-FINER = 3  # pixels along the side of one that is shown
-LARGEST = 6000  # along the side of a picture
-PEELS = 12  # faces seen through
+FINER = 3  # rendered pixels along the side of a shown one
+LARGEST = 6000  # pixels along the side of a picture at most
+PEELS = 12  # transparent faces behind each other
 MISSING = "surfaces in true depth order need PyVista: pip install 'cfree[render]'"
 
 
 def best_renderer() -> Renderer:
-    """PyVista where it is installed, with the libraries it needs."""
+    """Return "pyvista" if it is installed with the libraries it needs, else "matplotlib"."""
     if not find_spec("pyvista"):
         return "matplotlib"
     try:
@@ -31,18 +31,18 @@ def best_renderer() -> Renderer:
 
 
 def require(renderer: Renderer) -> None:
-    """Raise UnsupportedError, which says how to get it, if a renderer is missing."""
+    """Raise UnsupportedError, with the install command, if a renderer is missing."""
     if renderer == "pyvista" and not find_spec("pyvista"):
         raise UnsupportedError(MISSING)
 
 
 def image_of(faces: Floats, rgba: Floats, size: tuple[int, int]) -> NDArray[np.uint8]:
-    """Picture (height, width, 4) of flat faces, transparent where there are none.
+    """Return a picture (height, width, 4) of flat faces, transparent elsewhere.
 
     Parameters
     ----------
     faces : (n, 4, 3) float64
-        x and y in pixels from the lower left, and the depth: the camera has projected them already.
+        Projected corners: x and y in pixels from the lower left, and the depth.
     rgba : (n, 4) float64
     size : (int, int)
         Width and height in pixels.
@@ -50,7 +50,7 @@ def image_of(faces: Floats, rgba: Floats, size: tuple[int, int]) -> NDArray[np.u
     import pyvista
     from vtkmodules.vtkCommonCore import vtkLogger
 
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # it finds its way without a screen
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_OFF)  # it warns without a screen, and works
     width, height = size
     finer = max(1, min(FINER, LARGEST // max(size)))
     points = faces.reshape(-1, 3).copy()
@@ -73,7 +73,7 @@ def image_of(faces: Floats, rgba: Floats, size: tuple[int, int]) -> NDArray[np.u
     plotter.camera.clipping_range = (0.5 * max(size), 4.0 * max(size))
     fine = np.asarray(plotter.screenshot(transparent_background=True, return_img=True)).astype(np.float64)
     plotter.close()
-    # the mean of small pixels: their colours are as much nearer to the black behind as they are seen through
+    # the mean of small pixels: transparency mixes their colours with the black behind
     blocks = fine.reshape(height, finer, width, finer, 4)
     alpha = blocks[..., 3:].mean(axis=(1, 3))
     colour = (255 * blocks[..., :3].mean(axis=(1, 3)) / np.maximum(alpha, 1e-9)).clip(0, 255)

@@ -1,7 +1,7 @@
-"""Trapezoids cut into strips by angles: what meshes and pictures are made of.
+"""Strips of trapezoids between angles: the material of meshes and pictures.
 
-A contact surface is ruled by straight segments of constant theta (eqs. 5 and 8). So a trapezoid is swept by *rows*,
-from its lower to its upper curve, and two rows bound a strip:
+A contact surface is ruled by straight segments of constant theta (eqs. 5 and 8). So *rows* sweep a trapezoid, from its
+lower to its upper curve, and two rows bound a strip:
 
     theta + step   lower o-----------------o upper
                          |                 |
@@ -24,7 +24,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 THIN = 1e-9
-"""Trapezoids of fewer radians have no area to show, and their curves cannot be told apart in doubles."""
+"""Radians; lower trapezoids have no visible area, and doubles cannot distinguish their curves."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +40,9 @@ class Strips:
     t : (r, 2) float64
         Limits of each row.
     points : (r, 2, 2) float64
-        The same two points in the plane.
+        The ends of each row in the plane.
     joined : (s,) int64
-        Rows that bound a strip with the row after them.
+        Rows that bound a strip with the next row.
     """
 
     trapezoid: Ints
@@ -54,7 +54,7 @@ class Strips:
 
 
 def strips(boundary: BoundaryRecord, step: float) -> Strips:
-    """Rows at most `step` radians apart.
+    """Return rows at most `step` radians apart.
 
     Notes
     -----
@@ -63,7 +63,7 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
     boundary.require_complete()
     table = boundary.trapezoids
     first, last = table.theta_from, table.theta_to
-    # what reaches across theta = 0 is cut there; the part below is raised by a turn
+    # trapezoids across theta = 0 are cut there; the part below is raised by a turn
     (above,) = np.nonzero(last - np.maximum(first, 0) > THIN)
     (below,) = np.nonzero(np.minimum(last, 0) - first > THIN)
     trapezoid = np.concatenate((above, below))
@@ -77,7 +77,7 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
     share = row / (count[part] - 1)
     theta = (1 - share) * start[part] + share * stop[part]
 
-    # a curve may be 0 / 0 where its trapezoid ends (parallel edges): look just inside
+    # a curve may be 0 / 0 at its trapezoid's end (parallel edges): evaluate just inside
     margin = 1e-8 * (stop - start)[part]
     ids, inside = trapezoid[part], np.clip(theta, start[part] + margin, stop[part] - margin)
     limits = [np.clip(t, 0, 1) for t in boundary.limits(ids, inside)]
@@ -88,6 +88,6 @@ def strips(boundary: BoundaryRecord, step: float) -> Strips:
 
 
 def step_for(boundary: BoundaryRecord, rows: int, limits: tuple[float, float]) -> float:
-    """Step, in radians and within limits, that makes about so many rows besides one for each trapezoid."""
+    """Return the step, in radians within limits, that makes about `rows` rows besides one for each trapezoid."""
     heights = float((boundary.trapezoids.theta_to - boundary.trapezoids.theta_from).sum())
     return min(max(heights / rows, limits[0]), limits[1])

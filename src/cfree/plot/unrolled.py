@@ -1,4 +1,4 @@
-"""What there is to draw of a boundary between two angles, theta unrolled beyond full turns."""
+"""Pieces of a boundary between two angles, theta unrolled beyond full turns."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Range = tuple[float, float]
 
 
 def slab(pieces: Pieces, window: Window, degrees: Range) -> Pieces:
-    """Pieces of one turn, repeated and cut off at two angles; without bounds and what is outside the window.
+    """Repeat pieces of one turn and cut them off at two angles, without bounds and pieces outside the window.
 
     The walls of the bounds would hide everything.
     """
@@ -27,20 +27,20 @@ def slab(pieces: Pieces, window: Window, degrees: Range) -> Pieces:
     inside = (x >= window[0]) & (x <= window[2]) & (y >= window[1]) & (y <= window[3])
     pieces = pieces.chosen(inside & (pieces.sort != WALL))
     low, high = degrees
-    found, count = [], 0
+    copies, count = [], 0
     for turn in range(math.floor(low / 360), math.ceil(high / 360)):
         corners = pieces.corners + np.array([0.0, 0.0, 360.0 * turn])
         copy = replace(pieces, corners=corners).between(low, high)
-        found.append(replace(copy, owner=np.where(copy.owner < 0, -1, copy.owner + count)))
+        copies.append(replace(copy, owner=np.where(copy.owner < 0, -1, copy.owner + count)))
         count += len(copy.corners)
-    return joined(found)
+    return joined(copies)
 
 
 def distances(pieces: Pieces, rows: Floats, radius: float) -> Floats:
-    """How far the middles of pieces are from poses x, y, degrees; a radian is as long as the radius."""
+    """Return distances from the middles of pieces to poses x, y, degrees; a radian is as long as the radius."""
     scale = np.array([1.0, 1.0, math.radians(radius)])
     middle = pieces.corners.mean(axis=1) * scale
-    found = np.full(len(middle), math.inf)
+    least = np.full(len(middle), math.inf)
     for row in rows * scale:
-        np.minimum(found, ((middle - row) ** 2).sum(axis=1), out=found)
-    return np.asarray(np.sqrt(found))
+        np.minimum(least, ((middle - row) ** 2).sum(axis=1), out=least)
+    return np.asarray(np.sqrt(least))

@@ -1,4 +1,4 @@
-"""Which parts of curves faces leave to be seen: a depth buffer of the faces, as fine as the eye needs it."""
+"""Visible parts of curves among faces, by a depth buffer of the faces, as fine as a picture needs."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
 SIDE = 700  # cells of the buffer along its longer side
-PARTS = 4  # of a piece of a curve; each is seen or not
-SLACK = 0.004  # of all depth: a curve lies on its faces
+PARTS = 4  # parts of a piece of a curve; each is visible or hidden
+SLACK = 0.004  # share of the depth range: a curve lies on its faces
 SHORT = 6  # parts of a curve; shorter gaps are rounding
 
 
 def depth_buffer(corners: Floats, low: Floats, size: float, shape: tuple[int, int]) -> Floats:
-    """Least depth of flat convex polygons in each cell of a grid, infinite where there is none.
+    """Return the least depth of flat convex polygons in each cell of a grid, infinite if there is none.
 
     Parameters
     ----------
     corners : (n, k, 3) float64
-        x and y as the eye sees them, and the depth, which is affine on each polygon.
+        Projected x and y, and the depth, which is affine on each polygon.
     low : (2,) float64
         Corner of the grid.
     size : float
@@ -44,26 +44,26 @@ def depth_buffer(corners: Floats, low: Floats, size: float, shape: tuple[int, in
     last = np.clip(np.floor(triangles[..., :2].max(axis=1) + 0.5).astype(np.int64), 0, np.array(shape)[::-1])
     width, height = np.maximum(last - first, 0).T
     count = width * height
-    of = np.repeat(np.arange(len(count)), count)
-    k = np.arange(len(of)) - (np.cumsum(count) - count)[of]
-    column, row = first[of, 0] + k % width[of], first[of, 1] + k // width[of]
-    x, y = column + 0.5 - p[of, 0], row + 0.5 - p[of, 1]
-    u = (x * r[of, 1] - y * r[of, 0]) / area[of]
-    v = (y * q[of, 0] - x * q[of, 1]) / area[of]
+    polygon = np.repeat(np.arange(len(count)), count)
+    k = np.arange(len(polygon)) - (np.cumsum(count) - count)[polygon]
+    column, row = first[polygon, 0] + k % width[polygon], first[polygon, 1] + k // width[polygon]
+    x, y = column + 0.5 - p[polygon, 0], row + 0.5 - p[polygon, 1]
+    u = (x * r[polygon, 1] - y * r[polygon, 0]) / area[polygon]
+    v = (y * q[polygon, 0] - x * q[polygon, 1]) / area[polygon]
     inside = (u >= 0) & (v >= 0) & (u + v <= 1)
-    depth = (p[of, 2] + u * q[of, 2] + v * r[of, 2])[inside]
+    depth = (p[polygon, 2] + u * q[polygon, 2] + v * r[polygon, 2])[inside]
     buffer = np.full(shape, np.inf)
     np.minimum.at(buffer, (row[inside], column[inside]), depth)
     return buffer
 
 
 def seen_parts(ends: Floats, faces: Floats) -> tuple[Floats, Mask]:
-    """Pieces of curves in `PARTS`, and which of these no face hides.
+    """Split pieces of curves into `PARTS`, and return these and a mask of those that no face hides.
 
     Parameters
     ----------
     ends : (n, 2, 3) float64
-        Start and stop of each: x and y as the eye sees them, and the depth.
+        Start and stop of each: projected x and y, and the depth.
     faces : (m, 4, 3) float64
 
     Returns
@@ -83,13 +83,13 @@ def seen_parts(ends: Floats, faces: Floats) -> tuple[Floats, Mask]:
     buffer = depth_buffer(faces, low[:2] - 1.5 * size, size, (ny, nx))
     middle = parts.mean(axis=1)
     column, row = np.floor((middle[:, :2] - low[:2]) / size + 1.5).astype(int).T
-    # a curve on the rim of a face is beside it as often as on it: the farthest of the cells around counts
+    # a curve on a face's rim is beside it as often as on it: the farthest of the cells around counts
     around = np.stack([buffer[row + j, column + i] for j in (-1, 0, 1) for i in (-1, 0, 1)]).max(axis=0)
     return parts, np.asarray(middle[:, 2] <= around + SLACK * (high[2] - low[2]))
 
 
 def polylines(parts: Floats, seen: Mask, look: NDArray[np.int64]) -> tuple[list[Floats], list[int]]:
-    """Parts that are seen, joined where one begins as another of the same look ends; the look of each line."""
+    """Join visible parts where one begins at the end of another of the same look; return the look of each line."""
     follows = np.zeros(len(parts), bool)
     follows[1:] = (np.abs(parts[1:, 0] - parts[:-1, 1]).max(axis=1) < 1e-9) & (look[1:] == look[:-1])
     seen = _closed(seen, follows)
@@ -105,7 +105,7 @@ def polylines(parts: Floats, seen: Mask, look: NDArray[np.int64]) -> tuple[list[
 
 
 def _closed(seen: Mask, follows: Mask) -> Mask:
-    """Without gaps, and then without ends, of fewer than `SHORT` parts within one curve."""
+    """Remove gaps, and then ends, of fewer than `SHORT` parts within one curve."""
     curve = np.cumsum(~follows)
     for value in (False, True):
         start = np.flatnonzero(np.concatenate(([True], (seen[1:] != seen[:-1]) | (curve[1:] != curve[:-1]))))

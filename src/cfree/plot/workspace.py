@@ -1,4 +1,4 @@
-"""Shapes of the plane as matplotlib draws them: what is around the robot, and the robot in a pose."""
+"""Shapes of the plane for matplotlib: the robot's surroundings, and the robot in a pose."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Window = tuple[float, float, float, float]
 
 
 def draw_surroundings(ax: Axes, scene: Scene, *, frame: bool = True) -> list[Window]:
-    """Obstacles, workspace, and the frame of the bounds; the rectangles they fill."""
+    """Draw obstacles, workspace, and the frame of the bounds; return the rectangles they fill."""
     from matplotlib.patches import PathPatch, Rectangle
 
     boxes: list[Window] = [polygon.bounds for polygon in scene.obstacles]
@@ -43,7 +43,7 @@ def draw_surroundings(ax: Axes, scene: Scene, *, frame: bool = True) -> list[Win
 
 
 def draw_robot(ax: Axes, scene: Scene, pose: Pose, *, faint: bool) -> Window:
-    """The robot in a pose, its reference point and its first axis; the rectangle it fills."""
+    """Draw the robot in a pose, its reference point and its first axis; return the rectangle it fills."""
     from matplotlib.patches import PathPatch
 
     rings = [pose.apply(ring) for ring in rings_of(scene.robot)]
@@ -57,7 +57,7 @@ def draw_robot(ax: Axes, scene: Scene, pose: Pose, *, faint: bool) -> Window:
 
 
 def _mark(ax: Axes, pose: Pose, rings: list[Floats]) -> None:
-    """The reference point, and the robot's first axis."""
+    """Draw the reference point, and the robot's first axis."""
     from matplotlib.patheffects import withStroke
 
     points = np.concatenate(rings)
@@ -70,7 +70,7 @@ def _mark(ax: Axes, pose: Pose, rings: list[Floats]) -> None:
 
 
 def roomiest(cut: Slice, window: Window) -> Pose | None:
-    """The pose of a slice with most room around its reference point within a window; None if none is free."""
+    """Return the pose of a slice with most room around its reference point in a window; None if none is free."""
     import shapely
 
     from cfree.exact.pose import Pose
@@ -83,12 +83,12 @@ def roomiest(cut: Slice, window: Window) -> Pose | None:
 
 
 def rings_of(polygons: Iterable[Any]) -> list[Floats]:
-    """Rings of polygons, the interior on the left."""
+    """Return the rings of polygons, the interior on the left."""
     return [ring for polygon in polygons for ring in polygon.rings]
 
 
 def rings_of_geometry(geometry: Any) -> list[Floats]:
-    """Rings of the polygons of a shapely geometry, the interior on the left."""
+    """Return the rings of a shapely geometry's polygons, the interior on the left."""
     import shapely
 
     parts = [part for part in shapely.get_parts(geometry) if part.geom_type == "Polygon" and part.area > 0]
@@ -97,7 +97,7 @@ def rings_of_geometry(geometry: Any) -> list[Floats]:
 
 
 def path_of(rings: Iterable[Floats]) -> Path:
-    """One path of closed rings: clockwise rings are holes.
+    """Return one path of closed rings: clockwise rings are holes.
 
     Examples
     --------

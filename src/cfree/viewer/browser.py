@@ -1,4 +1,4 @@
-"""The page with a scene inside, in the browser."""
+"""The page with a scene, in the browser."""
 
 from __future__ import annotations
 
@@ -29,12 +29,12 @@ def view(
     ----------
     scene : Scene
     answer : Path or Separated, optional
-        The path is shown as it is, of a proof start and goal: the page finds the surface between them again. A path
-        with slides is looked for again, too.
+        The path is shown as it is. Of a proof the page takes start and goal, and finds the separating surface again. It
+        also finds a path with slides again.
     html : path, optional
-        Where to write the page, which holds all it needs; a new temporary file unless given.
+        Where to write the page, which needs no other file; default a new temporary file.
     browser : bool
-        Whether to open it.
+        True to open it.
 
     Returns
     -------
@@ -44,9 +44,9 @@ def view(
     Raises
     ------
     ValueError
-        If the answer was read from a file, and is for another scene.
+        If the answer was read from a file and is for another scene.
     UnsupportedError
-        If the file is named otherwise than .html or .htm.
+        If the suffix is neither .html nor .htm.
 
     Examples
     --------
@@ -68,7 +68,7 @@ def view(
 
 
 def check_page_path(path: str | os.PathLike[str]) -> str:
-    """Suffix of a file that `view` can write.
+    """Return the suffix of a file that `view` can write.
 
     Examples
     --------

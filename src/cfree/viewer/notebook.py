@@ -12,32 +12,32 @@ from cfree.paths.path import Path
 from cfree.planning.separation import Separated
 from cfree.scene.scene import Scene
 
-MOST_VERTICES = 10_000  # of a scene that a value shows by itself in the page: more are too slow for a glance
+MOST_VERTICES = 10_000  # vertices of a scene shown by itself in the page: more are too slow
 
 
 @checked
 def widget(
     value: Scene | Boundary | FreeSpace | Path | Separated, answer: Path | Separated | None = None
-) -> Any:  # a `Widget`, which needs what is not always installed
-    """The page of `view` in a notebook's cell: drag in it, and read what has become of it.
+) -> Any:  # a `Widget`, whose base class is not always installed
+    """Show the page of `view` in a notebook's cell, and read back the dragged poses.
 
     Parameters
     ----------
     value : Scene, Boundary, FreeSpace, Path or Separated
-        What to show; of an answer the scene that it is about.
+        The value to show; an answer is shown with its scene.
     answer : Path or Separated, optional
-        As in `view`.
+        The answer, as in `view`.
 
     Returns
     -------
     Widget
-        End a cell with it. Its `scene`, `robot`, `start`, `goal` and `answer` are what is seen in the page, exactly,
-        whenever they are read; set to something else, the page follows.
+        End a cell with it. Its `scene`, `robot`, `start`, `goal` and `answer` are exactly those of the page whenever
+        they are read; set one, and the page follows.
 
     Raises
     ------
     ValueError
-        If an answer read from a file is to be shown alone: it does not know its scene.
+        If an answer read from a file is to be shown alone: the file does not contain its scene.
     ImportError
         If anywidget is not installed: ``pip install 'cfree[notebook]'``.
 
@@ -54,7 +54,7 @@ def widget(
 
 
 def live(value: object, **options: Any) -> Any:
-    """What a notebook displays of a value: the widget and its picture; None if the picture alone is to be shown."""
+    """Return the notebook display of a value: the widget and its picture; None to show the picture alone."""
     if not isinstance(value, Scene | Boundary | FreeSpace | Path | Separated) or find_spec("anywidget") is None:
         return None
     scene = _scene(value)
@@ -64,7 +64,7 @@ def live(value: object, **options: Any) -> Any:
 
 
 def _scene(value: Scene | Boundary | FreeSpace | Path | Separated) -> Scene | None:
-    """Which scene a value is about; nothing if it is an answer from a file."""
+    """Return the scene of a value; None for an answer from a file."""
     if isinstance(value, FreeSpace):
         return value.boundary.scene
     return value if isinstance(value, Scene) else value.scene

@@ -1,4 +1,4 @@
-"""The page as text, and what it is given."""
+"""The page as text, with the scene and the answer inside."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ GIVEN = '<script type="application/json" id="given">null</script>'
 
 
 def text_of_polygons(scene: Scene) -> str:
-    """JSON text of a scene, which the page can read.
+    """Return the JSON text of a scene, for the page.
 
     Raises
     ------
     UnsupportedError
-        If it has round shapes.
+        If the scene has round shapes.
     """
     if scene.curved:
         raise UnsupportedError(REFUSED)
@@ -33,43 +33,43 @@ def text_of_polygons(scene: Scene) -> str:
 
 @checked
 def page(scene: Scene, answer: Path | Separated | None = None) -> str:
-    """The page as HTML; see `view`."""
-    given: dict[str, object] = {"scene": text_of_polygons(scene)}
+    """Return the page as HTML; see `view`."""
+    data: dict[str, object] = {"scene": text_of_polygons(scene)}
     if answer is not None:
         from cfree.verify.answers import other_scene
 
         if finding := other_scene(scene, answer):
             raise ValueError(f"answer: {finding}")
-        given |= {"start": words(answer.start), "goal": words(answer.goal)}
+        data |= {"start": words(answer.start), "goal": words(answer.goal)}
     if poses := poses_text(answer):
-        given["poses"] = poses
-    return _page_of(given)
+        data["poses"] = poses
+    return _page_of(data)
 
 
 def hosted_page() -> str:
-    """The page for a frame, which is told by messages what to show; see `viewer/src/host.ts`."""
+    """Return the page for a frame, which receives its scene by messages; see `viewer/src/host.ts`."""
     return _page_of("host")
 
 
-def _page_of(given: object) -> str:
+def _page_of(data: object) -> str:
     text = files("cfree.viewer").joinpath("page.html").read_text(encoding="utf-8")
-    before, found, after = text.partition(GIVEN)
-    assert found, "the page has a place for what is given"
-    return f"{before}{GIVEN.replace('null', _script(given))}{after}"
+    before, marker, after = text.partition(GIVEN)
+    assert marker, "the page has a place for its data"
+    return f"{before}{GIVEN.replace('null', _script(data))}{after}"
 
 
 def _script(value: object) -> str:
-    """JSON that no name in it can end."""
+    """Return JSON in which no name can end the script."""
     return json.dumps(value).replace("<", "\\u003c")
 
 
 def words(pose: Pose) -> dict[str, str]:
-    """Exact numbers as texts."""
+    """Write the exact numbers of a pose as texts."""
     return {"x": str(pose.x), "y": str(pose.y), "tau": "inf" if pose.tau is None else str(pose.tau)}
 
 
 def poses_text(answer: Path | Separated | None) -> str:
-    """Poses of a path, one a line; nothing if it has slides, which the page finds again."""
+    """Write the poses of a path, one a line; empty for a path with slides, which the page finds again."""
     if not isinstance(answer, Path) or any(isinstance(motion, Slide) for motion in answer.motions):
         return ""
     return "\n".join(" ".join(words(pose).values()) for pose in answer.poses)

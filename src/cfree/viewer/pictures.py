@@ -1,4 +1,4 @@
-"""What a notebook shows where a cell ends with a value."""
+"""Pictures of values in a notebook, for cells that end with a value."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from cfree.viewer.svg import Floats, Panel, Window, drawing, text
 
 WIDTH, HEIGHT = 640.0, 400.0
 PANELS = (0, 60, 120, 180, 240, 300)  # degrees
-FINEST, SHARP = 2_000, 2  # triangles drawn as such, of more an image with so many dots a pixel
+FINEST, SHARP = 2_000, 2  # triangles drawn as vectors; more become an image with this many dots a pixel
 
 OBSTACLE = f'fill="{palette.OBSTACLE}" stroke="{palette.OBSTACLE_RIM}" stroke-width="8"'
 OUTLINE = f'fill="none" stroke="{palette.GREY}" stroke-width="10" stroke-dasharray="50 40"'
@@ -48,11 +48,11 @@ FORBIDDEN = f'fill="{palette.FORBIDDEN}" fill-opacity=".8"'
 INK = f'fill="{palette.INK}" font-weight="600"'
 POINT = f'fill="#fff" stroke="{palette.INK}" stroke-width="12"'
 CELLS = palette.CATEGORIES
-EAST, UP = math.radians(32), math.radians(24)  # from where a mesh is seen
+EAST, UP = math.radians(32), math.radians(24)  # direction of the camera of a mesh
 
 
 def picture(value: object) -> str | None:
-    """A value as SVG; None if there is nothing to be seen of it."""
+    """Draw a value as SVG; None if it has nothing to show."""
     match value:
         case Scene():
             return _workspace(smooth(value), [value.start], [value.goal, *value.goals], (), repr(value))
@@ -86,7 +86,7 @@ def _rings(polygons: Iterable[Polygon]) -> list[Floats]:
 
 
 def _around(rings: Iterable[Floats]) -> Window:
-    """A window with a margin around all rings."""
+    """Return a window with a margin around all rings."""
     points = np.concatenate(list(rings))
     (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
     margin = 0.04 * max(x1 - x0, y1 - y0) or 1.0
@@ -94,7 +94,7 @@ def _around(rings: Iterable[Floats]) -> Window:
 
 
 def _box(scene: Scene) -> list[Floats]:
-    """What is to be seen of a scene without its robot."""
+    """Return the rings of a scene without its robot."""
     if scene.bounds is not None:
         return [_rectangle(scene.bounds)]
     return _rings(scene.obstacles if scene.workspace is None else [scene.workspace])
@@ -106,7 +106,7 @@ def _rectangle(bounds: Bounds) -> Floats:
 
 
 def _plane(scene: Scene, width: float, height: float, left: float = 0.0, top: float = 0.0) -> Panel:
-    """A panel for slices of a scene."""
+    """Make a panel for slices of a scene."""
     r = robot_radius(scene)
     seen = _box(scene) or [np.array([(-r, -r), (r, r)])]
     if scene.bounds is None and scene.workspace is None:  # contacts are around the obstacles
@@ -122,7 +122,7 @@ def _workspace(
     caption: str,
     rows: Floats | None = None,
 ) -> str:
-    """The plane with the robot at its start and goals, and on rows (n, 3) of x, y and theta."""
+    """Draw the plane with the robot at its start and goals, and along rows (n, 3) of x, y and theta."""
     robot = _rings(scene.robot)
     poses = [(pose, "start") for pose in starts if pose is not None]
     poses += [(pose, "goal") for pose in goals if isinstance(pose, Pose)]
@@ -157,7 +157,7 @@ def _workspace(
 
 
 def _aside(robot: list[Floats], seen: list[Floats]) -> list[Floats]:
-    """A robot that is nowhere yet, left of everything."""
+    """Return a robot without a pose, placed left of everything."""
     if not seen:
         return robot
     (x0, y0, _, y1), (_, v0, u1, v1) = _around(seen), _around(robot)
@@ -166,7 +166,7 @@ def _aside(robot: list[Floats], seen: list[Floats]) -> list[Floats]:
 
 
 def _draw_way(panel: Panel, scene: Scene, robot: list[Floats], rows: Floats) -> None:
-    """The robot at even steps of its way, and the line of its reference point."""
+    """Draw the robot at even steps of its path, and the trace of its reference point."""
     for x, y, theta in rows[ghosts(rows, scene)].tolist():
         pose = Pose(x, y, theta)
         panel.shapes([pose.apply(ring) for ring in robot], GHOST)
@@ -200,7 +200,7 @@ def _apart(proof: Separated | AllSeparated) -> str | None:
 
 
 def _draw_slice(panel: Panel, cut: Slice, colour_of: NDArray[np.int64] | None = None) -> None:
-    """Forbidden positions, and the contacts around them: coloured by kind, or as is said of each trapezoid."""
+    """Draw forbidden positions and the contacts around them, coloured by kind, or by the number of each trapezoid."""
     xy, start, shell = cut.boundary.slicer.rings(*cut._place)
     points = xy.reshape(-1, 2)
     rings = [points[i:j] for i, j in pairwise(start)]
@@ -221,7 +221,7 @@ def _draw_slice(panel: Panel, cut: Slice, colour_of: NDArray[np.int64] | None = 
 
 
 def _draw_inside(panel: Panel, cut: Slice, *, words: bool) -> None:
-    """The robot where its reference point has most room in a slice, unless that takes long to find."""
+    """Draw the robot where its reference point has most room in a slice, unless that takes long to compute."""
     pose = roomiest(cut, panel.window) if len(cut.segments) <= FINEST else None
     if pose is None:
         return
@@ -237,7 +237,7 @@ def _draw_inside(panel: Panel, cut: Slice, *, words: bool) -> None:
 
 
 def _slices(boundary: Boundary, space: FreeSpace | None, caption: str, only: int | None = None) -> str | None:
-    """Slices at six orientations."""
+    """Draw slices at six orientations."""
     if not boundary.complete:
         return None
     cells = None if space is None else space.cell_of[space.component].astype(np.int64)
@@ -258,14 +258,14 @@ def _slices(boundary: Boundary, space: FreeSpace | None, caption: str, only: int
 
 
 def _mesh(mesh: Mesh) -> str:
-    """The triangles that face the eye, from back to front."""
+    """Draw the triangles that face the camera, from back to front."""
     xyz, corners, kind = mesh.vertices, mesh.triangles, mesh.kind
     if not len(corners):
         return drawing([], WIDTH, 0, repr(mesh))
     low, high = xyz.min(axis=0), xyz.max(axis=0)
     turn = np.array([[math.cos(EAST), math.sin(EAST), 0], [-math.sin(EAST), math.cos(EAST), 0], [0, 0, 1]])
     tilt = np.array([[1, 0, 0], [0, math.sin(UP), math.cos(UP)], [0, -math.cos(UP), math.sin(UP)]])
-    seen = (xyz - (low + high) / 2) @ turn.T @ tilt.T  # x to the right, y upwards, z to the eye
+    seen = (xyz - (low + high) / 2) @ turn.T @ tilt.T  # x to the right, y upwards, z to the camera
     a, b, c = (seen[corners[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     length = np.linalg.norm(normal, axis=1)
@@ -283,12 +283,12 @@ def _mesh(mesh: Mesh) -> str:
 
 
 def _shaded(colour: str, share: float) -> str:
-    """A colour from half dark to full."""
+    """Shade a colour from half dark to full."""
     return "#" + "".join(f"{round(c * (0.5 + 0.5 * share)):02x}" for c in bytes.fromhex(colour[1:]))
 
 
 def _painted(corners: Floats, colours: Sequence[str]) -> bytes:
-    """Triangles one over the other, as PNG."""
+    """Paint triangles over each other, as PNG."""
     from PIL import Image, ImageDraw
 
     places = {colour: k for k, colour in enumerate(["white", *dict.fromkeys(colours)])}

@@ -1,4 +1,4 @@
-"""The page in a notebook's cell, and what has been dragged in it, back in Python. Needs the extra ``notebook``."""
+"""The page in a notebook's cell, with the dragged poses back in Python. Needs the extra ``notebook``."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from cfree.viewer.pictures import picture
 
 
 def _pose() -> Any:
-    """A trait that is a pose, exactly, on both sides."""
+    """Make a trait that is an exact pose on both sides."""
     return Instance(Pose, allow_none=True).tag(
         sync=True,
         to_json=lambda pose, widget: pose and words(pose),
@@ -42,11 +42,11 @@ class Widget(AnyWidget):
     source : str
         The scene as JSON; see `scene`.
     robot, start, goal : Pose, optional
-        Where they have been dragged to, exactly; given new ones, the page follows. `observe` tells of changes.
+        Their exact poses as dragged; set new ones, and the page follows. `observe` reports changes.
     poses : str
-        Of the path that is shown, one a line.
+        Poses of the path that is shown, one a line.
     height : int
-        Of the cell, in pixels.
+        Height of the cell, in pixels.
     """
 
     _esm = files("cfree.viewer").joinpath("widget.mjs").read_text(encoding="utf-8")
@@ -71,7 +71,7 @@ class Widget(AnyWidget):
 
     @property
     def scene(self) -> Scene:
-        """What is shown, with the start and goal that it is shown with; given another one, the page follows."""
+        """The scene of the page, with its present start and goal; set another one, and the page follows."""
         return with_ends(scene_from_text("the scene of the widget", self.source), self.start, self.goal)
 
     @scene.setter
@@ -81,25 +81,25 @@ class Widget(AnyWidget):
 
     @property
     def answer(self) -> Path | Separated | None:
-        """Of `scene`: the path that is shown, proved free once more, or what `cfree.plan` says; None without a goal.
+        """The answer for `scene`: the shown path, proved free again, or that of `cfree.plan`; None without a goal.
 
         Raises
         ------
         ForbiddenPoseError
-            If start or goal has been dragged into something.
+            If start or goal has been dragged into an obstacle.
         """
         if self.start is None or self.goal is None:
             return None
-        asked, found = self._answer
-        if asked != self._question:
-            scene = self.scene
-            found = self._shown(scene)
-            found = plan(scene, self.start, self.goal) if found is None else found
-            self._answer = self._question, found
-        return found
+        question, answer = self._answer
+        if question != self._question:
+            question, scene = self._question, self.scene
+            answer = self._shown(scene)
+            answer = plan(scene, self.start, self.goal) if answer is None else answer
+            self._answer = question, answer
+        return answer
 
     def _shown(self, scene: Scene) -> Path | None:
-        """The path of the page, if it is one of rotations and translations."""
+        """Return the page's path, if it consists of rotations and translations and is free; else None."""
         poses = [Pose(x, y, {"tau": tau}) for x, y, tau in map(str.split, (self.poses or "").splitlines())]
         if not poses or (poses[0], poses[-1]) != (self.start, self.goal):
             return None
@@ -107,7 +107,7 @@ class Widget(AnyWidget):
         return path if path.is_free(MotionChecker(scene)) else None
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
-        """With a picture for where no kernel runs."""
+        """Add a picture for viewers without a kernel."""
         bundle = super()._repr_mimebundle_(**options)
         if bundle is None:
             return None

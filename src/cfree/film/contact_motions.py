@@ -1,7 +1,6 @@
 """Motions in contact: along a slice, around an obstacle while turning, over a patch.
 
-Every pose is computed exactly on the contact surface it slides on (eqs. 5 and 8), within the trimmed part of it: so it
-touches, and it is free.
+Every pose is computed exactly on its contact surface (eqs. 5 and 8), in the trimmed part: so it touches and is free.
 """
 
 from __future__ import annotations
@@ -33,13 +32,13 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Point = tuple[float, float]
 
-HELIX_CURVE = 3  # kind of a curve of a trapezoid
-INSIDE = 1e-6  # how far inside its limits t stays, so that rounding cannot leave them
+HELIX_CURVE = 3  # kind of a trapezoid's curve that is a v-v helix
+INSIDE = 1e-6  # distance of t from its limits, so that rounding cannot leave them
 
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """An exact pose, and the contact that is shown in it."""
+    """An exact pose, and the contact shown in it: the content of one frame."""
 
     pose: Pose
     contact: Contact | None = None
@@ -53,12 +52,12 @@ class Column:
     ----------
     patch : int
     parts : tuple of int
-        Parts in the sense of `cfree.plot.strips.Strips`, from below.
+        Parts as in `cfree.plot.strips.Strips`, from below.
     trapezoids : tuple of int
     angles : tuple of float, radians in [0, 2 pi]
-        Where the parts begin, and where the last one ends.
+        Angles at which the parts begin and the last one ends.
     side : 0, 1 or None
-        The side (t = 0 or 1) that is a v-v helix all the way, if there is one.
+        The side (t = 0 or 1) that is a v-v helix over its whole height, if there is one.
     """
 
     patch: int
@@ -69,14 +68,14 @@ class Column:
 
 
 def shape_of(scene: Scene, place: Place) -> Polygon:
-    """The obstacle, or the workspace, that a place is on."""
+    """Return the obstacle, or the workspace, of a place."""
     shape = scene.workspace if place.polygon == WORKSPACE else scene.obstacles[place.polygon]
     assert shape is not None
     return shape
 
 
 def surface_of(scene: Scene, patch: Patch) -> Surface:
-    """Exact contact surface of a v-e or e-v patch."""
+    """Return the exact contact surface of a v-e or e-v patch."""
     i, j = patch.robot, patch.obstacle
     robot, obstacle = scene.robot[i.polygon].exact_vertices, shape_of(scene, j).exact_vertices
     zero = Fraction(0), Fraction(0)
@@ -91,7 +90,7 @@ def surface_of(scene: Scene, patch: Patch) -> Surface:
 
 
 def corner_contact(patch: Patch, side: int) -> Contact:
-    """The v-v contact at an end of a patch's edge: t = 0 or 1."""
+    """Return the v-v contact at an end of a patch's edge: t = 0 or 1."""
 
     def corner(place: Place) -> Place:
         index = place.index if side == 0 or place.end is None else place.end
@@ -102,19 +101,19 @@ def corner_contact(patch: Patch, side: int) -> Contact:
 
 @dataclass(frozen=True, slots=True)
 class Ring:
-    """A closed curve of contacts with obstacles in a slice, by length along it, forbidden on its left.
+    """A closed curve of contacts with obstacles in a slice, measured by length, the forbidden side on its left.
 
     Attributes
     ----------
     theta : float, radians
     trapezoid : (k,) int32
-        Whose segments it consists of.
+        Trapezoids whose segments form the curve.
     ends : (k,) float64
-        Lengths up to the end of each.
+        Length from the start to the end of each segment.
     offset : float
-        Where it begins on the first.
+        Length on the first segment at which the ring begins.
     gap : float
-        Distance of that place from the point it was to be near.
+        Distance from that place to the point given to `near`.
     """
 
     boundary: Boundary
@@ -126,7 +125,7 @@ class Ring:
 
     @classmethod
     def near(cls, boundary: Boundary, theta: float, point: Point) -> Ring | None:
-        """The one that passes nearest to a point; None if nothing touches, or what does is no closed curve or bound."""
+        """Return the ring nearest to a point; None if there is none, or it is not closed, or has a bound."""
         cut = boundary.slice(theta)
         start, step = cut.segments[:, 0], cut.segments[:, 1] - cut.segments[:, 0]
         if not len(start):
@@ -149,7 +148,7 @@ class Ring:
         return float(self.ends[-1])
 
     def at(self, distance: float) -> tuple[int, float]:
-        """Trapezoid and t after a distance from the point where the ring begins."""
+        """Return trapezoid and t at this length from the beginning of the ring."""
         place = (distance + self.offset) % self.perimeter
         k = min(int(np.searchsorted(self.ends, place, side="right")), len(self.ends) - 1)
         start = self.ends[k - 1] if k else 0.0
@@ -162,7 +161,7 @@ class Ring:
         return touching(self.boundary, int(self.boundary.trapezoids.patch[trapezoid]), t, self.theta)
 
     def distance_to(self, point: Point) -> float:
-        """Length along the ring to the place nearest to a point."""
+        """Return the length along the ring to the place nearest to a point."""
         steps = np.linspace(0, self.perimeter, 2000, endpoint=False)
         places = [self.at(s) for s in steps]
         patch = self.boundary.trapezoids.patch[[trapezoid for trapezoid, _ in places]]
@@ -171,60 +170,60 @@ class Ring:
 
 
 def touching(boundary: Boundary, patch: int, t: float, theta: float) -> Moment:
-    """The exact pose at t and theta on a patch."""
-    found = boundary.patches[patch]
-    pose = surface_of(boundary.scene, found).pose(t, theta)
-    return Moment(pose, Contact(found.kind, found.robot, found.obstacle))
+    """Return the exact pose at t and theta on a patch, and its contact."""
+    record = boundary.patches[patch]
+    pose = surface_of(boundary.scene, record).pose(t, theta)
+    return Moment(pose, Contact(record.kind, record.robot, record.obstacle))
 
 
 def roll(boundary: Boundary, start: Point, angles: Sequence[float], distance: float) -> list[Moment] | None:
-    """Along the contacts while the robot turns; None where they come to an end.
+    """Move along the contacts while the robot turns; None if they come to an end.
 
     Parameters
     ----------
     boundary : Boundary
     start : (float, float)
-        Near the first position.
+        A point near the first position.
     angles : (n,) float, radians
         Orientations, close to each other.
     distance : float
-        How far to slide, forbidden on the left, in all.
+        Total length of the slide, the forbidden side on the left.
     """
-    here, found = start, []
+    here, moments = start, []
     reach = 3 * robot_radius(boundary.scene) * float(np.abs(np.diff(angles)).max(initial=0)) + 1e-3 * abs(distance)
     for k, theta in enumerate(angles):
         ring = Ring.near(boundary, theta, here)
         if ring is None or (k and ring.gap > reach):
             return None
         moment = ring.moment(distance / len(angles) if k else 0.0)
-        found.append(moment)
+        moments.append(moment)
         here = float(moment.pose.x), float(moment.pose.y)
-    return found
+    return moments
 
 
 def columns(boundary: Boundary) -> list[Column]:
-    """All v-e and e-v patches in columns; none crosses theta = 0."""
+    """Divide all v-e and e-v patches into columns, none of which crosses theta = 0."""
     rows, table = strips(boundary, math.inf), boundary.trapezoids
     first = np.flatnonzero(np.diff(rows.part, prepend=-1))
     last = np.append(first[1:], len(rows.part)) - 1
     patch = table.patch[rows.trapezoid[first]]
     order = np.lexsort((rows.t[first, 0], rows.theta[first], patch))
     order = order[boundary.patch_kind[patch[order]] != PatchKind.BOUND]
-    found: list[list[int]] = []
+    groups: list[list[int]] = []
     for part in order.tolist():
-        below = found[-1][-1] if found else part
+        below = groups[-1][-1] if groups else part
         joined = (
             patch[below] == patch[part]
             and abs(rows.theta[last[below]] - rows.theta[first[part]]) < 1e-9
             and bool(np.allclose(rows.t[last[below]], rows.t[first[part]], atol=1e-6))
         )
-        if joined and found:
-            found[-1].append(part)
+        if joined and groups:
+            groups[-1].append(part)
         else:
-            found.append([part])
+            groups.append([part])
     sides = table.lower_kind, table.upper_kind
     result = []
-    for parts in found:
+    for parts in groups:
         trapezoids = rows.trapezoid[first[parts]]
         side = next((k for k, kind in enumerate(sides) if (kind[trapezoids] == HELIX_CURVE).all()), None)
         angles = (*rows.theta[first[parts]].tolist(), float(rows.theta[last[parts[-1]]]))
@@ -233,7 +232,7 @@ def columns(boundary: Boundary) -> list[Column]:
 
 
 def over_column(boundary: Boundary, column: Column, shares: Any, angles: Any) -> list[Moment]:
-    """Poses on a column: at angles within it, and at shares (0 to 1) of its width there."""
+    """Return poses on a column: at angles within it, and at shares (0 to 1) of its width there."""
     moments = []
     for share, theta in zip(shares, angles, strict=True):
         k = int(np.searchsorted(column.angles[1:-1], theta, side="right"))
@@ -244,7 +243,7 @@ def over_column(boundary: Boundary, column: Column, shares: Any, angles: Any) ->
 
 
 def along_helix(boundary: Boundary, column: Column, angles: Any) -> list[Moment]:
-    """Poses on the v-v helix at the side of a column."""
+    """Return poses on the v-v helix at the side of a column."""
     assert column.side is not None
     patch = boundary.patches[column.patch]
     helix = surface_of(boundary.scene, patch).helix(column.side)
@@ -253,10 +252,10 @@ def along_helix(boundary: Boundary, column: Column, angles: Any) -> list[Moment]
 
 
 def outward(boundary: Boundary, patch: int, theta: float) -> Floats:
-    """Unit vector of the plane from a patch to its free side, at one orientation."""
+    """Return the unit vector of the plane from a patch to its free side, at one orientation."""
     _, _, qx, qy, _, _, gx, gy = boundary.ruled[patch].tolist()
     c, s = math.cos(theta), math.sin(theta)
-    x, y = qx - (c * gx - s * gy), qy - (s * gx + c * gy)  # S_t, along which forbidden is on the left
+    x, y = qx - (c * gx - s * gy), qy - (s * gx + c * gy)  # S_t: the forbidden side is on its left
     return np.array([y, -x]) / math.hypot(x, y)
 
 
@@ -266,5 +265,5 @@ def _between(lower: float, upper: float, share: float) -> float:
 
 
 def _next(segments: Floats, k: int) -> int:
-    """The segment that begins where one ends."""
+    """Return the segment that begins at the end of another one."""
     return int(np.hypot(*(segments[:, 0] - segments[k, 1]).T).argmin())

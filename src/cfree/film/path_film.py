@@ -1,4 +1,4 @@
-"""Frames of a path: the robot on its way among the obstacles, its clearance, and the point of C that it is."""
+"""Frames of a path: the robot among the obstacles, its clearance, and its point in the configuration space."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from cfree.collision.distance import EdgeDistances
-from cfree.film.eye import Eye
+from cfree.film.camera import Camera
 from cfree.film.frame import MONO, axis_names, image_of, new_frame, numbers
 from cfree.film.names import Names
 from cfree.film.space import Space
@@ -34,23 +34,23 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
-SECONDS = 4.0, 20.0  # a path takes as many as the robot travels of its own radii, between these
-AZIMUTHS = math.radians(-62), math.radians(-32)  # the camera turns this far in a film
+SECONDS = 4.0, 20.0  # limits of a path's default duration: one second per robot radius of travel
+AZIMUTHS = math.radians(-62), math.radians(-32)  # the camera turns from one to the other
 SHADES = 24  # colours of the line in configuration space
 REST = 0.6, 1.2  # seconds for which the robot rests before and after its path
-TITLE = 40  # characters
-DASH = 8  # steps of the path
-GLASS = 0.08  # opacity of what is above the robot's orientation
+TITLE = 40  # characters of the title at most
+DASH = 8  # steps of the path from dash to dash
+GLASS = 0.08  # opacity of patches above the robot's orientation
 
 
 class PathStage:
-    """Draws the frames of one path.
+    """The film set of one path: draws its frames.
 
     Parameters
     ----------
     track : Track
     boundary : Boundary, optional
-        To show the configuration space.
+        The boundary, if the configuration space is to be shown.
     size : (int, int)
         Width and height in pixels.
     """
@@ -82,7 +82,7 @@ class PathStage:
         self.distances = EdgeDistances(scene)
 
     def _draw_plane(self, figure: Figure, place: Window) -> None:
-        """What is in the workspace, and artists of what moves."""
+        """Draw the workspace, and make the artists of everything that moves."""
         track = self.track
         ax: Any = figure.add_axes(place)
         draw_surroundings(ax, track.scene)
@@ -104,7 +104,7 @@ class PathStage:
         self.names = Names(ax, track.scene)
 
     def _draw_gauge(self, figure: Figure, place: Window) -> None:
-        """A bar of all clearances, and a pointer to the present one."""
+        """Draw a bar of all clearances, and a pointer to the present one."""
         track = self.track
         most = track.most
         ax: Any = figure.add_axes(place)
@@ -120,7 +120,7 @@ class PathStage:
         self.value = figure.text(right, middle, "", fontsize=12, color=INK, va="center")
 
     def draw(self, travel: float, share: float) -> Image:
-        """The frame after so much travel as (height, width, 3) bytes; share of the film that is over."""
+        """Draw the frame after this travel, at this share of the film, as (height, width, 3) bytes."""
         track = self.track
         row = track.travel.at([travel])
         (pose,) = poses_of(row)
@@ -152,16 +152,16 @@ class PathStage:
         return image_of(self.figure)
 
     def _dash(self, azimuth: float, done: int, colours: Floats) -> None:
-        """The way so far in configuration space, in dashes that nothing hides."""
+        """Draw the path so far in configuration space, in dashes that nothing hides."""
         assert self.space is not None
-        eye = Eye(self.space.window, *self.space.panel, azimuth)
+        camera = Camera(self.space.window, *self.space.panel, azimuth)
         step = np.stack((self.line[: done - 1], self.line[1:done]), axis=1)
         shown = (np.arange(len(step)) % DASH < DASH / 2) & (np.abs(np.diff(step[..., 2], axis=1)[:, 0]) < 180)
-        self.dashes.set_segments(list(eye(step[shown])[0]))
+        self.dashes.set_segments(list(camera(step[shown])[0]))
         self.dashes.set_color(list(map(tuple, colours[: len(step)][shown].tolist())))
 
     def _point(self, row: Floats) -> None:
-        """The clearance in words, on the bar, and where it is."""
+        """Show the clearance in words, on the bar, and in the workspace."""
         edges = self.distances.placed(row)
         (distance,), (edge,), (other,) = self.distances.nearest(edges)
         points = self.distances.between(edges[0, edge], int(other))
@@ -174,7 +174,7 @@ def path_frames(
     track: Track, boundary: Boundary | None, seconds: float | None, fps: int, size: tuple[int, int],
     progress: Callable[[float], object] | None,
 ) -> Iterator[Image]:  # fmt: skip
-    """All frames: the robot rests, moves at even speed, and rests."""
+    """Yield all frames: the robot rests, moves at even speed, and rests."""
     if seconds is None:
         seconds = float(np.clip(track.travel.total / robot_radius(track.scene), *SECONDS))
     before, after = (round(rest * fps) for rest in REST)
@@ -194,23 +194,23 @@ def path_frames(
 
 
 def _title(scene: Scene) -> str:
-    """The name of a scene, if it has one; the beginning of a long one."""
+    """Return the name of a scene, shortened if it is long, or a name for a scene without one."""
     name = scene.name or "a free path"
     return plain(name if len(name) <= TITLE else f"{name[:TITLE]}...")
 
 
 def _shades(track: Track) -> list[str]:
-    """A colour for each row, of a few."""
+    """Return a colour for each row, from a small set."""
     most = track.most
     steps = np.floor(np.nan_to_num(track.distance) / most * SHADES + 0.5) / SHADES * most
     return [to_hex(colour) for colour in track.colour(steps)]
 
 
 def _runs(line: Floats, shades: list[str]) -> list[tuple[str, Floats]]:
-    """The line in parts of one colour, each as far as the next begins."""
-    found, first = [], 0
+    """Split the line into parts of one colour, each up to the beginning of the next."""
+    runs, first = [], 0
     for k in range(1, len(line)):
         if k == len(line) - 1 or shades[k] != shades[first]:
-            found.append((shades[first], line[first : k + 1]))
+            runs.append((shades[first], line[first : k + 1]))
             first = k
-    return found
+    return runs

@@ -1,4 +1,4 @@
-"""From shots to pictures: what has appeared so far, the camera's way, and the fades."""
+"""Turn shots into frames: the state of each frame, the camera's motion, and the fades."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from cfree.film.apart import seen, shots_apart
-from cfree.film.eye import AZIMUTHS
+from cfree.film.camera import AZIMUTHS
 from cfree.film.frame import TRAIL, Stage, View
+from cfree.film.separation_shots import separation_shots, separation_window
 from cfree.film.storyboard import SECONDS, STORYBOARDS, Shot, storyboard
 from cfree.film.turntable import turntable_frames
 from cfree.free.space import free_space
@@ -27,15 +27,15 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 Image = NDArray[np.uint8]
 
-FADE = 0.4  # seconds from one scene to the next, or over a cut
+FADE = 0.4  # seconds of the fade between scenes, or over a cut
 TURN = 1.6  # seconds over which the camera turns from one shot to the next
-SWAY = math.radians(7), 11.0  # the camera is never quite at rest: how far, in how many seconds
-LATER = ("pillar", "path")  # what a second scene shows: the rest has been seen
-KEPT = ("slices", "helix", "path", "apart")  # shots whose line stays
+SWAY = math.radians(7), 11.0  # the camera always sways a little: amplitude, and period in seconds
+LATER = ("pillar", "path")  # shots of a second scene: the first scene has shown the rest
+KEPT = ("slices", "helix", "path", "separation")  # shots whose line stays
 
 
 def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int]) -> None:
-    """Raise a ValueError that says what is wrong with an option, if anything is.
+    """Raise a ValueError that names the fault if an option is wrong.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def check_options(scenes: int, seconds: float, fps: int, size: tuple[int, int]) 
 
 
 def check_frames(fps: int, size: tuple[int, int]) -> None:
-    """Raise a ValueError that says what is wrong with the rate or the size of frames, if anything is."""
+    """Raise a ValueError that names the fault if the rate or the size of frames is wrong."""
     if not 1 <= fps <= 100:
         raise ValueError(f"{fps} frames a second; give 1 to 100")
     width, height = size
@@ -61,12 +61,12 @@ def check_frames(fps: int, size: tuple[int, int]) -> None:
 
 
 def shots_of(boundaries: Sequence[Boundary], frames: int, name: str) -> list[list[Shot]]:
-    """The shots of each scene.
+    """Return the shots of each scene.
 
     Raises
     ------
     ValueError
-        If there is nothing to show of a scene.
+        If a scene has nothing to show.
     """
     kinds = [STORYBOARDS[name]] + [tuple(k for k in STORYBOARDS[name] if k in LATER)] * (len(boundaries) - 1)
     weights = [sum(SECONDS[kind] for kind in chosen) for chosen in kinds]
@@ -90,7 +90,7 @@ def pictures(
     name: str,
     progress: Callable[[float], object] | None,
 ) -> Iterator[Image]:
-    """All frames of a film."""
+    """Yield all frames of a film."""
     total = round(seconds * fps)
     if name == "turntable":
         counts = np.diff(np.rint(np.linspace(0, total, len(boundaries) + 1))).astype(int).tolist()
@@ -99,50 +99,50 @@ def pictures(
         return
     if name == "separation":
         count = total // len(boundaries)
-        films = [apart(boundary, answer_of(boundary), count, size, fps) for boundary in boundaries]
+        films = [separation_film(boundary, answer_of(boundary), count, size, fps) for boundary in boundaries]
     else:
         scenes = shots_of(boundaries, total, name)
         films = [(Stage(b, size, fps), shots) for b, shots in zip(boundaries, scenes, strict=True)]
-    yield from reel(films, fps, progress)
+    yield from splice(films, fps, progress)
 
 
-def apart(
+def separation_film(
     boundary: Boundary, answer: Separated, frames: int, size: tuple[int, int], fps: int
 ) -> tuple[Stage, list[Shot]]:
-    """The film of a separation: where it is drawn, and what it shows.
+    """Return the film of a separation: its stage and its shots.
 
     Raises
     ------
     ValueError
-        If start and goal are parted by no surface, but by exact fits.
+        If no surface separates start and goal, but exact fits do.
     """
     if not len(answer.pieces):
-        raise ValueError("nothing to show: start and goal are parted by no surface, but by what fits exactly")
+        raise ValueError("nothing to show: no surface separates start and goal, but exact fits do")
     surface = surface_of(answer, boundary.scene)
-    window = seen(answer, surface)
-    return Stage(boundary, size, fps, surface, window), shots_apart(boundary, answer, window, frames)
+    window = separation_window(answer, surface)
+    return Stage(boundary, size, fps, surface, window), separation_shots(boundary, answer, window, frames)
 
 
 def answer_of(boundary: Boundary) -> Separated:
-    """The proof that there is no path between the ends of a scene.
+    """Return the proof that there is no path between the ends of a scene.
 
     Raises
     ------
     ValueError
-        If there is one, or the scene has no ends.
+        If there is a path, or the scene has no ends.
     """
     scene = boundary.scene
     start, goal = required(scene, None, None)
     answer = Planner(scene, free_space(boundary)).plan(start, goal)
     if not isinstance(answer, Separated):
-        raise ValueError("there is a path from start to goal: nothing parts them; film it with the storyboard path")
+        raise ValueError("there is a path from start to goal, and no proof; film it with the storyboard path")
     return answer
 
 
-def reel(
+def splice(
     films: Sequence[tuple[Stage, Sequence[Shot]]], fps: int, progress: Callable[[float], object] | None
 ) -> Iterator[Image]:
-    """Frames of films one after the other, with fades between them and over cuts."""
+    """Join films: yield their frames one after the other, with fades between films and over cuts."""
     total = sum(len(shot.moments) for _, shots in films for shot in shots)
     return _counted(_faded(films, fps), total, progress)
 
@@ -151,7 +151,7 @@ def _faded(films: Sequence[tuple[Stage, Sequence[Shot]]], fps: int) -> Iterator[
     fade = round(FADE * fps)
     last: Image | None = None
     for stage, shots in films:
-        before, since = last, 0  # what fades out, and for how long
+        before, since = last, 0  # the frame that fades out, and the frames since
         for view, cut in views(stage, shots, fps):
             if cut:
                 before, since = last, 0
@@ -172,34 +172,34 @@ def _counted(frames: Iterator[Image], total: int, progress: Callable[[float], ob
 
 
 def views(stage: Stage, shots: Sequence[Shot], fps: int) -> Iterator[tuple[View, bool]]:
-    """What each frame shows, and whether it comes after a cut."""
+    """Yield the state of each frame, and True if it comes after a cut."""
     azimuth = _camera(shots, fps)
     ghost = _averaged(np.concatenate([np.full(len(shot.moments), shot.ghost) for shot in shots]), 0.5 * fps)
     shown = np.stack((stage.space.angles[:, 0], stage.space.angles[:, 0]), axis=1)
-    kept: list[tuple[str, Floats]] = []
+    old_lines: list[tuple[str, Floats]] = []
     stays = np.zeros(len(shown), dtype=np.bool_)
-    at = 0
+    frame = 0
     for shot in shots:
         line = np.array([(float(q.x), float(q.y), math.degrees(q.theta)) for q in (m.pose for m in shot.moments)])
         for k in range(len(shot.moments)):
             shown = _more_shown(shown, stage.space.angles, shot, k, line[:, 2])
-            # the free way to a shot is drawn while it lasts
-            lines = [*kept, (shot.colour, line[0 if k < shot.link else shot.link : k + 1])]
+            # the free path to a shot is drawn while it lasts
+            lines = [*old_lines, (shot.colour, line[0 if k < shot.link else shot.link : k + 1])]
             if shot.swept is not None:
                 stays[list(shot.swept.parts)] = True
-            place = float(azimuth[at]), shown, float(ghost[at])
+            state = float(azimuth[frame]), shown, float(ghost[frame])
             recent = shot.moments[max(0, k - round(TRAIL * fps)) : k + 1]
-            view = View(shot.title, shot.note, recent, *place, lines, shot.goal, stays)
+            view = View(shot.title, shot.note, recent, *state, lines, shot.goal, stays)
             yield view, shot.cut and k == 0
-            at += 1
+            frame += 1
         if shot.kind in KEPT:
-            kept = [*kept, (shot.colour, line[shot.link :])]
+            old_lines = [*old_lines, (shot.colour, line[shot.link :])]
         if shot.kind == "pillar":
-            kept = []
+            old_lines = []
 
 
 def _more_shown(shown: Floats, angles: Floats, shot: Shot, k: int, degrees: Floats) -> Floats:
-    """The angles between which the parts are seen once a shot has come to its moment k."""
+    """Return the ranges of angles in which the parts are visible at moment k of a shot."""
     if k < shot.link:
         return shown
     shown = shown.copy()
@@ -221,16 +221,16 @@ def _more_shown(shown: Floats, angles: Floats, shot: Shot, k: int, degrees: Floa
 
 
 def _camera(shots: Sequence[Shot], fps: int) -> Floats:
-    """Azimuth of each frame: from shot to shot without haste, and a slow swaying."""
+    """Return the azimuth of each frame: a smooth motion from shot to shot, and a slow sway."""
     wanted = np.concatenate([np.full(len(shot.moments), shot.azimuth) for shot in shots])
-    how_far, seconds = SWAY
-    sway = how_far * np.sin(math.tau * np.arange(len(wanted)) / (seconds * fps))
+    amplitude, seconds = SWAY
+    sway = amplitude * np.sin(math.tau * np.arange(len(wanted)) / (seconds * fps))
     azimuth: Floats = np.clip(_averaged(wanted, TURN * fps) + sway, *AZIMUTHS)
     return azimuth
 
 
 def _averaged(values: Floats, width: float) -> Floats:
-    """A moving average with a smooth window of this half width, in frames."""
+    """Return the moving average with a smooth window of this half width, in frames."""
     half = max(1, round(width))
     window = np.hanning(2 * half + 1)
     padded = np.pad(values, half, mode="edge")
