@@ -5,6 +5,9 @@ from __future__ import annotations
 import doctest
 import importlib
 import re
+import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,6 +31,41 @@ def test_the_code_prints_what_it_shows(monkeypatch: pytest.MonkeyPatch) -> None:
     result = doctest.testfile(str(ROOT / "README.md"), module_relative=False)
     assert result.attempted >= 8
     assert result.failed == 0
+
+
+@pytest.mark.slow
+def test_the_job_of_the_readme_runs_as_it_is_written(tmp_path: Path) -> None:
+    (job,) = re.findall(r"```sh\n(cfree convert .*?)```", (ROOT / "README.md").read_text(), re.S)
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    for line in job.splitlines():
+        _, *words = shlex.split(line)
+        subprocess.run([sys.executable, "-m", "cfree", *words], cwd=tmp_path, check=True, capture_output=True)
+    written = {file.name for file in tmp_path.iterdir() if file.is_file()}
+    assert written == {"office.json", "answer.json", "answer.png", "poses.csv"}
+    assert (tmp_path / "poses.csv").read_text().startswith("x,y,theta,t\n0.7,0.6,0.0,0.0\n")
+
+
+def test_the_readme_is_read_in_a_minute_in_the_words_of_the_field() -> None:
+    text = (ROOT / "README.md").read_text()
+    assert text.count("\n") <= 120
+    assert not re.findall(r"\b(?:pillars?|trapezoids?|live)\b", text)
+    assert {"make demo", "make test"} <= {line.split("#")[0].strip() for line in text.splitlines()}
+
+
+def test_sentences_of_pages_are_short() -> None:
+    long = [found for page in PAGES if page.parent.name != "theory" for found in sentences(page) if words(found) > 40]
+    assert len(long) <= 10, long
+
+
+def sentences(page: Path) -> list[str]:
+    """Split a page: a blank line, a list item, an image and a table row each end a sentence; code is left out."""
+    text = re.sub(r"```.*?```", "", page.read_text(), flags=re.S)
+    blocks = re.split(r"\n\s*\n|\n(?=\s*[-*|] |\s*\d+\. |!\[)|\|", re.sub(r"\$[^$]*\$", "formula", text))
+    return [sentence for block in blocks for sentence in re.split(r"(?<=[.!?:;])\s+", " ".join(block.split()))]
+
+
+def words(sentence: str) -> int:
+    return len(sentence.split())
 
 
 @EVERY_PAGE

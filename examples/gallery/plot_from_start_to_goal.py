@@ -37,15 +37,16 @@ print(path.motions[0])
 print("free:", path.is_free(cfree.MotionChecker(scene)))
 
 # %%
-# It keeps a distance where there is room. ``objective="clear"`` keeps away from obstacles as far as it finds a way;
-# ``narrowest`` says where it is narrow, with certified distances.
+# The path keeps a distance where there is room. ``objective="clear"`` keeps as far from obstacles as possible;
+# ``narrowest`` lists the narrow places, with certified distances.
 
 clear = cfree.plan(scene, objective="clear", improve=1.0)
 for place in cfree.narrowest(clear, scene):
     print(f"{place.found:.4f} m (certainly {place.least:.4f}) to {scene.obstacle_names[place.obstacle[0]]}")
 
 # %%
-# On the left the table along its way, on the right its way among the contact patches: the door is the gap between them.
+# On the left the table along its path, on the right the path among the contact patches: the door is the gap between
+# them.
 
 space = cfree.free_space(cfree.boundary(scene))
 figure = cfree.plot.picture(clear, scene, space.boundary)
@@ -56,7 +57,7 @@ figure = cfree.plot.picture(clear, scene, space.boundary)
 page = cfree.viewer.page(scene, clear)
 
 # %%
-# How much room is left? The table may be so many times as large, and so far from everything all along:
+# ``max_scale`` is the largest factor for the table's size, ``max_margin`` the largest clearance of any path:
 
 print("scale", cfree.max_scale(scene, start, goal, tolerance=0.05))
 print("margin", cfree.max_margin(scene, start, goal, tolerance=0.05), "m")
@@ -65,8 +66,8 @@ print("margin", cfree.max_margin(scene, start, goal, tolerance=0.05), "m")
 # A proof
 # -------
 #
-# With a table of 0.95 m the answer is no. It is a closed surface in the configuration space made of contacts, with
-# start and goal on two sides. "closed": not even a motion that touches the door frame leads through.
+# With a table of 0.95 m there is no path. The proof is a closed surface of contacts in the configuration space, with
+# start and goal on two sides. "closed" means that not even a motion that touches the door frame leads through.
 
 wide = [(-1, "-0.475"), (1, "-0.475"), (1, "0.475"), (-1, "0.475")]
 too_wide = cfree.Scene(wide, wall, workspace=room, start=start, goal=goal, units="m", name="too wide")
@@ -76,7 +77,7 @@ print(cfree.nearest_miss(too_wide, start, goal))
 figure = cfree.plot.picture(proof, too_wide)
 
 # %%
-# Who does not believe it has it checked by other exact code, as ``cfree verify SCENE ANSWER.json`` does:
+# Other exact code checks both answers, as ``cfree verify SCENE ANSWER.json`` does:
 
 for answer, its in ((clear, scene), (proof, too_wide)):
     print(cfree.verify.answer(its, answer).verdict)
@@ -85,15 +86,16 @@ for answer, its in ((clear, scene), (proof, too_wide)):
 # An exact fit
 # ------------
 #
-# A table just as wide as the door gets through: touching is allowed. By a hair more it does not.
+# A table exactly as wide as the door gets through: touching is allowed. A table wider by 2e-12 does not.
 
 for width in ("0.45", "0.450000000001"):
     fit = [(-1, f"-{width}"), (1, f"-{width}"), (1, width), (-1, width)]
     print(width, cfree.plan(cfree.Scene(fit, wall, workspace=room), start, goal))
 
 # %%
-# Where corridors as wide as a square meet, it can only turn while a vertex slides on the floor and an edge on a corner.
-# Then the reference point moves on a rational curve, and this motion is decided exactly like the others.
+# At a junction of corridors as wide as a square, the square can only turn while a vertex slides on the floor and an
+# edge on a corner. Then the reference point moves on a rational curve, and this motion is decided exactly like the
+# others.
 
 corridors = [(-9, 0), (9, 0), (9, 2), (1, 2), (1, 9), (-1, 9), (-1, 2), (-9, 2)]
 junction = cfree.Scene([(-1, -1), (1, -1), (1, 1), (-1, 1)], workspace=corridors, name="a T of corridors")
@@ -107,7 +109,7 @@ figure = cfree.plot.picture(turned, junction)
 # Many questions
 # --------------
 #
-# What is known of a scene is kept in its free space: its cells, which poses are in which, and paths between them.
+# The free space of a scene answers many queries: its cells, the cell of each pose, and paths between poses.
 
 print(space, [round(cell.volume, 3) for cell in space.cells])
 poses = [cfree.Pose(x, y) for x in (-2, 0, 2) for y in (-2, 2)]
@@ -116,6 +118,6 @@ for answer in cfree.plan_many(space, [(poses[0], pose) for pose in poses[1:]]):
     print(answer)
 
 # %%
-# For other programs: poses in a CSV file, a ROS message or GeoJSON, and everything exactly in JSON.
+# Other programs read poses from a CSV file, a ROS message or GeoJSON. JSON files hold everything exactly.
 
 print("x, y:", clear.sample(step=0.5).xy[:3].round(3).tolist(), "...")

@@ -2,7 +2,7 @@
 OMPL, without collisions
 ========================
 
-Sampling planners test a motion at some of its poses: what lies between is hoped for. `cfree.ompl` gives OMPL a
+Sampling planners test a motion at some of its poses, and may miss a collision between them. `cfree.ompl` gives OMPL a
 test of whole motions. The car park is a scene of the benchmark Bench-MR; it comes with a start and a goal.
 
 OMPL is needed: ``pip install 'cfree[ompl]'``.

@@ -4,7 +4,7 @@ The paper in 15 minutes
 
 D. Atariah and G. Rote give the boundary of the forbidden space of one convex robot and one convex obstacle an explicit
 parameterization. This page walks through their paper, section by section, from two triangles to all contact patches,
-and then to what the paper could not do: many obstacles, exactly.
+and then to a task beyond the paper: many obstacles, exactly.
 """
 
 from collections import Counter
@@ -37,13 +37,13 @@ print(pose.apply_exact(robot.exact_vertices))
 # Contact and pseudo contact (section 1.2)
 # ----------------------------------------
 # Boundaries meet. If the interiors do not, it is a contact: free, because the forbidden space is open. If they do, it
-# is a pseudo contact. A contact type says which features meet, and nothing about the interiors.
+# is a pseudo contact. A contact type names the features that meet, and nothing about the interiors.
 
 figure = draw(2)
 
 # %%
 # There are four types. Vertices on edges (v-e) and edges on vertices (e-v) make patches, vertices on vertices (v-v) and
-# edges on edges (e-e) the curves between them: of two triangles nine of each.
+# edges on edges (e-e) the curves between them: two triangles have nine of each.
 
 every = [*cfree.contact.contacts(robot, obstacle), *cfree.contact.contact_curves(robot, obstacle)]
 print(Counter(type(contact).__name__ for contact in every))
@@ -69,9 +69,9 @@ print(S(t=[0, 0.5, 1], phi=0.3).round(4))
 figure = draw(7)
 
 # %%
-# Only a part of it are contacts. The vertex's two edges have to leave the obstacle's edge to the right, which is so
-# from phi_min on, where E_i lies along the edge, over phi_range = pi - rho_i (section 3.1.1). No arccosine is needed:
-# the direction of phi_min is that of (-E_i . E_j, -E_i x E_j).
+# Only a part of the surface consists of contacts. The vertex's two edges have to leave the obstacle's edge to the
+# right. This holds from phi_min on, where E_i lies along the edge, over phi_range = pi - rho_i (section 3.1.1). No
+# arccosine is needed: the direction of phi_min is that of (-E_i . E_j, -E_i x E_j).
 
 Phi = cfree.contact.angle_range(robot, obstacle, on_edge)
 print(f"phi_min = {np.degrees(Phi.phi_min):.3f} degrees, phi_range = {np.degrees(Phi.phi_range):.3f} degrees")
@@ -90,7 +90,7 @@ figure = draw(8)
 # %%
 # Vertices on vertices, edges on edges (section 3.3)
 # --------------------------------------------------
-# What joins the patches has one dimension: arcs of helices C(phi), and horizontal segments C(t). The segment is longer
+# The joints of patches have one dimension: arcs of helices C(phi), and horizontal segments C(t). The segment is longer
 # than the edge: t reaches from 0 to 1 + the length of E_i over that of E_j.
 
 print(cfree.contact.edge_edge_range(robot, obstacle, cfree.contact.EdgeEdge(0, 0)))
@@ -129,7 +129,7 @@ print(boundary, "Euler number", boundary.complex.euler)
 # %%
 # Beyond the paper: many obstacles
 # --------------------------------
-# Pillars that overlap trim each other. Every sign that decides what is left of a patch is exact.
+# Pillars that overlap trim each other. Every sign in the trimming of a patch is exact.
 
 scene = cfree.Scene(
     robot=[(-0.7, -0.5), (0.9, -0.4), (-0.2, 0.9)],
@@ -146,7 +146,7 @@ print(boundary, {rung: getattr(boundary.stats, f"decided_{rung}") for rung in ("
 figure = cfree.plot.plot_overview(boundary)
 
 # %%
-# The same to drag things in: the robot stops where it touches, and says what.
+# The same scene to drag things in: the robot stops where it touches, and the page names the contact.
 
 page = cfree.viewer.page(scene)
 

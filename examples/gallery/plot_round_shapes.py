@@ -28,8 +28,8 @@ print(scene)
 # A path
 # ------
 #
-# It is found in a scene of polygons around the shapes, where all is forbidden that is forbidden here. So it is free for
-# the shapes themselves; which polygons these were is in the answer, and is checked against the curves in rationals.
+# The planner searches a scene of polygons around the shapes, which forbids all that is forbidden here. So the path is
+# free for the shapes themselves. The answer holds these polygons, and they are checked against the curves in rationals.
 
 path = cfree.plan(scene)
 print(path, path.scene, sep="\n")
@@ -37,8 +37,8 @@ print(cfree.verify.answer(scene, path).verdict)
 figure = cfree.plot.picture(path, scene)
 
 # %%
-# Is a pose free? True and False are certain. None: polygons within the tolerance do not tell, here because the disc
-# touches another.
+# `is_free` decides about poses. True and False are certain. None means that polygons within the tolerance do not
+# decide, here because the disc touches another.
 
 disc = cfree.Curved.circle((0, 0), 1)
 two = cfree.Scene(disc, [cfree.Curved.circle((3, 0), 1)])
@@ -48,8 +48,8 @@ print(cfree.is_free(two, [(0, 0, 0), (2, 0, 0), (1, 0, 0)]))
 # A proof
 # -------
 #
-# The trolley may have more room all around it: ``grown`` adds it. With 0.2 m more it does not get there. That is proved
-# in a scene of polygons inside of the shapes: what no path joins there, none joins among these.
+# ``grown`` adds room all around the trolley. With 0.2 m more it does not get to the goal. The proof uses a scene of
+# polygons inside of the shapes: poses that no path joins there are not joined among the shapes either.
 
 wide = scene.grown("0.2")
 proof = cfree.plan(wide)
@@ -61,8 +61,8 @@ figure = cfree.plot.picture(proof, wide)
 # Polygons
 # --------
 #
-# What takes no curves takes polygons around them, ``outer``, or inside, ``inner``, with a stated error. The whole
-# boundary of the forbidden space is between those of the two.
+# Functions that accept no curves accept polygons around them, ``outer``, or inside, ``inner``, with a stated error. The
+# whole boundary of the forbidden space is between those of the two.
 
 for polygons in (scene.outer(0.02), scene.inner(0.02)):
     space = cfree.free_space(cfree.boundary(polygons))
