@@ -18,11 +18,11 @@ times 2^-47 at most. `ERROR` times |u_x| + |u_y|, and `LEAST` for what may under
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,9 +30,6 @@ from numpy.typing import NDArray
 from cfree.exact.algebraic import Exact, ratio
 from cfree.verify.polygons import Ring
 from cfree.verify.surfaces import ZERO, Line, Surface, Turn, Vector, cross, minus
-
-if TYPE_CHECKING:
-    from cfree.verify.world import World
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -88,6 +85,19 @@ class Segments:
     def some(self, chosen: Ints) -> Segments:
         of = chosen if len(self.c) > 1 else slice(None)
         return Segments(self.c[of], self.s[of], self.x[:, chosen], self.y[:, chosen])
+
+
+class World(Protocol):
+    """The convex pieces of a scene, and its contacts; `cfree.verify.world.World` is one."""
+
+    unit: int
+    parts: list[Ring]
+    obstacle_pieces: list[Ring]
+    beyond: list[Ring]
+
+    @property
+    def pillars(self) -> Pillars: ...
+    def contacts_at(self, turn: Turn) -> tuple[Contacts, Callable[[int], Surface]]: ...
 
 
 class Pillars:
