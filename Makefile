@@ -9,6 +9,7 @@ INSTALL := $(BIN)/pip install -q --disable-pip-version-check
 # With tools of .venv and objects that stay: what is installed again later compiles only what has changed.
 TOOLS := scikit-build-core nanobind boost-headers cmake ninja
 DEV := .venv/rebuilt-at-import
+NODE_MODULES := viewer/node_modules/.package-lock.json
 HERE = --no-build-isolation --config-settings=build-dir=$(if $(wildcard $(DEV)),build/dev $(REBUILT),'build/{wheel_tag}' $(ONCE)) -e
 ONCE := --config-settings=cmake.define.CFREE_UNITY=ON
 REBUILT := --config-settings=editable.rebuild=true --config-settings=editable.verbose=false
@@ -18,7 +19,7 @@ unexport PYTHONDONTWRITEBYTECODE  # else each process compiles all it imports
 PARKING = examples/scenes/benchmr_parking1.json
 SWIM = examples/scenes/nest_swim.json
 
-.PHONY: help build demo test check ctest sanitize fuzz fuzz-answers fuzz-files fuzz-round lint bench docs viewer dev stub clean
+.PHONY: help build demo test check ctest sanitize fuzz fuzz-answers fuzz-files fuzz-round lint bench docs viewer viewer-test dev stub clean
 
 help:  ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | expand -t 14
@@ -72,6 +73,7 @@ lint: $(TESTED)  ## style and types
 	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy
 	$(BIN)/mypy tools/check_answer.py
+	test ! -e viewer/node_modules/.bin/prettier || npm --prefix viewer run --silent format:check
 
 bench: $(TESTED)  ## figures against baselines measured in the same run
 	$(BIN)/python benchmarks/run.py
@@ -83,10 +85,18 @@ docs: .venv/documented  ## the documentation as pages, into docs/_build/html
 	$(INSTALL) $(HERE) '.[test,docs]'
 	touch $@
 
-viewer: $(INSTALLED)  ## the page, src/cfree/viewer/page.html: needs node, npm and Debian's emscripten and node-acorn
-	cd viewer && npm ci --silent --ignore-scripts --no-audit --no-fund && npx tsc --noEmit
+viewer: $(INSTALLED) $(NODE_MODULES)  ## the page, src/cfree/viewer/page.html: needs node, npm and Debian's emscripten and node-acorn
+	npm --prefix viewer run --silent format:check
+	npm --prefix viewer run --silent check
 	node viewer/build.mjs --boost "$$($(BIN)/python -c 'import boost_headers; print(boost_headers.get_include())')" \
 	  --hash "$$($(BIN)/python tools/page_hash.py)"
+
+viewer-test: $(NODE_MODULES)  ## unit tests of the page's modules that need no browser: needs node and npm
+	npm --prefix viewer run --silent test
+
+$(NODE_MODULES): viewer/package-lock.json
+	npm --prefix viewer ci --silent --ignore-scripts --no-audit --no-fund
+	touch $@
 
 dev: .venv/bin/python  ## for work on the core: rebuilt at import whenever a C++ source has changed
 	touch $(DEV)

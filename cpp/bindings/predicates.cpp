@@ -9,7 +9,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "cfree/forbidden/critical_angle.hpp"
-#include "cfree/forbidden/curve_hash.hpp"
+#include "cfree/forbidden/curve_hashes.hpp"
 #include "cfree/predicates/junction.hpp"
 #include "polynomials.hpp"
 

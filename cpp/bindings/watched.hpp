@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 // What Python raised while the core was at work, to be thrown when that has ended.
 class Raised {

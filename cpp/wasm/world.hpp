@@ -7,7 +7,7 @@
 
 #include "cfree/forbidden/slice.hpp"
 #include "cfree/free/free_space.hpp"
-#include "cfree/planning/double_contact.hpp"
+#include "cfree/planning/contact_slide.hpp"
 #include "cfree/planning/planner.hpp"
 #include "cfree/scene/features.hpp"
 

@@ -44,7 +44,7 @@ COMPUTED = (
     "slice",
     "surface",
     "triangulation",
-    "wall",
+    "wall_points",
 )
 # guesses: motions are then decided, trapezoids that seem to be neighbours glued
 GUESSED = (

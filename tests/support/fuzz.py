@@ -32,7 +32,7 @@ from strategies import convex_ring
 
 PRIME = 1_000_003  # no critical angle of a small scene has this denominator
 TURNS = [(Fraction(3, 5), Fraction(4, 5)), (Fraction(12, 13), Fraction(5, 13)), (Fraction(4, 5), Fraction(-3, 5))]
-UNLUCKY = (2**61 - 1, 4342619061296019901, 3612245056613796809)  # the last two are the first in curve_hash.cpp
+UNLUCKY = (2**61 - 1, 4342619061296019901, 3612245056613796809)  # the last two are the first in curve_hashes.cpp
 PATIENCE = 20.0  # seconds for one boundary
 
 

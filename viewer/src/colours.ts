@@ -1,33 +1,66 @@
-// Colours of patches and paths. What is ordered has one scale (cividis, which colour-blind readers see as others do).
+// Colours of patches and paths. Ordered values share one scale (cividis, the same to colour-blind readers).
 import { Color } from "three";
 import { type Columns, bytes, doubles, integers } from "./engine";
 
-export interface Palette { vertex_edge: string; edge_vertex: string; helix: string; segment: string; ink: string; faint: string; path: string; good: string; bad: string; accent: string; barrier: string }
+export interface Palette {
+  vertex_edge: string;
+  edge_vertex: string;
+  helix: string;
+  segment: string;
+  ink: string;
+  faint: string;
+  path: string;
+  good: string;
+  bad: string;
+  accent: string;
+  barrier: string;
+}
 export type ColourBy = "contact" | "cell" | "obstacle" | "gaussian" | "mean";
 const MANY = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7bd1", "#b2a13c"];
-const SCALE = ["#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838"].map((of) => new Color(of));
+const SCALE = [
+  "#00224e",
+  "#123570",
+  "#3b496c",
+  "#575d6d",
+  "#707173",
+  "#8a8678",
+  "#a59c74",
+  "#c3b369",
+  "#e1cc55",
+  "#fee838",
+].map((of) => new Color(of));
 
-// At 0 the scale's first colour, at 1 its last.
+// The colour at a share of the scale: at 0 its first, at 1 its last.
 export function on_scale(share: number): Color {
-  const at = Math.max(0, Math.min(1, share)) * (SCALE.length - 1), k = Math.min(Math.floor(at), SCALE.length - 2);
+  const at = Math.max(0, Math.min(1, share)) * (SCALE.length - 1);
+  const k = Math.min(Math.floor(at), SCALE.length - 2);
   return SCALE[k]!.clone().lerp(SCALE[k + 1]!, at - k);
 }
 
 export const LEGENDS: Record<ColourBy, string> = {
-  contact: "", cell: "a colour for each cell", obstacle: "a colour for each obstacle",
-  gaussian: "K r², the robot's radius r for a radian: -1 (dark) to 0, flat (bright)", mean: "H: hollow (dark), 0, bulging (bright)",
+  contact: "",
+  cell: "a colour for each cell",
+  obstacle: "a colour for each obstacle",
+  gaussian: "K r², the robot's radius r for a radian: -1 (dark) to 0, flat (bright)",
+  mean: "H: hollow (dark), 0, bulging (bright)",
 };
 
 // Three numbers for each vertex of a mesh.
 export function vertex_colours(mesh: Columns, by: ColourBy, palette: Palette): Float32Array {
-  const kind = bytes(mesh, "kind"), colours = new Float32Array(3 * kind.length);
-  const [ve, ev] = [new Color(palette.vertex_edge), new Color(palette.edge_vertex)], many = MANY.map((of) => new Color(of));
+  const kind = bytes(mesh, "kind");
+  const colours = new Float32Array(3 * kind.length);
+  const [ve, ev] = [new Color(palette.vertex_edge), new Color(palette.edge_vertex)];
+  const many = MANY.map((of) => new Color(of));
   const of_number = (numbers: Int32Array) => (k: number) => many[(numbers[k]! + 8 * MANY.length) % MANY.length]!;
   const most = doubles(mesh, "mean").reduce((a, b) => Math.max(a, Math.abs(b)), 1e-30);
-  const of_value = (values: Float64Array, low: number, high: number) => (k: number) => on_scale((values[k]! - low) / (high - low));
+  const of_value = (values: Float64Array, low: number, high: number) => (k: number) =>
+    on_scale((values[k]! - low) / (high - low));
   const colour = {
-    contact: (k: number) => kind[k] ? ev : ve, cell: of_number(integers(mesh, "cell")), obstacle: of_number(integers(mesh, "owner")),
-    gaussian: of_value(doubles(mesh, "gaussian"), -1, 0), mean: of_value(doubles(mesh, "mean"), -most, most),
+    contact: (k: number) => (kind[k] ? ev : ve),
+    cell: of_number(integers(mesh, "cell")),
+    obstacle: of_number(integers(mesh, "owner")),
+    gaussian: of_value(doubles(mesh, "gaussian"), -1, 0),
+    mean: of_value(doubles(mesh, "mean"), -most, most),
   }[by];
   for (let k = 0; k < kind.length; ++k) colour(k).toArray(colours, 3 * k);
   return colours;

@@ -1,4 +1,4 @@
-// Calls of the core in a worker: promises, the newest question only where many come, cancel by ending the worker.
+// Calls of the core in a worker: each is a promise; of many questions only the newest is asked; ending the worker cancels.
 import type { Columns } from "./worker";
 export type { Columns };
 
@@ -15,7 +15,9 @@ async function unpacked(): Promise<WebAssembly.Module> {
   return WebAssembly.compile(await new Response(stream).arrayBuffer());
 }
 
-interface Policies { createPolicy(name: string, rules: { createScriptURL(url: string): string }): { createScriptURL(url: string): string } }
+interface Policies {
+  createPolicy(name: string, rules: { createScriptURL(url: string): string }): { createScriptURL(url: string): string };
+}
 function script_url(): string {
   if (source === undefined) {
     const url = URL.createObjectURL(new Blob([block("worker")], { type: "text/javascript" }));
@@ -37,7 +39,9 @@ export class Engine {
 
   constructor(private readonly on_share: (share: number) => void = () => {}) {}
 
-  get busy(): boolean { return this.waiting.size > 0; }
+  get busy(): boolean {
+    return this.waiting.size > 0;
+  }
 
   call(name: string, ...args: unknown[]): Promise<Columns> {
     this.worker ??= this.made();
@@ -48,7 +52,7 @@ export class Engine {
     });
   }
 
-  // One at a time; of those that wait only the newest is asked, the others are cancelled.
+  // Ask one at a time. Of those that wait only the newest is asked; the others are cancelled.
   async newest(name: string, ...args: unknown[]): Promise<Columns> {
     if (this.busy_with.has(name)) {
       this.queued.get(name)?.fail(new Cancelled());
@@ -67,15 +71,20 @@ export class Engine {
     }
   }
 
-  // The scene that calls are about; what is being done for another one ends. Of several wishes the newest is granted.
+  // Open the scene for later calls and end work for another one. Of several requests the newest succeeds.
   async open(text: string): Promise<Columns> {
-    const opening = this.opening = Symbol();
-    try { return await this.reopened(text); } finally { if (this.opening === opening) this.opening = undefined; }
+    const opening = (this.opening = Symbol());
+    try {
+      return await this.reopened(text);
+    } finally {
+      if (this.opening === opening) this.opening = undefined;
+    }
   }
   private opening?: symbol;
   private wishes = 0;
   private async reopened(text: string): Promise<Columns> {
-    const before = this.opened, wish = ++this.wishes;
+    const before = this.opened;
+    const wish = ++this.wishes;
     for (let k = 0; k < 6 && this.busy; ++k) {
       await new Promise((done) => setTimeout(done, 10));
       if (wish !== this.wishes) throw new Cancelled();
@@ -90,19 +99,22 @@ export class Engine {
     }
   }
 
-  // Asked of a scene, which is opened first if it is not. What somebody opens meanwhile is not ended by a question.
+  // Return this engine with the scene open. It waits while `open` opens another scene, and does not interrupt it.
   async of(text: string): Promise<this> {
     while (this.opening) await new Promise((done) => setTimeout(done, 5));
     if (this.opened !== text) await this.reopened(text);
     return this;
   }
 
-  // Ends what it does; no scene is open afterwards.
+  // End all work; no scene is open afterwards.
   end(): void {
     this.worker?.terminate();
-    this.worker = undefined, this.opened = undefined;
+    this.worker = undefined;
+    this.opened = undefined;
     const left = [...this.waiting.values(), ...this.queued.values()];
-    this.waiting.clear(), this.queued.clear(), this.busy_with.clear();
+    this.waiting.clear();
+    this.queued.clear();
+    this.busy_with.clear();
     for (const { fail } of left) fail(new Cancelled());
   }
 
@@ -121,7 +133,7 @@ export class Engine {
     const id = ++this.count;
     const held: unknown[] = [];
     const post = worker.postMessage.bind(worker);
-    worker.postMessage = (message: unknown) => void held.push(message); // until the core is there
+    worker.postMessage = (message: unknown) => void held.push(message); // until the core is loaded
     void module.then((of) => {
       worker.postMessage = post as Worker["postMessage"];
       post({ id, name: "start", args: [of] });

@@ -1,10 +1,16 @@
-// What the page is given to show: written into it, or told by the page in whose frame it is, which hears what becomes of it.
+// Scenes given to the page: written into it, or sent by the page around its frame, which gets its state back.
 import { string } from "./engine";
 import { $ } from "./page";
 import type { Session } from "./session";
 import type { PoseText } from "./state";
 
-export interface Given { scene: string; robot?: PoseText; start?: PoseText; goal?: PoseText; poses?: string }
+export interface Given {
+  scene: string;
+  robot?: PoseText;
+  start?: PoseText;
+  goal?: PoseText;
+  poses?: string;
+}
 
 export async function show_given(session: Session, { scene, poses, ...ends }: Given): Promise<void> {
   if (session.scene && scene === session.now.source) await session.change(ends);
@@ -12,19 +18,22 @@ export async function show_given(session: Session, { scene, poses, ...ends }: Gi
   if (poses) session.show_way(await (await session.planner.of(scene)).call("walk", poses));
 }
 
-// Who scrolls past a frame does not want to zoom: the wheel is for one that has been clicked in.
+// Ignore the wheel in a frame without focus: a user who scrolls past does not want to zoom.
 export function spare_the_wheel(): void {
-  const spare = (event: WheelEvent) => { if (!event.ctrlKey && !document.hasFocus()) event.stopImmediatePropagation(); };
+  const spare = (event: WheelEvent) => {
+    if (!event.ctrlKey && !document.hasFocus()) event.stopImmediatePropagation();
+  };
   if (window.parent !== window) window.addEventListener("wheel", spare, { capture: true });
 }
 
 export function be_hosted(session: Session): void {
-  $("share").hidden = true;  // a frame has no address of its own
+  $("share").hidden = true; // a frame has no address of its own
   window.addEventListener("message", ({ source, data }) => {
     if (source === window.parent && data?.cfree === "show") void show_given(session, data.given);
   });
   session.on_seen = () => {
-    const { source: scene, robot, start, goal } = session.now, poses = session.path ? string(session.last_way!, "poses") : "";
+    const { source: scene, robot, start, goal } = session.now;
+    const poses = session.path ? string(session.last_way!, "poses") : "";
     window.parent.postMessage({ cfree: "seen", seen: { scene, robot, start, goal, poses } }, "*");
   };
   window.parent.postMessage({ cfree: "ready" }, "*");

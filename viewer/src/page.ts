@@ -1,4 +1,4 @@
-// Parts of the page by their id, and what is said in words.
+// Parts of the page by their id, and messages in words.
 import type { Palette } from "./colours";
 import { Cancelled } from "./engine";
 import type { Verdict } from "./verdict";
@@ -8,18 +8,32 @@ export const json = (id: string) => JSON.parse($(id).textContent!);
 
 export const palette = (): Palette => {
   const of = (name: string) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
-  return { vertex_edge: of("ve"), edge_vertex: of("ev"), helix: of("helix"), segment: of("segment"), ink: of("ink"), faint: of("soft"),
-    path: of("path"), good: of("good"), bad: of("bad"), accent: of("accent"), barrier: of("barrier") };
+  return {
+    vertex_edge: of("ve"),
+    edge_vertex: of("ev"),
+    helix: of("helix"),
+    segment: of("segment"),
+    ink: of("ink"),
+    faint: of("soft"),
+    path: of("path"),
+    good: of("good"),
+    bad: of("bad"),
+    accent: of("accent"),
+    barrier: of("barrier"),
+  };
 };
 
 export function say(id: "pose" | "way" | "edit", verdict: Verdict): void {
   const element = $(id);
   if (element.textContent !== verdict.text) element.textContent = verdict.text;
-  element.dataset.tone = verdict.tone, element.classList.remove("old");
+  element.dataset.tone = verdict.tone;
+  element.classList.remove("old");
 }
 export function fault(id: "pose" | "way" | "edit", error: unknown): void {
   if (error instanceof Cancelled) return;
-  const text = (error instanceof Error ? error.message : String(error)).replace(/(-?\d+)\/(\d+)(?=[,)])/g, (_, p, q) => String(Number((Number(p) / Number(q)).toPrecision(5))));
+  const text = (error instanceof Error ? error.message : String(error)).replace(/(-?\d+)\/(\d+)(?=[,)])/g, (_, p, q) =>
+    String(Number((Number(p) / Number(q)).toPrecision(5))),
+  );
   say(id, { tone: "bad", text });
 }
 export function working(is: boolean): void {

@@ -4,30 +4,48 @@ import type { Session } from "./session";
 
 export class Player {
   private frame = 0;
-  constructor(private readonly session: Session) { session.stop_playing = () => this.stop(); }
+  constructor(private readonly session: Session) {
+    session.stop_playing = () => this.stop();
+  }
 
   stop(): void {
     if (!this.frame) return;
-    cancelAnimationFrame(this.frame), (this.frame = 0), ($("play").textContent = "▶ Play");
+    cancelAnimationFrame(this.frame);
+    this.frame = 0;
+    $("play").textContent = "▶ Play";
   }
 
   toggle(): void {
     if (this.frame) return this.stop();
-    const { session } = this, { path: samples } = session;
+    const { session } = this;
+    const { path: samples } = session;
     if (!samples) return;
-    const count = samples.length / 3, duration = Math.max(2500, Math.min(14_000, 22 * count));
+    const count = samples.length / 3;
+    const duration = Math.max(2500, Math.min(14_000, 22 * count));
     $("play").textContent = "❚❚ Pause";
-    let last: number | undefined, share = 0;
-    const step = (now: number) => {  // of its frame, which may have begun before the click
-      share += (now - (last ?? now)) / duration * Number($<HTMLSelectElement>("speed").value), (last = now);
+    let last: number | undefined;
+    let share = 0;
+    const step = (now: number) => {
+      // the time of its frame, which may have begun before the click
+      share += ((now - (last ?? now)) / duration) * Number($<HTMLSelectElement>("speed").value);
+      last = now;
       if (share >= 1 && $<HTMLInputElement>("loop").checked) share %= 1;
-      const at = Math.min(share, 1) * (count - 1), k = Math.floor(at), next = Math.min(k + 1, count - 1), u = at - k;
+      const at = Math.min(share, 1) * (count - 1);
+      const k = Math.floor(at);
+      const next = Math.min(k + 1, count - 1);
+      const u = at - k;
       const c = (i: number) => samples[3 * k + i]! * (1 - u) + samples[3 * next + i]! * u;
       session.seen.robot = { x: c(0), y: c(1), theta: c(2) };
-      session.workspace.place("robot", session.seen.robot, "good"), session.space?.place(session.seen.robot, true), session.set_slider(c(2));
+      session.workspace.place("robot", session.seen.robot, "good");
+      session.space?.place(session.seen.robot, true);
+      session.set_slider(c(2));
       void session.ask_slice();
       if (share < 1) this.frame = requestAnimationFrame(step);
-      else this.stop(), session.keep({ ...session.now, robot: session.now.goal! }, true), void session.ask_robot(session.now.robot);
+      else {
+        this.stop();
+        session.keep({ ...session.now, robot: session.now.goal! }, true);
+        void session.ask_robot(session.now.robot);
+      }
     };
     session.workspace.show_contacts(undefined, "", { x: 0, y: 0, theta: 0 });
     say("pose", { tone: "good", text: "On the path: free all the way." });

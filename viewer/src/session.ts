@@ -1,4 +1,4 @@
-// What is asked of the core when something moves, and where its answers go.
+// Questions to the core when something moves, and where its answers go.
 import { Cancelled, Engine, type Columns, doubles, integers, string, value } from "./engine";
 import type { Editor } from "./editor";
 import { $, fault, say, working } from "./page";
@@ -9,32 +9,45 @@ import { degrees, pose_verdict, way_verdict } from "./verdict";
 import type { FilePose, SceneText } from "./words";
 import type { Drag, Seen, Who, Workspace } from "./workspace";
 
-const PATIENCE = 300;  // ms that a boundary may take before the next edit ends it
-const COARSE = 9000, FINE = 60_000;  // triangles
+const PATIENCE = 300; // ms that a boundary may take before the next edit ends it
+const COARSE = 9000;
+const FINE = 60_000; // triangles
 
-export const seen_of = (pose: PoseText): Seen =>
-  ({ x: number(pose.x), y: number(pose.y), theta: pose.tau === "inf" ? Math.PI : 2 * Math.atan(number(pose.tau)) });
+export const seen_of = (pose: PoseText): Seen => ({
+  x: number(pose.x),
+  y: number(pose.y),
+  theta: pose.tau === "inf" ? Math.PI : 2 * Math.atan(number(pose.tau)),
+});
 
 type Box = [number, number, number, number];
 function box_of(read: Columns): Box {
   const bounds = doubles(read, "bounds");
   if (bounds.length) return [...bounds] as Box;
-  const radius = value(read, "radius"), xy = doubles(read, doubles(read, "workspace.xy").length ? "workspace.xy" : "obstacles.xy");
-  const box: Box = xy.length ? [Infinity, Infinity, -Infinity, -Infinity] : [-2 * radius, -2 * radius, 2 * radius, 2 * radius];
-  for (let k = 0; k < xy.length; k += 2)
-    box[0] = Math.min(box[0], xy[k]! - radius), box[1] = Math.min(box[1], xy[k + 1]! - radius), box[2] = Math.max(box[2], xy[k]! + radius), box[3] = Math.max(box[3], xy[k + 1]! + radius);
+  const radius = value(read, "radius");
+  const xy = doubles(read, doubles(read, "workspace.xy").length ? "workspace.xy" : "obstacles.xy");
+  const box: Box = xy.length
+    ? [Infinity, Infinity, -Infinity, -Infinity]
+    : [-2 * radius, -2 * radius, 2 * radius, 2 * radius];
+  for (let k = 0; k < xy.length; k += 2) {
+    box[0] = Math.min(box[0], xy[k]! - radius);
+    box[1] = Math.min(box[1], xy[k + 1]! - radius);
+    box[2] = Math.max(box[2], xy[k]! + radius);
+    box[3] = Math.max(box[3], xy[k + 1]! + radius);
+  }
   return box;
 }
 
 export class Session {
-  readonly quick = new Engine();  // scenes read, poses: always at once
-  readonly builder = new Engine((share) => { $<HTMLProgressElement>("share-done").value = share; });  // boundary, mesh, slices
-  readonly planner = new Engine();  // ways
+  readonly quick = new Engine(); // reads scenes, checks poses: answers at once
+  readonly builder = new Engine((share) => {
+    $<HTMLProgressElement>("share-done").value = share;
+  }); // boundary, mesh, slices
+  readonly planner = new Engine(); // ways
   history!: History;
   file!: Omit<SceneText, "words">;
   scene?: Columns;
   seen: { robot?: Seen; start?: Seen; goal?: Seen } = {};
-  is_built = false;  // of the scene as it is now
+  is_built = false; // of the scene as it is now
   private opened = 0;
   path: Float64Array | undefined;
   last_way: Columns | undefined;
@@ -43,25 +56,41 @@ export class Session {
   on_opened = () => {};
   on_seen = () => {};
 
-  constructor(readonly workspace: Workspace, readonly space: Space | undefined) {
-    workspace.on_drag = (drag) => this.drag(drag), workspace.on_cancel = () => this.drag("back");
+  constructor(
+    readonly workspace: Workspace,
+    readonly space: Space | undefined,
+  ) {
+    workspace.on_drag = (drag) => this.drag(drag);
+    workspace.on_cancel = () => this.drag("back");
   }
 
-  get now(): State { return this.history.now; }
+  get now(): State {
+    return this.history.now;
+  }
 
-  // A file's text: read, shown, its boundary computed while ways are looked for.
+  // Open a file's text: read and show it, and compute its boundary while paths are searched.
   async open(source: string, of?: Partial<State>): Promise<void> {
     const { ready } = document.body.dataset;
-    this.stop_playing(), this.is_ready(undefined);
+    this.stop_playing();
+    this.is_ready(undefined);
     try {
       const read = await this.quick.open(source);
       const file: SceneText = JSON.parse(string(read, "file"));
-      const start = of?.start ?? (file.start && await this.text_of(file.start));
-      const goal = of?.goal ?? (file.goal && await this.text_of(file.goal, start?.tau));  // a place: as the start is turned
-      const box = box_of(read), middle = (k: 0 | 1) => ((box[k] + box[k + 2]!) / 2).toFixed(2);
+      const start = of?.start ?? (file.start && (await this.text_of(file.start)));
+      const goal = of?.goal ?? (file.goal && (await this.text_of(file.goal, start?.tau))); // a goal without an angle has the start's
+      const box = box_of(read);
+      const middle = (k: 0 | 1) => ((box[k] + box[k + 2]!) / 2).toFixed(2);
       const robot = of?.robot ?? start ?? { x: middle(0), y: middle(1), tau: "0" };
-      const state: State = { source, opened: ++this.opened, robot, ...(start && { start }), ...(goal && { goal }), ...(of?.gallery && { gallery: of.gallery }) };
-      if (this.history) this.history.push(state); else this.history = new History(state);
+      const state: State = {
+        source,
+        opened: ++this.opened,
+        robot,
+        ...(start && { start }),
+        ...(goal && { goal }),
+        ...(of?.gallery && { gallery: of.gallery }),
+      };
+      if (this.history) this.history.push(state);
+      else this.history = new History(state);
       this.take(read);
     } catch (error) {
       if (!(error instanceof Cancelled)) this.is_ready(ready);
@@ -71,27 +100,40 @@ export class Session {
     await this.build(true);
   }
 
-  // What the state says, with the scene that was read; another one is seen anew, an edited one from where it was seen.
+  // Show the state with the scene that was read. A new scene gets a new view; an edited one keeps its view.
   private shown?: number;
   private take(read: Columns): void {
-    const { now } = this, is_other = now.opened !== this.shown;
+    const { now } = this;
+    const is_other = now.opened !== this.shown;
     this.shown = now.opened;
-    this.scene = read, (this.file = JSON.parse(string(read, "file")));
-    this.is_built = false, (this.last_free = undefined);
-    this.seen = { robot: seen_of(now.robot), ...(now.start && { start: seen_of(now.start) }), ...(now.goal && { goal: seen_of(now.goal) }) };
+    this.scene = read;
+    this.file = JSON.parse(string(read, "file"));
+    this.is_built = false;
+    this.last_free = undefined;
+    this.seen = {
+      robot: seen_of(now.robot),
+      ...(now.start && { start: seen_of(now.start) }),
+      ...(now.goal && { goal: seen_of(now.goal) }),
+    };
     document.title = `${this.file.name || "scene"}: cfree`;
-    this.workspace.show_scene(read, this.file.names, is_other ? Object.values(this.seen) as Seen[] : undefined);
+    this.workspace.show_scene(read, this.file.names, is_other ? (Object.values(this.seen) as Seen[]) : undefined);
     const scenes = $<HTMLSelectElement>("scenes");
     scenes.value = now.gallery ?? "";
-    if (!scenes.value) scenes.value = "";  // a lesson's
+    if (!scenes.value) scenes.value = ""; // a lesson's
     $("picked").hidden = true;
     say("edit", { tone: "plain", text: "" });
     if (is_other) {
-      this.workspace.show_slice(undefined), this.workspace.show_path(undefined);
+      this.workspace.show_slice(undefined);
+      this.workspace.show_path(undefined);
       this.space?.show_scene(box_of(read), value(read, "radius"), true);
       $("facts").textContent = "";
-      this.path = undefined, (this.last_way = undefined), say("way", { tone: "plain", text: "" });
-    } else this.space?.fade(true), this.workspace.fade(true);
+      this.path = undefined;
+      this.last_way = undefined;
+      say("way", { tone: "plain", text: "" });
+    } else {
+      this.space?.fade(true);
+      this.workspace.fade(true);
+    }
     for (const who of ["start", "goal"] as const) this.place(who);
     this.set_slider(this.seen.robot!.theta);
     this.editor?.show(now.source);
@@ -106,7 +148,7 @@ export class Session {
     if (who === "goal") this.space?.place_end(1, this.seen.goal);
   }
 
-  // The boundary of the scene as it is; of several wishes the newest.
+  // Build the boundary of the scene as it is now; of several requests the newest succeeds.
   private wanted?: { is_fine: boolean };
   private building_since = 0;
   async build(is_fine: boolean): Promise<void> {
@@ -116,46 +158,60 @@ export class Session {
       return;
     }
     const slow = setTimeout(() => working(true), 250);
-    for (let wish; (wish = this.wanted); ) {
-      this.wanted = undefined, (this.building_since = performance.now());
-      try { await this.build_once(wish.is_fine); } catch (error) {
+    for (let wish; (wish = this.wanted);) {
+      this.wanted = undefined;
+      this.building_since = performance.now();
+      try {
+        await this.build_once(wish.is_fine);
+      } catch (error) {
         if (!(error instanceof Cancelled)) fault("pose", error);
         else if (!this.wanted) $("facts").textContent = "stopped: no boundary";
       }
     }
     this.building_since = 0;
-    clearTimeout(slow), working(this.planner.busy && this.is_waiting);
+    clearTimeout(slow);
+    working(this.planner.busy && this.is_waiting);
   }
 
   private async build_once(is_fine: boolean): Promise<void> {
-    const { source } = this.now, read = this.scene!, box = box_of(read), radius = value(read, "radius"), began = performance.now();
+    const { source } = this.now;
+    const read = this.scene!;
+    const box = box_of(read);
+    const radius = value(read, "radius");
+    const began = performance.now();
     const builder = await this.builder.of(source);
-    const counts = await builder.call("boundary"), seconds = (performance.now() - began) / 1000;
-    const mesh = this.space && await builder.call("mesh", radius / (is_fine ? 60 : 20), is_fine ? FINE : COARSE);
+    const counts = await builder.call("boundary");
+    const seconds = (performance.now() - began) / 1000;
+    const mesh = this.space && (await builder.call("mesh", radius / (is_fine ? 60 : 20), is_fine ? FINE : COARSE));
     const is_now = source === this.now.source;
     const cells = value(counts, "cells");
-    $("facts").textContent = `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s`;
+    $("facts").textContent =
+      `${value(counts, "trapezoids").toLocaleString("en")} trapezoids · ${cells} ${cells === 1 ? "cell" : "cells"} · ${seconds.toFixed(2)} s`;
     if (this.space) {
-      this.space.show_scene(box, radius, false), this.space.show_mesh(mesh!);
+      this.space.show_scene(box, radius, false);
+      this.space.show_mesh(mesh!);
       for (const who of ["start", "goal"] as const) this.place(who);
     }
     if (!is_now) return;
     this.is_built = true;
-    this.space?.fade(false), this.workspace.fade(false);
+    this.space?.fade(false);
+    this.workspace.fade(false);
     this.show_way(this.last_way);
     await Promise.all([this.ask_slice(), this.ask_robot(this.now.robot)]);
     if (is_fine) this.is_ready(this.now.gallery ?? this.file.name);
     document.body.dataset.built = String(Number(document.body.dataset.built ?? 0) + 1);
   }
 
-  // Whoever looks on from outside sees the name of the scene when everything of it is shown.
+  // Set `data-ready` to the name of the scene once all of it is shown, for code outside the page.
   private is_ready(name: string | undefined): void {
-    if (name === undefined) delete document.body.dataset.ready; else document.body.dataset.ready = name;
+    if (name === undefined) delete document.body.dataset.ready;
+    else document.body.dataset.ready = name;
   }
 
   set_slider(theta: number): void {
     const at = wrapped(theta);
-    $<HTMLInputElement>("theta").value = String(at * 180 / Math.PI), ($("degrees").textContent = degrees(at));
+    $<HTMLInputElement>("theta").value = String((at * 180) / Math.PI);
+    $("degrees").textContent = degrees(at);
     this.space?.set_theta(theta);
   }
 
@@ -163,44 +219,62 @@ export class Session {
     if (!this.is_built || !this.seen.robot) return;
     try {
       const slice = await this.builder.newest("slice", this.seen.robot.theta);
-      this.workspace.show_slice(slice), this.space?.show_slice(slice);
-    } catch (error) { fault("pose", error); }
+      this.workspace.show_slice(slice);
+      this.space?.show_slice(slice);
+    } catch (error) {
+      fault("pose", error);
+    }
   }
 
-  // Where the robot is: verdict, touching pairs, cells.
+  // Ask about the robot's pose: verdict, touching pairs, cells.
   async ask_robot(pose: PoseText): Promise<boolean | undefined> {
     try {
-      const { source } = this.now, asked = this.is_built ? this.builder : await this.quick.of(source);
+      const { source } = this.now;
+      const asked = this.is_built ? this.builder : await this.quick.of(source);
       const answer = await asked.newest("pose", words(pose));
       if (source !== this.now.source) return undefined;
       const [x, y, theta] = doubles(answer, "place") as unknown as [number, number, number];
       const at = { x, y, theta };
       this.seen.robot = at;
-      const is_free = value(answer, "free") === 1, verdict = pose_verdict(answer, this.file.names);
-      this.workspace.place("robot", at, verdict.tone), this.space?.place(at, is_free);
+      const is_free = value(answer, "free") === 1;
+      const verdict = pose_verdict(answer, this.file.names);
+      this.workspace.place("robot", at, verdict.tone);
+      this.space?.place(at, is_free);
       this.workspace.show_contacts(is_free ? answer : undefined, "touching", at);
       this.editor?.look();
       const cells = integers(answer, "cells");
-      const clearance = value(answer, "clearance"), units = this.file.units ? ` ${this.file.units}` : "";
+      const clearance = value(answer, "clearance");
+      const units = this.file.units ? ` ${this.file.units}` : "";
       if (verdict.tone === "good" && Number.isFinite(clearance))
         verdict.text = `Free${cells.length ? `, in cell ${cells[0]}` : ""}; ${clearance.toPrecision(3)}${units} from obstacles.`;
       say("pose", verdict);
       return is_free;
-    } catch (error) { fault("pose", error); return undefined; }
+    } catch (error) {
+      fault("pose", error);
+      return undefined;
+    }
   }
 
-  private is_waiting = false;  // for a way
+  private is_waiting = false; // for a way
   async ask_way(): Promise<void> {
     const { start, goal, source } = this.now;
-    if (!start || !goal) return say("way", { tone: "plain", text: start || goal ? "" : "No start and goal in this scene." });
+    if (!start || !goal)
+      return say("way", { tone: "plain", text: start || goal ? "" : "No start and goal in this scene." });
     $("way").classList.add("old");
-    const slow = setTimeout(() => { this.is_waiting = true, working(true), say("way", { tone: "plain", text: "Looking for a motion …" }); }, 400);
+    const slow = setTimeout(() => {
+      this.is_waiting = true;
+      working(true);
+      say("way", { tone: "plain", text: "Looking for a motion …" });
+    }, 400);
     try {
       const planner = await this.planner.of(source);
       const answer = await planner.newest("plan", words(start), words(goal));
       if (source === this.now.source) this.show_way(answer);
     } catch (error) {
-      if (!(error instanceof Cancelled)) this.show_way(undefined), fault("way", error);
+      if (!(error instanceof Cancelled)) {
+        this.show_way(undefined);
+        fault("way", error);
+      }
     } finally {
       clearTimeout(slow);
       this.is_waiting = false;
@@ -220,31 +294,43 @@ export class Session {
   }
   show_path(): void {
     const shown = $<HTMLInputElement>("sweep").checked ? this.path : undefined;
-    const by_clearance = $<HTMLSelectElement>("colour").value === "clearance" ? this.last_way && doubles(this.last_way, "clearance") : undefined;
-    this.workspace.show_path(shown), this.space?.show_path(shown, by_clearance);
+    const by_clearance =
+      $<HTMLSelectElement>("colour").value === "clearance"
+        ? this.last_way && doubles(this.last_way, "clearance")
+        : undefined;
+    this.workspace.show_path(shown);
+    this.space?.show_path(shown, by_clearance);
   }
 
-  private drags: (Drag | "back")[] = [];  // still to be followed
+  private drags: (Drag | "back")[] = []; // still to be followed
   private is_following = false;
   private last_free?: PoseText;
   drag(drag: Drag | "back"): void {
     const last = this.drags.at(-1);
-    if (last && last !== "back" && !last.done) this.drags.pop();  // what comes after it tells more
+    if (last && last !== "back" && !last.done) this.drags.pop(); // the next one replaces it
     this.drags.push(drag);
     if (!this.is_following) void this.follow();
   }
   private async follow(): Promise<void> {
     this.is_following = true;
-    for (let drag; (drag = this.drags.shift()); ) {
-      try { await (drag === "back" ? this.back() : this.moved(drag)); } catch (error) { fault("pose", error); }
+    for (let drag; (drag = this.drags.shift());) {
+      try {
+        await (drag === "back" ? this.back() : this.moved(drag));
+      } catch (error) {
+        fault("pose", error);
+      }
     }
     this.is_following = false;
   }
 
   private async moved(drag: Drag): Promise<void> {
     this.stop_playing();
-    const now = this.now[drag.who]!, decimal = (c: number) => c.toFixed(digits(drag.step));
-    const wanted: PoseText = drag.theta === undefined ? { x: decimal(drag.x), y: decimal(drag.y), tau: now.tau } : { ...now, tau: await this.tau_of(drag.theta) };
+    const now = this.now[drag.who]!;
+    const decimal = (c: number) => c.toFixed(digits(drag.step));
+    const wanted: PoseText =
+      drag.theta === undefined
+        ? { x: decimal(drag.x), y: decimal(drag.y), tau: now.tau }
+        : { ...now, tau: await this.tau_of(drag.theta) };
     if (drag.who !== "robot") {
       this.seen[drag.who] = seen_of(wanted);
       this.place(drag.who);
@@ -256,21 +342,28 @@ export class Session {
     if (is_free) this.last_free = wanted;
     else if (is_free === false && this.last_free && this.last_free.tau === wanted.tau && drag.theta === undefined) {
       const quick = await this.quick.of(this.now.source);
-      const stop = from_words(string(await quick.call("stop", words(this.last_free), words(wanted)), "pose")), at = seen_of(stop);
-      if (Math.hypot(at.x - drag.x, at.y - drag.y) < 11 * this.workspace.pixel) reached = stop, await this.ask_robot(stop);  // in contact, exactly
+      const stop = from_words(string(await quick.call("stop", words(this.last_free), words(wanted)), "pose"));
+      const at = seen_of(stop);
+      if (Math.hypot(at.x - drag.x, at.y - drag.y) < 11 * this.workspace.pixel) {
+        reached = stop;
+        await this.ask_robot(stop);
+      } // in contact, exactly
     }
-    if (drag.theta !== undefined) this.set_slider(this.seen.robot!.theta), void this.ask_slice();
+    if (drag.theta !== undefined) {
+      this.set_slider(this.seen.robot!.theta);
+      void this.ask_slice();
+    }
     this.keep({ ...this.now, robot: reached }, drag.done);
   }
 
-  // A scene's text, edited; what is no scene is refused, and the last one that was stays.
+  // Take an edited text. A text that is no scene is refused, and the last valid scene stays.
   private edit?: { source: string; done: boolean } | "back";
   private is_editing = false;
   async edited(edit: { source: string; done: boolean } | "back"): Promise<void> {
     this.edit = edit;
     if (this.is_editing) return;
     this.is_editing = true;
-    for (let edit; (edit = this.edit); ) {
+    for (let edit; (edit = this.edit);) {
       this.edit = undefined;
       await (edit === "back" ? this.back() : this.edit_once(edit.source, edit.done));
     }
@@ -297,17 +390,18 @@ export class Session {
   }
 
   private before?: State;
-  // A state on the way of a drag; with its end it can be undone.
+  // Keep a state during a drag; once the drag has ended it can be undone.
   keep(state: State, done: boolean): void {
     this.before ??= this.now;
     this.history.now = state;
     if (!done) return;
-    this.history.now = this.before, (this.before = undefined);
+    this.history.now = this.before;
+    this.before = undefined;
     this.history.push(state);
     this.remember();
   }
 
-  // As all was before the drag that has been cancelled.
+  // Restore the state before a cancelled drag.
   private async back(): Promise<void> {
     const { before } = this;
     this.before = undefined;
@@ -317,32 +411,55 @@ export class Session {
   private due = 0;
   remember(): void {
     this.on_seen();
-    $<HTMLButtonElement>("undo").disabled = !this.history.can_undo, ($<HTMLButtonElement>("redo").disabled = !this.history.can_redo);
+    $<HTMLButtonElement>("undo").disabled = !this.history.can_undo;
+    $<HTMLButtonElement>("redo").disabled = !this.history.can_redo;
     clearTimeout(this.due);
     this.due = window.setTimeout(async () => {
       const hash = await fragment(this.now);
-      try { window.history.replaceState(null, "", hash ?? "#"); } catch { /* a frame without an address */ }
+      try {
+        window.history.replaceState(null, "", hash ?? "#");
+      } catch {
+        /* a frame without an address */
+      }
     }, 300);
   }
 
-  async undo(): Promise<void> { return this.restore(() => this.history.undo()); }
-  async redo(): Promise<void> { return this.restore(() => this.history.redo()); }
+  async undo(): Promise<void> {
+    return this.restore(() => this.history.undo());
+  }
+  async redo(): Promise<void> {
+    return this.restore(() => this.history.redo());
+  }
   async change(of: Partial<State>): Promise<void> {
-    return this.restore(() => { this.history.push({ ...this.now, ...of }); return this.now; });
+    return this.restore(() => {
+      this.history.push({ ...this.now, ...of });
+      return this.now;
+    });
   }
   private async restore(step: () => State | undefined): Promise<void> {
-    const { source } = this.now, state = step();
+    const { source } = this.now;
+    const state = step();
     if (!state) return;
     this.stop_playing();
     if (state.source !== source) {
       this.is_ready(undefined);
-      try { this.take(await this.quick.open(state.source)); } catch (error) { return fault("edit", error); }
+      try {
+        this.take(await this.quick.open(state.source));
+      } catch (error) {
+        return fault("edit", error);
+      }
       void this.build(true);
     } else {
-      this.seen = { robot: seen_of(state.robot), ...(state.start && { start: seen_of(state.start) }), ...(state.goal && { goal: seen_of(state.goal) }) };
+      this.seen = {
+        robot: seen_of(state.robot),
+        ...(state.start && { start: seen_of(state.start) }),
+        ...(state.goal && { goal: seen_of(state.goal) }),
+      };
       for (const who of ["start", "goal"] as const) this.place(who);
       this.set_slider(this.seen.robot!.theta);
-      void this.ask_robot(state.robot), void this.ask_slice(), void this.ask_way();
+      void this.ask_robot(state.robot);
+      void this.ask_slice();
+      void this.ask_way();
     }
     this.remember();
   }
@@ -350,7 +467,10 @@ export class Session {
   stop(): void {
     this.stop_playing();
     if (this.building_since) this.builder.end();
-    if (this.planner.busy) this.planner.end(), say("way", { tone: "plain", text: "Stopped." });
+    if (this.planner.busy) {
+      this.planner.end();
+      say("way", { tone: "plain", text: "Stopped." });
+    }
     working(false);
   }
 
@@ -358,6 +478,10 @@ export class Session {
     return string(await this.quick.call("angle", theta, fine ? 1 : 0), "tau");
   }
   private async text_of(pose: FilePose, otherwise = "0"): Promise<PoseText> {
-    return { x: pose.x, y: pose.y, tau: pose.tau ?? (pose.theta === undefined ? otherwise : await this.tau_of(pose.theta, true)) };
+    return {
+      x: pose.x,
+      y: pose.y,
+      tau: pose.tau ?? (pose.theta === undefined ? otherwise : await this.tau_of(pose.theta, true)),
+    };
   }
 }

@@ -2,18 +2,23 @@
 import { LosslessNumber, parse } from "lossless-json";
 
 export type Kind = "robot" | "obstacle" | "workspace";
-export interface Which { kind: Kind; k: number }
+export interface Which {
+  kind: Kind;
+  k: number;
+}
 export type Point = [string, string];
 export type Ring = Point[];
-export type Rings = Ring[];  // the outer one, then holes
+export type Rings = Ring[]; // the outer one, then holes
 
 type Json = unknown;
 type Fields = Record<string, Json>;
 
-const text_of = (c: Json): string => c instanceof LosslessNumber ? c.value : String(c);
-const json_of = (c: string): Json => /^-?\d+(\.\d+)?([eE][-+]?\d+)?$/.test(c) ? new LosslessNumber(c) : c;
+const text_of = (c: Json): string => (c instanceof LosslessNumber ? c.value : String(c));
+const json_of = (c: string): Json => (/^-?\d+(\.\d+)?([eE][-+]?\d+)?$/.test(c) ? new LosslessNumber(c) : c);
 const rings_of = (polygon: Fields): Rings =>
-  [polygon.outer, ...((polygon.holes as Json[] | undefined) ?? [])].map((ring) => (ring as Json[][]).map(([x, y]) => [text_of(x), text_of(y)]));
+  [polygon.outer, ...((polygon.holes as Json[] | undefined) ?? [])].map((ring) =>
+    (ring as Json[][]).map(([x, y]) => [text_of(x), text_of(y)]),
+  );
 
 export function same(a: Which | undefined, b: Which | undefined): boolean {
   return a?.kind === b?.kind && a?.k === b?.k;
@@ -24,11 +29,14 @@ function written(value: Json, depth = 0): string {
   if (value instanceof LosslessNumber) return value.value;
   if (Array.isArray(value)) {
     const items = value.map((item) => written(item, depth + 1));
-    const is_list_of_polygons = depth === 1 && value.some((item) => item && typeof item === "object" && "outer" in item);
+    const is_list_of_polygons =
+      depth === 1 && value.some((item) => item && typeof item === "object" && "outer" in item);
     return is_list_of_polygons ? `[\n    ${items.join(",\n    ")}\n  ]` : `[${items.join(", ")}]`;
   }
   if (value && typeof value === "object") {
-    const items = Object.entries(value).filter(([, item]) => item !== undefined).map(([key, item]) => `${JSON.stringify(key)}: ${written(item, depth + 1)}`);
+    const items = Object.entries(value)
+      .filter(([, item]) => item !== undefined)
+      .map(([key, item]) => `${JSON.stringify(key)}: ${written(item, depth + 1)}`);
     return depth === 0 ? `{\n  ${items.join(",\n  ")}\n}\n` : `{${items.join(", ")}}`;
   }
   return JSON.stringify(value);
@@ -39,29 +47,44 @@ export class Shapes {
 
   static of(source: string): Shapes {
     const fields = parse(source) as Fields;
-    return new Shapes({ ...fields, robot: Array.isArray(fields.robot) ? fields.robot : [fields.robot], obstacles: fields.obstacles ?? [] });
+    return new Shapes({
+      ...fields,
+      robot: Array.isArray(fields.robot) ? fields.robot : [fields.robot],
+      obstacles: fields.obstacles ?? [],
+    });
   }
 
   private list(kind: Kind): Fields[] {
-    return kind === "workspace" ? (this.fields.workspace ? [this.fields.workspace as Fields] : []) : this.fields[kind === "robot" ? "robot" : "obstacles"] as Fields[];
+    return kind === "workspace"
+      ? this.fields.workspace
+        ? [this.fields.workspace as Fields]
+        : []
+      : (this.fields[kind === "robot" ? "robot" : "obstacles"] as Fields[]);
   }
   all(): Which[] {
-    return (["workspace", "obstacle", "robot"] as const).flatMap((kind) => this.list(kind).map((_, k) => ({ kind, k })));
+    return (["workspace", "obstacle", "robot"] as const).flatMap((kind) =>
+      this.list(kind).map((_, k) => ({ kind, k })),
+    );
   }
-  has({ kind, k }: Which): boolean { return k < this.list(kind).length; }
-  rings({ kind, k }: Which): Rings { return rings_of(this.list(kind)[k]!); }
+  has({ kind, k }: Which): boolean {
+    return k < this.list(kind).length;
+  }
+  rings({ kind, k }: Which): Rings {
+    return rings_of(this.list(kind)[k]!);
+  }
 
-  // With other rings, or without the polygon; one more at the end of obstacles.
+  // Replace the rings of a polygon, or remove it; a number after the last adds an obstacle.
   with({ kind, k }: Which, rings: Rings | undefined): Shapes {
     const plain = (ring: Ring) => ring.map((point) => point.map(json_of));
     const made = (old: Fields | undefined): Fields => {
       const { outer: _, holes: __, ...rest } = old ?? {};
       return { ...rest, outer: plain(rings![0]!), ...(rings!.length > 1 && { holes: rings!.slice(1).map(plain) }) };
     };
-    const { check: _, ...fields } = this.fields;  // what was known of the scene before
+    const { check: _, ...fields } = this.fields; // known facts of the scene before the edit
     if (kind === "workspace") return new Shapes({ ...fields, workspace: rings && made(fields.workspace as Fields) });
     const polygons = [...this.list(kind)];
-    if (rings) polygons[k] = made(polygons[k]); else polygons.splice(k, 1);
+    if (rings) polygons[k] = made(polygons[k]);
+    else polygons.splice(k, 1);
     return new Shapes({ ...fields, [kind === "robot" ? "robot" : "obstacles"]: polygons });
   }
 
@@ -77,8 +100,12 @@ export class Shapes {
   }
 }
 
-// A pose as a file has it; numbers as they are.
-export const pose_json = ({ x, y, tau }: { x: string; y: string; tau: string }): Json => [json_of(x), json_of(y), { tau }];
+// A pose as in files, with its numbers unchanged.
+export const pose_json = ({ x, y, tau }: { x: string; y: string; tau: string }): Json => [
+  json_of(x),
+  json_of(y),
+  { tau },
+];
 
 export const digits = (step: number) => Math.min(20, Math.max(0, -Math.round(Math.log10(step))));
 // A coordinate on the grid, as short as it can be written.
@@ -90,13 +117,15 @@ export function number(text: string): number {
   const [p, q] = text.split("/");
   return Number(p) / Number(q ?? 1);
 }
-// A coordinate moved by a step of the grid: decimals keep all their digits.
+// A coordinate moved by a step of the grid; decimals keep all their digits.
 export function moved(text: string, by: string): string {
   const parts = [text, by].map((of) => /^(-?)(\d+)(?:\.(\d+))?$/.exec(of));
   if (!parts[0] || !parts[1]) return snapped(number(text) + number(by), 1e-9);
   const places = Math.max(...parts.map((of) => of![3]?.length ?? 0));
   const whole = (of: RegExpExecArray) => BigInt(`${of[1]}${of[2]}${(of[3] ?? "").padEnd(places, "0")}`);
-  const sum = whole(parts[0]) + whole(parts[1]), size = (sum < 0n ? -sum : sum).toString().padStart(places + 1, "0");
-  const cut = size.length - places, rest = size.slice(cut).replace(/0+$/, "");
+  const sum = whole(parts[0]) + whole(parts[1]);
+  const size = (sum < 0n ? -sum : sum).toString().padStart(places + 1, "0");
+  const cut = size.length - places;
+  const rest = size.slice(cut).replace(/0+$/, "");
   return `${sum < 0n ? "-" : ""}${size.slice(0, cut)}${rest && `.${rest}`}`;
 }

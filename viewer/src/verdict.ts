@@ -1,9 +1,12 @@
-// What the core found, in words.
+// Answers of the core in words.
 import { type Columns, bytes, doubles, integers, string, value } from "./engine";
 
-export const degrees = (theta: number) => `${(theta * 180 / Math.PI).toFixed(1).replace(/\.0$/, "")}°`;
+export const degrees = (theta: number) => `${((theta * 180) / Math.PI).toFixed(1).replace(/\.0$/, "")}°`;
 export type Tone = "good" | "touch" | "bad" | "proof" | "plain";
-export interface Verdict { tone: Tone; text: string }
+export interface Verdict {
+  tone: Tone;
+  text: string;
+}
 
 export function obstacle_name(names: string[], k: number): string {
   if (k === -1) return "the bounds";
@@ -15,18 +18,24 @@ export function obstacle_name(names: string[], k: number): string {
 // "robot vertex 2 on edge 4 of obstacle 3 (kite)"
 export function contact_words(columns: Columns, prefix: string, k: number, names: string[]): string {
   const of = (name: string) => integers(columns, `${prefix}.${name}`)[k]!;
-  const owner = of("obstacle"), robot = of("robot_vertex"), corner = of("obstacle_vertex");
+  const owner = of("obstacle");
+  const robot = of("robot_vertex");
+  const corner = of("obstacle_vertex");
   const where = obstacle_name(names, owner);
   if (owner === -1) return "the reference point on the bounds";
   return bytes(columns, `${prefix}.kind`)[k] === 0
-    ? `robot vertex ${robot} on edge ${corner} of ${where}` : `robot edge ${robot} on vertex ${corner} of ${where}`;
+    ? `robot vertex ${robot} on edge ${corner} of ${where}`
+    : `robot edge ${robot} on vertex ${corner} of ${where}`;
 }
 
 export function pose_verdict(columns: Columns, names: string[]): Verdict {
   if (value(columns, "free") === 0) {
     const [part, owner] = integers(columns, "pair");
     if (part === -1) return { tone: "bad", text: `Forbidden: outside ${obstacle_name(names, owner!)}.` };
-    return { tone: "bad", text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.` };
+    return {
+      tone: "bad",
+      text: `Forbidden: the robot overlaps ${owner! < 0 ? "the outside of " : ""}${obstacle_name(names, owner!)}.`,
+    };
   }
   const touching = bytes(columns, "touching.kind").length;
   if (touching === 0) return { tone: "good", text: "Free." };
@@ -37,7 +46,7 @@ export function pose_verdict(columns: Columns, names: string[]): Verdict {
 
 function parting(owners: number[], names: string[]): string {
   const are_plain = owners.every((k) => k >= 0 && (names[k] ?? `obstacle ${k}`) === `obstacle ${k}`);
-  const some = owners.slice(0, 4).map((k) => are_plain ? String(k) : obstacle_name(names, k));
+  const some = owners.slice(0, 4).map((k) => (are_plain ? String(k) : obstacle_name(names, k)));
   if (owners.length > 4) some.push(`${owners.length - 4} more`);
   const joined = some.length > 1 ? `${some.slice(0, -1).join(", ")} and ${some.at(-1)}` : some[0]!;
   return are_plain ? `obstacle${owners.length > 1 ? "s" : ""} ${joined}` : joined;
@@ -45,33 +54,63 @@ function parting(owners: number[], names: string[]): string {
 
 export function way_verdict(columns: Columns, names: string[], units: string): Verdict {
   const verdict = string(columns, "verdict");
-  if (verdict.endsWith("forbidden")) return { tone: "bad", text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot overlaps ${obstacle_name(names, integers(columns, "pair")[1]!)}.` };
+  if (verdict.endsWith("forbidden"))
+    return {
+      tone: "bad",
+      text: `${verdict.startsWith("start") ? "Start" : "Goal"}: the robot overlaps ${obstacle_name(names, integers(columns, "pair")[1]!)}.`,
+    };
   if (verdict === "path") {
     const pieces = value(columns, "motions");
-    const turning = doubles(columns, "turning")[0]! * 180 / Math.PI;
-    return { tone: "good", text: `A motion exists: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}, turning ${turning.toFixed(0)} degrees; proved free.` };
+    const turning = (doubles(columns, "turning")[0]! * 180) / Math.PI;
+    return {
+      tone: "good",
+      text: `A motion exists: ${pieces} ${pieces === 1 ? "piece" : "pieces"}, length ${value(columns, "length").toPrecision(3)}${units ? ` ${units}` : ""}, turning ${turning.toFixed(0)} degrees; proved free.`,
+    };
   }
   if (verdict === "apart") {
     const owners = [...integers(columns, "obstacles")];
-    return { tone: "proof", text: value(columns, "closed") === 1 ? `No motion, not even touching: parted by ${parting(owners, names)}.`
-      : `No motion with clearance: parted by ${parting(owners, names)}; no way by touch was found.` };
+    return {
+      tone: "proof",
+      text:
+        value(columns, "closed") === 1
+          ? `No motion, not even touching: parted by ${parting(owners, names)}.`
+          : `No motion with clearance: parted by ${parting(owners, names)}; no way by touch was found.`,
+    };
   }
   return { tone: "plain", text: "Undecided here: `cfree plan` decides it." };
 }
 
 // "Cell 5: volume 1.24, caged: obstacles alone enclose it; the robot cannot turn round in it."
 export function cell_words(k: number, cell: Columns, units: string): string {
-  const volume = value(cell, "volume"), turns = value(cell, "turns");
-  const size = Number.isFinite(volume) ? `volume ${volume.toPrecision(4)}${units ? ` ${units}²` : ""} rad` : "unbounded";
-  const caged = value(cell, "caged") === 1 ? "caged: obstacles alone enclose it" : value(cell, "bounded") === 1 ? "bounded, not by obstacles alone" : "not caged";
+  const volume = value(cell, "volume");
+  const turns = value(cell, "turns");
+  const size = Number.isFinite(volume)
+    ? `volume ${volume.toPrecision(4)}${units ? ` ${units}²` : ""} rad`
+    : "unbounded";
+  const caged =
+    value(cell, "caged") === 1
+      ? "caged: obstacles alone enclose it"
+      : value(cell, "bounded") === 1
+        ? "bounded, not by obstacles alone"
+        : "not caged";
   return `Cell ${k}: ${size}; ${caged}; the robot ${turns === 1 ? "can" : "cannot"} turn round in it.`;
 }
 
-// What a picked patch is: its contact, the point, curvatures, range, and the contacts whose surfaces trim it.
+// A picked patch: its contact, the point, curvatures, range, and the contacts whose surfaces trim it.
 export function patch_words(found: Columns, names: string[]): string {
-  const range = doubles(found, "range"), low = range.reduce((a, b) => Math.min(a, b), Infinity), high = range.reduce((a, b) => Math.max(a, b), -Infinity);
-  const trims = Array.from({ length: bytes(found, "trims.kind").length }, (_, k) => contact_words(found, "trims", k, names));
-  const more = trims.length > 4 ? ` and ${trims.length - 4} more` : "", digits = (name: string) => value(found, name).toPrecision(4);
-  return [contact_words(found, "contact", 0, names), `S(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(value(found, "phi"))}`, `K = ${digits("K")}, H = ${digits("H")}`,
-    `left of it: φ from ${degrees(low)} to ${degrees(high)}`, trims.length ? `trimmed by: ${trims.slice(0, 4).join("; ")}${more}` : "trimmed by nothing"].join("\n");
+  const range = doubles(found, "range");
+  const low = range.reduce((a, b) => Math.min(a, b), Infinity);
+  const high = range.reduce((a, b) => Math.max(a, b), -Infinity);
+  const trims = Array.from({ length: bytes(found, "trims.kind").length }, (_, k) =>
+    contact_words(found, "trims", k, names),
+  );
+  const more = trims.length > 4 ? ` and ${trims.length - 4} more` : "";
+  const digits = (name: string) => value(found, name).toPrecision(4);
+  return [
+    contact_words(found, "contact", 0, names),
+    `S(t, φ) at t = ${value(found, "t").toFixed(3)}, φ = ${degrees(value(found, "phi"))}`,
+    `K = ${digits("K")}, H = ${digits("H")}`,
+    `left of it: φ from ${degrees(low)} to ${degrees(high)}`,
+    trims.length ? `trimmed by: ${trims.slice(0, 4).join("; ")}${more}` : "trimmed by nothing",
+  ].join("\n");
 }

@@ -1,13 +1,25 @@
-// Scene files as the core takes them: every number stays the text that it is in the file.
+// Scene files as words for the core: every number stays the text that it is in the file.
 import { LosslessNumber, parse } from "lossless-json";
 
-export const MOST_BYTES = 16 << 20, MOST_DEPTH = 64, MOST_VERTICES = 100_000;
+export const MOST_BYTES = 16 << 20;
+export const MOST_DEPTH = 64;
+export const MOST_VERTICES = 100_000;
 
-// x, y and an angle, if one is asked for: radians or degrees as a number, or a half-angle tangent as text.
-export interface FilePose { x: string; y: string; tau?: string; theta?: number }
+// x, y and an optional angle: radians or degrees as a number, or a half-angle tangent as text.
+export interface FilePose {
+  x: string;
+  y: string;
+  tau?: string;
+  theta?: number;
+}
 export interface SceneText {
-  name: string; note: string; units: string; names: string[]; words: string;
-  start?: FilePose; goal?: FilePose;
+  name: string;
+  note: string;
+  units: string;
+  names: string[];
+  words: string;
+  start?: FilePose;
+  goal?: FilePose;
 }
 
 type Json = unknown;
@@ -15,8 +27,15 @@ const fail = (place: string, wanted: string, got: Json): never => {
   throw new Error(`${place}: expected ${wanted}, got ${shown(got)}`);
 };
 const shown = (value: Json): string =>
-  value instanceof LosslessNumber ? value.value.slice(0, 40) : value === undefined ? "nothing"
-  : Array.isArray(value) ? "a list" : typeof value === "object" && value ? "an object" : JSON.stringify(value)?.slice(0, 60) ?? "nothing";
+  value instanceof LosslessNumber
+    ? value.value.slice(0, 40)
+    : value === undefined
+      ? "nothing"
+      : Array.isArray(value)
+        ? "a list"
+        : typeof value === "object" && value
+          ? "an object"
+          : (JSON.stringify(value)?.slice(0, 60) ?? "nothing");
 
 export function plain(text: string, most = 80): string {
   const bare = text.replace(/[\u0000-\u001f\u200e\u200f\u202a-\u202e\u2066-\u2069]/g, "");
@@ -24,14 +43,21 @@ export function plain(text: string, most = 80): string {
 }
 
 function number(value: Json, place: string): string {
-  const text = value instanceof LosslessNumber ? value.value : typeof value === "string" ? value : fail(place, 'a number or "p/q"', value);
+  const text =
+    value instanceof LosslessNumber
+      ? value.value
+      : typeof value === "string"
+        ? value
+        : fail(place, 'a number or "p/q"', value);
   return /^[-+.\d/eE]{1,4100}$/.test(text) ? text : fail(place, 'a number or "p/q"', value);
 }
-const list = (value: Json, place: string): Json[] => Array.isArray(value) ? value : fail(place, "a list", value);
+const list = (value: Json, place: string): Json[] => (Array.isArray(value) ? value : fail(place, "a list", value));
 const fields = (value: Json, place: string): Record<string, Json> =>
-  value && typeof value === "object" && !Array.isArray(value) && !(value instanceof LosslessNumber) ? value as Record<string, Json>
-  : fail(place, "an object", value);
-const text = (value: Json, place: string): string => value === undefined ? "" : typeof value === "string" ? value : fail(place, "a text", value);
+  value && typeof value === "object" && !Array.isArray(value) && !(value instanceof LosslessNumber)
+    ? (value as Record<string, Json>)
+    : fail(place, "an object", value);
+const text = (value: Json, place: string): string =>
+  value === undefined ? "" : typeof value === "string" ? value : fail(place, "a text", value);
 
 function ring(value: Json, place: string): string {
   const points = list(value, place).map((point, k) => {
@@ -56,7 +82,7 @@ function pose(value: Json, place: string): FilePose | undefined {
   const parts = list(value, place);
   if (parts.length !== 3 && parts.length !== 2) fail(place, "x, y and an angle", value);
   const [x, y] = [number(parts[0], `${place}[0]`), number(parts[1], `${place}[1]`)];
-  if (parts.length === 2) return { x, y };  // a place: any angle will do
+  if (parts.length === 2) return { x, y }; // a place with any angle
   const angle = parts[2];
   if (angle && typeof angle === "object" && !(angle instanceof LosslessNumber)) {
     const tau = fields(angle, `${place}[2]`).tau;
@@ -64,7 +90,11 @@ function pose(value: Json, place: string): FilePose | undefined {
   }
   const degrees = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*(?:deg|°)\s*$/.exec(angle) : null;
   const radians = typeof angle === "string" ? /^\s*([-+.\deE]+)\s*rad\s*$/.exec(angle) : null;
-  const theta = degrees ? Number(degrees[1]) * Math.PI / 180 : radians ? Number(radians[1]) : Number(number(angle, `${place}[2]`));
+  const theta = degrees
+    ? (Number(degrees[1]) * Math.PI) / 180
+    : radians
+      ? Number(radians[1])
+      : Number(number(angle, `${place}[2]`));
   if (typeof angle === "string" && !degrees && !radians && Math.abs(theta) > 2 * Math.PI)
     throw new Error(`${place}[2]: ${angle} is more than a whole turn in radians; write ${angle}deg or ${angle}rad`);
   return Number.isFinite(theta) ? { x, y, theta } : fail(`${place}[2]`, "an angle", angle);
@@ -73,19 +103,26 @@ function pose(value: Json, place: string): FilePose | undefined {
 const KEYS = "version name note units source robot obstacles workspace bounds start goal goals check".split(" ");
 
 function refuse_deep(source: string): void {
-  let depth = 0, quoted = false;
+  let depth = 0;
+  let quoted = false;
   for (let k = 0; k < source.length; ++k) {
     const c = source[k];
-    if (quoted) { if (c === "\\") ++k; else if (c === '"') quoted = false; }
-    else if (c === '"') quoted = true;
-    else if (c === "[" || c === "{") { if (++depth > MOST_DEPTH) throw new Error(`nested deeper than ${MOST_DEPTH}: no scene is`); }
-    else if (c === "]" || c === "}") --depth;
+    if (quoted) {
+      if (c === "\\") ++k;
+      else if (c === '"') quoted = false;
+    } else if (c === '"') quoted = true;
+    else if (c === "[" || c === "{") {
+      if (++depth > MOST_DEPTH) throw new Error(`nested deeper than ${MOST_DEPTH}: no scene is`);
+    } else if (c === "]" || c === "}") --depth;
   }
 }
 
 function parsed(source: string): Json {
-  try { return parse(source); } catch (error) {
-    const said = (error as Error).message, at = / at position (\d+)$/.exec(said);
+  try {
+    return parse(source);
+  } catch (error) {
+    const said = (error as Error).message;
+    const at = / at position (\d+)$/.exec(said);
     if (!at) throw error;
     const before = source.slice(0, Number(at[1])).split("\n");
     throw new Error(`line ${before.length}, column ${before.at(-1)!.length + 1}: ${plain(said.slice(0, at.index))}`);
@@ -93,16 +130,19 @@ function parsed(source: string): Json {
 }
 
 export function read_scene(source: string): SceneText {
-  if (source.length > MOST_BYTES) throw new Error(`the file has ${(source.length / 1e6).toFixed(0)} MB; this page reads 16`);
+  if (source.length > MOST_BYTES)
+    throw new Error(`the file has ${(source.length / 1e6).toFixed(0)} MB; this page reads 16`);
   refuse_deep(source);
   const of = fields(parsed(source), "scene");
-  if ("type" in of) throw new Error("GeoJSON: save it as a scene first, `cfree.save(cfree.load_scene(...), \"scene.json\")`");
+  if ("type" in of)
+    throw new Error('GeoJSON: save it as a scene first, `cfree.save(cfree.load_scene(...), "scene.json")`');
   const unknown = Object.keys(of).find((key) => !KEYS.includes(key));
   if (unknown !== undefined) throw new Error(`unknown key "${plain(unknown)}"; those of scenes are ${KEYS.join(", ")}`);
   const words: string[] = [];
   const parts = Array.isArray(of.robot) && !is_ring(of.robot) ? of.robot : [of.robot];
   parts.forEach((part, k) => words.push("robot", polygon(part, parts.length > 1 ? `robot[${k}]` : "robot")));
-  const obstacles = of.obstacles === undefined ? [] : is_ring(of.obstacles) ? [of.obstacles] : list(of.obstacles, "obstacles");
+  const obstacles =
+    of.obstacles === undefined ? [] : is_ring(of.obstacles) ? [of.obstacles] : list(of.obstacles, "obstacles");
   const names = obstacles.map((obstacle, k) => {
     words.push("obstacle", polygon(obstacle, `obstacles[${k}]`));
     return plain(text((obstacle as Record<string, Json>).name, `obstacles[${k}].name`)) || `obstacle ${k}`;
@@ -114,9 +154,15 @@ export function read_scene(source: string): SceneText {
     words.push("bounds", ...bounds.map((c, k) => number(c, `bounds[${k}]`)));
   }
   const joined = words.join(" ");
-  if (joined.split(" ").length > 2 * MOST_VERTICES) throw new Error(`more than ${MOST_VERTICES.toLocaleString("en")} vertices: simplify`);
+  if (joined.split(" ").length > 2 * MOST_VERTICES)
+    throw new Error(`more than ${MOST_VERTICES.toLocaleString("en")} vertices: simplify`);
   return {
-    name: plain(text(of.name, "name")), note: plain(text(of.note, "note"), 300), units: plain(text(of.units, "units"), 30), names, words: joined,
-    start: pose(of.start, "start"), goal: of.goals === undefined ? pose(of.goal, "goal") : pose(list(of.goals, "goals")[0], "goals[0]"),
+    name: plain(text(of.name, "name")),
+    note: plain(text(of.note, "note"), 300),
+    units: plain(text(of.units, "units"), 30),
+    names,
+    words: joined,
+    start: pose(of.start, "start"),
+    goal: of.goals === undefined ? pose(of.goal, "goal") : pose(list(of.goals, "goals")[0], "goals[0]"),
   };
 }

@@ -1,4 +1,4 @@
-// The core in a worker: calls by name, columns back. Nothing here knows what they mean.
+// The core in a worker: calls by name, columns back. Their meaning is left to the callers.
 // @ts-expect-error made by em++
 import core from "core.js";
 import { read_scene } from "./words";
@@ -12,11 +12,16 @@ let made: Promise<any> | undefined;
 function columns_of(module: any): Columns {
   const found: Columns = {};
   for (let k = 0; k < module._count(); ++k) {
-    const at = module._bytes(k), size = module._size(k);
+    const at = module._bytes(k);
+    const size = module._size(k);
     const bytes = module.HEAPU8.slice(at, at + size);
     const name = module.UTF8ToString(module._name(k));
-    found[name] = [() => bytes, () => new Int32Array(bytes.buffer), () => new Float64Array(bytes.buffer),
-                   () => new TextDecoder().decode(bytes)][module._type(k)]!();
+    found[name] = [
+      () => bytes,
+      () => new Int32Array(bytes.buffer),
+      () => new Float64Array(bytes.buffer),
+      () => new TextDecoder().decode(bytes),
+    ][module._type(k)]!();
   }
   return found;
 }
@@ -25,7 +30,8 @@ function call(module: any, name: string, args: (string | number)[]): Columns {
   const texts: number[] = [];
   const passed = args.map((arg) => {
     if (typeof arg === "number") return arg;
-    const size = module.lengthBytesUTF8(arg) + 1, at = module._malloc(size);
+    const size = module.lengthBytesUTF8(arg) + 1;
+    const at = module._malloc(size);
     module.stringToUTF8(arg, at, size);
     texts.push(at);
     return at;
@@ -56,7 +62,9 @@ scope.onmessage = async ({ data: { id, name, args } }: MessageEvent) => {
       return scope.postMessage({ id, columns: { ...call(module, "scene", [words]), file: JSON.stringify(rest) } });
     }
     const columns = call(module, name, args);
-    const buffers = Object.values(columns).flatMap((column) => typeof column === "string" ? [] : [column.buffer as ArrayBuffer]);
+    const buffers = Object.values(columns).flatMap((column) =>
+      typeof column === "string" ? [] : [column.buffer as ArrayBuffer],
+    );
     scope.postMessage({ id, columns }, buffers);
   } catch (error) {
     const fault = error instanceof Error ? error.message : `a fault of cfree: ${String(error)}`;

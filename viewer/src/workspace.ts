@@ -3,11 +3,26 @@ import { type Columns, bytes, doubles, integers } from "./engine";
 import { FINGER, Pointers, type Pinch, type Place } from "./pointers";
 
 export type Who = "robot" | "start" | "goal";
-export interface Seen { x: number; y: number; theta: number }
-export interface Drag { who: Who; x: number; y: number; theta?: number; step: number; done: boolean }
+export interface Seen {
+  x: number;
+  y: number;
+  theta: number;
+}
+export interface Drag {
+  who: Who;
+  x: number;
+  y: number;
+  theta?: number;
+  step: number;
+  done: boolean;
+}
 
 export const SVG = "http://www.w3.org/2000/svg";
-export function made<K extends keyof SVGElementTagNameMap>(name: K, parent: Element, attributes: Record<string, string | number> = {}): SVGElementTagNameMap[K] {
+export function made<K extends keyof SVGElementTagNameMap>(
+  name: K,
+  parent: Element,
+  attributes: Record<string, string | number> = {},
+): SVGElementTagNameMap[K] {
   const element = document.createElementNS(SVG, name);
   for (const [key, of] of Object.entries(attributes)) element.setAttribute(key, String(of));
   parent.append(element);
@@ -28,29 +43,51 @@ export class Workspace {
   readonly svg: SVGSVGElement;
   readonly pointers: Pointers;
   private readonly world: SVGGElement;
-  readonly layers: Record<"floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks" | "edit", SVGGElement>;
+  readonly layers: Record<
+    "floor" | "slice" | "obstacles" | "sweep" | "trace" | "ghosts" | "robot" | "marks" | "edit",
+    SVGGElement
+  >;
   private readonly bodies: Record<Who, SVGGElement>;
   private readonly at: Partial<Record<Who, Seen>> = {};
   private shape = "";
   private radius = 1;
-  private box = { x: 0, y: 0, w: 1, h: 1 };  // shown, y upwards
+  private box = { x: 0, y: 0, w: 1, h: 1 }; // the part shown, y upwards
   private whole = this.box;
   on_drag: (drag: Drag) => void = () => {};
-  on_cancel = () => {};  // the drag
+  on_cancel = () => {}; // the drag
   on_look = () => {};
   on_click: (at: { x: number; y: number }) => void = () => {};
 
   constructor(host: HTMLElement) {
     this.svg = made("svg", host, { role: "group", "aria-label": "Workspace: robot, obstacles, start and goal" });
     const defs = made("defs", this.svg);
-    const hatch = made("pattern", defs, { id: "hatch", width: 7, height: 7, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" });
+    const hatch = made("pattern", defs, {
+      id: "hatch",
+      width: 7,
+      height: 7,
+      patternUnits: "userSpaceOnUse",
+      patternTransform: "rotate(45)",
+    });
     made("rect", hatch, { width: 7, height: 7, class: "hatch-ground" });
     made("rect", hatch, { width: 3, height: 7, class: "hatch-line" });
     this.world = made("g", this.svg);
     const layer = (name: string) => made("g", this.world, { class: name });
-    this.layers = { floor: layer("floor"), slice: layer("slice"), obstacles: layer("obstacles"), sweep: layer("sweep"), trace: layer("trace"),
-      ghosts: layer("ghosts"), robot: layer("robot-layer"), marks: layer("marks"), edit: layer("edit") };
-    this.bodies = { start: this.body("start", this.layers.ghosts), goal: this.body("goal", this.layers.ghosts), robot: this.body("robot", this.layers.robot) };
+    this.layers = {
+      floor: layer("floor"),
+      slice: layer("slice"),
+      obstacles: layer("obstacles"),
+      sweep: layer("sweep"),
+      trace: layer("trace"),
+      ghosts: layer("ghosts"),
+      robot: layer("robot-layer"),
+      marks: layer("marks"),
+      edit: layer("edit"),
+    };
+    this.bodies = {
+      start: this.body("start", this.layers.ghosts),
+      goal: this.body("goal", this.layers.ghosts),
+      robot: this.body("robot", this.layers.robot),
+    };
     this.pointers = new Pointers(this.svg, (a, b) => this.pinch(a, b));
     this.svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
     this.svg.addEventListener("pointerdown", (event) => this.pan(event));
@@ -58,7 +95,13 @@ export class Workspace {
   }
 
   private body(who: Who, layer: SVGGElement): SVGGElement {
-    const group = made("g", layer, { class: `body ${who}`, tabindex: 0, role: "application", "aria-roledescription": "movable robot", "aria-label": who });
+    const group = made("g", layer, {
+      class: `body ${who}`,
+      tabindex: 0,
+      role: "application",
+      "aria-roledescription": "movable robot",
+      "aria-label": who,
+    });
     made("path", group, { class: "shape" });
     made("line", group, { class: "arm" });
     made("circle", group, { class: "point" });
@@ -69,47 +112,76 @@ export class Workspace {
     return group;
   }
 
-  get step(): number {  // of drags, below a pixel
+  get step(): number {
+    // of drags, below a pixel
     return 10 ** Math.floor(Math.log10(this.box.w / Math.max(this.svg.clientWidth, 1)));
   }
-  get pixel(): number { return this.box.w / Math.max(this.svg.clientWidth, 1); }
+  get pixel(): number {
+    return this.box.w / Math.max(this.svg.clientWidth, 1);
+  }
 
-  // With poses seen anew, else from where it was seen.
+  // Show a scene: anew with its poses, else with the same view.
   show_scene(scene: Columns, names: string[], poses: Seen[] | undefined): void {
-    const xy = doubles(scene, "obstacles.xy"), ring = integers(scene, "obstacles.ring"), polygon = integers(scene, "obstacles.polygon");
+    const xy = doubles(scene, "obstacles.xy");
+    const ring = integers(scene, "obstacles.ring");
+    const polygon = integers(scene, "obstacles.polygon");
     this.radius = doubles(scene, "radius")[0]!;
     this.shape = outline(doubles(scene, "robot.xy"), integers(scene, "robot.ring"));
     this.layers.floor.replaceChildren();
-    const kept = this.layers.obstacles.children;  // which may have the focus
+    const kept = this.layers.obstacles.children; // it may have the focus
     while (kept.length + 1 > Math.max(polygon.length, 1)) kept[kept.length - 1]!.remove();
     for (let k = 0; k + 1 < polygon.length; ++k) {
       const path = kept[k] ?? made("path", this.layers.obstacles, { class: "obstacle" });
       path.setAttribute("d", outline(xy, ring, polygon[k], polygon[k + 1]));
       (path.firstChild ?? made("title", path)).textContent = names[k] ?? `obstacle ${k}`;
     }
-    const bounds = doubles(scene, "bounds"), room = doubles(scene, "workspace.xy");
-    if (bounds.length) made("rect", this.layers.floor, { x: bounds[0]!, y: bounds[1]!, width: bounds[2]! - bounds[0]!, height: bounds[3]! - bounds[1]!, class: "bounds" });
-    if (room.length) made("path", this.layers.floor, { d: outline(room, integers(scene, "workspace.ring")), class: "room" });
+    const bounds = doubles(scene, "bounds");
+    const room = doubles(scene, "workspace.xy");
+    if (bounds.length)
+      made("rect", this.layers.floor, {
+        x: bounds[0]!,
+        y: bounds[1]!,
+        width: bounds[2]! - bounds[0]!,
+        height: bounds[3]! - bounds[1]!,
+        class: "bounds",
+      });
+    if (room.length)
+      made("path", this.layers.floor, { d: outline(room, integers(scene, "workspace.ring")), class: "room" });
     this.shaped(this.shape);
     this.layers.marks.replaceChildren();
     if (!poses) return this.look();
-    const xs: number[] = [], ys: number[] = [];
-    for (const of of [xy, bounds, room]) for (let k = 0; k < of.length; k += 2) xs.push(of[k]!), ys.push(of[k + 1]!);
-    for (const { x, y } of poses) xs.push(x - this.radius, x + this.radius), ys.push(y - this.radius, y + this.radius);
-    const least = (of: number[]) => of.reduce((a, b) => Math.min(a, b)), most = (of: number[]) => of.reduce((a, b) => Math.max(a, b));
+    const xs: number[] = [];
+    const ys: number[] = [];
+    for (const of of [xy, bounds, room])
+      for (let k = 0; k < of.length; k += 2) {
+        xs.push(of[k]!);
+        ys.push(of[k + 1]!);
+      }
+    for (const { x, y } of poses) {
+      xs.push(x - this.radius, x + this.radius);
+      ys.push(y - this.radius, y + this.radius);
+    }
+    const least = (of: number[]) => of.reduce((a, b) => Math.min(a, b));
+    const most = (of: number[]) => of.reduce((a, b) => Math.max(a, b));
     const [x0, x1, y0, y1] = [least(xs), most(xs), least(ys), most(ys)];
     const margin = 0.06 * Math.max(x1 - x0, y1 - y0);
     this.whole = { x: x0 - margin, y: y0 - margin, w: x1 - x0 + 2 * margin, h: y1 - y0 + 2 * margin };
     this.fit();
   }
 
-  // The robot's outline, which may be on its way to another.
+  // Set the robot's outline, also during an edit.
   shaped(d: string): void {
     for (const group of Object.values(this.bodies)) group.querySelector(".shape")!.setAttribute("d", d);
   }
-  fade(is: boolean): void { this.svg.classList.toggle("stale", is); }
-  get shown(): { x: number; y: number; w: number; h: number } { return this.box; }
-  get robot(): Seen | undefined { return this.at.robot; }
+  fade(is: boolean): void {
+    this.svg.classList.toggle("stale", is);
+  }
+  get shown(): { x: number; y: number; w: number; h: number } {
+    return this.box;
+  }
+  get robot(): Seen | undefined {
+    return this.at.robot;
+  }
 
   fit(): void {
     this.box = { ...this.whole };
@@ -119,10 +191,14 @@ export class Workspace {
   private look(): void {
     const { clientWidth: width, clientHeight: height } = this.svg;
     if (!width || !height) return;
-    const { x, y, w, h } = this.box, more = Math.max(w / width, h / height);
+    const { x, y, w, h } = this.box;
+    const more = Math.max(w / width, h / height);
     this.box = { x: x + (w - more * width) / 2, y: y + (h - more * height) / 2, w: more * width, h: more * height };
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    this.world.setAttribute("transform", `matrix(${1 / more} 0 0 ${-1 / more} ${-this.box.x / more} ${height + this.box.y / more})`);
+    this.world.setAttribute(
+      "transform",
+      `matrix(${1 / more} 0 0 ${-1 / more} ${-this.box.x / more} ${height + this.box.y / more})`,
+    );
     for (const who of Object.keys(this.bodies) as Who[]) this.place(who, this.at[who]);
     this.on_look();
   }
@@ -132,11 +208,16 @@ export class Workspace {
     group.style.display = at ? "" : "none";
     if (!at) return void delete this.at[who];
     this.at[who] = at;
-    const turn = at.theta * 180 / Math.PI, px = this.pixel;
-    if (who === "robot") this.svg.querySelector("#hatch")!.setAttribute("patternTransform", `rotate(${45 - turn}) scale(${px})`);
+    const turn = (at.theta * 180) / Math.PI;
+    const px = this.pixel;
+    if (who === "robot")
+      this.svg.querySelector("#hatch")!.setAttribute("patternTransform", `rotate(${45 - turn}) scale(${px})`);
     group.setAttribute("transform", `translate(${at.x} ${at.y}) rotate(${turn})`);
     if (tone) group.dataset.tone = tone;
-    group.setAttribute("aria-label", `${who}: x ${at.x.toPrecision(4)}, y ${at.y.toPrecision(4)}, turned by ${turn.toFixed(1)} degrees`);
+    group.setAttribute(
+      "aria-label",
+      `${who}: x ${at.x.toPrecision(4)}, y ${at.y.toPrecision(4)}, turned by ${turn.toFixed(1)} degrees`,
+    );
     const reach = this.radius + 16 * px;
     const set = (selector: string, of: Record<string, number | string>) => {
       const element = group.querySelector(selector);
@@ -153,29 +234,41 @@ export class Workspace {
     const layer = this.layers.slice;
     layer.replaceChildren();
     if (!slice) return;
-    const xy = doubles(slice, "xy"), start = integers(slice, "start"), shell = integers(slice, "shell");
-    const { x, y, w, h } = this.whole, far = 50 * Math.max(w, h);
+    const xy = doubles(slice, "xy");
+    const start = integers(slice, "start");
+    const shell = integers(slice, "shell");
+    const { x, y, w, h } = this.whole;
+    const far = 50 * Math.max(w, h);
     const outside = shell.includes(-1) ? `M${x - far} ${y - far}h${w + 2 * far}v${h + 2 * far}h${-w - 2 * far}Z` : "";
     made("path", layer, { d: outside + outline(xy, start), class: "forbidden" });
-    const segments = doubles(slice, "segments"), kind = bytes(slice, "kind");
+    const segments = doubles(slice, "segments");
+    const kind = bytes(slice, "kind");
     const d = ["", "", ""];
-    for (let k = 0; k < kind.length; ++k) d[kind[k]!] += `M${segments[4 * k]} ${segments[4 * k + 1]}L${segments[4 * k + 2]} ${segments[4 * k + 3]}`;
+    for (let k = 0; k < kind.length; ++k)
+      d[kind[k]!] += `M${segments[4 * k]} ${segments[4 * k + 1]}L${segments[4 * k + 2]} ${segments[4 * k + 3]}`;
     d.forEach((of, k) => made("path", layer, { d: of, class: ["vertex-edge", "edge-vertex", "at-bounds"][k]! }));
   }
 
   show_path(samples: Float64Array | undefined): void {
-    this.layers.sweep.replaceChildren(), this.layers.trace.replaceChildren();
+    this.layers.sweep.replaceChildren();
+    this.layers.trace.replaceChildren();
     if (!samples?.length) return;
-    let d = "", last = -1;
+    let d = "";
+    let last = -1;
     let way = 0;
     const spacing = 0.32 * this.radius;
     for (let k = 0; k < samples.length; k += 3) {
       const [x, y, theta] = [samples[k]!, samples[k + 1]!, samples[k + 2]!];
       d += `${k ? "L" : "M"}${x} ${y}`;
-      if (k) way += Math.hypot(x - samples[k - 3]!, y - samples[k - 2]!) + this.radius * 0.6 * Math.abs(theta - samples[k - 1]!);
+      if (k)
+        way +=
+          Math.hypot(x - samples[k - 3]!, y - samples[k - 2]!) + this.radius * 0.6 * Math.abs(theta - samples[k - 1]!);
       if (last >= 0 && way - last < spacing) continue;
       last = way;
-      made("path", this.layers.sweep, { d: this.shape, transform: `translate(${x} ${y}) rotate(${theta * 180 / Math.PI})` });
+      made("path", this.layers.sweep, {
+        d: this.shape,
+        transform: `translate(${x} ${y}) rotate(${(theta * 180) / Math.PI})`,
+      });
     }
     made("path", this.layers.trace, { d });
   }
@@ -184,80 +277,142 @@ export class Workspace {
   show_contacts(columns: Columns | undefined, prefix: string, at: Seen): void {
     this.layers.marks.replaceChildren();
     if (!columns) return;
-    const robot = doubles(columns, `${prefix}.robot_xy`), obstacle = doubles(columns, `${prefix}.obstacle_xy`);
+    const robot = doubles(columns, `${prefix}.robot_xy`);
+    const obstacle = doubles(columns, `${prefix}.obstacle_xy`);
     const mark = (parent: Element, of: ArrayLike<number>, k: number) => {
       const [x0, y0, x1, y1] = [of[4 * k]!, of[4 * k + 1]!, of[4 * k + 2]!, of[4 * k + 3]!];
       if (x0 === x1 && y0 === y1) made("circle", parent, { cx: x0, cy: y0, r: 5 * this.pixel });
       else made("line", parent, { x1: x0, y1: y0, x2: x1, y2: y1 });
     };
-    const moved = made("g", this.layers.marks, { transform: `translate(${at.x} ${at.y}) rotate(${at.theta * 180 / Math.PI})` });
-    for (let k = 0; 4 * k < robot.length; ++k) mark(this.layers.marks, obstacle, k), mark(moved, robot, k);
+    const moved = made("g", this.layers.marks, {
+      transform: `translate(${at.x} ${at.y}) rotate(${(at.theta * 180) / Math.PI})`,
+    });
+    for (let k = 0; 4 * k < robot.length; ++k) {
+      mark(this.layers.marks, obstacle, k);
+      mark(moved, robot, k);
+    }
   }
 
   point(event: { clientX: number; clientY: number }): { x: number; y: number } {
-    const rect = this.svg.getBoundingClientRect(), px = this.pixel;
+    const rect = this.svg.getBoundingClientRect();
+    const px = this.pixel;
     return { x: this.box.x + (event.clientX - rect.left) * px, y: this.box.y + (rect.bottom - event.clientY) * px };
   }
 
   private grab(event: PointerEvent, who: Who): void {
     const at = this.at[who];
     if (!at || event.button !== 0) return;
-    event.preventDefault(), event.stopPropagation();
-    const group = this.bodies[who], begin = this.point(event), from = { ...at };
+    event.preventDefault();
+    event.stopPropagation();
+    const group = this.bodies[who];
+    const begin = this.point(event);
+    const from = { ...at };
     const turns = (event.target as Element).classList.contains("knob");
     group.focus({ preventScroll: true });
     const tell = (now: PointerEvent, done: boolean) => {
       const p = this.point(now);
-      if (turns) this.on_drag({ who, x: from.x, y: from.y, theta: Math.atan2(p.y - from.y, p.x - from.x), step: this.step, done });
+      if (turns)
+        this.on_drag({
+          who,
+          x: from.x,
+          y: from.y,
+          theta: Math.atan2(p.y - from.y, p.x - from.x),
+          step: this.step,
+          done,
+        });
       else this.on_drag({ who, x: from.x + p.x - begin.x, y: from.y + p.y - begin.y, step: this.step, done });
     };
-    this.pointers.follow(event, { move: (now) => tell(now, false), end: (now) => tell(now, true), cancel: () => this.on_cancel() });
+    this.pointers.follow(event, {
+      move: (now) => tell(now, false),
+      end: (now) => tell(now, true),
+      cancel: () => this.on_cancel(),
+    });
   }
 
   private key(event: KeyboardEvent, who: Who): void {
     const at = this.at[who];
     if (!at || event.ctrlKey || event.metaKey) return;
-    const by = 8 * this.pixel * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1), turn = Math.PI / 36 * (event.shiftKey ? 3 : event.altKey ? 0.1 : 1);
+    const by = 8 * this.pixel * (event.shiftKey ? 10 : event.altKey ? 0.1 : 1);
+    const turn = (Math.PI / 36) * (event.shiftKey ? 3 : event.altKey ? 0.1 : 1);
     const moves: Record<string, [number, number, number]> = {
-      ArrowLeft: [-by, 0, 0], ArrowRight: [by, 0, 0], ArrowUp: [0, by, 0], ArrowDown: [0, -by, 0], "[": [0, 0, turn], "]": [0, 0, -turn], "{": [0, 0, turn], "}": [0, 0, -turn],
+      ArrowLeft: [-by, 0, 0],
+      ArrowRight: [by, 0, 0],
+      ArrowUp: [0, by, 0],
+      ArrowDown: [0, -by, 0],
+      "[": [0, 0, turn],
+      "]": [0, 0, -turn],
+      "{": [0, 0, turn],
+      "}": [0, 0, -turn],
     };
     const move = moves[event.key];
     if (!move) return;
-    event.preventDefault(), event.stopPropagation();
+    event.preventDefault();
+    event.stopPropagation();
     const [dx, dy, turned] = move;
-    this.on_drag({ who, x: at.x + dx, y: at.y + dy, ...(turned ? { theta: at.theta + turned } : {}), step: this.step, done: true });
+    this.on_drag({
+      who,
+      x: at.x + dx,
+      y: at.y + dy,
+      ...(turned ? { theta: at.theta + turned } : {}),
+      step: this.step,
+      done: true,
+    });
   }
 
-  // The drawing is moved, or something of it clicked.
+  // Move the drawing, or click a part of it.
   pan(event: PointerEvent, clicked = this.on_click): void {
     if (event.button !== 0) return;
-    const from = { ...this.box }, px = this.pixel, still = event.pointerType === "touch" ? 10 : 3;
-    const to = (box: typeof from) => { this.box = box, this.look(); };
+    const from = { ...this.box };
+    const px = this.pixel;
+    const still = event.pointerType === "touch" ? 10 : 3;
+    const to = (box: typeof from) => {
+      this.box = box;
+      this.look();
+    };
     this.pointers.follow(event, {
-      move: (now) => to({ ...from, x: from.x - (now.clientX - event.clientX) * px, y: from.y + (now.clientY - event.clientY) * px }),
-      end: (now) => { if (Math.hypot(now.clientX - event.clientX, now.clientY - event.clientY) < still) to(from), clicked(this.point(now)); },
+      move: (now) =>
+        to({ ...from, x: from.x - (now.clientX - event.clientX) * px, y: from.y + (now.clientY - event.clientY) * px }),
+      end: (now) => {
+        if (Math.hypot(now.clientX - event.clientX, now.clientY - event.clientY) < still) {
+          to(from);
+          clicked(this.point(now));
+        }
+      },
       cancel: () => to(from),
     });
   }
 
-  // What was between the fingers stays between them.
+  // Pinch: the points under the fingers stay under them.
   private pinch(a: Place, b: Place): Pinch {
-    const middle = (p: Place, q: Place) => ({ clientX: (p.clientX + q.clientX) / 2, clientY: (p.clientY + q.clientY) / 2 });
+    const middle = (p: Place, q: Place) => ({
+      clientX: (p.clientX + q.clientX) / 2,
+      clientY: (p.clientY + q.clientY) / 2,
+    });
     const apart = (p: Place, q: Place) => Math.max(1, Math.hypot(p.clientX - q.clientX, p.clientY - q.clientY));
-    const from = { ...this.box }, held = this.point(middle(a, b)), first = apart(a, b);
+    const from = { ...this.box };
+    const held = this.point(middle(a, b));
+    const first = apart(a, b);
     const move = (p: Place, q: Place) => {
       const by = first / apart(p, q);
       this.box = { ...from, w: from.w * by, h: from.h * by };
       const now = this.point(middle(p, q));
-      this.box.x += held.x - now.x, this.box.y += held.y - now.y;
+      this.box.x += held.x - now.x;
+      this.box.y += held.y - now.y;
       this.look();
     };
-    return { move, cancel: () => { this.box = from, this.look(); } };
+    return {
+      move,
+      cancel: () => {
+        this.box = from;
+        this.look();
+      },
+    };
   }
 
   private wheel(event: WheelEvent): void {
     event.preventDefault();
-    const p = this.point(event), by = Math.exp(0.0015 * event.deltaY);
+    const p = this.point(event);
+    const by = Math.exp(0.0015 * event.deltaY);
     const { x, y, w, h } = this.box;
     this.box = { x: p.x + (x - p.x) * by, y: p.y + (y - p.y) * by, w: w * by, h: h * by };
     this.look();

@@ -5,7 +5,7 @@
 
 #include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/predicates/junction.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

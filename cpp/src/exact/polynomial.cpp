@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

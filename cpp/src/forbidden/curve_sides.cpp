@@ -5,7 +5,7 @@
 #include <array>
 
 #include "cfree/contact/contact_line.hpp"
-#include "cfree/forbidden/curve_hash.hpp"
+#include "cfree/forbidden/curve_hashes.hpp"
 #include "support/parallel.hpp"
 
 namespace cfree {

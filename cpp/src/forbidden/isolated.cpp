@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "cfree/forbidden/critical_angle.hpp"
-#include "cfree/forbidden/curve_hash.hpp"
+#include "cfree/forbidden/curve_hashes.hpp"
 #include "cfree/predicates/junction.hpp"
 #include "cfree/support/elementary.hpp"
 #include "collision/shape_boxes.hpp"

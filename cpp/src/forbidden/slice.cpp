@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

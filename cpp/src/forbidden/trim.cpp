@@ -320,68 +320,100 @@ void Trimmer::keep_at(const Overlap& x, Index at, const Cover* before_it, const 
         add_thin(at, at, area.upper, area.upper);
 }
 
+// --- parts without width ---------------------------------------------------------------------------------------------
+
 void Trimmer::subtract_from_thin(const Band& taken) {
-    const Area& band = taken.area;
     fresh.clear();
     for (const Area& x : thin) {
-        if (x.from == x.to) {  // at one angle
-            const Index at = x.from;
-            if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) ||
-                order_at(at, band.lower, x.upper) >= 0 || order_at(at, band.upper, x.lower) <= 0) {
-                fresh.push_back(x);
-                continue;
-            }
-            const int low = order_at(at, band.lower, x.lower), high = order_at(at, band.upper, x.upper);
-            if (low > 0) add_thin(at, at, x.lower, band.lower);
-            if (high < 0) add_thin(at, at, band.upper, x.upper);
-            if (taken.state == nullptr) continue;
-            if (low == 0) add_thin(at, at, x.lower, x.lower);
-            if (high == 0) add_thin(at, at, x.upper, x.upper);
-            continue;
-        }
-        // a curve
-        const Index from = before(x.from, band.from) ? band.from : x.from, to = before(band.to, x.to) ? band.to : x.to;
-        if (!before(from, to)) {
-            fresh.push_back(x);
-            continue;
-        }
-        const auto order = [&](Index p) { return decide.compare(curves[p], curves[x.lower], events[from], events[to]); };
-        const Predicates::Order low = order(band.lower), high = order(band.upper);
-        struct Cut {
-            Index event;
-            bool is_low;
-        };
-        std::vector<Cut> cuts;
-        for (const Event& e : low.at) cuts.push_back({intern(e), true});
-        for (const Event& e : high.at) cuts.push_back({intern(e), false});
-        std::stable_sort(cuts.begin(), cuts.end(), [&](const Cut& p, const Cut& q) { return before(p.event, q.event); });
-        Index start = x.from;   // of what is kept
-        bool keeps = from != x.from, was_covered = false;
-        std::size_t k = 0;
-        int i = 0, j = 0;
-        for (Index at = from;;) {
-            const bool covered = low.sign[i] < 0 && high.sign[j] > 0;
-            if (covered && keeps) add_thin(start, at, x.lower, x.lower);
-            if (!covered && !keeps) start = at;
-            if (covered && !keeps && taken.state != nullptr) {  // covered on both sides, or from the curve's end on
-                const bool meets = was_covered || !covers_at(taken, at) || order_at(at, band.lower, x.lower) == 0 ||
-                                   order_at(at, band.upper, x.lower) == 0;
-                if (meets) add_thin(at, at, x.lower, x.lower);
-            }
-            keeps = !covered, was_covered = covered;
-            if (k == cuts.size()) break;
-            at = cuts[k].event;
-            do (cuts[k].is_low ? i : j) += 1, ++k;
-            while (k < cuts.size() && equal(cuts[k].event, at));
-        }
-        if (was_covered && to == x.to && taken.state != nullptr &&
-            (!covers_at(taken, to) || order_at(to, band.lower, x.lower) == 0 || order_at(to, band.upper, x.lower) == 0))
-            add_thin(to, to, x.lower, x.lower);
-        if (to != x.to && was_covered) start = to;
-        if (to != x.to || keeps) add_thin(start, x.to, x.lower, x.lower);
+        if (x.from == x.to) subtract_from_segment(x, taken);
+        else subtract_from_curve(x, taken);
     }
     thin.swap(fresh);
 }
+
+// Keep what a band leaves of a piece of the line, or of a point: the parts below and above it, and ends that it only touches.
+void Trimmer::subtract_from_segment(const Area& segment, const Band& taken) {
+    const Area& band = taken.area;
+    const Index at = segment.from, lower = segment.lower, upper = segment.upper;
+    if (before(at, band.from) || before(band.to, at) || !covers_at(taken, at) || order_at(at, band.lower, upper) >= 0 ||
+        order_at(at, band.upper, lower) <= 0) {
+        fresh.push_back(segment);
+        return;
+    }
+    const int low = order_at(at, band.lower, lower), high = order_at(at, band.upper, upper);
+    if (low > 0) add_thin(at, at, lower, band.lower);
+    if (high < 0) add_thin(at, at, band.upper, upper);
+    if (taken.state == nullptr) return;
+    if (low == 0) add_thin(at, at, lower, lower);
+    if (high == 0) add_thin(at, at, upper, upper);
+}
+
+// Keep all of a curve if the band is at other angles, else the pieces between cuts that the band leaves.
+void Trimmer::subtract_from_curve(const Area& curve, const Band& taken) {
+    CurveOverlap x(curve, taken);
+    if (!compare(x)) {
+        fresh.push_back(curve);
+        return;
+    }
+    sort_cuts(x);
+    keep_pieces(x);
+}
+
+// Set the angles where both are and the two orders there; false if there are no such angles.
+bool Trimmer::compare(CurveOverlap& x) {
+    const Area &curve = x.curve, &band = x.band.area;
+    x.from = before(curve.from, band.from) ? band.from : curve.from;
+    x.to = before(band.to, curve.to) ? band.to : curve.to;
+    if (!before(x.from, x.to)) return false;
+    const auto order = [&](Index p) { return decide.compare(curves[p], curves[curve.lower], events[x.from], events[x.to]); };
+    x.low = order(band.lower), x.high = order(band.upper);
+    return true;
+}
+
+// Put the changes of the two orders into one list.
+void Trimmer::sort_cuts(CurveOverlap& x) {
+    using Cut = CurveOverlap::Cut;
+    for (const Event& e : x.low.at) x.cuts.push_back({intern(e), true});
+    for (const Event& e : x.high.at) x.cuts.push_back({intern(e), false});
+    std::stable_sort(x.cuts.begin(), x.cuts.end(), [&](const Cut& p, const Cut& q) { return before(p.event, q.event); });
+}
+
+// Go on to the next angle, over all cuts that are there.
+Index Trimmer::pass_cuts(CurveOverlap& x) {
+    const Index at = x.cuts[x.next].event;
+    do (x.cuts[x.next].is_low ? x.low_position : x.high_position) += 1, ++x.next;
+    while (x.next < x.cuts.size() && equal(x.cuts[x.next].event, at));
+    return at;
+}
+
+// Keep the pieces of the curve that are not covered, and points between two covered pieces or at the curve's ends.
+void Trimmer::keep_pieces(CurveOverlap& x) {
+    const Area& curve = x.curve;
+    const bool is_open = x.band.state != nullptr;
+    const auto add = [&](Index from, Index to) { add_thin(from, to, curve.lower, curve.lower); };
+    Index start = curve.from;  // of the piece that is kept
+    bool keeps = x.from != curve.from, was_covered = false;
+    for (Index at = x.from;; at = pass_cuts(x)) {
+        const bool is_covered = x.is_covered();
+        if (is_covered && keeps) add(start, at);
+        if (!is_covered && !keeps) start = at;
+        if (is_covered && !keeps && is_open && (was_covered || leaves_point(x, at))) add(at, at);
+        keeps = !is_covered, was_covered = is_covered;
+        if (x.next == x.cuts.size()) break;
+    }
+    if (was_covered && x.to == curve.to && is_open && leaves_point(x, x.to)) add(x.to, x.to);
+    if (x.to != curve.to && was_covered) start = x.to;
+    if (x.to != curve.to || keeps) add(start, curve.to);
+}
+
+// True if the curve's point at this angle, an end of a covered piece, is outside the open band or on its border.
+bool Trimmer::leaves_point(const CurveOverlap& x, Index event) {
+    const Area& band = x.band.area;
+    return !covers_at(x.band, event) || order_at(event, band.lower, x.curve.lower) == 0 ||
+           order_at(event, band.upper, x.curve.lower) == 0;
+}
+
+// --- what is left ----------------------------------------------------------------------------------------------------
 
 // Where free space is pinched between two surfaces, neither goes on.
 void Trimmer::cut_at(Index event) {

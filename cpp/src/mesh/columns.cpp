@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "cfree/mesh/layout.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

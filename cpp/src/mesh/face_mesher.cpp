@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

@@ -8,7 +8,7 @@
 
 #include "cfree/mesh/face_mesher.hpp"
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

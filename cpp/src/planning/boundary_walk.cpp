@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

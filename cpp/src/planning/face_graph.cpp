@@ -10,7 +10,7 @@
 
 #include "cfree/contact/surface.hpp"
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

@@ -1,7 +1,7 @@
 // Rational poses as motions of integers; theory, "Motions".
 #include "cfree/planning/free_motions.hpp"
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <set>
 
+#include "cfree/support/phase.hpp"
+
 namespace cfree {
 
 namespace {

@@ -8,7 +8,7 @@
 
 #include "cfree/planning/clusters.hpp"
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 #include "collision/box_tree.hpp"
 
 namespace cfree {

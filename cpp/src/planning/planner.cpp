@@ -7,6 +7,7 @@
 
 #include "cfree/planning/connecting_way.hpp"
 #include "cfree/planning/off_contacts.hpp"
+#include "cfree/support/phase.hpp"
 
 namespace cfree {
 
@@ -97,55 +98,94 @@ int Planner::most_guesses() const {
     return static_cast<int>(std::min<std::int64_t>(search_guesses, quick_guesses + 8 * scene->patches()));
 }
 
-std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal, const Listener& listener) {
-    const Deadline deadline(listener);
-    const std::array ends{start.place, goal.place};
-    const Searcher searcher(scene, ends, {angle_scale});
-    RrtConnect search = searcher.search(start, goal);
-    {
-        const Phase phase(listener, "search");
-        if (const Route route = search.run_on(quick_guesses); !route.empty()) return searcher.poses(route);
-    }
-    const Phase phase(listener, "surfaces around the two poses");
-    std::optional<Poses> way;
-    int left = search_guesses;
-    const auto in_turns = [&](Connecting& joined) {
+// A search with random poses and a decision by surfaces, in turns: after some patches are trimmed, the search makes as many guesses
+// as take no longer.
+class Planner::Turns {
+public:
+    Turns(const Planner& planner, const End& start, const End& goal, const Listener& to)
+        : listener(to), deadline(to), searcher(planner.scene, std::array{start.place, goal.place}, {planner.angle_scale}),
+          search(searcher.search(start, goal)) {}
+
+    std::optional<Poses> search_alone() { return guess(quick_guesses); }
+
+    // Go on until the surfaces decide, or the search finds a way.
+    Connection::Verdict decide(Connecting& joined) {
         std::size_t trimmed = joined.around->trimmed_patches();
         return joined.decide([&](Index) {
             const std::size_t before = std::exchange(trimmed, joined.around->trimmed_patches());
             const int guesses = std::min(left, guesses_each * static_cast<int>(trimmed - before));
             left -= guesses;
-            if (const Route route = search.run_on(guesses); !route.empty()) way = searcher.poses(route);
+            way = guess(guesses);
             if (way) return false;
             deadline.heed();
             if (listener.spend) listener.spend(static_cast<std::int64_t>(trimmed - before));
             return true;
         });
-    };
-    const auto along = [&](const Connecting& joined, const std::shared_ptr<FoundSlides>& found) -> std::optional<Poses> {
-        try {
-            return connecting_way(*joined.around, joined.found(), angle_scale, found);
-        } catch (const std::logic_error&) {  // there is none along these surfaces
-            return {};
-        }
-    };
-    // a smaller robot first: its surfaces prove that there is no path, and a way along them mostly is a path a little off them
+    }
+
+    std::optional<Poses> way;  // of the search
+
+private:
+    std::optional<Poses> guess(int guesses) {
+        const Route route = search.run_on(guesses);
+        if (route.empty()) return {};
+        return searcher.poses(route);
+    }
+
+    const Listener& listener;
+    const Deadline deadline;
+    const Searcher searcher;
+    RrtConnect search;
+    int left = search_guesses;
+};
+
+std::optional<Planner::Found> Planner::by_few(const End& start, const End& goal, const Listener& listener) {
+    Turns turns(*this, start, goal, listener);
+    {
+        const Phase phase(listener, "search");
+        if (auto way = turns.search_alone()) return std::move(*way);
+    }
+    const Phase phase(listener, "surfaces around the two poses");
     if (const auto inner = insets().scene(insets().first())) {
         Connecting joined = inner->connecting(start.pose, goal.pose);
-        const auto verdict = in_turns(joined);
-        if (way) return std::move(*way);
-        if (verdict == Connection::Verdict::apart) return Separation{barrier_of(*joined.found().surface), inner, true};
-        if (verdict == Connection::Verdict::joined)
-            if (const auto hugging = along(joined, std::make_shared<FoundSlides>()))
-                if (auto found = off_contacts(*hugging, FreeMotions(scene->scene(), *scene->checker, *slides))) return std::move(*found);
+        if (auto answer = by_smaller_robot(inner, joined, turns)) return answer;
         if (static_cast<double>(joined.around->trimmed_patches()) > most_few * static_cast<double>(scene->patches())) return {};
     }
     Connecting joined = scene->connecting(start.pose, goal.pose);
-    const auto verdict = in_turns(joined);
-    if (way) return std::move(*way);
-    if (verdict == Connection::Verdict::joined)
-        if (auto found = along(joined, slides)) return std::move(*found);
-    return {};
+    return by_robot_itself(joined, turns);
+}
+
+// The surfaces of a smaller robot prove that there is no path. A way along them mostly is a path a little off them.
+std::optional<Planner::Found> Planner::by_smaller_robot(const std::shared_ptr<KnownScene>& smaller_scene, Connecting& joined,
+                                                        Turns& turns) const {
+    const auto verdict = turns.decide(joined);
+    if (turns.way) return std::move(*turns.way);
+    if (verdict == Connection::Verdict::apart) return Separation{barrier_of(*joined.found().surface), smaller_scene, true};
+    if (verdict != Connection::Verdict::joined) return {};
+    const auto hugging = way_along(joined, std::make_shared<FoundSlides>());
+    if (!hugging) return {};
+    auto way = off_contacts(*hugging, FreeMotions(scene->scene(), *scene->checker, *slides));
+    if (!way) return {};
+    return std::move(*way);
+}
+
+// Use the robot's own surfaces to find a way. If they part the two poses, the cells decide: a fit without width may join them.
+std::optional<Planner::Found> Planner::by_robot_itself(Connecting& joined, Turns& turns) const {
+    const auto verdict = turns.decide(joined);
+    if (turns.way) return std::move(*turns.way);
+    if (verdict != Connection::Verdict::joined) return {};
+    auto way = way_along(joined, slides);
+    if (!way) return {};
+    return std::move(*way);
+}
+
+// Find a way along these surfaces; nothing if there is none.
+std::optional<Poses> Planner::way_along(const Connecting& joined, const std::shared_ptr<FoundSlides>& slides_on_it) const {
+    try {
+        return connecting_way(*joined.around, joined.found(), angle_scale, slides_on_it);
+    } catch (const std::logic_error&) {
+        return {};
+    }
 }
 
 std::optional<Poses> Planner::walk(const End& start, const End& goal, const Listener& listener) {

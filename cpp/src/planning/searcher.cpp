@@ -8,7 +8,7 @@
 
 #include "cfree/search/balance.hpp"
 #include "cfree/search/motion_guess.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

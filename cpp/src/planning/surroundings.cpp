@@ -6,7 +6,7 @@
 
 #include "cfree/contact/contact_line.hpp"
 #include "cfree/search/configuration.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

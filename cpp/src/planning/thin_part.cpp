@@ -6,7 +6,7 @@
 
 #include "cfree/forbidden/critical_angle.hpp"
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 #include "collision/box_tree.hpp"
 
 namespace cfree {

@@ -9,7 +9,7 @@
 
 #include "cfree/search/rrt_connect.hpp"
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

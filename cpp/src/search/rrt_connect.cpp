@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "cfree/support/elementary.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

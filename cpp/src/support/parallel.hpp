@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

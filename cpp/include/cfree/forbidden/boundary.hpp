@@ -8,7 +8,7 @@
 
 #include "cfree/forbidden/angle_table.hpp"
 #include "cfree/forbidden/columns.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

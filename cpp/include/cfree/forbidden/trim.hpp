@@ -12,10 +12,33 @@
 
 namespace cfree {
 
+// A patch, one band and the four trapezoids it leaves; t grows to the right, theta upwards:
+//
+//     t = 0                            t = 1
+//       +--------------------------------+ the patch's last angle
+//       |              A                 |
+//       |.......____________.............| the band's `to`
+//       |      /            \            |
+//       |  B  /     band     \     C     | covered: the open part between the band's curves `lower` and `upper`
+//       |    /                \          |
+//       |...+------------------+.........| the band's `from`
+//       |              D                 |
+//       +--------------------------------+ the patch's first angle
+//
+// B lies between the curve t = 0, its `lower`, and the band's lower curve, its `upper`; C between the band's upper curve and
+// t = 1. A, B, C and D are closed. The two curves of a trapezoid may meet at its first or last angle.
+//
+// Parts without width remain where bands touch. The fields tell the kinds of parts apart:
+//
+//     part               | list | from, to  | lower, upper
+//     trapezoid          | live | from < to | two curves
+//     curve              | thin | from < to | the same curve
+//     piece of the line  | thin | the same  | two curves; one point if they meet at this angle
+//     point              | thin | the same  | the same curve
 struct Trapezoid {
     Index patch = 0;
     int chart = 0;
-    Feature lower, upper;
+    Feature lower, upper;  // the surfaces, or helices, that meet the patch in its two curves
     Event from, to;
     int from_place = 0, to_place = 0;  // see Predicates::place
 };
@@ -70,13 +93,33 @@ protected:
         Index s0, v0, s1, v1;  // the vertices b_v - R a_s it leads from and to
         Index around[2];       // edges of the other shape before and after its supporting vertex, -1 if it is a point
     };
-    enum class Meets { never_left, never_right, crosses };  // whether the line passes through the open pillar
+    // A pillar at one orientation, and the patch's line through it or beside it; t grows upwards along the line:
+    //
+    //        never_left               crosses                never_right
+    //
+    //        ^                           ^                           ^
+    //        |   +---+              +----|--upper-+       +---+      |
+    //        |  /     \             |    |        |      /     \     |
+    //        | (s,v)   |            |    |        |     |   (s,v)    |
+    //        |  \     /             |    |        |      \     /     |
+    //        |   +---+              +----|--lower-+       +---+      |
+    //        |                           |                           |
+    //
+    //     meets       | no vertex is     | lower, upper            | curves         | s, v, robot_around, obstacle_around
+    //     never_left  | left of the line | not set                 | not set        | of the vertex farthest to the left
+    //     never_right | right of it      | not set                 | not set        | of the vertex farthest to the right
+    //     crosses     |                  | the edges by which the  | both edges', by| not set
+    //                 |                  | line enters and leaves  | `find_curves`  |
+    //
+    // One of the three holds at every orientation. A pillar whose vertices are all on the line is `never_left`. Only `crosses`
+    // gives a band. In the others the vertex may touch the line; `lifetime` passes these angles to `pinches` or `meet`.
+    enum class Meets { never_left, never_right, crosses };
     struct State {
         Meets meets;
-        PillarEdge lower, upper;  // crosses; the curves of both
+        PillarEdge lower, upper;
         Index curves[2];
-        Index s, v;               // else: the pillar's vertex nearest to the line
-        Index robot_around[2], obstacle_around[2];
+        Index s, v;
+        Index robot_around[2], obstacle_around[2];  // edges before and after the vertex in each piece, -1 if it is a point
     };
     struct Condition {
         bool is_offset;
@@ -85,8 +128,15 @@ protected:
         bool may_vanish;  // an offset that is identically zero will do
         Filtered value;
     };
+    // holds: the span has been narrowed to where the state lives. wrong: a sign contradicts it. resample: a sign is zero at the
+    // sample, which is a critical angle itself.
     enum class Verdict { holds, wrong, resample };
-    // The part of a pillar that covers the area's inside; what is ceded has no pillar.
+    // A part to take from a patch, in three kinds:
+    //
+    //     made by  | p, k           | state     | area                               | at its border
+    //     add_band | of the pillar  | `crosses` | between the curves of two edges    | open: parts without width remain
+    //     cede     | -1             | null      | between an owner's two helices     | closed: nothing without width remains
+    //     split    | -1             | null      | lower = upper: a helix, no inside  | the trapezoids on both sides end there
     struct Band {
         Area area;
         Index p, k;
@@ -111,9 +161,26 @@ protected:
         bool low_meets = false, high_meets = false;  // whether two lower, two upper curves meet at the last cut
         int sign(Which which) const { return orders[which].sign[position[which]]; }
     };
-    // What a band covers of an area between two cuts: some of its inside; its lower, its upper curve.
+    // Coverage of an area by a band between two cuts: some of its inside; its lower, its upper curve. Both curves matter only
+    // if `inside` is true.
     struct Cover {
         bool inside, low, high;
+    };
+    // A band against a curve of `thin`, between the angles where both are.
+    struct CurveOverlap {
+        CurveOverlap(const Area& thin_curve, const Band& taken) : curve(thin_curve), band(taken) {}
+        const Area& curve;
+        const Band& band;
+        Index from = -1, to = -1;
+        Predicates::Order low, high;  // the band's lower and its upper curve against this one
+        struct Cut {
+            Index event;
+            bool is_low;
+        };
+        std::vector<Cut> cuts;  // where one of the two orders changes, by angle
+        std::size_t next = 0;   // the first cut that is still ahead
+        int low_position = 0, high_position = 0;  // among the signs of each order
+        bool is_covered() const { return low.sign[low_position] < 0 && high.sign[high_position] > 0; }
     };
 
     template <class T>
@@ -153,6 +220,13 @@ protected:
     void keep_at(const Overlap& x, Index at, const Cover* before_it, const Cover* after_it);
     void go_on(Index at, std::initializer_list<std::array<Index, 2>> parts, bool after_tip);
     void subtract_from_thin(const Band& band);
+    void subtract_from_segment(const Area& segment, const Band& band);
+    void subtract_from_curve(const Area& curve, const Band& band);
+    bool compare(CurveOverlap& x);
+    void sort_cuts(CurveOverlap& x);
+    Index pass_cuts(CurveOverlap& x);
+    void keep_pieces(CurveOverlap& x);
+    bool leaves_point(const CurveOverlap& x, Index event);
     void add_thin(Index from, Index to, Index lower, Index upper) { fresh.push_back({from, to, lower, upper, 0, 1}); }
     Index intern(const Event& event);
     bool equal(Index x, Index y) { return x == y || decide.order(events[x], events[y]) == 0; }

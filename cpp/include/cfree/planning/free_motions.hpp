@@ -1,6 +1,6 @@
 // Motions between rational poses, decided exactly.
 #pragma once
-#include "cfree/planning/double_contact.hpp"
+#include "cfree/planning/contact_slide.hpp"
 #include "cfree/planning/sheet.hpp"
 
 namespace cfree {

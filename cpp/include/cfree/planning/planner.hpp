@@ -7,8 +7,8 @@
 #pragma once
 #include <variant>
 
-#include "cfree/planning/exact_fits.hpp"
 #include "cfree/planning/insets.hpp"
+#include "cfree/planning/passages.hpp"
 #include "cfree/planning/searcher.hpp"
 
 namespace cfree {
@@ -34,9 +34,14 @@ public:
 
 private:
     using Found = std::variant<Poses, Separation>;
+    class Turns;
     // Motions that a search may guess about: these take about as long as the free space does.
     int most_guesses() const;
+    // Decide by few surfaces: search alone, then in turns with the surfaces of a smaller robot, then with the robot's own.
     std::optional<Found> by_few(const End& start, const End& goal, const Listener& listener);
+    std::optional<Found> by_smaller_robot(const std::shared_ptr<KnownScene>& smaller_scene, Connecting& joined, Turns& turns) const;
+    std::optional<Found> by_robot_itself(Connecting& joined, Turns& turns) const;
+    std::optional<Poses> way_along(const Connecting& joined, const std::shared_ptr<FoundSlides>& slides_on_it) const;
     std::optional<Poses> in_a_cell(const End& start, const End& goal, const Listener& listener);
     Found by_all(const End& start, const End& goal, const Listener& listener);
     std::optional<Poses> simple_way(const RationalPose& start, const RationalPose& goal) const;

@@ -15,20 +15,4 @@ struct Listener {
     double max_seconds = std::numeric_limits<double>::infinity();  // for the free space, and for surfaces around poses
 };
 
-// A named part of the work, as long as it lives.
-class Phase {
-public:
-    Phase(const Listener& to, const char* name) : listener(to) {
-        if (listener.begin) listener.begin(name);
-    }
-    ~Phase() {
-        if (listener.end) listener.end();
-    }
-    Phase(const Phase&) = delete;
-    Phase& operator=(const Phase&) = delete;
-
-private:
-    const Listener& listener;
-};
-
 }  // namespace cfree

@@ -1,8 +1,8 @@
 // Breadth first over places and what holds them; theory, "Paths", "Exact fits".
-#include "cfree/planning/exact_fits.hpp"
+#include "cfree/planning/passages.hpp"
 
 #include "cfree/planning/irrational_places.hpp"
-#include "cfree/support/stop.hpp"
+#include "cfree/support/lookout.hpp"
 
 namespace cfree {
 

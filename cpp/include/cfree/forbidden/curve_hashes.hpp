@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cfree/contact/contact_line.hpp"
+#include "cfree/exact/residues.hpp"
 
 namespace cfree {
 
@@ -20,34 +21,6 @@ struct CurveHash {
 struct NamedCurve {
     Feature on, other;
 };
-
-// The integers modulo an odd prime below 2^62, x as the word x 2^64 (Montgomery's form).
-class Residues {
-public:
-    using Word = std::uint64_t;
-    explicit Residues(Word prime);
-    Word of(const Int& n) const;
-    Word plus(Word x, Word y) const { return x + y >= p ? x + y - p : x + y; }
-    Word minus(Word x, Word y) const { return x >= y ? x - y : x + p - y; }
-    Word times(Word x, Word y) const {
-        const Wide z = static_cast<Wide>(x) * y, m = static_cast<Wide>(static_cast<Word>(z) * inverse_of_p) * p;
-        return minus(static_cast<Word>(z >> 64), static_cast<Word>(m >> 64));
-    }
-    Word inverse(Word x) const;  // of zero: zero
-
-private:
-    Word p, inverse_of_p, one, square;  // of 2^64
-};
-
-// One of them, which knows the others.
-struct Residue {
-    Residues::Word x;
-    const Residues* in;
-};
-inline Residue operator+(const Residue& p, const Residue& q) { return {p.in->plus(p.x, q.x), p.in}; }
-inline Residue operator-(const Residue& p, const Residue& q) { return {p.in->minus(p.x, q.x), p.in}; }
-inline Residue operator-(const Residue& p) { return {p.in->minus(0, p.x), p.in}; }
-inline Residue operator*(const Residue& p, const Residue& q) { return {p.in->times(p.x, q.x), p.in}; }
 
 // Of `count` curves, modulo the first prime of a fixed sequence for which all have a point. Both numbers are below 2^62.
 class CurveHashes {

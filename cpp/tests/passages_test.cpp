@@ -1,4 +1,4 @@
-#include "cfree/planning/exact_fits.hpp"
+#include "cfree/planning/passages.hpp"
 
 #include <algorithm>
 #include <set>

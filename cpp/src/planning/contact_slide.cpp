@@ -1,5 +1,5 @@
 // Where two lines of contact meet, as the robot turns: common factors are divided out, where they coincide at first.
-#include "cfree/planning/double_contact.hpp"
+#include "cfree/planning/contact_slide.hpp"
 
 #include <algorithm>
 

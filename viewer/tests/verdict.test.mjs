@@ -1,0 +1,101 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  cell_words,
+  contact_words,
+  degrees,
+  obstacle_name,
+  patch_words,
+  pose_verdict,
+  way_verdict,
+} from "../src/verdict.ts";
+
+const NAMES = ["kite", "obstacle 1"];
+const numbers = (fields) =>
+  Object.fromEntries(Object.entries(fields).map(([name, value]) => [name, Float64Array.of(value)]));
+const contacts = (prefix, kind, robot, corner, owner) => ({
+  [`${prefix}.kind`]: Uint8Array.from(kind),
+  [`${prefix}.robot_vertex`]: Int32Array.from(robot),
+  [`${prefix}.obstacle_vertex`]: Int32Array.from(corner),
+  [`${prefix}.obstacle`]: Int32Array.from(owner),
+});
+
+test("obstacles have their number, and their name if it says more", () => {
+  assert.deepEqual(
+    [-1, -2, 0, 1, 2].map((k) => obstacle_name(NAMES, k)),
+    ["the bounds", "the workspace", "obstacle 0 (kite)", "obstacle 1", "obstacle 2"],
+  );
+  assert.deepEqual([degrees(Math.PI / 2), degrees(1)], ["90°", "57.3°"]);
+});
+
+test("contacts name vertex and edge", () => {
+  const columns = contacts("c", [0, 1, 0], [2, 3, 0], [4, 5, 0], [0, 1, -1]);
+  assert.deepEqual(
+    [0, 1, 2].map((k) => contact_words(columns, "c", k, NAMES)),
+    [
+      "robot vertex 2 on edge 4 of obstacle 0 (kite)",
+      "robot edge 3 on vertex 5 of obstacle 1",
+      "the reference point on the bounds",
+    ],
+  );
+});
+
+test("a pose is free, touches or is forbidden", () => {
+  const free = numbers({ free: 1 });
+  assert.deepEqual(pose_verdict(free, NAMES), { tone: "good", text: "Free." });
+  const touching = pose_verdict(
+    { ...free, ...contacts("touching", [0, 1, 1], [2, 3, 3], [4, 5, 6], [1, 1, 1]) },
+    NAMES,
+  );
+  assert.equal(touching.tone, "touch");
+  assert.match(touching.text, /^Touching: robot vertex 2 .*; robot edge 3 .* and 1 more\. Allowed\.$/);
+  const forbidden = (part, owner) =>
+    pose_verdict({ ...numbers({ free: 0 }), pair: Int32Array.of(part, owner) }, NAMES).text;
+  assert.equal(forbidden(0, 0), "Forbidden: the robot overlaps obstacle 0 (kite).");
+  assert.equal(forbidden(0, -2), "Forbidden: the robot overlaps the outside of the workspace.");
+  assert.equal(forbidden(-1, -1), "Forbidden: outside the bounds.");
+});
+
+test("a way is a motion, a proof, or undecided", () => {
+  const path = { verdict: "path", ...numbers({ motions: 1, length: 2.345678, turning: Math.PI }) };
+  assert.equal(
+    way_verdict(path, NAMES, "m").text,
+    "A motion exists: 1 piece, length 2.35 m, turning 180 degrees; proved free.",
+  );
+  const apart = (closed, owners, names) =>
+    way_verdict({ verdict: "apart", obstacles: Int32Array.from(owners), ...numbers({ closed }) }, names, "").text;
+  assert.equal(apart(1, [0, 1, 2], []), "No motion, not even touching: parted by obstacles 0, 1 and 2.");
+  assert.equal(apart(1, [3], []), "No motion, not even touching: parted by obstacle 3.");
+  assert.equal(
+    apart(0, [0, -1], NAMES),
+    "No motion with clearance: parted by obstacle 0 (kite) and the bounds; no way by touch was found.",
+  );
+  assert.match(apart(1, [0, 1, 2, 3, 4, 5], []), /obstacles 0, 1, 2, 3 and 2 more\.$/);
+  assert.equal(way_verdict({ verdict: "open" }, NAMES, "").tone, "plain");
+  const start = way_verdict({ verdict: "start forbidden", pair: Int32Array.of(0, 1) }, NAMES, "");
+  assert.equal(start.text, "Start: the robot overlaps obstacle 1.");
+});
+
+test("cells and picked patches are told in words", () => {
+  assert.equal(
+    cell_words(5, numbers({ volume: 1.23456, turns: 0, caged: 1, bounded: 1 }), "m"),
+    "Cell 5: volume 1.235 m² rad; caged: obstacles alone enclose it; the robot cannot turn round in it.",
+  );
+  assert.match(
+    cell_words(0, numbers({ volume: Infinity, turns: 1, caged: 0, bounded: 0 }), ""),
+    /^Cell 0: unbounded; not caged;/,
+  );
+  const found = {
+    ...numbers({ t: 0.5, phi: Math.PI / 2, K: -0.25, H: 0 }),
+    range: Float64Array.of(1, 0, 2),
+    ...contacts("contact", [0], [2], [4], [0]),
+    ...contacts("trims", [], [], [], []),
+  };
+  assert.deepEqual(patch_words(found, NAMES).split("\n"), [
+    "robot vertex 2 on edge 4 of obstacle 0 (kite)",
+    "S(t, φ) at t = 0.500, φ = 90°",
+    "K = -0.2500, H = 0.000",
+    "left of it: φ from 0° to 114.6°",
+    "trimmed by nothing",
+  ]);
+});

@@ -1,0 +1,66 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { MOST_BYTES, MOST_DEPTH, plain, read_scene } from "../src/words.ts";
+
+const ROBOT = "[[0, 0], [1, 0], [0.10, 1e-3]]";
+const scene = (fields) => read_scene(`{"robot": ${ROBOT}, "obstacles": []${fields ? `, ${fields}` : ""}}`);
+const refused = (fields, message) => assert.throws(() => scene(fields), { message });
+
+test("numbers stay the texts that they are in the file", () => {
+  assert.equal(scene().words, "robot ring 0 0 1 0 0.10 1e-3");
+  const long = `0.${"1".repeat(400)}`;
+  assert.equal(scene(`"bounds": [${long}, -1, "3/7", 1E5]`).words.split(" bounds ")[1], `${long} -1 3/7 1E5`);
+});
+
+test("polygons may be rings, or objects with holes; a robot may have several parts", () => {
+  const hole = "[[0.2, 0.2], [0.3, 0.2], [0.2, 0.3]]";
+  const { words, names } = read_scene(
+    `{"robot": [{"outer": ${ROBOT}}, {"outer": ${ROBOT}}],
+      "obstacles": [{"outer": ${ROBOT}, "holes": [${hole}], "name": "kite"}, {"outer": ${ROBOT}}]}`,
+  );
+  const outer = "ring 0 0 1 0 0.10 1e-3";
+  const holes = "ring 0.2 0.2 0.3 0.2 0.2 0.3";
+  assert.equal(words, `robot ${outer} robot ${outer} obstacle ${outer} ${holes} obstacle ${outer}`);
+  assert.deepEqual(names, ["kite", "obstacle 1"]);
+  assert.equal(read_scene(`{"robot": ${ROBOT}, "obstacles": ${ROBOT}}`).names.length, 1);
+});
+
+test("angles are numbers, degrees, radians or tangents of half the angle", () => {
+  const start = (angle) => scene(`"start": [1, "1/3", ${angle}]`).start;
+  assert.deepEqual(start("0.5"), { x: "1", y: "1/3", theta: 0.5 });
+  assert.deepEqual(start('"90deg"'), { x: "1", y: "1/3", theta: Math.PI / 2 });
+  assert.deepEqual(start('"90°"').theta, Math.PI / 2);
+  assert.deepEqual(start('"100rad"').theta, 100);
+  assert.deepEqual(start('{"tau": "2/3"}'), { x: "1", y: "1/3", tau: "2/3" });
+  for (const infinite of ["null", '"inf"', '"-inf"']) assert.equal(start(`{"tau": ${infinite}}`).tau, "inf");
+  assert.deepEqual(scene('"goal": [1, 2]').goal, { x: "1", y: "2" });
+  assert.deepEqual(scene('"goals": [[3, 4], [5, 6]]').goal, { x: "3", y: "4" });
+});
+
+test("faults name their place, the value wanted and the value there", () => {
+  refused('"start": [1, 2, "7"]', "start[2]: 7 is more than a whole turn in radians; write 7deg or 7rad");
+  refused('"start": [1, true, 0]', 'start[1]: expected a number or "p/q", got true');
+  refused('"goal": 5', "goal: expected a list, got 5");
+  refused('"bounds": [1, 2, 3]', "bounds: expected xmin, ymin, xmax, ymax, got a list");
+  refused('"workspace": {"outer": [[0, 0], [1]]}', "workspace.outer[1]: expected two numbers, got a list");
+  refused('"name": {}', "name: expected a text, got an object");
+  refused('"speed": 1', /^unknown key "speed"; those of scenes are version, name/);
+  refused('"type": "FeatureCollection"', /^GeoJSON: save it as a scene first/);
+});
+
+test("text that is not JSON is refused with line and column", () => {
+  assert.throws(() => read_scene('{\n  "robot": [1,\n   x]}'), { message: /^line 3, column 4: / });
+});
+
+test("files are refused that are too large or nested too deep, before they are parsed", () => {
+  assert.throws(() => read_scene(" ".repeat(MOST_BYTES + 1)), { message: /this page reads 16$/ });
+  assert.throws(() => read_scene("[".repeat(MOST_DEPTH + 1)), {
+    message: `nested deeper than ${MOST_DEPTH}: no scene is`,
+  });
+  assert.doesNotThrow(() => scene(`"note": "${"[".repeat(200)}"`));
+});
+
+test("names lose what turns the direction of writing, and are cut", () => {
+  assert.equal(plain("a\u202eb\u0000c"), "abc");
+  assert.equal(plain("x".repeat(90)), `${"x".repeat(79)}…`);
+});
